@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 from typing import Any
 
@@ -10,10 +13,10 @@ import pytest
 
 import rightofway
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Plan, Scenario
+from rightofway.model import Closure, Plan, Scenario, VertexId
 from tests.builders.mixed import mixed, nudged
 from tests.builders.seeds import seeds
-from tests.builders.sizes import sized, sized_on_lanes, zoned
+from tests.builders.sizes import sized, sized_on_lanes, tiny, zoned
 from tests.oracles.judge import faults
 
 BETWEEN_ROBOTS = {
@@ -97,3 +100,25 @@ def test_late_robots_never_meet(seed: int, more: str) -> None:
     assert (outcome.collisions, outcome.deadlocks) == (0, 0)
     for run in range(2):
         assert faults(plan, outcome.trace(run)) == set()
+
+
+def without_rotations(scenario: Scenario) -> Scenario:
+    return replace(scenario, rules=replace(scenario.rules, rotations=False))
+
+
+def with_a_closure(scenario: Scenario) -> Scenario:
+    closure = Closure(at=VertexId(0), from_=Fraction(2), until=Fraction(5))
+    return replace(scenario, closures=(closure,))
+
+
+@pytest.mark.parametrize("seed", seeds(100, 8))
+@pytest.mark.parametrize("fleet", [tiny, zoned])
+@pytest.mark.parametrize("changed", [without_rotations, with_a_closure])
+def test_a_few_robots_keep_rules_that_change_how_plans_are_retimed(
+    changed: Callable[[Scenario], Scenario], fleet: Callable[[int], Scenario], seed: int
+) -> None:
+    try:
+        plan = rightofway.solve(changed(fleet(seed)), "lns", iterations=20, time_limit=5)
+    except (NoPlanExists, GaveUp, InputError) as reason:
+        pytest.skip(f"no plan: {reason}")
+    assert faults(plan) == set()

@@ -127,3 +127,13 @@ def test_a_robot_without_a_way_for_its_type_is_named() -> None:
         "R1 has no way from A to B: edges are barred for robots of type heavy"
         " (open one, or give the robot other places)"
     )
+
+
+def test_a_robot_that_passes_its_stop_before_a_closure_has_not_worked_there() -> None:
+    """R1 cannot work at N1 before it closes; R2 moves while R1 stands there."""
+    fleet = FleetBuilder(grid=["....", "...."], occupancy="both", ends="none", turn=0)
+    fleet = fleet.add_robot("R1", home="N0", target="N1", work=6)
+    fleet = fleet.add_robot("R2", home="N7", stops=[("N5", 0), ("N7", 0)])
+    plan = solve(fleet.add_closure(at="N1", from_=4, until=9).scenario(), "lns", iterations=20)
+    assert check(plan).ok
+    assert plan["R1"].completion == 16

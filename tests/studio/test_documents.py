@@ -210,3 +210,12 @@ def test_an_inlined_document_needs_no_other_file(client: httpx.Client, folder: P
     found = client.post("/inline", json={"document": document}).json()["document"]
     assert found["map"]["grid"] == ["..."]
     assert found["robots"][0]["target"] == "N2"
+
+
+def test_a_survey_without_inspection_has_the_map_and_no_findings(client: httpx.Client) -> None:
+    request = {"document": DOOR, "inspects": False}
+    found = client.post("/survey", json=request).json()
+    assert found["ok"]
+    assert len(found["site"]["robots"]) == 2
+    assert found["findings"] == []
+    assert client.post("/survey", json={"document": DOOR}).json()["findings"] != []

@@ -322,3 +322,33 @@ def test_a_finger_draws_and_a_floor_in_cells_of_the_paper_is_erased(
         assert walls == [[7, 0, 0.5, 3], [7, 4, 0.5, 2], [7, 6.5, 0.5, 1.5]]
         assert studio.complaints == []
         context.close()
+
+
+def test_blocked_cells_of_a_grid_are_moved_copied_and_deleted(studio: StudioPage) -> None:
+    grid = {"grid": ["@@....", "......", "......", "......"]}
+    document = {"format": "rightofway-scenario/1", "map": grid, "robots": []}
+    studio.page.evaluate("(document) => studio.open({ document })", document)
+    studio.opened()
+    studio.drag((0.1, 1.9), (2.4, 0.1))  # a box round both
+    studio.drag((0.5, 0.5), (3.5, 2.5))
+    assert studio.document["map"]["grid"] == ["......", "......", "...@@.", "......"]
+    studio.page.keyboard.press("Control+d")
+    studio.settle()
+    assert studio.document["map"]["grid"] == ["......", "......", "...@@.", "....@@"]
+    studio.page.keyboard.press("Delete")
+    studio.settle()
+    assert studio.document["map"]["grid"] == ["......", "......", "...@@.", "......"]
+
+
+def test_undo_in_a_field_that_is_written_undoes_the_last_change(floor: StudioPage) -> None:
+    floor.tab("Robots")
+    floor.press((1.25, 1.25))
+    floor.press((5.25, 1.25))
+    speed = floor.page.get_by_label("Speed, R1")
+    speed.fill("2")
+    speed.press("Tab")
+    floor.settle()
+    assert floor.document["robots"][0]["speed"] == 2
+    floor.page.keyboard.press("Control+z")
+    floor.settle()
+    assert "speed" not in floor.document["robots"][0]

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.studio.worker import as_error
+from rightofway.studio.messages import as_error
 
 
 def ran(code: str) -> str:

@@ -23,6 +23,9 @@ def checked_format(document: Any, known: str) -> dict[str, Any]:
     if "format" not in document:
         if any(nearest(str(key).lower(), ["format"]) for key in document):
             return {**document, "format": known}  # the misspelt key is reported with all else
+        if known == SCENARIO_FORMAT and not {"map", "robots"} & set(document):
+            message = f"this is no scenario and no known layout (a scenario begins with {line})"
+            raise InputError.at("", message)
         raise InputError.at("format", f"is missing (put {line} at the top)")
     found = document["format"]
     if found != known:

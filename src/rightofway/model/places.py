@@ -39,6 +39,9 @@ LONGEST_NUMBER = 18
 ON_BORDER = 1e-9
 """Distance from a border at which a point is on it [smallest squares]."""
 
+SHORT = Fraction(1, 1000)
+"""To this step a message rounds a point of a cell [length unit]."""
+
 DECIMALS = 20
 """A coordinate with more decimals is written as a fraction."""
 
@@ -225,7 +228,8 @@ def _limits(place: Place, roadmap: Roadmap, grid: Grid) -> str:
         for column in (0, grid.columns)
     ]
     (left, *_, right), (low, *_, high) = (sorted(axis) for axis in zip(*corners, strict=True))
-    return f"x is {_written(left)} to {_written(right)}, y {_written(low)} to {_written(high)}"
+    ends = [decimal(end, 3) for end in (left, right, low, high)]
+    return f"x is {ends[0]} to {ends[1]}, y {ends[2]} to {ends[3]}"
 
 
 def _vertex_at_point(spot: Spot, roadmap: Roadmap, units: Units) -> VertexId:
@@ -266,7 +270,16 @@ def _with_distance(vertex: int, spot: Spot, roadmap: Roadmap, units: Units) -> s
     point: Point = roadmap.point(vertex)
     away = float(squared_distance(point, (spot.x, spot.y))) ** 0.5
     name = roadmap.name(vertex) if roadmap.grid else repr(roadmap.name(vertex))
+    if _smallest_side(roadmap) > 4 * SHORT:  # a point near the middle of a cell lies in it, too
+        point = round(point[0] / SHORT) * SHORT, round(point[1] / SHORT) * SHORT
     return f"{name} at {Spot(*point)}, {units.written_length(away)} away"
+
+
+def _smallest_side(roadmap: Roadmap) -> Fraction:
+    """Return the side of the smallest cell, 0 for vertices that are points."""
+    if roadmap.grid is not None:
+        return roadmap.grid.cell_size
+    return Fraction(0) if roadmap.sides is None else Fraction(float(roadmap.sides.min()))
 
 
 def _named_as(place: Place) -> str:

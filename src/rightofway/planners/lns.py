@@ -155,15 +155,15 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         if not task.keep_best:
             raise
         ended = "interrupted: "
-    if search.cost < before:
-        _retime(task, search)
-    if search.cost == bound:
+    found = _retimed(task, search) if search.cost < before else search.tracks()
+    measured = partial(cost_of, task.scenario)
+    cost = measured(found)
+    if cost == bound:
         status = f"optimal: every robot as fast as alone (first plan: {first.status})"
-    elif search.cost == before:
+    elif cost == before:
         status = f"{ended}{first.status}; {done} neighbourhoods found nothing better"
     else:
         status = f"{ended}improved by {done} neighbourhoods (first plan: {first.status})"
-    found, measured = search.tracks(), partial(cost_of, task.scenario)
     if spaced is not first.tracks and measured(found) > measured(first.tracks):
         found = first.tracks  # the headway of planning costs more than the search gained
     saved = measured(first.tracks) - measured(found)
@@ -171,21 +171,28 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     return Draft(tracks=found, status=status, improvement=made)
 
 
-def _retime(task: Task, search: FleetSearch) -> None:
-    """Shift every visit to the earliest time that keeps the order at each vertex.
+def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
+    """Return every visit at the earliest time that keeps the order at each vertex.
 
-    LNS replaces tracks, not waits.
+    LNS replaces tracks, not waits. The search cannot take all of these tracks back: it has every
+    visit between two edges of a zone in the zone.
     """
-    if task.scenario.problem.closures is None:
+    problem = task.scenario.problem
+    if problem.closures is None:
         search.retime()
-    else:
-        graph = graph_of(task.scenario, search.tracks(), headway=planning_headway(task.scenario))
-        search.start(graph.tracks())
+        return search.tracks()
+    graph = graph_of(task.scenario, search.tracks(), headway=planning_headway(task.scenario))
+    return tuple(graph.tracks())
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:
-    """Return the tracks with the headway of planning, where that is more than the scenario's."""
-    headway = planning_headway(task.scenario)
-    if headway == task.scenario.problem.headway:
+    """Return the tracks with the headway of planning, where that is more than the scenario's.
+
+    First plans of zones that do not list all their vertices have that headway already; retimed by
+    the visits that pass the zones, they would be too early for the search.
+    """
+    headway, resources = planning_headway(task.scenario), task.scenario.problem.resources
+    is_passed = resources is not None and not resources.is_exact
+    if headway == task.scenario.problem.headway or (is_passed and task.start is None):
         return tracks
     return graph_of(task.scenario, tracks, headway=headway).tracks()

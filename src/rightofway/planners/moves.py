@@ -31,7 +31,7 @@ from typing import NamedTuple
 
 from rightofway.errors import Blockage, GaveUp, NoPlanExists, listed
 from rightofway.model import NEVER, Tick, Track, VertexId, least_dwell
-from rightofway.planners.task import Draft, Task, planning_problem
+from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.search import Distances, FleetSearch
 
 MOST_STATES = 100_000
@@ -369,10 +369,10 @@ class _Floor:
         for move, state in self.successors(timed.state):
             for enter, leave_by in self._enters(timed, move):
                 robot, all_served = move.robot, state.stages[move.robot]
-                before = timed.state.stages[robot]
-                least = before if leave_by < NEVER else all_served
+                before = timed.state.stages  # others that have passed a stop have not served it
+                least = before[robot] if leave_by < NEVER else all_served
                 for served in range(least, all_served + 1):
-                    stages = (*state.stages[:robot], served, *state.stages[robot + 1 :])
+                    stages = (*before[:robot], served, *before[robot + 1 :])
                     after = _State(state.places, stages)
                     yield self._moved(timed, move, after, enter, leave_by)
 
@@ -485,7 +485,7 @@ def _in_sequence(task: Task, moves: list[_Move]) -> list[Track]:
             ready += one.turning.of(edges[robot], edge)
         edges[robot] = edge
         now = max(now, ready) + one.edge_ticks[roadmap.length_class[edge]]
-        now += task.scenario.problem.headway
+        now += planning_headway(task.scenario)
         vertices[robot].append(VertexId(head))
         enter[robot].append(Tick(now))
     return [Track.of(*track) for track in zip(vertices, enter, strict=True)]

@@ -15,10 +15,10 @@ from rightofway.errors import InputError
 from rightofway.io.faults import checked
 from rightofway.studio.errors import StudioError
 from rightofway.studio.guard import Access, Guard, error_body
+from rightofway.studio.messages import as_error
 from rightofway.studio.routes import documents, pages, planning
 from rightofway.studio.routes.models import kind_of
 from rightofway.studio.session import Studio
-from rightofway.studio.worker import as_error
 
 API = "/api/v1"
 

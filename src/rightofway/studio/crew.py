@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.studio.errors import Busy, TaskFailed
-from rightofway.studio.worker import LENGTH, Blobs, packed
+from rightofway.studio.messages import LENGTH, Blobs, packed
 
 MAX_MESSAGE = 2**29
 """The longest message of a worker [bytes]."""

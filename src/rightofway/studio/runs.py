@@ -12,8 +12,8 @@ from typing import Any, Literal
 from rightofway.studio.crew import Crew, Job
 from rightofway.studio.errors import Busy, Refused, StudioError
 from rightofway.studio.events import Event, Listeners
+from rightofway.studio.messages import as_error
 from rightofway.studio.store import Store
-from rightofway.studio.worker import as_error
 
 MAX_QUEUED = 100
 """Runs that may wait."""

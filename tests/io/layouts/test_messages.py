@@ -203,3 +203,37 @@ def test_lifts_of_a_building_are_said_to_be_unused(
     found = read_layout(path)
     assert isinstance(found, Layout)
     assert found.notes == (note,)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("image: room.pgm\norigin: [0, 0, 0]\n", ":1: resolution: is missing (add it)"),
+        ('{"metaInformation": {}}', ":1: layouts: is missing (add it)"),
+    ],
+)
+def test_an_incomplete_layout_is_no_scenario_without_a_format(
+    tmp_path: Path, text: str, message: str
+) -> None:
+    file = tmp_path / "hall.yaml"
+    file.write_text(text)
+    with pytest.raises(InputError, match=re.escape(message)):
+        read_layout(file)
+
+
+def test_a_document_of_another_kind_is_not_told_to_be_a_scenario(tmp_path: Path) -> None:
+    file = tmp_path / "order.json"
+    file.write_text('{"title": "order"}')
+    with pytest.raises(InputError, match="this is no scenario and no known layout"):
+        load(file)
+
+
+def test_a_lane_to_a_vertex_with_a_fault_is_no_further_fault(tmp_path: Path) -> None:
+    text = (HERE / "route.geojson").read_text().replace("[0.0", '["here"', 1)
+    file = tmp_path / "route.geojson"
+    file.write_text(text)
+    with pytest.raises(InputError) as caught:
+        read_layout(file)
+    assert [fault.message for fault in caught.value.faults] == [
+        "'here' is not a number (write it like 3, 0.5 or 1/3)"
+    ]

@@ -36,7 +36,7 @@ def known_to(level: Level, says: frozenset[str]) -> list[object]:
         "stations": level.stations,
         "parking places": [vertex.is_parking for vertex in level.vertices],
         "charging places": [vertex.is_charging for vertex in level.vertices],
-        "lengths of curves": [edge.length for edge in level.edges],
+        "lanes longer than the straight line": [edge.length for edge in level.edges],
         "drawn curves": [edge.shape for edge in level.edges],
         "curves that robots drive along": [
             edge.shape for edge in level.edges if edge.chord_error is not None

@@ -151,6 +151,9 @@ class Draft:
             With all faults noted so far, and lanes that begin or end nowhere.
         """
         elsewhere = {name for level in self.levels for name in level.vertices}
+        if self.faults.found:  # lanes to vertices with a fault are no further faults
+            elsewhere.update(end for level in self.levels for lane in level.lanes
+                             for end in (lane.tail, lane.head))  # fmt: skip
         levels = [self._finished(level, elsewhere) for level in self.levels if level.vertices]
         self.faults.stop()
         if not levels:
@@ -181,7 +184,9 @@ class Draft:
             elif lane.tail == lane.head:
                 self.repair("a lane from a vertex to itself is left out")
             elif lane.max_speed is not None and lane.max_speed <= 0:
-                self.faults.note(lane.place, f"speed limit {lane.max_speed} is not positive")
+                self.faults.note(
+                    lane.place, f"speed limit {lane.max_speed} is not positive (give m/s)"
+                )
             else:
                 edge = self._edge(lane, square, straight[square])
                 if lane.curve:

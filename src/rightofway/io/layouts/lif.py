@@ -37,10 +37,8 @@ CHARGING = "startCharging"
 
 def recognizes(document: Any) -> bool:
     """Return whether a document is a LIF file: it has layouts, or the information about them."""
-    return isinstance(document, dict) and (
-        "layouts" in document
-        or "origins" in document
-        or {"metaInformation", "nodes"} <= set(document)
+    return isinstance(document, dict) and bool(
+        {"layouts", "origins", "metaInformation"} & set(document)
     )
 
 

@@ -21,7 +21,9 @@ LINES = ("LineString", "MultiLineString")
 
 def recognizes(document: Any) -> bool:
     """Return whether a document is a collection of features."""
-    return isinstance(document, dict) and document.get("type") == "FeatureCollection"
+    return isinstance(document, dict) and (
+        document.get("type") == "FeatureCollection" or "features" in document
+    )
 
 
 def read(document: Any) -> Layout:

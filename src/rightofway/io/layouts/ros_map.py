@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 MAX_PIXELS = 64_000_000
 """The most pixels of a picture."""
 
+KEYS = {"resolution", "origin", "occupied_thresh", "free_thresh", "negate"}
+"""Keys that say how to read the picture of a map."""
+
 MODES = ("trinary", "scale", "raw")
 PICTURES = ("PPM", "PNG", "BMP", "GIF", "JPEG", "TIFF")
 BROKEN = (OSError, SyntaxError, ValueError, EOFError, OverflowError, struct.error, zlib.error)
@@ -44,8 +47,8 @@ GREY, GREY_16, COLOUR = 255, 65_535, 765
 
 
 def recognizes(document: Any) -> bool:
-    """Return whether a document names a picture and the size of its pixels."""
-    return isinstance(document, dict) and {"image", "resolution"} <= set(document)
+    """Return whether a document names a picture, and says how to read it."""
+    return isinstance(document, dict) and "image" in document and bool(KEYS & set(document))
 
 
 def read(document: Any, path: Path) -> Occupancy:

@@ -86,7 +86,7 @@ def losses_of(layout: Layout, says: frozenset[str]) -> Iterator[str]:
         "stations": sum(len(level.stations) for level in layout.levels),
         "parking places": sum(vertex.is_parking for vertex in vertices),
         "charging places": sum(vertex.is_charging for vertex in vertices),
-        "lengths of curves": sum(map(_curved, layout.levels)),
+        "lanes longer than the straight line": sum(map(_curved, layout.levels)),
         "drawn curves": sum(bool(edge.shape) and edge.chord_error is None for edge in edges),
         "curves that robots drive along": sum(edge.chord_error is not None for edge in edges),
         "vehicle types": len({name for edge in edges for name in edge.types or ()}),
@@ -355,7 +355,7 @@ LAYOUT_WRITERS: dict[str, LayoutWriter] = {
     "graphml": LayoutWriter(
         summary="GraphML, metres", write=_graphml,
         says=frozenset({"names of vertices", "parking places", "charging places",
-                        "lengths of curves"}),
+                        "lanes longer than the straight line"}),
     ),
 }  # fmt: skip
 """The formats by name."""

@@ -3,11 +3,14 @@
 import { Observable } from "./viewer/observable.js";
 import { get, inAddress, post, put, remove } from "./api.js";
 
+const MANY = 2000; // vertices from which on findings come after the map
+
 const UNKNOWN = Object.freeze({ ok: true, faults: [], notes: [], site: null, findings: [], sentences: [] });
 
 /**
  * A document is never changed: an edit makes another one that shares what stays. So undo is a list.
- * Events: `document` when another one is shown, `survey` when the library has looked at it, `trouble`.
+ * Events: `document` when another one is shown, `survey` when the library has looked at it, `findings` when
+ * those of a large map come after that, `trouble`.
  */
 export class ScenarioStore extends Observable {
   document = null;
@@ -22,7 +25,7 @@ export class ScenarioStore extends Observable {
   #future = [];
   #saved = null;
   #draft = "";
-  #work = { survey: new Latest(() => this.#look()), draft: new Latest(() => this.#keep()) };
+  #work = { survey: new Latest(() => this.#look()), findings: new Latest(() => this.#inspect()), draft: new Latest(() => this.#keep()) };
 
   /** Begin with a document; one that is not in a file yet counts as changed. */
   open({ document, folder = "", path = "", revision = "", draft = "" }) {
@@ -113,14 +116,26 @@ export class ScenarioStore extends Observable {
   async #look() {
     const { document, folder, opened } = this;
     try {
-      const survey = await post("/survey", { document, folder });
+      const { findings, sentences } = this.survey;
+      const isLarge = !this.site || sizeOf(this.site.map) > MANY; // or not known yet
+      const survey = await post("/survey", { document, folder, inspects: !isLarge });
       if (opened !== this.opened) return;
-      Object.assign(this, { survey, site: survey.site ?? this.site });
+      Object.assign(this, { survey: isLarge ? { ...survey, findings, sentences } : survey, site: survey.site ?? this.site });
       this.tell("survey");
+      if (isLarge) this.#work.findings.ask();
     } catch (trouble) {
       this.trouble = trouble;
       this.tell("trouble");
     }
+  }
+
+  /** Find out what will hurt on a large map, which takes longer than to draw it. */
+  async #inspect() {
+    const { document, folder } = this;
+    const { findings, sentences } = await post("/survey", { document, folder }).catch(() => UNKNOWN);
+    if (document !== this.document) return;
+    this.survey = { ...this.survey, findings, sentences };
+    this.tell("findings");
   }
 
   async #keep() {
@@ -133,6 +148,9 @@ export class ScenarioStore extends Observable {
     }
   }
 }
+
+/** How many vertices a map has, at most. */
+const sizeOf = ({ rows, names }) => (rows ? rows.length * rows[0].length : names.length);
 
 /** Work on what is the latest: while one round goes on, any number of requests make one more. */
 class Latest {

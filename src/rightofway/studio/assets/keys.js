@@ -27,12 +27,15 @@ export function listenToKeys(studio) {
     " ": () => stage.clock.toggle(), ArrowLeft: () => stage.clock.step(-1), ArrowRight: () => stage.clock.step(1),
     Escape: () => stage.choice.chooseNothing(),
   };
+  let atFocus = ""; // what a field said when it was entered, or written last
+  for (const name of ["focusin", "change"]) document.addEventListener(name, ({ target }) => (atFocus = target.value));
   document.addEventListener("keydown", (event) => {
     if (studio.isStarting || event.defaultPrevented) return;
     if (event.key !== "?" && document.querySelector("dialog[open]")) return; // its keys are its own
     const isWriting = event.target.matches("input:not([type=range]), select, textarea, [contenteditable]");
     const isControl = event.ctrlKey || event.metaKey;
-    if (isControl && isWriting && !["s", "Enter"].includes(event.key)) return;
+    const isUndo = "zy".includes(event.key.toLowerCase()) && event.target.value === atFocus; // nothing in the field to undo
+    if (isControl && isWriting && !["s", "Enter"].includes(event.key) && !isUndo) return;
     if (!isControl && (isWriting || event.altKey)) return;
     const isPressing = event.target.matches("button, a, summary") && [" ", "Enter"].includes(event.key);
     const action = isControl ? withControl[event.key.length > 1 ? event.key : event.key.toLowerCase()]

@@ -31,7 +31,7 @@ export class Studio extends Observable {
     this.stage = new Stage(elements);
     this.editor = new Editor(this.store, this.stage);
     this.backdrop = new Backdrop(this.store, this.stage);
-    for (const [source, ...events] of [[this.store, "document", "survey"], [this.runs, "runs"], [this.editor, "editor"], [this.stage, "choice"]]) {
+    for (const [source, ...events] of [[this.store, "document", "survey", "findings"], [this.runs, "runs"], [this.editor, "editor"], [this.stage, "choice"]]) {
       for (const event of events) source.on(event, () => this.tell("change"));
     }
     this.store.on("survey", () => this.#surveyed());

@@ -13,7 +13,16 @@ from fastapi import APIRouter, Body, Query, Response
 
 from rightofway.errors import InputError
 from rightofway.studio.errors import Busy, Refused
-from rightofway.studio.routes.models import Deal, Draft, FilePath, InStudio, Placed, Save, ToText
+from rightofway.studio.routes.models import (
+    Deal,
+    Draft,
+    FilePath,
+    InStudio,
+    Placed,
+    Save,
+    Survey,
+    ToText,
+)
 from rightofway.studio.runs import Run, Runs
 from rightofway.studio.session import Studio, checked_json
 from rightofway.studio.workspace import KINDS, revision_of
@@ -132,10 +141,10 @@ async def inspect(studio: InStudio, placed: Placed) -> dict[str, Any]:
 
 
 @router.post("/survey", tags=["documents"], response_class=Response)
-async def survey(studio: InStudio, placed: Placed) -> Response:
+async def survey(studio: InStudio, survey: Survey) -> Response:
     """Return what an editor shows at each change: faults, notes, map, robots, findings."""
-    folder = studio.place(placed.folder)
-    _, blobs = await studio.ask("survey", document=placed.document, folder=folder)
+    arguments = survey.model_dump() | {"folder": studio.place(survey.folder)}
+    _, blobs = await studio.ask("survey", **arguments)
     return Response(blobs[0], media_type="application/json")
 
 

@@ -53,6 +53,12 @@ class Draft(Model):
     document: Document
 
 
+class Survey(Placed):
+    """A document that somebody changes."""
+
+    inspects: bool = Field(True, description="whether findings are wanted, which take longest")
+
+
 class ToText(Placed):
     """A document that is to be converted."""
 

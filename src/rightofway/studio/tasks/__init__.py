@@ -1,7 +1,7 @@
 """What workers can do, by name: a task takes ``emit``, blobs and arguments, and returns a result.
 
 The result is plain data, with blobs after it where there are some. Faults are raised as everywhere
-in the library; `rightofway.studio.worker` turns them into data.
+in the library; `rightofway.studio.messages` turns them into data.
 """
 
 from __future__ import annotations

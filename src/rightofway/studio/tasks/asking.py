@@ -12,9 +12,9 @@ from rightofway.io import plan_text
 from rightofway.metrics import lost_time
 from rightofway.model import Decision, Loss, Plan, Tick
 from rightofway.planners.flip import flipped
+from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import figures
 from rightofway.studio.tasks.views import read
-from rightofway.studio.worker import Blobs, Emit
 
 Result = tuple[Any, ...]
 

@@ -16,7 +16,7 @@ from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.shape import MapDocument, UnitsDocument
 from rightofway.metrics.connectivity import strong_parts, ways_of
 from rightofway.model import Roadmap, Units
-from rightofway.studio.worker import Blobs, Emit
+from rightofway.studio.messages import Blobs, Emit
 
 Result = tuple[Any, ...]
 

@@ -29,7 +29,7 @@ from rightofway.io.sites import sites_of
 from rightofway.io.text import json_text, parse_yaml
 from rightofway.metrics import inspect, measure
 from rightofway.model import Plan
-from rightofway.studio.worker import Blobs, Emit, fault_data
+from rightofway.studio.messages import Blobs, Emit, fault_data
 
 Result = tuple[Any, ...]
 

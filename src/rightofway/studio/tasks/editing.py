@@ -16,8 +16,8 @@ from rightofway.io.scenario.maps import map_of
 from rightofway.io.sites import sites_of
 from rightofway.metrics import Site, inspect, sentences
 from rightofway.model import Units
+from rightofway.studio.messages import Blobs, Emit, fault_data
 from rightofway.studio.tasks.documents import loaded_of, plain
-from rightofway.studio.worker import Blobs, Emit, fault_data
 from rightofway.viz import site_data
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import closure_data
@@ -28,7 +28,9 @@ Result = tuple[Any, ...]
 ROBOT = re.compile(r"robots\[(\d+)\]")
 
 
-def surveyed(_emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: str) -> Result:
+def surveyed(
+    _emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: str, inspects: bool = True
+) -> Result:
     """Return faults, notes, the map with all robots that have no fault, and what will hurt on it.
 
     A robot of the site has the `index` that it has in the document. The site is null where the map
@@ -57,13 +59,14 @@ def surveyed(_emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: st
         "sentences": [],
     }
     if site is not None:
-        found = inspect(site)
         drawn = site_data(site)
         colours = robot_colours(1 + max(kept, default=0))
         for robot, index in zip(drawn["robots"], kept, strict=False):
             robot |= {"index": index, "colour": colours[index]}
+        answer["site"] = {**drawn, "closures": closures}
+    if site is not None and inspects:
+        found = inspect(site)
         answer |= {
-            "site": {**drawn, "closures": closures},
             "findings": [{**asdict(each), "sentence": str(each)} for each in found.findings],
             "sentences": list(sentences(site, found)),
         }

@@ -20,8 +20,8 @@ from rightofway.io.text import parse_json
 from rightofway.model import Plan
 from rightofway.solve import improve as improved
 from rightofway.solve import solve
+from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import figures, loaded_of
-from rightofway.studio.worker import Blobs, Emit
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import payload_of
 

@@ -12,8 +12,8 @@ from rightofway.errors import InputError
 from rightofway.io import FOREIGN_FORMATS, foreign_text, plan_of, write_plan
 from rightofway.io.text import parse_json
 from rightofway.model import Plan
+from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import figures
-from rightofway.studio.worker import Blobs, Emit
 from rightofway.viz import page_of, write_gif, write_page, write_png
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import payload_of

@@ -44,8 +44,14 @@ class GridGround {
     return this.#set(document, cells, ".");
   }
 
-  isBlocked({ map }, [column, row]) {
-    return !".GS".includes(rowsOf(map.grid)[row]?.[column] ?? "@");
+  isBlocked(document, cell) {
+    return this.blockedOf(document, [cell]).length > 0;
+  }
+
+  /** Those of some cells that are blocked. */
+  blockedOf({ map }, cells) {
+    const rows = rowsOf(map.grid);
+    return cells.filter(([column, row]) => !".GS".includes(rows[row]?.[column] ?? "@"));
   }
 
   #set(document, cells, character) {
@@ -181,6 +187,9 @@ export function cellsOfLine([column, row], [toColumn, toRow]) {
   }
   return cells;
 }
+
+/** A cell of what is selected: its column and row. */
+export const cellOf = (id) => id.split(",").map(Number);
 
 export function cellsOfBox([left, top], [right, bottom]) {
   const cells = [];

@@ -2,6 +2,7 @@
 
 import { robotsOf, stopsOf } from "../robots/fleet.js";
 import { nearest } from "../viewer/arrays.js";
+import { cellsOfBox, groundOf } from "./ground.js";
 import { endsOf, isNetwork, lanesOf } from "./network.js";
 import { numberOf, toDrawing, vertexOf } from "./places.js";
 
@@ -10,6 +11,7 @@ const REACH = 12; // pixels round a point that is small
 export class Hits {
   constructor(document, roadmap) {
     Object.assign(this, { document, roadmap });
+    this.ground = document.map.grid ? groundOf(document, roadmap) : null; // whose blocked cells are things of their own
     this.robots = (robotsOf(document) ?? []).map((robot, index) => ({
       index, robot, home: vertexOf(robot.home, roadmap), stops: stopsOf(robot).map(({ at }) => vertexOf(at, roadmap)),
     }));
@@ -35,7 +37,9 @@ export class Hits {
     const lane = this.lanes.findIndex((ends) => this.#distance(ends, x, y) < REACH / scale);
     if (lane >= 0) return { kind: "lane", id: lane };
     const obstacle = this.obstacles.findLastIndex(([left, top, width, height]) => x >= left && y >= top && x <= left + width && y <= top + height);
-    return obstacle >= 0 ? { kind: "obstacle", id: obstacle } : null;
+    if (obstacle >= 0) return { kind: "obstacle", id: obstacle };
+    const cell = this.ground?.cellAt(x, y);
+    return cell && this.ground.holds(cell) && this.ground.isBlocked(this.document, cell) ? { kind: "cell", id: cell.join() } : null;
   }
 
   /** All that lies in a rectangle of the drawing. */
@@ -48,7 +52,16 @@ export class Hits {
       ...names,
       ...this.lanes.flatMap((ends, id) => (ends.every(isIn) ? [{ kind: "lane", id }] : [])),
       ...this.obstacles.flatMap(([l, t, w, h], id) => (l >= left && t >= top && l + w <= right && t + h <= bottom ? [{ kind: "obstacle", id }] : [])),
+      ...this.#blockedIn(left, top, right, bottom),
     ];
+  }
+
+  /** The blocked cells of a grid whose middle lies in a rectangle. */
+  #blockedIn(left, top, right, bottom) {
+    if (!this.ground) return [];
+    const [from, to] = [[Math.max(Math.ceil(left), 0), Math.max(Math.ceil(top), 0)], [Math.min(Math.floor(right), this.ground.columns - 1), Math.min(Math.floor(bottom), this.ground.rows - 1)]];
+    if (from[0] > to[0] || from[1] > to[1]) return [];
+    return this.ground.blockedOf(this.document, cellsOfBox(from, to)).map((cell) => ({ kind: "cell", id: cell.join() }));
   }
 
   /** The vertex of what is selected, or -1. */

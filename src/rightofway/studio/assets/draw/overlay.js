@@ -1,6 +1,7 @@
 /** What an editor shows above the map: what is selected, and what the library says about places. */
 
 import { ring } from "../viewer/shapes.js";
+import { cellOf } from "./ground.js";
 
 const MOST_SIGNS = 300;
 const SIGNS = { error: "✕", warning: "!", fault: "✕" };
@@ -13,6 +14,7 @@ export function paintSelection(context, editor, scale) {
     context.lineWidth = 2 / scale;
     const vertex = hits.vertexOf(item);
     if (vertex >= 0) ring(context, roadmap.x[vertex], roadmap.y[vertex], radiusAt(roadmap, vertex, scale));
+    else if (item.kind === "cell") context.strokeRect(...hits.ground.boxOf(cellOf(item.id)));
     else if (item.kind === "obstacle" && hits.obstacles[item.id]) context.strokeRect(...hits.obstacles[item.id]);
     else if (item.kind === "lane" && hits.lanes[item.id]) band(context, roadmap, hits.lanes[item.id], 5 / scale);
     if (item.kind === "robot" && vertex >= 0) route(context, roadmap, hits.robots[item.id], scale);

@@ -2,7 +2,7 @@
 
 import { addRobots, changeRobots, removeRobots, robotsOf, stopsOf, withStops } from "../robots/fleet.js";
 import { words } from "../words.js";
-import { withObstacles } from "./ground.js";
+import { cellOf, withObstacles } from "./ground.js";
 import { addLane, addVertex, asMapping, endsOf, freeVertexName, isNetwork, lanesOf, moveVertices, positionOf, removeLanes, removeVertices } from "./network.js";
 import { snapped } from "./network_tools.js";
 import { numberOf, placeOf, rounded, vertexOf } from "./places.js";
@@ -62,6 +62,7 @@ export class SelectTool {
     const { selection } = editor;
     if (!selection.size) return;
     const [robots, stops, vertices, lanes, obstacles] = ["robot", "stop", "vertex", "lane", "obstacle"].map((kind) => selection.of(kind));
+    const cells = selection.of("cell").map(cellOf);
     selection.clear();
     editor.store.change((document) => {
       let next = document;
@@ -69,6 +70,7 @@ export class SelectTool {
       if (robots.length) next = removeRobots(next, robots);
       if (lanes.length) next = removeLanes(next, lanes);
       if (vertices.length) next = removeVertices(next, vertices);
+      if (cells.length) next = editor.ground.free(next, cells);
       if (obstacles.length) next = withObstacles(next, next.map.floor.obstacles.filter((_, index) => !obstacles.includes(index)));
       return next;
     });
@@ -89,6 +91,9 @@ export class SelectTool {
         copies.push({ kind: "obstacle", id: next.map.floor.obstacles.length });
         next = withObstacles(next, [...next.map.floor.obstacles, { ...obstacles[index], rect: [rounded(x + side), rounded(y + side), ...size] }]);
       }
+      const cells = selection.of("cell").map(cellOf).map(([column, row]) => [column + 1, row + 1]);
+      if (cells.length) next = editor.ground.block(next, cells);
+      copies.push(...cells.map((cell) => ({ kind: "cell", id: cell.join() })));
       for (const index of selection.of("robot")) {
         const home = this.#freeBeside(editor.hits.robots[index].home, next);
         if (home < 0) continue;
@@ -162,7 +167,19 @@ export class SelectTool {
       if (obstacles.length) next = this.#moveObstacles(next, obstacles, shift);
       return next;
     });
+    this.#moveCells(shift);
     if (lost.length) editor.say(words.noVertexHere);
+  }
+
+  /** Blocked cells of a grid go by whole cells, and stay selected. */
+  #moveCells(shift) {
+    const { editor } = this;
+    const cells = editor.selection.of("cell").map(cellOf);
+    const [right, down] = shift.map(Math.round);
+    if (!cells.length || !(right || down)) return;
+    const there = cells.map(([column, row]) => [column + right, row + down]);
+    editor.store.change((document) => editor.ground.block(editor.ground.free(document, cells), there));
+    editor.select([...editor.selection.items.filter(({ kind }) => kind !== "cell"), ...there.map((cell) => ({ kind: "cell", id: cell.join() }))]);
   }
 
   /** How far vertices go on the site, so that the one that was pressed lies in line, or at a round length. */
@@ -204,7 +221,7 @@ export class SelectTool {
       const [right, down] = [this.now.x - this.start.x, this.now.y - this.start.y];
       for (const item of editor.selection.items) {
         const vertex = editor.hits.vertexOf(item);
-        const [x, y, wide, high] = item.kind === "obstacle" ? editor.hits.obstacles[item.id] : [editor.roadmap.x[vertex] - 0.4, editor.roadmap.y[vertex] - 0.4, 0.8, 0.8];
+        const [x, y, wide, high] = item.kind === "cell" ? editor.ground.boxOf(cellOf(item.id)) : item.kind === "obstacle" ? editor.hits.obstacles[item.id] : [editor.roadmap.x[vertex] - 0.4, editor.roadmap.y[vertex] - 0.4, 0.8, 0.8];
         context.strokeRect(x + right, y + down, wide, high);
       }
     }

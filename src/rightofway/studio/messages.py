@@ -1,0 +1,79 @@
+"""Messages between the studio and its workers.
+
+A message is a JSON object with its length before it, and blobs after it. To a worker goes ``{"job",
+"task", "arguments"}`` with blobs, or ``{"stop"}``. From it come ``{"job", "event"}`` and, last of a
+job, ``{"job", "result"}`` or ``{"job", "error"}``, each with blobs.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from rightofway.errors import GaveUp, InputError, InputFault, NoPlanExists
+
+LENGTH = struct.Struct(">Q")
+"""How the length of a message is written."""
+
+Blobs = Sequence[bytes]
+Emit = Callable[..., None]
+"""Sends an event of the current job: ``emit({"flowtime": 3}, b"a plan")``."""
+
+
+def packed(message: dict[str, Any], blobs: Blobs = ()) -> bytes:
+    """Return a message as it is sent.
+
+    Parameters
+    ----------
+    message
+        Plain data.
+    blobs
+        Bytes that travel as they are.
+    """
+    text = json.dumps({**message, "sizes": list(map(len, blobs))}, allow_nan=False).encode()
+    return b"".join([LENGTH.pack(len(text)), text, *blobs])
+
+
+def as_error(error: BaseException) -> dict[str, Any]:
+    """Return what went wrong as plain data: ``kind``, ``message``, and details by kind.
+
+    Parameters
+    ----------
+    error
+        What a task raised.
+    """
+    match error:
+        case InputError():
+            listed = [fault_data(fault) for fault in error.faults]
+            message = "\n".join(fault.after("") for fault in error.faults)
+            return {"kind": "input", "message": message, "faults": listed}
+        case NoPlanExists():
+            return {"kind": "no_plan", "message": f"no plan exists: {error}", **error.as_dict()}
+        case GaveUp():
+            return {"kind": "gave_up", "message": f"no plan found: {error}"}
+        case KeyboardInterrupt():
+            return {"kind": "stopped", "message": "stopped before there was a plan"}
+        case MemoryError():
+            message = "this needs more memory than a worker may take (give a smaller problem)"
+            return {"kind": "memory", "message": message}
+        case _:
+            what = " ".join([f"{type(error).__name__}:", *str(error).split()])
+            return {"kind": "defect", "message": f"unexpected {what} (please report it)"}
+
+
+def fault_data(fault: InputFault) -> dict[str, Any]:
+    """Return a fault as plain data.
+
+    Parameters
+    ----------
+    fault
+        One thing wrong with an input.
+    """
+    return {
+        "place": fault.place,
+        "message": fault.message,
+        "line": fault.line,
+        "named": fault.named,
+    }
