@@ -230,6 +230,13 @@ def test_a_change_of_a_robot_is_planned_at_once(opened: Opener) -> None:
     assert studio.ask("studio.runs.run.request.time_limit") == 1
     assert "R1" in studio.text(".change .gain")
     assert studio.ask("studio.stage.choice.robot.name") == "R1"  # it stays chosen
+    speed.fill("fast")
+    speed.press("Tab")
+    studio.settle()
+    fault = studio.ask("studio.store.faults[0].message")
+    assert fault in studio.text(".ask [role=alert]")
+    assert speed.get_attribute("aria-invalid") == "true"
+    assert studio.ask("studio.runs.runs.length") == 2
     studio.page.locator("[data-run='1'] .show").click()
     studio.wait_for("studio.runs.shown === 1")
     studio.button("Edit what it was planned from").click()

@@ -2,7 +2,7 @@
 
 import { html, useState } from "../vendor/htm-preact.js";
 import { placeOfText } from "../draw/places.js";
-import { COLUMNS } from "../robots/columns.js";
+import { COLUMNS, columnOf } from "../robots/columns.js";
 import { changeRobots, robotsOf } from "../robots/fleet.js";
 import { words } from "../words.js";
 
@@ -13,6 +13,8 @@ export function Ask({ studio }) {
   const robots = robotsOf(store.document) ?? [];
   const name = stage.isPlan ? stage.choice.robot?.name : undefined;
   const index = robots.findIndex((robot) => robot.name === name);
+  const faults = store.faultsAt(`robots[${index}]`);
+  const isWrong = ({ key }) => faults.some(({ place }) => columnOf(place) === key);
   const write = (column, text) => {
     if (column.text(robots[index]) === text) return;
     studio.whatIf((document) => changeRobots(document, [index], (robot) => column.set(robot, text)));
@@ -21,7 +23,8 @@ export function Ask({ studio }) {
     <section class="ask" aria-labelledby="ask-title"><h2 id="ask-title">${index < 0 ? words.whatIf : words.whatIfOf(name)}</h2>
       ${index < 0 ? html`<p class="hint">${words.chooseRobot}</p>` : html`<div class="fields">${ASKED.map((column) => html`
         <label title=${words.columns[column.key][1]}>${words.columns[column.key][0]}<input key=${`${name} ${column.key}`} value=${column.text(robots[index])} placeholder=${words.columns[column.key][2] ?? ""}
-          spellcheck="false" onChange=${({ target }) => write(column, target.value)} /></label>`)}</div>`}
+          spellcheck="false" aria-invalid=${String(isWrong(column))} onChange=${({ target }) => write(column, target.value)} /></label>`)}</div>`}
+      ${faults.map(({ named, place, message }) => html`<p class="wrong" role="alert">${named || place}: ${message}</p>`)}
       <${Close} studio=${studio} />
     </section>`;
 }
@@ -51,6 +54,7 @@ function Close({ studio }) {
       <label>${words.closeTo}<input id="close-to" value=${to} spellcheck="false" onInput=${({ target }) => setTo(target.value)} /></label>
       <button type="submit" class="framed" disabled=${!at.trim()}>${words.closeIt}</button>
     </form>
+    ${store.faultsAt("closures").map(({ named, place, message }) => html`<p class="wrong" role="alert">${named || place}: ${message}</p>`)}
     ${store.document.closures?.length > 0 && html`<ul class="closures">${store.document.closures.map((closure, index) => html`
       <li>${words.closed}: ${text(closure)} <button type="button" class="quiet" aria-label=${`${words.openAgain}: ${text(closure)}`} title=${words.openAgain} onClick=${() => open(index)}>✕</button></li>`)}</ul>`}`;
 }

@@ -5,7 +5,7 @@ import { address } from "../api.js";
 import { words } from "../words.js";
 
 export function Exports({ studio }) {
-  const { runs } = studio;
+  const { runs, store } = studio;
   const { shown, run, command, choices } = runs;
   const [copied, setCopied] = useState("");
   const copy = () => studio.attempt(async () => {
@@ -23,6 +23,7 @@ export function Exports({ studio }) {
         <li><a href=${studio.exportAddress(form)} download>${form}</a> <small>${summary}</small></li>`)}</ul></details>
       ${command && html`
         <div class="command"><code tabindex="0" aria-label=${words.command}>${command}</code>
-          <button type="button" class="framed" aria-label=${words.copyCommand} onClick=${copy}><span role="status">${copied === command ? words.copied : words.copy}</span></button></div>`}
+          <button type="button" class="framed" aria-label=${words.copyCommand} onClick=${copy}><span role="status">${copied === command ? words.copied : words.copy}</span></button></div>
+        ${run.source && !(store.isSaved && runs.isOf(store.document)) && html`<p class="hint">${words.saveFirst}</p>`}`}
     </section>`;
 }

@@ -9,6 +9,7 @@ export function Waits({ studio }) {
   const { runs, stage } = studio;
   const chosen = stage.isPlan ? stage.choice.robot?.name : undefined;
   const found = runs.losses.filter(({ robot }) => chosen === undefined || robot === chosen);
+  if (chosen !== undefined && !found.length) return null; // the card says that it loses no time
   const watch = ({ robot, tick }) => {
     stage.clock.pause();
     stage.clock.seek(tick);
