@@ -215,5 +215,5 @@ def test_a_fleet_in_python_may_split_the_lanes_of_a_zone() -> None:
 def test_occupancy_one_is_refused_with_zones() -> None:
     data = document({"vertices": ["B"]})
     data["rules"]["occupancy"] = "one"
-    with pytest.raises(InputError, match=r"rules.occupancy: 'one' does not know zones yet"):
+    with pytest.raises(InputError, match=r"rules.occupancy: 'one' does not go with zones"):
         scenario_of(data)

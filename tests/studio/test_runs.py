@@ -145,11 +145,15 @@ def test_plans_are_improved_and_executed(client: httpx.Client) -> None:
     late = client.post("/runs", json={"kind": "simulate", "based_on": number, "runs": 20})
     done = over(client, late.json()["number"])
     assert done["state"] == "done"
-    assert client.get(f"/runs/{done['number']}/report").json()["runs"] == 20
+    report = client.get(f"/runs/{done['number']}/report").json()
+    assert report["runs"] == sum(report["spread"]["counts"]) == 20
+    assert "right of way  no collisions, no deadlocks" in report["text"]
+    assert report["spread"]["from"] <= report["spread"]["to"]
     assert "floor" in client.get(f"/runs/{done['number']}/payload").json()
     body = {"kind": "simulate", "based_on": number, "runs": 20, "run": "worst"}
     worst = over(client, client.post("/runs", json=body).json()["number"])
     played = client.get(f"/runs/{worst['number']}/report").json()["played"]
+    assert played == report["worst"]
     typical = client.get(f"/runs/{done['number']}/report").json()["played"]
     assert 0 <= played < 20
     assert flowtime(client, worst) > flowtime(client, done) or played == typical
@@ -161,6 +165,7 @@ def test_laps_have_a_period(client: httpx.Client) -> None:
     assert run["state"] == "done"
     report = client.get(f"/runs/{run['number']}/report").json()
     assert report["groups"][0]["period"]
+    assert "period" in report["text"]
     assert client.get(f"/runs/{run['number']}/payload").json()["steady"]
 
 
@@ -235,3 +240,28 @@ def test_a_changed_document_is_planned_at_once_beside_a_long_plan(client: httpx.
     assert changed["based_on"] == first["number"]
     client.post(f"/runs/{long}/cancel")
     assert changed["figures"]["makespan"] > first["figures"]["makespan"]
+
+
+def test_costs_are_compared_in_time_units_where_ticks_differ(client: httpx.Client) -> None:
+    first, *others = DOOR["robots"]
+    faster = {**DOOR, "robots": [{**first, "speed": 1.5}, *others]}
+    runs = [planned(client, document)["number"] for document in (DOOR, faster)]
+    found = client.get("/compare", params={"run": runs}).json()
+    for place, plan in enumerate(found["plans"]):
+        completions = [robot["completion"][place] for robot in found["robots"]]
+        assert plan["time"] == pytest.approx(
+            {"flowtime": sum(completions), "makespan": max(completions)}
+        )
+    ticks = [plan["flowtime"] / plan["time"]["flowtime"] for plan in found["plans"]]
+    assert ticks[0] != ticks[1]
+
+
+def test_rules_delays_and_formats_are_listed_and_can_be_used(client: httpx.Client) -> None:
+    choices = client.get("/choices").json()
+    number = planned(client)["number"]
+    for rule in choices["rules"]:
+        started = client.post("/runs", json={"kind": "laps", "document": DOOR, "rule": rule})
+        assert over(client, started.json()["number"])["state"] == "done"
+    for form in choices["formats"]:
+        assert client.get(f"/runs/{number}/export/{form}").status_code == 200
+    assert choices["delays"]["default"] in choices["delays"]["examples"]

@@ -63,7 +63,7 @@ def refuse_sizes(resources: Resources | None, what: str, remedy: str) -> None:
         If a robot has a size, or there is a zone.
     """
     if resources is not None:
-        message = f"{what} does not know robots with a size or zones yet ({remedy})"
+        message = f"{what} does not know robots with a size or zones ({remedy})"
         raise InputError.at("", message)
 
 

@@ -158,7 +158,7 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
     if rules.clearance < 0:
         yield InputFault("rules.clearance", f"{rules.clearance} is negative (give 0 or more)")
     if scenario.roadmap.zones and rules.occupancy == "one":
-        message = "'one' does not know zones yet (give both, so that robots book ahead)"
+        message = "'one' does not go with zones (give both, so that robots book ahead)"
         yield InputFault("rules.occupancy", message)
     if all(robot.radius <= 0 for robot in scenario.robots):
         if rules.clearance > 0:
