@@ -19,6 +19,7 @@ export class ScenarioStore extends Observable {
   revision = null; // of that file; empty if there must be none
   survey = UNKNOWN;
   site = null; // the last map that could be drawn
+  isKept = false; // whether the draft has been written
   opened = 0; // how many documents have been opened
 
   #past = [];

@@ -157,7 +157,15 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
 
 
 def closure_data(closure: Closure, scenario: Scenario) -> dict[str, Any]:
-    """Return the vertices of a closure, along a lane in order, and when it is."""
+    """Return the vertices of a closure, along a lane in order, and when it is.
+
+    Parameters
+    ----------
+    closure
+        The closure.
+    scenario
+        The scenario that has it.
+    """
     tick = scenario.problem.clock.tick
     places = [closure.at] if closure.edge is None else ways_along(scenario.roadmap, closure.edge)[0]
     until = closure.until

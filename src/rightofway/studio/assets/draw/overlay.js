@@ -77,7 +77,8 @@ function route(context, { x, y }, { home, stops }, scale) {
   context.setLineDash([]);
 }
 
-export function band(context, { x, y }, [tail, head], width) {
+/** A line along a lane. */
+function band(context, { x, y }, [tail, head], width) {
   if (tail < 0 || head < 0) return;
   context.lineWidth = width;
   context.beginPath();
@@ -86,6 +87,7 @@ export function band(context, { x, y }, [tail, head], width) {
   context.stroke();
 }
 
+/** The radius of a ring round a vertex, or within its cell. */
 export function radiusAt(roadmap, vertex, scale) {
-  return roadmap.hasCells ? Math.max((0.5 * (roadmap.sides?.[vertex] ?? 1)) , 9 / scale) : 13 / scale;
+  return roadmap.hasCells ? Math.max(0.5 * (roadmap.sides?.[vertex] ?? 1), 9 / scale) : 13 / scale;
 }

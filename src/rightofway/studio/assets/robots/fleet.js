@@ -8,7 +8,7 @@ export const robotsOf = ({ robots }) => (Array.isArray(robots) ? robots : null);
 const withRobots = (document, robots) => ({ ...document, robots });
 
 /** A name that no robot has: R1, R2, ... */
-export function freeName(robots, prefix = "R") {
+function freeName(robots, prefix = "R") {
   const taken = new Set(robots.map(({ name }) => name));
   let number = robots.length + 1;
   while (taken.has(`${prefix}${number}`)) number++;
@@ -30,7 +30,7 @@ export function withStops(robot, stops) {
   return only === undefined ? { ...rest, target: at } : { ...rest, target: at, work: only };
 }
 
-/** Add robots; each gets a name if it has none, and what the last robot has, places and names apart. */
+/** Add robots; each gets a name if it has none. */
 export function addRobots(document, news) {
   const robots = [...robotsOf(document)];
   for (const robot of news) robots.push({ name: freeName(robots), ...robot });
