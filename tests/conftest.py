@@ -33,9 +33,11 @@ SLOW = (
     "laws/test_untimed_lacam.py",
     "laws/test_workbook_fuzz.py",
     "studio/test_attacks.py",  # thousands of requests
+    "studio/test_documents.py",  # a process for each studio
     "studio/test_plans_page.py",  # a browser
     "studio/test_page.py",  # a browser
     "studio/test_drawing.py",  # a browser
+    "studio/test_guard.py",  # bodies of 100 MB
     "studio/test_runs.py",  # plans
     "studio/test_streams.py",  # a browser
     "studio/test_stories.py",  # a browser

@@ -98,7 +98,7 @@ def keeps_turns(plan: Plan) -> bool:
 
 
 @pytest.mark.parametrize("planner", PLANNERS)
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", seeds(6, 1))
 def test_every_planner_gives_turns_their_time(planner: str, seed: int) -> None:
     """Grids, where robots follow each other at one instant or book ahead, rest and work."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
@@ -129,7 +129,7 @@ def test_every_planner_gives_turns_of_robots_with_sizes_their_time(planner: str,
         assert keeps_turns(plan)
 
 
-@pytest.mark.parametrize("seed", seeds(40, 6))
+@pytest.mark.parametrize("seed", seeds(40, 2))
 def test_auto_finds_the_optimum_of_two_robots_with_sizes(seed: int) -> None:
     scenario = few_turning(seed, sizes=True)
     least = least_flowtime(scenario)
@@ -143,7 +143,7 @@ def test_auto_finds_the_optimum_of_two_robots_with_sizes(seed: int) -> None:
     assert plan.lower_bound <= least
 
 
-@pytest.mark.parametrize("seed", seeds(40, 6))
+@pytest.mark.parametrize("seed", seeds(40, 2))
 def test_auto_finds_the_optimum_of_two_points(seed: int) -> None:
     scenario = few_turning(seed, sizes=False)
     least = least_flowtime(scenario)
@@ -156,7 +156,7 @@ def test_auto_finds_the_optimum_of_two_points(seed: int) -> None:
     assert plan.flowtime == least
 
 
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", seeds(10, 3))
 def test_the_bound_of_a_robot_alone_is_what_it_reaches_alone(seed: int) -> None:
     """By tables of the native core, by the metrics, and by the search itself."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
@@ -172,7 +172,7 @@ def test_the_bound_of_a_robot_alone_is_what_it_reaches_alone(seed: int) -> None:
         assert int(track.enter[-1]) + work == least
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", seeds(6, 1))
 def test_the_parts_of_lost_time_sum_up_and_none_is_negative(seed: int) -> None:
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
     plan = solve(turning(random_fleet(seed, size=5, robots=7), draw), "lacam")
@@ -181,7 +181,7 @@ def test_the_parts_of_lost_time_sum_up_and_none_is_negative(seed: int) -> None:
         assert min(lost.detours, lost.making_room, lost.waiting) >= 0
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", seeds(4, 2))
 def test_late_robots_still_turn_and_never_meet(seed: int) -> None:
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
     plan = solve(turning(random_fleet(seed, size=5, robots=5), draw), "lacam")
@@ -191,7 +191,7 @@ def test_late_robots_still_turn_and_never_meet(seed: int) -> None:
         assert check(replace(plan, tracks=outcome.trace(7).tracks)).ok
 
 
-@pytest.mark.parametrize("seed", seeds(24, 3))
+@pytest.mark.parametrize("seed", seeds(24, 1))
 def test_replanned_robots_turn_from_the_heading_that_they_have(seed: int) -> None:
     """Robots are late or break down; the judge looks at runs of new plans."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)

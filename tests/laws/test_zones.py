@@ -17,7 +17,7 @@ STEPS: dict[str, dict[str, int]] = {name: {"iterations": 200} for name in ("auto
 
 
 @pytest.mark.parametrize("planner", KNOW_ZONES)
-@pytest.mark.parametrize("seed", seeds(60, 10))
+@pytest.mark.parametrize("seed", seeds(60, 2))
 def test_plans_keep_zones_and_what_is_proven_is_true(planner: str, seed: int) -> None:
     """Planners keep clear of some vertices without need: they may give up, but prove nothing."""
     scenario = zoned(seed)
