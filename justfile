@@ -33,6 +33,10 @@ test *args:
 thorough *args:
     pytest -m slow -n 2 {{ args }}
 
+# The thorough lane with all seeds of random cases: an hour or more
+all-seeds *args:
+    ALL_SEEDS=1 pytest -m "slow or not slow" -n 2 {{ args }}
+
 # Open broken layouts: 100 000 take about half an hour
 fuzz-layouts *args:
     python -m tests.builders.broken_layouts {{ args }}
