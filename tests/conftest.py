@@ -9,6 +9,7 @@ import pytest
 TESTS = Path(__file__).parent
 
 SLOW = (
+    "bench/test_results.py",  # thousands of cut files
     "benchmarks/",  # scripts that measure
     "cli/test_bench.py",  # a process for each case of a suite
     "cli/test_bench_cluster.py",  # starts a Dask cluster
@@ -16,6 +17,7 @@ SLOW = (
     "conformance/test_execution.py",  # hundreds of runs for each planner and scenario
     "conformance/test_mixed_scenarios.py",  # a thousand scenarios
     "conformance/test_samples.py",  # plans on 36 real layouts
+    "cyclic/test_closing.py",
     "docs/test_examples.py",  # runs every command on every page
     "laws/test_best_timetable.py",
     "laws/test_periodic_search.py",
@@ -24,6 +26,7 @@ SLOW = (
     "laws/test_io_round_trip.py",
     "laws/test_lacam_plans.py",
     "laws/test_laps.py",
+    "laws/test_laps_theory.py",
     "laws/test_optimum_with_sizes.py",
     "laws/test_precedence_graph.py",
     "laws/test_space.py",
@@ -32,6 +35,7 @@ SLOW = (
     "laws/test_timed_event_graph.py",
     "laws/test_untimed_lacam.py",
     "laws/test_workbook_fuzz.py",
+    "planners/test_limits.py",  # limits of time, and interrupts
     "studio/test_attacks.py",  # thousands of requests
     "studio/test_documents.py",  # a process for each studio
     "studio/test_plans_page.py",  # a browser
