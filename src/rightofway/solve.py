@@ -182,12 +182,6 @@ def _run(
     from rightofway.planners.impossible import refuse_closed_ways, refuse_stranded
     from rightofway.search import alone_completions
 
-    if task.scenario.problem.resources is not None and not spec.knows_sizes:
-        able = " or ".join(one.name for one in registered().values() if one.knows_sizes)
-        if spec.leaves_swaps:
-            why = "it leaves swaps, and robots with a size collide in them"
-            raise InputError.at("", f"planner {spec.name} is for points: {why} (choose {able})")
-        refuse_sizes(task.scenario.problem.resources, f"planner {spec.name}", f"choose {able}")
     _refuse_unknown(spec, task.scenario.problem)
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
@@ -234,17 +228,26 @@ def _run(
 
 
 def _refuse_unknown(spec: PlannerSpec, problem: Problem) -> None:
-    """Refuse turn rates, closures and barred edges to planners that do not know them."""
+    """Refuse sizes, turn rates, closures and barred edges to planners that do not know them."""
+
+    def remedy(is_able: Callable[[PlannerSpec], bool]) -> str:
+        return f"choose {' or '.join(one.name for one in registered().values() if is_able(one))}"
+
+    what = f"planner {spec.name}"
+    if problem.resources is not None and not spec.knows_sizes:
+        choose = remedy(lambda one: one.knows_sizes)
+        if spec.leaves_swaps:
+            why = "it leaves swaps, and robots with a size collide in them"
+            raise InputError.at("", f"{what} is for points: {why} ({choose})")
+        refuse_sizes(problem.resources, what, choose)
     if not spec.knows_turns:
-        able = " or ".join(one.name for one in registered().values() if one.knows_turns)
-        refuse_turn_rates(problem, f"planner {spec.name}", f"choose {able}")
+        refuse_turn_rates(problem, what, remedy(lambda one: one.knows_turns))
     if not spec.knows_closures:
-        able = " or ".join(one.name for one in registered().values() if one.knows_closures)
-        refuse_closures(problem, f"planner {spec.name}", f"choose {able}")
+        refuse_closures(problem, what, remedy(lambda one: one.knows_closures))
     if problem.is_barred and not spec.knows_types:
-        able = " or ".join(one.name for one in registered().values() if one.knows_types)
-        message = f"planner {spec.name} does not know edges that are barred for types of robots"
-        raise InputError.at("", f"{message} (choose {able})")
+        choose = remedy(lambda one: one.knows_types)
+        message = f"{what} does not know edges that are barred for some robots"
+        raise InputError.at("", f"{message} ({choose})")
 
 
 def _drafted(spec: PlannerSpec, task: Task) -> Draft:

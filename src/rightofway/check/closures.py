@@ -1,4 +1,4 @@
-"""What is closed or barred, and who is there all the same.
+"""Bookings of what is closed, and drives along barred edges.
 
 The judge has its own geometry: it asks of each place that a robot books at the time of a closure
 how near it is, in fractions.

@@ -104,7 +104,7 @@ def _load(
 
 
 def _spread(vertices: Sequence[int], most: int) -> list[int]:
-    """Return at most so many of some vertices, spread over them."""
+    """Return at most ``most`` of some vertices, spread over them."""
     count = min(most, len(vertices))
     return [vertices[k * len(vertices) // count] for k in range(count)]
 

@@ -1,4 +1,4 @@
-"""What happens to runs, told to whoever listens: to one run, or to all of them.
+"""Events of runs, sent to all listeners: of one run, or of all runs.
 
 A browser has six connections to a server, so a page listens to all runs by one.
 """

@@ -279,7 +279,7 @@ class Runs:
 
     @staticmethod
     def data(run: Run) -> dict[str, Any]:
-        """Return what is told of a run."""
+        """Return a run as the API describes it."""
         return {**asdict(run), "has_plan": run.revision > 0}
 
     async def _consume(self, queue: asyncio.Queue[int], crew: Crew) -> None:

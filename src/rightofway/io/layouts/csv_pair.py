@@ -130,16 +130,15 @@ def _add_node(level: LevelDraft, line: int, row: dict[str, str]) -> None:
 
 def _add_edge(level: LevelDraft, line: int, row: dict[str, str]) -> None:
     place = f"line {line}"
-    if True:
-        tail, head = _first(row, TAILS, place), _first(row, HEADS, place)
-        both = _flag(row, ("both_ways", "bidirectional"), place)
-        for one, other in ((tail, head), (head, tail)) if both else ((tail, head),):
-            level.connect(
-                Lane(
-                    place=place,
-                    tail=one,
-                    head=other,
-                    length=_optional(row, LENGTHS, place),
-                    max_speed=_optional(row, SPEEDS, place),
-                )
+    tail, head = _first(row, TAILS, place), _first(row, HEADS, place)
+    both = _flag(row, ("both_ways", "bidirectional"), place)
+    for one, other in ((tail, head), (head, tail)) if both else ((tail, head),):
+        level.connect(
+            Lane(
+                place=place,
+                tail=one,
+                head=other,
+                length=_optional(row, LENGTHS, place),
+                max_speed=_optional(row, SPEEDS, place),
             )
+        )

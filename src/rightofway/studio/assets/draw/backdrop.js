@@ -98,7 +98,7 @@ export class PickTool {
     return this.points.length > 0;
   }
 
-  /** Ask for so many places; `done` is given them. */
+  /** Ask for a number of places; `done` is called with them. */
   ask(count, done) {
     Object.assign(this, { count, done, points: [] });
     this.editor.tool = this;
