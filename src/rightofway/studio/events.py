@@ -33,7 +33,7 @@ class Listeners:
         self._of: dict[int | None, set[_Queue]] = {}
 
     def tell(self, number: int, event: str, data: dict[str, Any]) -> None:
-        """Tell what happens to a run; the data get its number."""
+        """Send an event of a run to its listeners; the data get its number."""
         for listener in chain(self._of.get(number, ()), self._of.get(None, ())):
             is_behind = listener.qsize() >= MAX_BEHIND
             listener.put_nowait(None if is_behind else (event, {"number": number, **data}))

@@ -53,7 +53,7 @@ def asset(path: str) -> Response:
 @about.get("", tags=["studio"])
 @about.get("/", include_in_schema=False)
 def describe(studio: InStudio) -> dict[str, Any]:
-    """Tell what this studio is: its version, its folder, the file to open first, its limits."""
+    """Return what this studio is: its version, its folder, the file to open first, its limits."""
     return {
         "version": __version__,
         "folder": studio.workspace.folder.name,
