@@ -7,8 +7,9 @@ from fractions import Fraction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rightofway.model import NEVER, Rules, Scenario, Tick, route_of
-from rightofway.search import Booking, Bookings, Distances, earliest_track
+from rightofway.model import Rules, Scenario, route_of
+from rightofway.search import Distances, earliest_track
+from tests.builders.booked import booked_on, table_of
 from tests.builders.fleets import grid_fleet
 from tests.oracles.sipp import Booked, earliest_completion
 
@@ -29,14 +30,7 @@ def problems(draw: st.DrawFn) -> tuple[Scenario, list[Booked]]:
     trip = (draw(st.sampled_from(free)), draw(st.sampled_from(free)))
     speed = Fraction(1, draw(st.integers(1, 2)))
     scenario = grid_fleet(grid, [trip], rules=rules, speeds=[speed], work=[draw(st.integers(0, 2))])
-    booked: list[Booked] = []
-    for robot in range(draw(st.integers(0, 8))):
-        vertex = draw(st.integers(0, scenario.roadmap.n_vertices - 1))
-        start = draw(st.integers(-1, 15))
-        end = draw(st.one_of(st.integers(start + 1, start + 8), st.just(NEVER)))
-        if all(b.vertex != vertex or b.end <= start or end <= b.start for b in booked):
-            booked.append(Booked(vertex, start, end, draw(st.integers(0, robot))))
-    return scenario, booked
+    return scenario, draw(booked_on(scenario.roadmap))
 
 
 @settings(max_examples=200, deadline=None, derandomize=True)
@@ -45,10 +39,7 @@ def test_the_search_finds_the_earliest_completion(drawn: tuple[Scenario, list[Bo
     scenario, booked = drawn
     problem, both = scenario.problem, scenario.rules.occupancy == "both"
     itinerary = problem.itineraries[0]
-    bookings = Bookings(problem)
-    for one in booked:
-        bookings.book(one.vertex, Booking(Tick(one.start), Tick(one.end), one.robot))
-    track = earliest_track(0, bookings, Distances(scenario.roadmap))
+    track = earliest_track(0, table_of(problem, booked), Distances(scenario.roadmap))
     best = earliest_completion(
         scenario.roadmap,
         itinerary,

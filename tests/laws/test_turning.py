@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 from rightofway import check, simulate, solve
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import alone, lost_time
-from rightofway.model import NEVER, Plan, Rules, Scenario, Tick, route_of
+from rightofway.model import Plan, Rules, Scenario, route_of
 from rightofway.planners import registered
-from rightofway.search import Booking, Bookings, Distances, alone_completions, earliest_track
+from rightofway.search import Bookings, Distances, alone_completions, earliest_track
+from tests.builders.booked import booked_on, table_of
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.seeds import seeds
 from tests.builders.sizes import sized, sized_on_lanes
@@ -46,14 +47,7 @@ def problems(draw: st.DrawFn) -> tuple[Scenario, list[Booked]]:
         scenario = grid_fleet(grid, [trip], rules=rules, work=[work])
     else:
         scenario = fleet_on_lanes(draw(st.integers(0, 99)), robots=1, work=work, rules=rules)
-    booked: list[Booked] = []
-    for robot in range(draw(st.integers(0, 8))):
-        vertex = draw(st.integers(0, scenario.roadmap.n_vertices - 1))
-        start = draw(st.integers(-1, 15))
-        end = draw(st.one_of(st.integers(start + 1, start + 8), st.just(NEVER)))
-        if all(b.vertex != vertex or b.end <= start or end <= b.start for b in booked):
-            booked.append(Booked(vertex, start, end, draw(st.integers(0, robot))))
-    return scenario, booked
+    return scenario, draw(booked_on(scenario.roadmap))
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)
@@ -62,10 +56,7 @@ def test_the_search_finds_the_earliest_completion(drawn: tuple[Scenario, list[Bo
     scenario, booked = drawn
     problem = scenario.problem
     itinerary = problem.itineraries[0]
-    bookings = Bookings(problem)
-    for one in booked:
-        bookings.book(one.vertex, Booking(Tick(one.start), Tick(one.end), one.robot))
-    track = earliest_track(0, bookings, Distances(scenario.roadmap))
+    track = earliest_track(0, table_of(problem, booked), Distances(scenario.roadmap))
     best = earliest_completion(
         scenario.roadmap,
         itinerary,
