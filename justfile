@@ -10,11 +10,13 @@ lint:
     ruff check .
     ruff format --check .
     git ls-files 'cpp/*.cpp' 'cpp/*.hpp' | xargs clang-format --dry-run --Werror
+    npx --yes prettier@3.10.1 --log-level warn --check 'src/**/assets/**/*.js'
 
 # Bring everything into the house style
 format:
     ruff check --fix .
     ruff format .
+    npx --yes prettier@3.10.1 --log-level warn --write 'src/**/assets/**/*.js'
     git ls-files 'cpp/*.cpp' 'cpp/*.hpp' | xargs clang-format -i
 
 # Static types, strict

@@ -13,7 +13,11 @@ export class Refusal extends Error {
 /** Send a request and return what JSON the answer is. */
 export async function request(method, path, body) {
   const headers = body === undefined ? {} : { "content-type": "application/json" };
-  const answer = await fetch(ROOT + path, { method, headers, body: body === undefined ? undefined : JSON.stringify(body) });
+  const answer = await fetch(ROOT + path, {
+    method,
+    headers,
+    body: body === undefined ? undefined : JSON.stringify(body),
+  });
   const data = await answer.json();
   if (!answer.ok) throw new Refusal(data.error);
   return data;
@@ -50,7 +54,11 @@ let stream = null; // one for all runs: a browser has six connections to a serve
 export function listen(number, hearers) {
   if (!heard.has(number)) heard.set(number, new Set());
   heard.get(number).add(hearers);
-  if (stream) get(`/runs/${number}`).then((run) => tell("run", run), () => forget(number)); // it may be over already
+  if (stream)
+    get(`/runs/${number}`).then(
+      (run) => tell("run", run),
+      () => forget(number),
+    ); // it may be over already
   else connect();
   return () => forget(number, hearers);
 }
@@ -58,8 +66,11 @@ export function listen(number, hearers) {
 /** Begin to hear; first comes the list of all runs, also after the connection was lost. */
 function connect() {
   stream = new EventSource(address("/events"));
-  for (const name of EVENTS) stream.addEventListener(name, (event) => tell(name, JSON.parse(event.data)));
-  stream.addEventListener("runs", (event) => JSON.parse(event.data).runs.forEach((run) => tell("run", run)));
+  for (const name of EVENTS)
+    stream.addEventListener(name, (event) => tell(name, JSON.parse(event.data)));
+  stream.addEventListener("runs", (event) =>
+    JSON.parse(event.data).runs.forEach((run) => tell("run", run)),
+  );
   stream.addEventListener("deleted", (event) => forget(JSON.parse(event.data).number));
 }
 

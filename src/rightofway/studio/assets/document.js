@@ -5,7 +5,14 @@ import { get, inAddress, post, put, remove } from "./api.js";
 
 const MANY = 2000; // vertices from which on findings come after the map
 
-const UNKNOWN = Object.freeze({ ok: true, faults: [], notes: [], site: null, findings: [], sentences: [] });
+const UNKNOWN = Object.freeze({
+  ok: true,
+  faults: [],
+  notes: [],
+  site: null,
+  findings: [],
+  sentences: [],
+});
 
 /**
  * A document is never changed: an edit makes another one that shares what stays. So undo is a list.
@@ -26,7 +33,11 @@ export class ScenarioStore extends Observable {
   #future = [];
   #saved = null;
   #draft = "";
-  #work = { survey: new Latest(() => this.#look()), findings: new Latest(() => this.#inspect()), draft: new Latest(() => this.#keep()) };
+  #work = {
+    survey: new Latest(() => this.#look()),
+    findings: new Latest(() => this.#inspect()),
+    draft: new Latest(() => this.#keep()),
+  };
 
   /** Begin with a document; one that is not in a file yet counts as changed. */
   open({ document, folder = "", path = "", revision = "", draft = "" }) {
@@ -94,7 +105,12 @@ export class ScenarioStore extends Observable {
 
   /** Faults at a place of the document and below it; an empty fleet is no fault while one draws. */
   faultsAt(place) {
-    return this.faults.filter((fault) => fault.place === place || fault.place.startsWith(`${place}.`) || fault.place.startsWith(`${place}[`));
+    return this.faults.filter(
+      (fault) =>
+        fault.place === place ||
+        fault.place.startsWith(`${place}.`) ||
+        fault.place.startsWith(`${place}[`),
+    );
   }
 
   get faults() {
@@ -121,7 +137,10 @@ export class ScenarioStore extends Observable {
       const isLarge = !this.site || sizeOf(this.site.map) > MANY; // or not known yet
       const survey = await post("/survey", { document, folder, inspects: !isLarge });
       if (opened !== this.opened) return;
-      Object.assign(this, { survey: isLarge ? { ...survey, findings, sentences } : survey, site: survey.site ?? this.site });
+      Object.assign(this, {
+        survey: isLarge ? { ...survey, findings, sentences } : survey,
+        site: survey.site ?? this.site,
+      });
       this.tell("survey");
       if (isLarge) this.#work.findings.ask();
     } catch (trouble) {
@@ -133,7 +152,9 @@ export class ScenarioStore extends Observable {
   /** Find out what will hurt on a large map, which takes longer than to draw it. */
   async #inspect() {
     const { document, folder } = this;
-    const { findings, sentences } = await post("/survey", { document, folder }).catch(() => UNKNOWN);
+    const { findings, sentences } = await post("/survey", { document, folder }).catch(
+      () => UNKNOWN,
+    );
     if (document !== this.document) return;
     this.survey = { ...this.survey, findings, sentences };
     this.tell("findings");

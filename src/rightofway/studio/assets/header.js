@@ -9,7 +9,9 @@ export function Header({ studio }) {
   return html`
     <header class="summary bar-of-studio">
       <h1><b>rightofway</b> <span>studio</span></h1>
-      ${!isStarting && html`
+      ${
+        !isStarting &&
+        html`
         <input class="file-name" aria-label=${words.fileName} placeholder=${words.unnamed} value=${store.path} spellcheck="false" size=${Math.max(store.path.length, 20)}
           onChange=${(event) => store.rename(event.target.value.trim())} />
         <span class="state" role="status">${store.isSaved ? words.saved : words.keptAsDraft}</span>
@@ -18,14 +20,18 @@ export function Header({ studio }) {
           <button type="button" aria-label=${words.redo} title=${`${words.redo} (Ctrl+Shift+Z)`} disabled=${!store.canRedo} onClick=${() => store.redo()}><${Icon} name="redo" /></button>
           <button type="button" class="framed" title=${`${words.save} (Ctrl+S)`} onClick=${() => studio.save()}>${words.save}</button>
           <button type="button" class="framed" onClick=${() => studio.toStart()}>${words.files}</button>
-        </div>`}
+        </div>`
+      }
       <div class="actions last">
         <select aria-label=${words.language} value=${language} onChange=${(event) => {
           setLanguage(event.target.value);
           studio.tell("change");
         }}>${LANGUAGES.map(([code, name]) => html`<option value=${code}>${name}</option>`)}</select>
-        ${!isStarting && html`<button type="button" aria-label=${words.keys} title=${`${words.keys} (?)`} onClick=${() => studio.help(true)}><${Icon} name="help" /></button>
-          <button type="button" class="framed strong" title="Ctrl+Enter" disabled=${!store.survey.ok} onClick=${() => studio.plan()}>${words.plan}</button>`}
+        ${
+          !isStarting &&
+          html`<button type="button" aria-label=${words.keys} title=${`${words.keys} (?)`} onClick=${() => studio.help(true)}><${Icon} name="help" /></button>
+          <button type="button" class="framed strong" title="Ctrl+Enter" disabled=${!store.survey.ok} onClick=${() => studio.plan()}>${words.plan}</button>`
+        }
       </div>
     </header>`;
 }

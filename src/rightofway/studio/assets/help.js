@@ -7,7 +7,10 @@ import { words } from "./words.js";
 export function Help({ studio }) {
   const dialog = useRef(null);
   useEffect(() => dialog.current.showModal(), []);
-  const rows = [...Object.entries(TOOL_KEYS).map(([tool, key]) => [key.toUpperCase(), words.tools[tool][0]]), ...words.keyList];
+  const rows = [
+    ...Object.entries(TOOL_KEYS).map(([tool, key]) => [key.toUpperCase(), words.tools[tool][0]]),
+    ...words.keyList,
+  ];
   return html`
     <dialog class="keys" ref=${dialog} aria-labelledby="keys-title" onClose=${() => studio.help(false)}>
       <header><h2 id="keys-title">${words.keys}</h2><button type="button" class="quiet" aria-label=${words.close} onClick=${() => dialog.current.close()}>✕</button></header>

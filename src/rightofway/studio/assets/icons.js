@@ -5,7 +5,8 @@ import { html } from "./vendor/htm-preact.js";
 const PATHS = {
   select: "M5 3l9.500 6.500-4.300.8 2.600 4.900-2 1-2.500-5L5 14.500z",
   line: "M4 16L16 4M2.500 14.500l3 3M14.500 2.500l3 3",
-  brush: "M11 9l5.500-5.500M11 9c-2-1-4.500.5-4.500 3 0 2-1.500 2.500-3 2.500 2 2.500 8.500 2.500 9-1.500.2-1.700-.5-3-1.500-4z",
+  brush:
+    "M11 9l5.500-5.500M11 9c-2-1-4.500.5-4.500 3 0 2-1.500 2.500-3 2.500 2 2.500 8.500 2.500 9-1.500.2-1.700-.5-3-1.500-4z",
   box: "M4 5h12v10H4zM4 8.500L7.500 5M4 13L12 5M7 15l9-9M12 15l4-4",
   door: "M2.500 10H7M13 10h4.500M7 7.500v5M13 7.500v5M7 10a6 6 0 0 1 4-5",
   erase: "M8 16h9M4.500 12.500l7-8 5 4.500-6 7H7.500z",
@@ -21,4 +22,5 @@ const PATHS = {
   fit: "M4 7.500V4h3.500M12.500 4H16v3.500M16 12.500V16h-3.500M7.500 16H4v-3.500",
 };
 
-export const Icon = ({ name }) => html`<svg viewBox="0 0 20 20" aria-hidden="true"><path d=${PATHS[name]} /></svg>`;
+export const Icon = ({ name }) =>
+  html`<svg viewBox="0 0 20 20" aria-hidden="true"><path d=${PATHS[name]} /></svg>`;

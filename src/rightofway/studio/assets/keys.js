@@ -3,7 +3,18 @@
 import { TABS } from "./studio.js";
 
 /** The key of each tool. */
-export const TOOL_KEYS = { select: "v", line: "w", brush: "b", box: "r", door: "d", erase: "e", vertex: "n", lane: "l", mark: "s", robot: "a" };
+export const TOOL_KEYS = {
+  select: "v",
+  line: "w",
+  brush: "b",
+  box: "r",
+  door: "d",
+  erase: "e",
+  vertex: "n",
+  lane: "l",
+  mark: "s",
+  robot: "a",
+};
 
 const TOOL_OF = Object.fromEntries(Object.entries(TOOL_KEYS).map(([tool, key]) => [key, tool]));
 
@@ -18,28 +29,42 @@ export function listenToKeys(studio) {
     Enter: () => studio.plan(),
   };
   const plain = {
-    "+": () => stage.view.viewport.zoom(1.5), "=": () => stage.view.viewport.zoom(1.5),
-    "-": () => stage.view.viewport.zoom(1 / 1.5), 0: () => stage.view.viewport.fit(),
+    "+": () => stage.view.viewport.zoom(1.5),
+    "=": () => stage.view.viewport.zoom(1.5),
+    "-": () => stage.view.viewport.zoom(1 / 1.5),
+    0: () => stage.view.viewport.fit(),
     "?": () => studio.help(!studio.isHelping),
     Delete: () => editor.isOn && editor.remove(),
   };
   const playing = {
-    " ": () => stage.clock.toggle(), ArrowLeft: () => stage.clock.step(-1), ArrowRight: () => stage.clock.step(1),
+    " ": () => stage.clock.toggle(),
+    ArrowLeft: () => stage.clock.step(-1),
+    ArrowRight: () => stage.clock.step(1),
     Escape: () => stage.choice.chooseNothing(),
   };
   let atFocus = ""; // what a field said when it was entered, or written last
-  for (const name of ["focusin", "change"]) document.addEventListener(name, ({ target }) => (atFocus = target.value));
+  for (const name of ["focusin", "change"])
+    document.addEventListener(name, ({ target }) => (atFocus = target.value));
   document.addEventListener("keydown", (event) => {
     if (studio.isStarting || event.defaultPrevented) return;
     if (event.key !== "?" && document.querySelector("dialog[open]")) return; // its keys are its own
-    const isWriting = event.target.matches("input:not([type=range]), select, textarea, [contenteditable]");
+    const isWriting = event.target.matches(
+      "input:not([type=range]), select, textarea, [contenteditable]",
+    );
     const isControl = event.ctrlKey || event.metaKey;
     const isUndo = "zy".includes(event.key.toLowerCase()) && event.target.value === atFocus; // nothing in the field to undo
     if (isControl && isWriting && !["s", "Enter"].includes(event.key) && !isUndo) return;
     if (!isControl && (isWriting || event.altKey)) return;
-    const isPressing = event.target.matches("button, a, summary") && [" ", "Enter"].includes(event.key);
-    const action = isControl ? withControl[event.key.length > 1 ? event.key : event.key.toLowerCase()]
-      : isPressing ? null : plain[event.key] ?? (stage.isPlan ? playing[event.key] : null) ?? forTab(event.key) ?? forTool(event.key);
+    const isPressing =
+      event.target.matches("button, a, summary") && [" ", "Enter"].includes(event.key);
+    const action = isControl
+      ? withControl[event.key.length > 1 ? event.key : event.key.toLowerCase()]
+      : isPressing
+        ? null
+        : (plain[event.key] ??
+          (stage.isPlan ? playing[event.key] : null) ??
+          forTab(event.key) ??
+          forTool(event.key));
     if (!action) return;
     event.preventDefault();
     action(event);

@@ -20,7 +20,12 @@ function App() {
   const [, refresh] = useReducer((count) => count + 1, 0);
   const [holder, below, time, card] = [useRef(null), useRef(null), useRef(null), useRef(null)];
   useEffect(() => {
-    const made = new Studio({ holder: holder.current, below: below.current, time: time.current, card: card.current });
+    const made = new Studio({
+      holder: holder.current,
+      below: below.current,
+      time: time.current,
+      card: card.current,
+    });
     made.on("change", refresh);
     listenToKeys(made);
     listenToDrops(made);
@@ -54,7 +59,13 @@ function App() {
 function Tabs({ studio }) {
   const { store, runs } = studio;
   const robots = store.document?.robots;
-  const counts = { map: store.faults.length + store.survey.findings.filter(({ severity }) => severity !== "note").length || "", robots: Array.isArray(robots) ? robots.length : "", plan: runs.runs.length || "" };
+  const counts = {
+    map:
+      store.faults.length +
+        store.survey.findings.filter(({ severity }) => severity !== "note").length || "",
+    robots: Array.isArray(robots) ? robots.length : "",
+    plan: runs.runs.length || "",
+  };
   const go = (tab) => {
     studio.showTab(tab);
     document.getElementById(`tab-${tab}`).focus();
@@ -64,9 +75,11 @@ function Tabs({ studio }) {
     if (step) go(TABS[(TABS.indexOf(studio.tab) + step + TABS.length) % TABS.length]);
   };
   return html`
-    <div class="tabs" role="tablist" onKeyDown=${key}>${TABS.map((tab) => html`
+    <div class="tabs" role="tablist" onKeyDown=${key}>${TABS.map(
+      (tab) => html`
       <button type="button" role="tab" id=${`tab-${tab}`} aria-controls="panel" aria-selected=${String(studio.tab === tab)}
-        tabIndex=${studio.tab === tab ? 0 : -1} onClick=${() => studio.showTab(tab)}>${words.tabs[tab]} <b>${counts[tab]}</b></button>`)}
+        tabIndex=${studio.tab === tab ? 0 : -1} onClick=${() => studio.showTab(tab)}>${words.tabs[tab]} <b>${counts[tab]}</b></button>`,
+    )}
     </div>`;
 }
 
@@ -77,7 +90,10 @@ function listenToDrops(studio) {
     event.preventDefault();
     body.classList.add("dropping");
   });
-  for (const end of ["dragleave", "drop"]) document.addEventListener(end, (event) => (event.relatedTarget ? null : body.classList.remove("dropping")));
+  for (const end of ["dragleave", "drop"])
+    document.addEventListener(end, (event) =>
+      event.relatedTarget ? null : body.classList.remove("dropping"),
+    );
   document.addEventListener("drop", (event) => {
     event.preventDefault();
     if (event.dataTransfer.files.length) studio.take(event.dataTransfer.files);

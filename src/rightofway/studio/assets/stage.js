@@ -54,14 +54,23 @@ export class Stage extends Observable {
     this.player?.end();
     this.player = this.isPlan ? new Player(this) : null;
     if (!this.player) this.#clear();
-    const view = new MapView(canvas, plan, this.theme, { motion, ghosts, clock, choice, words, use: this.player?.use, bottleneck: this.player?.bottleneck ?? null });
+    const view = new MapView(canvas, plan, this.theme, {
+      motion,
+      ghosts,
+      clock,
+      choice,
+      words,
+      use: this.player?.use,
+      bottleneck: this.player?.bottleneck ?? null,
+    });
     this.view = view;
     this.player?.begin(view);
     view.viewport.fit();
     if (!keeps) this.isMoved = false;
     if (keeps && old && (this.isMoved || wasPlan === this.isPlan)) keepView(old, view);
     for (const event of ["tick", "playing"]) clock.on(event, () => this.ask());
-    for (const event of ["choice", "heat", "space", "corridor", "bottleneck"]) choice.on(event, () => this.repaint());
+    for (const event of ["choice", "heat", "space", "corridor", "bottleneck"])
+      choice.on(event, () => this.repaint());
     choice.on("choice", () => this.tell("choice"));
     view.viewport.on("view", () => {
       this.isMoved = !view.viewport.fitted;
@@ -71,7 +80,8 @@ export class Stage extends Observable {
       clock.seek(Math.min(before.tick, clock.end));
       if (before.playing) clock.play();
     }
-    if (keeps && chosen !== undefined) choice.chooseRobot(plan.robots.findIndex(({ name }) => name === chosen));
+    if (keeps && chosen !== undefined)
+      choice.chooseRobot(plan.robots.findIndex(({ name }) => name === chosen));
     this.tell("show");
     this.repaint();
   }
@@ -90,7 +100,10 @@ export class Stage extends Observable {
     canvas.setAttribute("aria-roledescription", texts.mapRole);
     canvas.setAttribute("aria-describedby", "hover");
     this.under = Object.assign(document.createElement("canvas"), { ariaHidden: "true" });
-    this.over = Object.assign(document.createElement("canvas"), { className: "over", ariaHidden: "true" });
+    this.over = Object.assign(document.createElement("canvas"), {
+      className: "over",
+      ariaHidden: "true",
+    });
     this.holder.innerHTML = LEGENDS;
     this.holder.prepend(this.under, canvas, this.over);
     if (hadFocus) canvas.focus();
@@ -142,10 +155,16 @@ export class Stage extends Observable {
 
 /** Let the same place of the site be where it was, as large as it was. */
 function keepView({ viewport: before, roadmap: old }, { viewport, roadmap }) {
-  const isSame = old.width === roadmap.width && old.height === roadmap.height && old.unit === roadmap.unit;
+  const isSame =
+    old.width === roadmap.width && old.height === roadmap.height && old.unit === roadmap.unit;
   if (before.fitted && isSame) return;
   const [x, y] = toDrawing(old, ...roadmap.toSite(0, 0));
   const { left, top, scale } = before;
-  Object.assign(viewport, { left: left + x * scale, top: top + y * scale, scale: (scale * roadmap.unit) / old.unit, fitted: false });
+  Object.assign(viewport, {
+    left: left + x * scale,
+    top: top + y * scale,
+    scale: (scale * roadmap.unit) / old.unit,
+    fitted: false,
+  });
   viewport.canvas.classList.add("zoomed");
 }

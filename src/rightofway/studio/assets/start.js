@@ -9,11 +9,21 @@ const UNITS = { length: "m", time: "s" };
 /** An empty floor. */
 export function newFloor({ width, height, cell, isAdaptive }) {
   const cells = isAdaptive ? { cell_size: "adaptive", smallest: cell } : { cell_size: cell };
-  return { format: FORMAT, map: { floor: { size: [width, height], obstacles: [] }, ...cells }, units: UNITS, robots: [] };
+  return {
+    format: FORMAT,
+    map: { floor: { size: [width, height], obstacles: [] }, ...cells },
+    units: UNITS,
+    robots: [],
+  };
 }
 
 /** A roadmap with one lane, to go on from. */
-const newRoadmap = () => ({ format: FORMAT, map: { roadmap: { vertices: { V1: [0, 0], V2: [4, 0] }, edges: [["V1", "V2"]] }, y: "up" }, units: UNITS, robots: [] });
+const newRoadmap = () => ({
+  format: FORMAT,
+  map: { roadmap: { vertices: { V1: [0, 0], V2: [4, 0] }, edges: [["V1", "V2"]] }, y: "up" },
+  units: UNITS,
+  robots: [],
+});
 
 export function Start({ studio }) {
   const { files, drafts, complaints, about } = studio;
@@ -28,14 +38,24 @@ export function Start({ studio }) {
           <label class="drop-zone">${words.drop}<span class="framed">${words.choose}</span>
             <input type="file" multiple onChange=${(event) => studio.take(event.target.files)} /></label>
           <p class="hint">${words.formats}</p>
-          ${files.length > 0 && html`<h4>${words.inFolder(about.folder)}</h4>
-            <ul class="files">${files.filter(({ kind }) => kind !== "picture").map(({ path, kind }) => html`
-              <li><button type="button" onClick=${() => studio.attempt(() => studio.openFile(path))}><span class="name">${path}</span> <small>${words.kinds[kind] ?? kind}</small></button></li>`)}</ul>`}
+          ${
+            files.length > 0 &&
+            html`<h4>${words.inFolder(about.folder)}</h4>
+            <ul class="files">${files
+              .filter(({ kind }) => kind !== "picture")
+              .map(
+                ({ path, kind }) => html`
+              <li><button type="button" onClick=${() => studio.attempt(() => studio.openFile(path))}><span class="name">${path}</span> <small>${words.kinds[kind] ?? kind}</small></button></li>`,
+              )}</ul>`
+          }
         </section>
-        ${drafts.length > 0 && html`<section aria-labelledby="drafts-title">
+        ${
+          drafts.length > 0 &&
+          html`<section aria-labelledby="drafts-title">
           <h3 id="drafts-title">${words.draftsTitle}</h3>
           <ul class="files">${drafts.slice(0, 12).map(({ name }) => html`<li><button type="button" onClick=${() => studio.openDraft(name)}><span class="name">${name}</span></button></li>`)}</ul>
-        </section>`}
+        </section>`
+        }
       </div>
     </main>`;
 }

@@ -31,7 +31,12 @@ export class Studio extends Observable {
     this.stage = new Stage(elements);
     this.editor = new Editor(this.store, this.stage);
     this.backdrop = new Backdrop(this.store, this.stage);
-    for (const [source, ...events] of [[this.store, "document", "survey", "findings"], [this.runs, "runs"], [this.editor, "editor"], [this.stage, "choice"]]) {
+    for (const [source, ...events] of [
+      [this.store, "document", "survey", "findings"],
+      [this.runs, "runs"],
+      [this.editor, "editor"],
+      [this.stage, "choice"],
+    ]) {
       for (const event of events) source.on(event, () => this.tell("change"));
     }
     this.store.on("survey", () => this.#surveyed());
@@ -107,7 +112,13 @@ export class Studio extends Observable {
       const { document } = await get(`/drafts/${inAddress(name)}`);
       const isFile = this.files.some(({ path }) => path === name);
       const folder = name.includes("/") ? name.slice(0, name.lastIndexOf("/")) : "";
-      this.open({ document, folder, path: /^new /.test(name) ? "" : name, revision: isFile ? null : "", draft: name });
+      this.open({
+        document,
+        folder,
+        path: /^new /.test(name) ? "" : name,
+        revision: isFile ? null : "",
+        draft: name,
+      });
     });
   }
 
@@ -164,7 +175,10 @@ export class Studio extends Observable {
     if (!robot) return;
     this.showTab("robots");
     this.editor.select([{ kind: "robot", id: Number(robot[1]) }]);
-    document.querySelectorAll("table.robots tbody tr")[robot[1]]?.querySelector("[aria-invalid=true], input")?.focus();
+    document
+      .querySelectorAll("table.robots tbody tr")
+      [robot[1]]?.querySelector("[aria-invalid=true], input")
+      ?.focus();
   }
 
   showTab(tab) {
@@ -172,10 +186,13 @@ export class Studio extends Observable {
     const isPlan = tab === "plan" && this.runs.payload;
     this.editor.isOn = !isPlan;
     this.editor.tool.cancel();
-    if (tab === "robots" && this.editor.tool !== this.editor.tools.get("robot")) this.editor.take("robot");
-    if (tab === "map" && this.editor.tool === this.editor.tools.get("robot")) this.editor.take("select");
+    if (tab === "robots" && this.editor.tool !== this.editor.tools.get("robot"))
+      this.editor.take("robot");
+    if (tab === "map" && this.editor.tool === this.editor.tools.get("robot"))
+      this.editor.take("select");
     if (isPlan) this.stage.show(this.runs.payload, { keeps: true });
-    else if (this.store.site && this.stage.isPlan) this.stage.show(this.store.site, { keeps: true });
+    else if (this.store.site && this.stage.isPlan)
+      this.stage.show(this.store.site, { keeps: true });
     this.tell("change");
   }
 
@@ -224,12 +241,19 @@ export class Studio extends Observable {
   /** Light vertices by their names on the map that is shown. */
   light(names) {
     const { plan, choice } = this.stage;
-    choice?.light(names.map((name) => plan.roadmap.vertexNamed(name)).filter((vertex) => vertex >= 0));
+    choice?.light(
+      names.map((name) => plan.roadmap.vertexNamed(name)).filter((vertex) => vertex >= 0),
+    );
   }
 
   #search() {
     const { planner, options, time_limit, seed } = this.settings;
-    return { planner: planner || this.runs.planners.default, options, time_limit: Number(time_limit), seed: Number(seed) };
+    return {
+      planner: planner || this.runs.planners.default,
+      options,
+      time_limit: Number(time_limit),
+      seed: Number(seed),
+    };
   }
 
   #isPlaying = false; // whether the next plan is to be played from its start
@@ -238,11 +262,18 @@ export class Studio extends Observable {
 
   #surveyed() {
     const { store, stage } = this;
-    if (store.site && (this.tab !== "plan" || !this.runs.payload)) stage.show(store.site, { keeps: !this.isFresh });
+    if (store.site && (this.tab !== "plan" || !this.runs.payload))
+      stage.show(store.site, { keeps: !this.isFresh });
     this.isFresh = false;
     const isWanted = this.isLive || this.#isAsked;
     this.#isAsked = false;
-    if (!isWanted || !store.survey.ok || this.#replanned === store.document || this.runs.isOf(store.document)) return;
+    if (
+      !isWanted ||
+      !store.survey.ok ||
+      this.#replanned === store.document ||
+      this.runs.isOf(store.document)
+    )
+      return;
     this.#replanned = store.document;
     this.attempt(() => this.runs.replan(store, this.#search()));
   }

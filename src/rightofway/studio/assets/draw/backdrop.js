@@ -29,9 +29,13 @@ export class Backdrop {
     this.image = await createImageBitmap(file);
     const { viewport, roadmap } = this.stage.view;
     const { clientWidth, clientHeight } = this.stage.canvas;
-    const pixels = Math.max(this.image.width / clientWidth, this.image.height / clientHeight) / FIRST_SHARE;
+    const pixels =
+      Math.max(this.image.width / clientWidth, this.image.height / clientHeight) / FIRST_SHARE;
     const scale = roadmap.unit / viewport.scale / pixels;
-    const corner = [(clientWidth - this.image.width / pixels) / 2, (clientHeight - this.image.height / pixels) / 2];
+    const corner = [
+      (clientWidth - this.image.width / pixels) / 2,
+      (clientHeight - this.image.height / pixels) / 2,
+    ];
     const [left, top] = roadmap.toSite(viewport.toX(corner[0]), viewport.toY(corner[1]));
     this.#put({ file: path, left, top, scale });
   }
@@ -40,7 +44,12 @@ export class Backdrop {
   rescale([one, other], distance) {
     const { left, top, scale, file } = this.place;
     const factor = distance / Math.hypot(other[0] - one[0], other[1] - one[1]);
-    this.#put({ file, left: one[0] + (left - one[0]) * factor, top: one[1] + (top - one[1]) * factor, scale: scale * factor });
+    this.#put({
+      file,
+      left: one[0] + (left - one[0]) * factor,
+      top: one[1] + (top - one[1]) * factor,
+      scale: scale * factor,
+    });
   }
 
   /** Let a place of the site be the origin. */
@@ -133,7 +142,10 @@ export class PickTool {
       const [x, y] = toDrawing(this.editor.roadmap, ...point);
       const reach = 9 / scale;
       context.beginPath();
-      for (const [right, down] of [[1, 0], [0, 1]]) {
+      for (const [right, down] of [
+        [1, 0],
+        [0, 1],
+      ]) {
         context.moveTo(x - right * reach, y - down * reach);
         context.lineTo(x + right * reach, y + down * reach);
       }
@@ -153,18 +165,25 @@ export function BackdropPanel({ studio }) {
   };
   return html`
     <section><h2>${words.backdrop}</h2>
-      ${!backdrop.image ? html`<label class="wide">${words.choosePicture}<input type="file" accept="image/png,image/jpeg,image/bmp"
-        onChange=${({ target }) => studio.attempt(() => backdrop.take(target.files[0]))} /></label>` : html`
+      ${
+        !backdrop.image
+          ? html`<label class="wide">${words.choosePicture}<input type="file" accept="image/png,image/jpeg,image/bmp"
+        onChange=${({ target }) => studio.attempt(() => backdrop.take(target.files[0]))} /></label>`
+          : html`
         <div class="buttons">
           <button type="button" class="framed" onClick=${() => pick(2, setPoints)}>${words.setScale}</button>
           <button type="button" class="framed" onClick=${() => pick(1, ([origin]) => change(() => backdrop.setOrigin(origin)))}>${words.setOrigin}</button>
           <button type="button" class="framed" onClick=${() => change(() => backdrop.remove())}>${words.removePicture}</button>
         </div>
-        ${points && html`<form class="fields" onSubmit=${(event) => {
-          event.preventDefault();
-          change(() => backdrop.rescale(points, distance));
-          setPoints(null);
-        }}><label>${words.distance}<input type="number" required min="0.001" step="any" value=${distance} onInput=${({ target }) => setDistance(Number(target.value))} /></label>
-          <button type="submit" class="framed strong">${words.apply}</button></form>`}`}
+        ${
+          points &&
+          html`<form class="fields" onSubmit=${(event) => {
+            event.preventDefault();
+            change(() => backdrop.rescale(points, distance));
+            setPoints(null);
+          }}><label>${words.distance}<input type="number" required min="0.001" step="any" value=${distance} onInput=${({ target }) => setDistance(Number(target.value))} /></label>
+          <button type="submit" class="framed strong">${words.apply}</button></form>`
+        }`
+      }
     </section>`;
 }

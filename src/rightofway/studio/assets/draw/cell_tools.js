@@ -24,7 +24,8 @@ class CellTool {
   }
 
   drag(point) {
-    if (this.start) this.cells = this.collect(this.editor.ground.cellAt(point.x, point.y), this.cells);
+    if (this.start)
+      this.cells = this.collect(this.editor.ground.cellAt(point.x, point.y), this.cells);
     this.hover(point);
   }
 
@@ -40,7 +41,8 @@ class CellTool {
     this.cells = [];
     const before = editor.document;
     editor.store.change((document) => this.apply(editor.ground, document, cells));
-    if (editor.document !== before) editor.done = (context, scale) => this.#fill(context, boxes, scale, 1);
+    if (editor.document !== before)
+      editor.done = (context, scale) => this.#fill(context, boxes, scale, 1);
   }
 
   cancel() {
@@ -66,7 +68,8 @@ class CellTool {
     const { theme } = this.editor.stage;
     context.globalAlpha = opacity;
     context.fillStyle = this.frees ? theme.floor : theme.wall;
-    for (const [left, top, width, height] of boxes) context.fillRect(left, top, width + 0.5 / scale, height + 0.5 / scale);
+    for (const [left, top, width, height] of boxes)
+      context.fillRect(left, top, width + 0.5 / scale, height + 0.5 / scale);
     context.globalAlpha = 1;
   }
 
@@ -114,6 +117,7 @@ export class DoorTool extends LineTool {
 
   hover(point) {
     super.hover(point);
-    if (this.over && !this.editor.ground.isBlocked(this.editor.document, this.over)) this.over = null;
+    if (this.over && !this.editor.ground.isBlocked(this.editor.document, this.over))
+      this.over = null;
   }
 }

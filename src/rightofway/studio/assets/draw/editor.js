@@ -23,7 +23,19 @@ export class Editor extends Observable {
     this.cursor = null; // of the keyboard, in units of the drawing
     this.isOn = true;
     this.message = "";
-    const tools = [SelectTool, BrushTool, BoxTool, LineTool, DoorTool, EraseTool, VertexTool, LaneTool, MarkTool, RobotTool, PickTool];
+    const tools = [
+      SelectTool,
+      BrushTool,
+      BoxTool,
+      LineTool,
+      DoorTool,
+      EraseTool,
+      VertexTool,
+      LaneTool,
+      MarkTool,
+      RobotTool,
+      PickTool,
+    ];
     this.tools = new Map(tools.map((Tool) => [Tool.called, new Tool(this)]));
     this.tool = this.tools.get("select");
     store.on("survey", () => (this.done = null));
@@ -58,14 +70,16 @@ export class Editor extends Observable {
   /** The tools that fit the map: names, in order. */
   get fitting() {
     const { document } = this;
-    const cells = document.map.grid || document.map.floor ? ["line", "brush", "box", "door", "erase"] : [];
+    const cells =
+      document.map.grid || document.map.floor ? ["line", "brush", "box", "door", "erase"] : [];
     const lanes = isNetwork(document) ? ["vertex", "lane", "mark"] : [];
     return ["select", ...cells, ...lanes, "robot"];
   }
 
   /** What is where, in the document as it is drawn. */
   get hits() {
-    if (this.#hits?.document !== this.document || this.#hits.roadmap !== this.roadmap) this.#hits = new Hits(this.document, this.roadmap);
+    if (this.#hits?.document !== this.document || this.#hits.roadmap !== this.roadmap)
+      this.#hits = new Hits(this.document, this.roadmap);
     return this.#hits;
   }
 
@@ -95,7 +109,10 @@ export class Editor extends Observable {
   select(items) {
     this.selection.set(items);
     const [robot] = this.selection.of("robot");
-    if (this.isReady) this.stage.choice.chooseRobot(this.store.site.robots.findIndex(({ index }) => index === robot));
+    if (this.isReady)
+      this.stage.choice.chooseRobot(
+        this.store.site.robots.findIndex(({ index }) => index === robot),
+      );
     this.changed();
   }
 
@@ -106,25 +123,36 @@ export class Editor extends Observable {
   /** A document that was undone may lack what was selected. */
   #forget() {
     const { robots } = this.document;
-    this.selection.set(this.selection.items.filter(({ kind, id }) => kind !== "robot" || id < (robots?.length ?? 0)));
+    this.selection.set(
+      this.selection.items.filter(({ kind, id }) => kind !== "robot" || id < (robots?.length ?? 0)),
+    );
     this.changed();
   }
 
   #listen(holder) {
-    const on = (name, action) => holder.addEventListener(name, (event) => this.isReady && action(event), true);
+    const on = (name, action) =>
+      holder.addEventListener(name, (event) => this.isReady && action(event), true);
     on("pointerdown", (event) => this.#down(event));
     on("pointermove", (event) => this.#move(event));
     on("pointerup", (event) => this.#up(event));
     on("pointercancel", (event) => this.#drop(event));
     on("keydown", (event) => this.#key(event));
     on("contextmenu", (event) => event.preventDefault());
-    document.addEventListener("keyup", (event) => event.code === "Space" && (this.#panning = false));
+    document.addEventListener(
+      "keyup",
+      (event) => event.code === "Space" && (this.#panning = false),
+    );
   }
 
   #point(event) {
     const { left, top } = this.stage.holder.getBoundingClientRect();
     const { viewport } = this.stage.view;
-    return { x: viewport.toX(event.clientX - left), y: viewport.toY(event.clientY - top), isMore: event.shiftKey, isFree: event.altKey };
+    return {
+      x: viewport.toX(event.clientX - left),
+      y: viewport.toY(event.clientY - top),
+      isMore: event.shiftKey,
+      isFree: event.altKey,
+    };
   }
 
   /** The first button and the first finger draw; the others, and two fingers, move the map. */
@@ -186,7 +214,8 @@ export class Editor extends Observable {
     if (!two) return null;
     const { left, top } = this.stage.holder.getBoundingClientRect();
     return {
-      x: (one.clientX + two.clientX) / 2 - left, y: (one.clientY + two.clientY) / 2 - top,
+      x: (one.clientX + two.clientX) / 2 - left,
+      y: (one.clientY + two.clientY) / 2 - top,
       length: Math.hypot(one.clientX - two.clientX, one.clientY - two.clientY),
     };
   }
@@ -224,14 +253,23 @@ export class Editor extends Observable {
     const { roadmap, stage } = this;
     const side = this.ground?.side ?? 1;
     const step = isFar ? 5 * side : side;
-    if (this.cursor) this.cursor = { x: this.cursor.x + right * step, y: this.cursor.y + down * step };
+    if (this.cursor)
+      this.cursor = { x: this.cursor.x + right * step, y: this.cursor.y + down * step };
     else this.cursor = roadmap.size ? { x: roadmap.x[0], y: roadmap.y[0] } : { x: 0, y: 0 };
     stage.view.viewport.show(this.cursor.x, this.cursor.y);
     if (this.tool.isBusy) this.tool.drag(this.cursor);
     else this.tool.hover(this.cursor);
     const vertex = this.vertexAt(this.cursor);
-    this.say(vertex < 0 ? roadmap.toSite(this.cursor.x, this.cursor.y).map((length) => length.toFixed(2)).join(", ")
-      : [roadmap.label(vertex), roadmap.uses(vertex), ...this.hits.namesAt(vertex)].filter(Boolean).join(", "));
+    this.say(
+      vertex < 0
+        ? roadmap
+            .toSite(this.cursor.x, this.cursor.y)
+            .map((length) => length.toFixed(2))
+            .join(", ")
+        : [roadmap.label(vertex), roadmap.uses(vertex), ...this.hits.namesAt(vertex)]
+            .filter(Boolean)
+            .join(", "),
+    );
   }
 
   #pressAtCursor() {

@@ -63,7 +63,9 @@ class GridGround {
       rows[cell[1]][cell[0]] = character;
       changes++;
     }
-    return changes ? { ...document, map: { ...document.map, grid: rows.map((row) => row.join("")) } } : document;
+    return changes
+      ? { ...document, map: { ...document.map, grid: rows.map((row) => row.join("")) } }
+      : document;
   }
 }
 
@@ -74,7 +76,10 @@ class FloorGround {
     this.step = roadmap.rows ? roadmap.unit : numberOf(smallest, STANDARD_STEP);
     this.side = this.step / roadmap.unit;
     const [width, height] = floor.size.map((length) => numberOf(length));
-    [this.columns, this.rows] = [Math.ceil(width / this.step - 1e-9), Math.ceil(height / this.step - 1e-9)];
+    [this.columns, this.rows] = [
+      Math.ceil(width / this.step - 1e-9),
+      Math.ceil(height / this.step - 1e-9),
+    ];
     this.size = [width, height];
     this.corner = roadmap.rows ? [-0.5, -0.5] : toDrawing(roadmap, ...this.#leftTop());
   }
@@ -84,12 +89,20 @@ class FloorGround {
     const { roadmap } = this;
     const reach = (vertex, sign) => (sign * roadmap.sides[vertex]) / 2;
     const [left, top] = Array.from(roadmap.x.keys()).reduce(
-      ([x, y], vertex) => [Math.min(x, roadmap.x[vertex] - reach(vertex, 1)), Math.min(y, roadmap.y[vertex] - reach(vertex, 1))], [Infinity, Infinity]);
+      ([x, y], vertex) => [
+        Math.min(x, roadmap.x[vertex] - reach(vertex, 1)),
+        Math.min(y, roadmap.y[vertex] - reach(vertex, 1)),
+      ],
+      [Infinity, Infinity],
+    );
     return roadmap.toSite(left, top);
   }
 
   cellAt(x, y) {
-    return [Math.floor((x - this.corner[0]) / this.side), Math.floor((y - this.corner[1]) / this.side)];
+    return [
+      Math.floor((x - this.corner[0]) / this.side),
+      Math.floor((y - this.corner[1]) / this.side),
+    ];
   }
 
   holds([column, row]) {
@@ -98,11 +111,18 @@ class FloorGround {
 
   boxOf([left, top], [right, bottom] = [left, top]) {
     const { corner, side } = this;
-    return [corner[0] + left * side, corner[1] + top * side, (right - left + 1) * side, (bottom - top + 1) * side];
+    return [
+      corner[0] + left * side,
+      corner[1] + top * side,
+      (right - left + 1) * side,
+      (bottom - top + 1) * side,
+    ];
   }
 
   block(document, cells) {
-    const rects = blocksOf(cells.filter((cell) => this.holds(cell))).map(([from, to]) => ({ rect: this.#rectOf(from, to) }));
+    const rects = blocksOf(cells.filter((cell) => this.holds(cell))).map(([from, to]) => ({
+      rect: this.#rectOf(from, to),
+    }));
     const known = document.map.floor.obstacles ?? [];
     const news = rects.filter(({ rect }) => !known.some((other) => covers(other.rect, rect)));
     return news.length ? withObstacles(document, [...known, ...news]) : document;
@@ -121,31 +141,50 @@ class FloorGround {
 
   isBlocked(document, cell) {
     const [x, y, width, height] = this.#rectOf(cell, cell);
-    return (document.map.floor.obstacles ?? []).some(({ rect }) => covers(rect, [x + width / 4, y + height / 4, width / 2, height / 2]));
+    return (document.map.floor.obstacles ?? []).some(({ rect }) =>
+      covers(rect, [x + width / 4, y + height / 4, width / 2, height / 2]),
+    );
   }
 
   /** Cells as a rectangle of the site: the least x and y, width, height. */
   #rectOf(from, to) {
     const [left, top, width, height] = this.boxOf(from, to);
-    const [one, other] = [this.roadmap.toSite(left, top), this.roadmap.toSite(left + width, top + height)];
+    const [one, other] = [
+      this.roadmap.toSite(left, top),
+      this.roadmap.toSite(left + width, top + height),
+    ];
     const [x, y] = [Math.min(one[0], other[0]), Math.min(one[1], other[1])];
     return [x, y, Math.abs(one[0] - other[0]), Math.abs(one[1] - other[1])].map(rounded);
   }
 }
 
-export const withObstacles = (document, obstacles) => ({ ...document, map: { ...document.map, floor: { ...document.map.floor, obstacles } } });
+export const withObstacles = (document, obstacles) => ({
+  ...document,
+  map: { ...document.map, floor: { ...document.map.floor, obstacles } },
+});
 
 /** Whether a rectangle holds another one. */
 function covers(rect, [x, y, width, height]) {
   const [left, top, wide, high] = rect.map((length) => numberOf(length));
-  return x >= left - 1e-9 && y >= top - 1e-9 && x + width <= left + wide + 1e-9 && y + height <= top + high + 1e-9;
+  return (
+    x >= left - 1e-9 &&
+    y >= top - 1e-9 &&
+    x + width <= left + wide + 1e-9 &&
+    y + height <= top + high + 1e-9
+  );
 }
 
 /** What is left of an obstacle round a hole: itself, or up to four pieces. */
 function without(obstacle, [x, y, width, height]) {
   const [left, top, wide, high] = obstacle.rect.map((length) => numberOf(length));
   const [right, bottom] = [left + wide, top + high];
-  if (x >= right - 1e-9 || y >= bottom - 1e-9 || x + width <= left + 1e-9 || y + height <= top + 1e-9) return [obstacle];
+  if (
+    x >= right - 1e-9 ||
+    y >= bottom - 1e-9 ||
+    x + width <= left + 1e-9 ||
+    y + height <= top + 1e-9
+  )
+    return [obstacle];
   const [from, to] = [Math.max(top, y), Math.min(bottom, y + height)];
   const pieces = [
     [left, top, wide, y - top],
@@ -153,21 +192,31 @@ function without(obstacle, [x, y, width, height]) {
     [left, from, x - left, to - from],
     [x + width, from, right - x - width, to - from],
   ];
-  return pieces.filter(([, , w, h]) => w > 1e-9 && h > 1e-9).map((rect) => ({ ...obstacle, rect: rect.map(rounded) }));
+  return pieces
+    .filter(([, , w, h]) => w > 1e-9 && h > 1e-9)
+    .map((rect) => ({ ...obstacle, rect: rect.map(rounded) }));
 }
 
 /** Cells as few blocks: runs in a row, joined with equal runs in the row below. */
 function blocksOf(cells) {
-  const ordered = [...new Map(cells.map((cell) => [cell.join(), cell])).values()].sort(([a, b], [c, d]) => b - d || a - c);
+  const ordered = [...new Map(cells.map((cell) => [cell.join(), cell])).values()].sort(
+    ([a, b], [c, d]) => b - d || a - c,
+  );
   const runs = [];
   for (const [column, row] of ordered) {
     const last = runs.at(-1);
     if (last && last[1][1] === row && last[1][0] === column - 1) last[1] = [column, row];
-    else runs.push([[column, row], [column, row]]);
+    else
+      runs.push([
+        [column, row],
+        [column, row],
+      ]);
   }
   const blocks = [];
   for (const [from, to] of runs) {
-    const above = blocks.find(([top, bottom]) => bottom[1] === from[1] - 1 && top[0] === from[0] && bottom[0] === to[0]);
+    const above = blocks.find(
+      ([top, bottom]) => bottom[1] === from[1] - 1 && top[0] === from[0] && bottom[0] === to[0],
+    );
     if (above) above[1] = to;
     else blocks.push([from, to]);
   }
@@ -194,7 +243,8 @@ export const cellOf = (id) => id.split(",").map(Number);
 export function cellsOfBox([left, top], [right, bottom]) {
   const cells = [];
   for (let row = Math.min(top, bottom); row <= Math.max(top, bottom); row++) {
-    for (let column = Math.min(left, right); column <= Math.max(left, right); column++) cells.push([column, row]);
+    for (let column = Math.min(left, right); column <= Math.max(left, right); column++)
+      cells.push([column, row]);
   }
   return cells;
 }

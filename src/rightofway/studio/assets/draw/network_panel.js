@@ -2,18 +2,32 @@
 
 import { html } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
-import { addZone, asMapping, changeLanes, endsOf, lanesOf, nameStation, removeZone, renameVertex, toggleClosure, toggleUse } from "./network.js";
+import {
+  addZone,
+  asMapping,
+  changeLanes,
+  endsOf,
+  lanesOf,
+  nameStation,
+  removeZone,
+  renameVertex,
+  toggleClosure,
+  toggleUse,
+} from "./network.js";
 
 export function VertexPanel({ studio, name }) {
   const { store } = studio;
   const { stations = {}, parking = [], charging = [] } = store.document.map.roadmap;
   const station = Object.entries(stations).find(([, at]) => at === name)?.[0] ?? "";
   const isClosed = (store.document.closures ?? []).some(({ at }) => at === name);
-  const check = (text, isOn, change) => html`<label class="check"><input type="checkbox" checked=${isOn} onChange=${() => store.change(change)} /> ${text}</label>`;
+  const check = (text, isOn, change) =>
+    html`<label class="check"><input type="checkbox" checked=${isOn} onChange=${() => store.change(change)} /> ${text}</label>`;
   const rename = ({ target }) => {
     const after = target.value.trim();
     store.change((document) => renameVertex(document, name, after));
-    studio.editor.select([{ kind: "vertex", id: after in store.document.map.roadmap.vertices ? after : name }]);
+    studio.editor.select([
+      { kind: "vertex", id: after in store.document.map.roadmap.vertices ? after : name },
+    ]);
   };
   return html`
     <div class="fields">
@@ -31,11 +45,18 @@ export function LanePanel({ studio, lanes }) {
   const known = lanes.filter((index) => all[index]);
   if (!known.length) return null;
   const first = asMapping(all[known[0]]);
-  const isClosed = (store.document.closures ?? []).some(({ edge }) => JSON.stringify(edge) === JSON.stringify(endsOf(first)));
+  const isClosed = (store.document.closures ?? []).some(
+    ({ edge }) => JSON.stringify(edge) === JSON.stringify(endsOf(first)),
+  );
   const set = (key, value) => store.change((document) => changeLanes(document, known, key, value));
   const wrong = known.flatMap((index) => store.faultsAt(`map.roadmap.edges[${index}]`));
   return html`
-    <p class="hint">${known.slice(0, 4).map((index) => endsOf(all[index]).join(asMapping(all[index]).both_ways === false ? " → " : " ↔ ")).join(", ")}</p>
+    <p class="hint">${known
+      .slice(0, 4)
+      .map((index) =>
+        endsOf(all[index]).join(asMapping(all[index]).both_ways === false ? " → " : " ↔ "),
+      )
+      .join(", ")}</p>
     <div class="fields">
       <label class="check"><input type="checkbox" checked=${first.both_ways ?? true} onChange=${({ target }) => set("both_ways", target.checked ? undefined : false)} /> ${words.bothWays}</label>
       <label>${words.maxSpeed}<input type="number" min="0.01" step="any" value=${first.max_speed ?? ""} onChange=${({ target }) => set("max_speed", target.value === "" ? undefined : Number(target.value))} /></label>
@@ -48,11 +69,17 @@ export function ZoneList({ studio }) {
   const { store, editor } = studio;
   const zones = store.document.map.roadmap.zones ?? [];
   const [vertices, lanes] = ["vertex", "lane"].map((kind) => editor.selection.of(kind));
-  const lit = ({ vertices: names = [] }) => editor.select(names.map((id) => ({ kind: "vertex", id })));
+  const lit = ({ vertices: names = [] }) =>
+    editor.select(names.map((id) => ({ kind: "vertex", id })));
   return html`
     <section><h2>${words.zones}</h2>
-      <ul class="rows">${zones.map((zone, index) => html`<li><button type="button" class="link" onClick=${() => lit(zone)}>${zone.name}</button>
-        <button type="button" class="quiet" aria-label=${`${words.remove}: ${zone.name}`} onClick=${() => store.change((document) => removeZone(document, index))}>✕</button></li>`)}</ul>
+      <ul class="rows">${zones.map(
+        (
+          zone,
+          index,
+        ) => html`<li><button type="button" class="link" onClick=${() => lit(zone)}>${zone.name}</button>
+        <button type="button" class="quiet" aria-label=${`${words.remove}: ${zone.name}`} onClick=${() => store.change((document) => removeZone(document, index))}>✕</button></li>`,
+      )}</ul>
       <button type="button" class="framed" disabled=${vertices.length + lanes.length < 1} onClick=${() => store.change((document) => addZone(document, vertices, lanes))}>${words.zoneOfSelected}</button>
     </section>`;
 }

@@ -2,7 +2,14 @@
 
 import { ring } from "../viewer/shapes.js";
 import { words } from "../words.js";
-import { addLane, addVertex, freeVertexName, nameStation, positionOf, toggleUse } from "./network.js";
+import {
+  addLane,
+  addVertex,
+  freeVertexName,
+  nameStation,
+  positionOf,
+  toggleUse,
+} from "./network.js";
 import { radiusAt } from "./overlay.js";
 import { rounded, toDrawing } from "./places.js";
 
@@ -17,8 +24,13 @@ export function snapped(point, editor) {
   const step = 10 ** Math.floor(Math.log10(24 * pixel));
   const known = Object.values(document.map.roadmap.vertices).map(positionOf);
   return there.map((length, axis) => {
-    const near = known.reduce((best, at) => (Math.abs(at[axis] - length) < Math.abs(best - length) ? at[axis] : best), Infinity);
-    return Math.abs(near - length) < ALIGNED * pixel ? near : rounded(Math.round(length / step) * step);
+    const near = known.reduce(
+      (best, at) => (Math.abs(at[axis] - length) < Math.abs(best - length) ? at[axis] : best),
+      Infinity,
+    );
+    return Math.abs(near - length) < ALIGNED * pixel
+      ? near
+      : rounded(Math.round(length / step) * step);
   });
 }
 
@@ -51,7 +63,10 @@ class PointTool {
     const vertex = editor.vertexAt(over);
     context.strokeStyle = theme.ink;
     context.lineWidth = 1.5 / scale;
-    const [x, y] = vertex >= 0 ? [editor.roadmap.x[vertex], editor.roadmap.y[vertex]] : toDrawing(editor.roadmap, ...snapped(over, editor));
+    const [x, y] =
+      vertex >= 0
+        ? [editor.roadmap.x[vertex], editor.roadmap.y[vertex]]
+        : toDrawing(editor.roadmap, ...snapped(over, editor));
     ring(context, x, y, vertex >= 0 ? radiusAt(editor.roadmap, vertex, scale) : 5 / scale);
   }
 }
@@ -143,7 +158,11 @@ export class MarkTool extends PointTool {
     const stations = Object.entries(editor.document.map.roadmap.stations ?? {});
     editor.store.change((document) => {
       if (point.isMore) return toggleUse(document, "parking", name);
-      return nameStation(document, name, stations.some(([, at]) => at === name) ? "" : `S${stations.length + 1}`);
+      return nameStation(
+        document,
+        name,
+        stations.some(([, at]) => at === name) ? "" : `S${stations.length + 1}`,
+      );
     });
     editor.select([{ kind: "vertex", id: name }]);
   }

@@ -13,10 +13,13 @@ export function paintSelection(context, editor, scale) {
   for (const item of selection.items) {
     context.lineWidth = 2 / scale;
     const vertex = hits.vertexOf(item);
-    if (vertex >= 0) ring(context, roadmap.x[vertex], roadmap.y[vertex], radiusAt(roadmap, vertex, scale));
+    if (vertex >= 0)
+      ring(context, roadmap.x[vertex], roadmap.y[vertex], radiusAt(roadmap, vertex, scale));
     else if (item.kind === "cell") context.strokeRect(...hits.ground.boxOf(cellOf(item.id)));
-    else if (item.kind === "obstacle" && hits.obstacles[item.id]) context.strokeRect(...hits.obstacles[item.id]);
-    else if (item.kind === "lane" && hits.lanes[item.id]) band(context, roadmap, hits.lanes[item.id], 5 / scale);
+    else if (item.kind === "obstacle" && hits.obstacles[item.id])
+      context.strokeRect(...hits.obstacles[item.id]);
+    else if (item.kind === "lane" && hits.lanes[item.id])
+      band(context, roadmap, hits.lanes[item.id], 5 / scale);
     if (item.kind === "robot" && vertex >= 0) route(context, roadmap, hits.robots[item.id], scale);
   }
 }
@@ -28,7 +31,7 @@ export function paintFaults(context, { store, hits, roadmap, stage }, scale) {
     const robot = /^robots\[(\d+)\]/.exec(place);
     if (robot && hits.robots[robot[1]]) {
       const { home, stops } = hits.robots[robot[1]];
-      signs.push([home >= 0 ? home : stops.find((stop) => stop >= 0) ?? -1, "fault"]);
+      signs.push([home >= 0 ? home : (stops.find((stop) => stop >= 0) ?? -1), "fault"]);
     }
     const lane = /^map\.roadmap\.edges\[(\d+)\]/.exec(place);
     context.strokeStyle = stage.theme.held;
@@ -38,7 +41,8 @@ export function paintFaults(context, { store, hits, roadmap, stage }, scale) {
     if (box && hits.obstacles[box[1]]) context.strokeRect(...hits.obstacles[box[1]]);
   }
   for (const { severity, vertices } of store.survey.findings) {
-    if (SIGNS[severity]) signs.push(...vertices.slice(0, 4).map((name) => [roadmap.vertexNamed(name), severity]));
+    if (SIGNS[severity])
+      signs.push(...vertices.slice(0, 4).map((name) => [roadmap.vertexNamed(name), severity]));
   }
   const marked = new Set();
   for (const [vertex, kind] of signs.slice(0, MOST_SIGNS)) {

@@ -19,7 +19,8 @@ export function toDrawing({ frame, unit }, right, up) {
 }
 
 /** Whether places are written as points: where cells come from lengths, and may become others. */
-const isByPoint = ({ map }) => Boolean(map.floor) || (Boolean(map.layout) && map.cell_size !== undefined);
+const isByPoint = ({ map }) =>
+  Boolean(map.floor) || (Boolean(map.layout) && map.cell_size !== undefined);
 
 /** A vertex of the map as the document names it. */
 export function placeOf(vertex, roadmap, document) {
@@ -32,7 +33,8 @@ export function placeOf(vertex, roadmap, document) {
 export function vertexOf(place, roadmap) {
   if (place === undefined || place === null) return -1;
   if (Array.isArray(place)) return roadmap.near(place[1], place[0]);
-  if (typeof place === "object") return roadmap.near(...toDrawing(roadmap, numberOf(place.x), numberOf(place.y)));
+  if (typeof place === "object")
+    return roadmap.near(...toDrawing(roadmap, numberOf(place.x), numberOf(place.y)));
   const named = roadmap.vertexNamed(String(place));
   if (named >= 0) return named;
   for (const [vertex, names] of roadmap.stations) if (names.includes(String(place))) return vertex;

@@ -15,7 +15,8 @@ export function Rail({ studio }) {
     const buttons = [...event.currentTarget.querySelectorAll("button")];
     buttons[(buttons.indexOf(event.target) + step + buttons.length) % buttons.length].focus();
   };
-  const press = (name, text, key, action) => html`<button type="button" aria-label=${text} title=${`${text} (${key})`} onClick=${action}><${Icon} name=${name} /></button>`;
+  const press = (name, text, key, action) =>
+    html`<button type="button" aria-label=${text} title=${`${text} (${key})`} onClick=${action}><${Icon} name=${name} /></button>`;
   return html`
     <div class="rail" role="toolbar" aria-label=${words.toolbar} aria-orientation="vertical" onKeyDown=${move}>
       ${fitting.map((name) => {

@@ -1,9 +1,28 @@
 /** Select, move, copy and delete what is on the map: one thing, several with Shift, all in a box. */
 
-import { addRobots, changeRobots, removeRobots, robotsOf, stopsOf, withStops } from "../robots/fleet.js";
+import {
+  addRobots,
+  changeRobots,
+  removeRobots,
+  robotsOf,
+  stopsOf,
+  withStops,
+} from "../robots/fleet.js";
 import { words } from "../words.js";
 import { cellOf, withObstacles } from "./ground.js";
-import { addLane, addVertex, asMapping, endsOf, freeVertexName, isNetwork, lanesOf, moveVertices, positionOf, removeLanes, removeVertices } from "./network.js";
+import {
+  addLane,
+  addVertex,
+  asMapping,
+  endsOf,
+  freeVertexName,
+  isNetwork,
+  lanesOf,
+  moveVertices,
+  positionOf,
+  removeLanes,
+  removeVertices,
+} from "./network.js";
 import { snapped } from "./network_tools.js";
 import { numberOf, placeOf, rounded, vertexOf } from "./places.js";
 
@@ -36,7 +55,8 @@ export class SelectTool {
   drag(point) {
     this.now = point;
     const { scale } = this.editor.stage.view.viewport;
-    if (Math.hypot(point.x - this.start.x, point.y - this.start.y) * scale > STILL) this.isMoving = true;
+    if (Math.hypot(point.x - this.start.x, point.y - this.start.y) * scale > STILL)
+      this.isMoving = true;
   }
 
   hover() {}
@@ -46,7 +66,11 @@ export class SelectTool {
     this.now = point;
     const { editor, hit, isMoving } = this;
     const moved = this.#box();
-    if (!hit && isMoving) editor.select([...(point.isMore ? editor.selection.items : []), ...editor.hits.inside(moved)]);
+    if (!hit && isMoving)
+      editor.select([
+        ...(point.isMore ? editor.selection.items : []),
+        ...editor.hits.inside(moved),
+      ]);
     else if (!hit && !point.isMore) editor.select([]);
     else if (hit && isMoving) this.#move();
     this.cancel();
@@ -61,7 +85,13 @@ export class SelectTool {
     const { editor } = this;
     const { selection } = editor;
     if (!selection.size) return;
-    const [robots, stops, vertices, lanes, obstacles] = ["robot", "stop", "vertex", "lane", "obstacle"].map((kind) => selection.of(kind));
+    const [robots, stops, vertices, lanes, obstacles] = [
+      "robot",
+      "stop",
+      "vertex",
+      "lane",
+      "obstacle",
+    ].map((kind) => selection.of(kind));
     const cells = selection.of("cell").map(cellOf);
     selection.clear();
     editor.store.change((document) => {
@@ -71,7 +101,11 @@ export class SelectTool {
       if (lanes.length) next = removeLanes(next, lanes);
       if (vertices.length) next = removeVertices(next, vertices);
       if (cells.length) next = editor.ground.free(next, cells);
-      if (obstacles.length) next = withObstacles(next, next.map.floor.obstacles.filter((_, index) => !obstacles.includes(index)));
+      if (obstacles.length)
+        next = withObstacles(
+          next,
+          next.map.floor.obstacles.filter((_, index) => !obstacles.includes(index)),
+        );
       return next;
     });
     editor.select([]);
@@ -89,9 +123,15 @@ export class SelectTool {
         const side = (editor.ground?.side ?? 1) * roadmap.unit;
         const [x, y, ...size] = obstacles[index].rect.map((length) => numberOf(length));
         copies.push({ kind: "obstacle", id: next.map.floor.obstacles.length });
-        next = withObstacles(next, [...next.map.floor.obstacles, { ...obstacles[index], rect: [rounded(x + side), rounded(y + side), ...size] }]);
+        next = withObstacles(next, [
+          ...next.map.floor.obstacles,
+          { ...obstacles[index], rect: [rounded(x + side), rounded(y + side), ...size] },
+        ]);
       }
-      const cells = selection.of("cell").map(cellOf).map(([column, row]) => [column + 1, row + 1]);
+      const cells = selection
+        .of("cell")
+        .map(cellOf)
+        .map(([column, row]) => [column + 1, row + 1]);
       if (cells.length) next = editor.ground.block(next, cells);
       copies.push(...cells.map((cell) => ({ kind: "cell", id: cell.join() })));
       for (const index of selection.of("robot")) {
@@ -101,7 +141,9 @@ export class SelectTool {
         copies.push({ kind: "robot", id: robotsOf(next).length });
         next = addRobots(next, [{ ...rest, home: placeOf(home, roadmap, next) }]);
       }
-      return selection.of("vertex").length && isNetwork(next) ? this.#copyVertices(next, copies) : next;
+      return selection.of("vertex").length && isNetwork(next)
+        ? this.#copyVertices(next, copies)
+        : next;
     });
     editor.select(copies);
   }
@@ -116,7 +158,11 @@ export class SelectTool {
       const copy = freeVertexName(next);
       names.set(name, copy);
       copies.push({ kind: "vertex", id: copy });
-      next = addVertex(next, copy, roadmap.toSite(roadmap.x[vertex] + 0.5, roadmap.y[vertex] + 0.5));
+      next = addVertex(
+        next,
+        copy,
+        roadmap.toSite(roadmap.x[vertex] + 0.5, roadmap.y[vertex] + 0.5),
+      );
     }
     for (const lane of lanesOf(document)) {
       const [from, to] = endsOf(lane).map((end) => names.get(end));
@@ -140,11 +186,16 @@ export class SelectTool {
   #move() {
     const { editor, start, now } = this;
     const { selection, roadmap } = editor;
-    const [robots, stops, vertices, obstacles] = ["robot", "stop", "vertex", "obstacle"].map((kind) => selection.of(kind));
+    const [robots, stops, vertices, obstacles] = ["robot", "stop", "vertex", "obstacle"].map(
+      (kind) => selection.of(kind),
+    );
     const shift = [now.x - start.x, now.y - start.y];
     const lost = [];
     const moved = (vertex) => {
-      const at = editor.vertexAt({ x: roadmap.x[vertex] + shift[0], y: roadmap.y[vertex] + shift[1] });
+      const at = editor.vertexAt({
+        x: roadmap.x[vertex] + shift[0],
+        y: roadmap.y[vertex] + shift[1],
+      });
       if (at < 0) lost.push(vertex);
       return at;
     };
@@ -161,7 +212,13 @@ export class SelectTool {
         const at = moved(editor.hits.robots[index].stops[number]);
         if (at < 0) continue;
         next = changeRobots(next, [index], (robot) =>
-          withStops(robot, stopsOf(robot).map((stop, i) => (i === number ? { ...stop, at: placeOf(at, roadmap, document) } : stop))));
+          withStops(
+            robot,
+            stopsOf(robot).map((stop, i) =>
+              i === number ? { ...stop, at: placeOf(at, roadmap, document) } : stop,
+            ),
+          ),
+        );
       }
       if (vertices.length) next = moveVertices(next, vertices, this.#siteShift());
       if (obstacles.length) next = this.#moveObstacles(next, obstacles, shift);
@@ -178,8 +235,13 @@ export class SelectTool {
     const [right, down] = shift.map(Math.round);
     if (!cells.length || !(right || down)) return;
     const there = cells.map(([column, row]) => [column + right, row + down]);
-    editor.store.change((document) => editor.ground.block(editor.ground.free(document, cells), there));
-    editor.select([...editor.selection.items.filter(({ kind }) => kind !== "cell"), ...there.map((cell) => ({ kind: "cell", id: cell.join() }))]);
+    editor.store.change((document) =>
+      editor.ground.block(editor.ground.free(document, cells), there),
+    );
+    editor.select([
+      ...editor.selection.items.filter(({ kind }) => kind !== "cell"),
+      ...there.map((cell) => ({ kind: "cell", id: cell.join() })),
+    ]);
   }
 
   /** How far vertices go on the site, so that the one that was pressed lies in line, or at a round length. */
@@ -187,25 +249,37 @@ export class SelectTool {
     const { editor, hit, start, now } = this;
     const { roadmap, document } = editor;
     const isVertex = hit.kind === "vertex";
-    const from = isVertex ? positionOf(document.map.roadmap.vertices[hit.id]) : roadmap.toSite(start.x, start.y);
+    const from = isVertex
+      ? positionOf(document.map.roadmap.vertices[hit.id])
+      : roadmap.toSite(start.x, start.y);
     const to = isVertex ? snapped(now, editor) : roadmap.toSite(now.x, now.y);
     return [to[0] - from[0], to[1] - from[1]];
   }
 
   #moveObstacles(document, chosen, [right, down]) {
     const { roadmap, ground } = this.editor;
-    const [x, y] = [right, down].map((length) => Math.round(length / ground.side) * ground.side * roadmap.unit);
+    const [x, y] = [right, down].map(
+      (length) => Math.round(length / ground.side) * ground.side * roadmap.unit,
+    );
     const up = roadmap.frame.yUp ? -y : y;
-    return withObstacles(document, document.map.floor.obstacles.map((each, index) => {
-      if (!chosen.includes(index)) return each;
-      const [left, top, ...size] = each.rect.map((length) => numberOf(length));
-      return { ...each, rect: [rounded(left + x), rounded(top + up), ...size] };
-    }));
+    return withObstacles(
+      document,
+      document.map.floor.obstacles.map((each, index) => {
+        if (!chosen.includes(index)) return each;
+        const [left, top, ...size] = each.rect.map((length) => numberOf(length));
+        return { ...each, rect: [rounded(left + x), rounded(top + up), ...size] };
+      }),
+    );
   }
 
   #box() {
     const { start, now } = this;
-    return [Math.min(start.x, now.x), Math.min(start.y, now.y), Math.max(start.x, now.x), Math.max(start.y, now.y)];
+    return [
+      Math.min(start.x, now.x),
+      Math.min(start.y, now.y),
+      Math.max(start.x, now.x),
+      Math.max(start.y, now.y),
+    ];
   }
 
   paint(context, theme, scale) {
@@ -221,7 +295,12 @@ export class SelectTool {
       const [right, down] = [this.now.x - this.start.x, this.now.y - this.start.y];
       for (const item of editor.selection.items) {
         const vertex = editor.hits.vertexOf(item);
-        const [x, y, wide, high] = item.kind === "cell" ? editor.ground.boxOf(cellOf(item.id)) : item.kind === "obstacle" ? editor.hits.obstacles[item.id] : [editor.roadmap.x[vertex] - 0.4, editor.roadmap.y[vertex] - 0.4, 0.8, 0.8];
+        const [x, y, wide, high] =
+          item.kind === "cell"
+            ? editor.ground.boxOf(cellOf(item.id))
+            : item.kind === "obstacle"
+              ? editor.hits.obstacles[item.id]
+              : [editor.roadmap.x[vertex] - 0.4, editor.roadmap.y[vertex] - 0.4, 0.8, 0.8];
         context.strokeRect(x + right, y + down, wide, high);
       }
     }
@@ -237,6 +316,13 @@ function withoutStops(document, ids) {
     gone.set(index, [...(gone.get(index) ?? []), number]);
   }
   const changed = changeRobots(document, [...gone.keys()], (robot, index) =>
-    withStops(robot, stopsOf(robot).filter((_, number) => !gone.get(index).includes(number))));
-  return removeRobots(changed, [...gone.keys()].filter((index) => !stopsOf(changed.robots[index]).length));
+    withStops(
+      robot,
+      stopsOf(robot).filter((_, number) => !gone.get(index).includes(number)),
+    ),
+  );
+  return removeRobots(
+    changed,
+    [...gone.keys()].filter((index) => !stopsOf(changed.robots[index]).length),
+  );
 }

@@ -12,11 +12,15 @@ function written(text) {
 
 /** Stops as `textOfStops` writes them: "N6 (3); N8". */
 function stopsOfText(text) {
-  return text.split(";").map((part) => part.trim()).filter(Boolean).map((part) => {
-    const found = /^(.*?)\s*\(([^()]*)\)$/.exec(part);
-    const at = placeOfText(found ? found[1] : part);
-    return found ? { at, work: written(found[2]) } : { at };
-  });
+  return text
+    .split(";")
+    .map((part) => part.trim())
+    .filter(Boolean)
+    .map((part) => {
+      const found = /^(.*?)\s*\(([^()]*)\)$/.exec(part);
+      const at = placeOfText(found ? found[1] : part);
+      return found ? { at, work: written(found[2]) } : { at };
+    });
 }
 
 /** The work at all stops; empty where they differ. */
@@ -33,15 +37,46 @@ const number = (key) => ({
 });
 
 export const COLUMNS = [
-  { key: "name", text: ({ name }) => name ?? "", set: (robot, text) => ({ ...robot, name: text.trim() }) },
-  { key: "home", text: ({ home }) => textOfPlace(home), set: (robot, text) => withKey(robot, "home", placeOfText(text)) },
-  { key: "stops", text: (robot) => (new Set(stopsOf(robot).map(({ work }) => work)).size > 1 ? textOfStops(robot) : stopsOf(robot).map(({ at }) => textOfPlace(at)).join("; ")),
+  {
+    key: "name",
+    text: ({ name }) => name ?? "",
+    set: (robot, text) => ({ ...robot, name: text.trim() }),
+  },
+  {
+    key: "home",
+    text: ({ home }) => textOfPlace(home),
+    set: (robot, text) => withKey(robot, "home", placeOfText(text)),
+  },
+  {
+    key: "stops",
+    text: (robot) =>
+      new Set(stopsOf(robot).map(({ work }) => work)).size > 1
+        ? textOfStops(robot)
+        : stopsOf(robot)
+            .map(({ at }) => textOfPlace(at))
+            .join("; "),
     set: (robot, text) => {
       const usual = stopsOf(robot)[0]?.work;
-      return withStops(robot, stopsOfText(text).map((stop) => ("work" in stop || usual === undefined ? stop : { ...stop, work: usual })));
-    } },
-  { key: "work", text: textOfWork, value: (robot) => numberOf(textOfWork(robot), -1),
-    set: (robot, text) => withStops(robot, stopsOf(robot).map(({ at }) => (written(text) === undefined ? { at } : { at, work: written(text) }))) },
+      return withStops(
+        robot,
+        stopsOfText(text).map((stop) =>
+          "work" in stop || usual === undefined ? stop : { ...stop, work: usual },
+        ),
+      );
+    },
+  },
+  {
+    key: "work",
+    text: textOfWork,
+    value: (robot) => numberOf(textOfWork(robot), -1),
+    set: (robot, text) =>
+      withStops(
+        robot,
+        stopsOf(robot).map(({ at }) =>
+          written(text) === undefined ? { at } : { at, work: written(text) },
+        ),
+      ),
+  },
   number("speed"),
   number("radius"),
   number("turn"),

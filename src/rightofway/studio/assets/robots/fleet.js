@@ -40,12 +40,18 @@ export function addRobots(document, news) {
 /** Change some robots by a function of robot and index. */
 export function changeRobots(document, indices, change) {
   const chosen = new Set(indices);
-  return withRobots(document, robotsOf(document).map((robot, index) => (chosen.has(index) ? change(robot, index) : robot)));
+  return withRobots(
+    document,
+    robotsOf(document).map((robot, index) => (chosen.has(index) ? change(robot, index) : robot)),
+  );
 }
 
 export function removeRobots(document, indices) {
   const chosen = new Set(indices);
-  return withRobots(document, robotsOf(document).filter((_, index) => !chosen.has(index)));
+  return withRobots(
+    document,
+    robotsOf(document).filter((_, index) => !chosen.has(index)),
+  );
 }
 
 /** Set a key of a robot; undefined takes it away. */
@@ -58,7 +64,10 @@ export function withKey(robot, key, value) {
 export function sortRobots(document, valueOf, isDown) {
   const order = robotsOf(document).map((robot, index) => [valueOf(robot), index, robot]);
   order.sort(([a, i], [b, j]) => (isDown ? -1 : 1) * compared(a, b) || i - j);
-  return withRobots(document, order.map(([, , robot]) => robot));
+  return withRobots(
+    document,
+    order.map(([, , robot]) => robot),
+  );
 }
 
 function compared(one, other) {
@@ -67,8 +76,11 @@ function compared(one, other) {
 }
 
 /** Robots as text for a spreadsheet; `columns` have `key` and `text`. */
-export const tableText = (robots, columns) => robots.map((robot) => columns.map(({ text }) => text(robot)).join("\t")).join("\n");
+export const tableText = (robots, columns) =>
+  robots.map((robot) => columns.map(({ text }) => text(robot)).join("\t")).join("\n");
 
 /** Stops as one cell of a table: "N6 (3); N8". */
-export const textOfStops = (robot) => stopsOf(robot)
-  .map(({ at, work }) => (work === undefined ? textOfPlace(at) : `${textOfPlace(at)} (${work})`)).join("; ");
+export const textOfStops = (robot) =>
+  stopsOf(robot)
+    .map(({ at, work }) => (work === undefined ? textOfPlace(at) : `${textOfPlace(at)} (${work})`))
+    .join("; ");

@@ -18,7 +18,11 @@ export function RobotPanel({ studio }) {
     return html`<div class="scroll"><div class="aside"><p>${words.robotsElsewhere}</p><button type="button" class="framed" disabled=${!store.survey.ok} onClick=${() => studio.inline()}>${words.writeHere}</button></div></div>`;
   }
   const faults = store.faults.filter(({ place }) => place.startsWith("robots"));
-  const faultOf = (row, key) => faults.filter(({ place }) => place.startsWith(`robots[${row}]`) && columnOf(place) === key).map(({ message }) => message).join(" ");
+  const faultOf = (row, key) =>
+    faults
+      .filter(({ place }) => place.startsWith(`robots[${row}]`) && columnOf(place) === key)
+      .map(({ message }) => message)
+      .join(" ");
   const sort = (column) => {
     const isDown = sorted.key === column.key && !sorted.isDown;
     setSorted({ key: column.key, isDown });
@@ -29,7 +33,11 @@ export function RobotPanel({ studio }) {
     store.change((document) => changeRobots(document, [row], (robot) => column.set(robot, text)));
   };
   const paste = (event, row, at) => {
-    const rows = event.clipboardData.getData("text").replace(/\r?\n$/, "").split(/\r?\n/).map((line) => line.split("\t"));
+    const rows = event.clipboardData
+      .getData("text")
+      .replace(/\r?\n$/, "")
+      .split(/\r?\n/)
+      .map((line) => line.split("\t"));
     if (rows.length === 1 && rows[0].length === 1) return;
     event.preventDefault();
     store.change((document) => pasted(document, rows, row, at));
@@ -54,11 +62,18 @@ export function RobotPanel({ studio }) {
         <button type="button" class="framed" disabled=${!robots.length} onClick=${() => navigator.clipboard.writeText(tableText(robots, COLUMNS))}>${words.copyTable}</button>
       </div>
       ${faults.length > 0 && html`<p class="wrong" role="alert">${faults[0].named || faults[0].place}: ${faults[0].message}</p>`}
-      ${robots.length > 0 ? html`
+      ${
+        robots.length > 0
+          ? html`
         <div class="sheet"><table class="robots">
-          <thead><tr>${COLUMNS.map((column) => html`<th scope="col" aria-sort=${sorted.key === column.key ? (sorted.isDown ? "descending" : "ascending") : "none"}>
-            <button type="button" title=${words.columns[column.key][1]} onClick=${() => sort(column)}>${words.columns[column.key][0]}</button></th>`)}<th><span class="unseen">${words.remove}</span></th></tr></thead>
-          <tbody onKeyDown=${moveInTable}>${robots.slice(0, shown).map((robot, row) => html`
+          <thead><tr>${COLUMNS.map(
+            (
+              column,
+            ) => html`<th scope="col" aria-sort=${sorted.key === column.key ? (sorted.isDown ? "descending" : "ascending") : "none"}>
+            <button type="button" title=${words.columns[column.key][1]} onClick=${() => sort(column)}>${words.columns[column.key][0]}</button></th>`,
+          )}<th><span class="unseen">${words.remove}</span></th></tr></thead>
+          <tbody onKeyDown=${moveInTable}>${robots.slice(0, shown).map(
+            (robot, row) => html`
             <tr key=${row} aria-selected=${String(editor.selection.has({ kind: "robot", id: row }))} onClick=${(event) => select(row, event)}>
               ${COLUMNS.map((column, at) => {
                 const fault = faultOf(row, column.key);
@@ -69,10 +84,12 @@ export function RobotPanel({ studio }) {
                   }} onChange=${(event) => write(row, column, event.target.value)} onPaste=${(event) => paste(event, row, at)} /></td>`;
               })}
               <td><button type="button" class="quiet" aria-label=${`${words.remove} ${robot.name}`} onClick=${() => store.change((document) => removeRobots(document, [row]))}>✕</button></td>
-            </tr>`)}</tbody>
+            </tr>`,
+          )}</tbody>
         </table></div>
         ${robots.length > shown && html`<button type="button" class="framed" onClick=${() => setShown(shown + MOST_ROWS)}>${words.moreRows(robots.length - shown)}</button>`}`
-        : html`<p class="hint">${words.noRobots}</p>`}
+          : html`<p class="hint">${words.noRobots}</p>`
+      }
       <label class="wide paste">${words.pasteTable}<textarea rows="1" aria-label=${words.pasteTable} onPaste=${(event) => paste(event, robots.length, 0)}></textarea></label>
       <${RandomFleet} studio=${studio} />
     </div>
@@ -83,13 +100,27 @@ export function RobotPanel({ studio }) {
 function pasted(document, rows, row, at) {
   const heads = rows[0].map((text) => text.trim().toLowerCase());
   const keys = heads.map((head) => (head === "target" ? "stops" : head));
-  const isHead = keys.filter((key) => COLUMNS.some((column) => column.key === key)).length > rows[0].length / 2;
-  const columns = isHead ? keys.map((key) => COLUMNS.find((column) => column.key === key)) : COLUMNS.slice(at);
+  const isHead =
+    keys.filter((key) => COLUMNS.some((column) => column.key === key)).length > rows[0].length / 2;
+  const columns = isHead
+    ? keys.map((key) => COLUMNS.find((column) => column.key === key))
+    : COLUMNS.slice(at);
   const lines = isHead ? rows.slice(1) : rows;
   const missing = row + lines.length - robotsOf(document).length;
-  const next = missing > 0 ? addRobots(document, Array.from({ length: missing }, () => ({}))) : document;
-  const written = (robot, texts) => texts.reduce((done, text, i) => (columns[i] ? columns[i].set(done, text) : done), robot);
-  return changeRobots(next, lines.map((_, i) => row + i), (robot, index) => written(robot, lines[index - row]));
+  const next =
+    missing > 0
+      ? addRobots(
+          document,
+          Array.from({ length: missing }, () => ({})),
+        )
+      : document;
+  const written = (robot, texts) =>
+    texts.reduce((done, text, i) => (columns[i] ? columns[i].set(done, text) : done), robot);
+  return changeRobots(
+    next,
+    lines.map((_, i) => row + i),
+    (robot, index) => written(robot, lines[index - row]),
+  );
 }
 
 /** Enter and the arrow keys go up and down in a column, as in a spreadsheet. */

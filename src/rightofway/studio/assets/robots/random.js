@@ -11,17 +11,35 @@ async function deal({ store, editor }, { count, seed, work, speed }) {
   const { document, folder } = store;
   const { roadmap } = editor;
   const taken = new Set(robotsOf(document).map(({ home }) => vertexOf(home, roadmap)));
-  const request = { document, folder, robots: count + taken.size, seed, speeds: [speed], work: [work, work] };
+  const request = {
+    document,
+    folder,
+    robots: count + taken.size,
+    seed,
+    speeds: [speed],
+    work: [work, work],
+  };
   const place = (name) => placeOf(roadmap.vertexNamed(name), roadmap, document);
   const { robots } = await post("/deal", request);
-  const news = robots.filter(({ home }) => !taken.has(roadmap.vertexNamed(home))).slice(0, count)
-    .map(({ home, target, ...rest }) => ({ home: place(home), target: place(target), work: rest.work, speed: rest.speed }));
+  const news = robots
+    .filter(({ home }) => !taken.has(roadmap.vertexNamed(home)))
+    .slice(0, count)
+    .map(({ home, target, ...rest }) => ({
+      home: place(home),
+      target: place(target),
+      work: rest.work,
+      speed: rest.speed,
+    }));
   store.change((now) => (now === document ? addRobots(now, news) : now));
 }
 
 export function RandomFleet({ studio }) {
   const [wanted, setWanted] = useState({ count: 5, seed: 1, work: 5, speed: 1 });
-  const number = (key, least, step) => html`<label>${words.random[key]}<input type="number" required min=${least} step=${step} value=${wanted[key]}
+  const number = (
+    key,
+    least,
+    step,
+  ) => html`<label>${words.random[key]}<input type="number" required min=${least} step=${step} value=${wanted[key]}
     onInput=${({ target }) => setWanted({ ...wanted, [key]: Number(target.value) })} /></label>`;
   const submit = (event) => {
     event.preventDefault();

@@ -39,7 +39,8 @@ export class RobotTool {
     if (vertex < 0) return editor.say(words.noVertexHere);
     if (!robotsOf(editor.document)) return editor.say(words.robotsElsewhere);
     if (this.home < 0) {
-      if (editor.hits.robots.some(({ home }) => home === vertex)) return editor.say(words.homeTaken);
+      if (editor.hits.robots.some(({ home }) => home === vertex))
+        return editor.say(words.homeTaken);
       this.home = vertex;
       return editor.say(words.pressStop);
     }
@@ -53,9 +54,13 @@ export class RobotTool {
     const place = (vertex) => placeOf(vertex, editor.roadmap, editor.document);
     const at = robotsOf(editor.document).length;
     const { work } = robotsOf(editor.document).at(-1) ?? { work: USUAL_WORK };
-    const trip = stops.map((stop) => (work === undefined ? { at: place(stop) } : { at: place(stop), work }));
+    const trip = stops.map((stop) =>
+      work === undefined ? { at: place(stop) } : { at: place(stop), work },
+    );
     this.cancel();
-    editor.store.change((document) => addRobots(document, [withStops({ home: place(home) }, trip)]));
+    editor.store.change((document) =>
+      addRobots(document, [withStops({ home: place(home) }, trip)]),
+    );
     editor.select([{ kind: "robot", id: at }]);
     editor.say(words.pressHome);
   }

@@ -17,13 +17,21 @@ export function Ask({ studio }) {
   const isWrong = ({ key }) => faults.some(({ place }) => columnOf(place) === key);
   const write = (column, text) => {
     if (column.text(robots[index]) === text) return;
-    studio.whatIf((document) => changeRobots(document, [index], (robot) => column.set(robot, text)));
+    studio.whatIf((document) =>
+      changeRobots(document, [index], (robot) => column.set(robot, text)),
+    );
   };
   return html`
     <section class="ask" aria-labelledby="ask-title"><h2 id="ask-title">${index < 0 ? words.whatIf : words.whatIfOf(name)}</h2>
-      ${index < 0 ? html`<p class="hint">${words.chooseRobot}</p>` : html`<div class="fields">${ASKED.map((column) => html`
+      ${
+        index < 0
+          ? html`<p class="hint">${words.chooseRobot}</p>`
+          : html`<div class="fields">${ASKED.map(
+              (column) => html`
         <label title=${words.columns[column.key][1]}>${words.columns[column.key][0]}<input key=${`${name} ${column.key}`} value=${column.text(robots[index])} placeholder=${words.columns[column.key][2] ?? ""}
-          spellcheck="false" aria-invalid=${String(isWrong(column))} onChange=${({ target }) => write(column, target.value)} /></label>`)}</div>`}
+          spellcheck="false" aria-invalid=${String(isWrong(column))} onChange=${({ target }) => write(column, target.value)} /></label>`,
+            )}</div>`
+      }
       ${faults.map(({ named, place, message }) => html`<p class="wrong" role="alert">${named || place}: ${message}</p>`)}
       <${Close} studio=${studio} />
     </section>`;
@@ -38,16 +46,23 @@ function Close({ studio }) {
     event.preventDefault();
     const [one, other] = [at, to].map((text) => text.trim());
     if (!one) return;
-    const closure = other ? { edge: [placeOfText(one), placeOfText(other)] } : { at: placeOfText(one) };
-    studio.whatIf((document) => ({ ...document, closures: [...(document.closures ?? []), closure] }));
+    const closure = other
+      ? { edge: [placeOfText(one), placeOfText(other)] }
+      : { at: placeOfText(one) };
+    studio.whatIf((document) => ({
+      ...document,
+      closures: [...(document.closures ?? []), closure],
+    }));
     setAt("");
     setTo("");
   };
-  const open = (index) => studio.whatIf(({ closures, ...rest }) => {
-    const left = closures.filter((_, i) => i !== index);
-    return left.length ? { ...rest, closures: left } : rest;
-  });
-  const text = ({ at: place, edge }) => (edge ?? [place]).map((end) => (Array.isArray(end) ? end.join(", ") : String(end))).join(" – ");
+  const open = (index) =>
+    studio.whatIf(({ closures, ...rest }) => {
+      const left = closures.filter((_, i) => i !== index);
+      return left.length ? { ...rest, closures: left } : rest;
+    });
+  const text = ({ at: place, edge }) =>
+    (edge ?? [place]).map((end) => (Array.isArray(end) ? end.join(", ") : String(end))).join(" – ");
   return html`
     <form class="close-place" onSubmit=${close}>
       <label>${words.closePlace}<input id="close-at" value=${at} spellcheck="false" onInput=${({ target }) => setAt(target.value)} /></label>
@@ -55,6 +70,11 @@ function Close({ studio }) {
       <button type="submit" class="framed" disabled=${!at.trim()}>${words.closeIt}</button>
     </form>
     ${store.faultsAt("closures").map(({ named, place, message }) => html`<p class="wrong" role="alert">${named || place}: ${message}</p>`)}
-    ${store.document.closures?.length > 0 && html`<ul class="closures">${store.document.closures.map((closure, index) => html`
-      <li>${words.closed}: ${text(closure)} <button type="button" class="quiet" aria-label=${`${words.openAgain}: ${text(closure)}`} title=${words.openAgain} onClick=${() => open(index)}>✕</button></li>`)}</ul>`}`;
+    ${
+      store.document.closures?.length > 0 &&
+      html`<ul class="closures">${store.document.closures.map(
+        (closure, index) => html`
+      <li>${words.closed}: ${text(closure)} <button type="button" class="quiet" aria-label=${`${words.openAgain}: ${text(closure)}`} title=${words.openAgain} onClick=${() => open(index)}>✕</button></li>`,
+      )}</ul>`
+    }`;
 }

@@ -23,23 +23,34 @@ export function Comparison({ studio }) {
   const way = (by) => (by < 0 ? "gain" : by > 0 ? "lose" : "");
   const rows = differences(comparison);
   const times = new Map(comparison.robots.map(({ name, completion }) => [name, completion]));
-  const look = (name) => stage.choice.chooseRobot(stage.plan.robots.findIndex((robot) => robot.name === name));
+  const look = (name) =>
+    stage.choice.chooseRobot(stage.plan.robots.findIndex((robot) => robot.name === name));
   return html`
     <section class="comparison" aria-labelledby="comparison-title"><h2 id="comparison-title">${words.comparison}</h2>
       <table>
         <thead><tr><td></td>${both.map((run) => html`<th scope="col">${run.number} ${titleOf(run)}</th>`)}</tr></thead>
         <tbody>
-          ${["flowtime", "makespan"].map((key) => html`<tr><th scope="row">${words[key]}</th>
-            <td>${before.text[key]}</td><td class=${way(after.time[key] - before.time[key])}>${after.text[key]}</td></tr>`)}
+          ${["flowtime", "makespan"].map(
+            (key) => html`<tr><th scope="row">${words[key]}</th>
+            <td>${before.text[key]}</td><td class=${way(after.time[key] - before.time[key])}>${after.text[key]}</td></tr>`,
+          )}
           <tr><th scope="row">${words.bound}</th><td>${before.text.lower_bound}</td><td>${after.text.lower_bound}</td></tr>
           <tr><th scope="row">${words.gap}</th><td>${before.text.gap}</td><td>${after.text.gap}</td></tr>
         </tbody>
       </table>
-      ${rows.length > 0 && html`<table>
+      ${
+        rows.length > 0 &&
+        html`<table>
         <thead><tr><th scope="col">${words.robot}</th>${both.map(({ number }) => html`<th scope="col">${number}</th>`)}<th scope="col">${words.difference}</th></tr></thead>
-        <tbody>${rows.slice(0, MOST).map(({ name, by }) => html`<tr><th scope="row"><button type="button" class="link" onClick=${() => look(name)}>${name}</button></th>
-          ${times.get(name).map((time) => html`<td>${time === null ? "–" : duration(time)}</td>`)}<td class=${way(by)}>${Number.isNaN(by) ? "" : signed(by)}</td></tr>`)}</tbody>
-      </table>`}
+        <tbody>${rows.slice(0, MOST).map(
+          ({
+            name,
+            by,
+          }) => html`<tr><th scope="row"><button type="button" class="link" onClick=${() => look(name)}>${name}</button></th>
+          ${times.get(name).map((time) => html`<td>${time === null ? "–" : duration(time)}</td>`)}<td class=${way(by)}>${Number.isNaN(by) ? "" : signed(by)}</td></tr>`,
+        )}</tbody>
+      </table>`
+      }
       ${rows.length > MOST && html`<p class="hint">${words.moreRobots(rows.length - MOST)}</p>`}
       <div class="buttons"><button type="button" class="framed" onClick=${() => setOpen(true)}>${words.sideBySide}</button>
         <button type="button" class="framed" onClick=${() => studio.attempt(() => runs.compare(null))}>${words.endComparison}</button></div>

@@ -14,11 +14,14 @@ export function Curve({ run }) {
   const limit = run.request?.time_limit ?? 1;
   return html`
     <figure class="curve" data-state=${run.state}>
-      ${(points.length > 0 || !isOver(run)) && html`<svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${words.curve} preserveAspectRatio="none">
+      ${
+        (points.length > 0 || !isOver(run)) &&
+        html`<svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${words.curve} preserveAspectRatio="none">
         ${bound !== undefined && html`<path class="bound" d="M0 ${HEIGHT - 2}H${WIDTH}" />`}
         ${bound !== undefined && points.length > 0 && html`<path class="reached" d=${steps(points, bound, seconds)} />`}
       </svg>
-      <progress aria-label=${words.timeUsed} max=${limit} value=${isOver(run) ? limit : Math.min(seconds, limit)}></progress>`}
+      <progress aria-label=${words.timeUsed} max=${limit} value=${isOver(run) ? limit : Math.min(seconds, limit)}></progress>`
+      }
       <figcaption>
         ${!isOver(run) && html`<span role="status">${words.states[run.state]}</span>${run.state === "running" && ` ${seconds.toFixed(1)} s`} `}
         ${figures && html`${words.flowtime} <b>${figures.text.flowtime}</b>, ${words.bound} ${figures.text.lower_bound}${figures.flowtime > bound && ` (+${figures.text.gap})`}`}
@@ -45,7 +48,10 @@ function steps(points, bound, seconds) {
   const most = Math.max(...points.map(([, flowtime]) => flowtime), bound + 1);
   const last = Math.max(points.at(-1)[0], seconds, 0.001);
   const x = (at) => ((at / last) * WIDTH).toFixed(1);
-  const y = (flowtime) => (HEIGHT - ((flowtime - bound) / (most - bound)) * (HEIGHT - 8) - 2).toFixed(1);
-  const corners = points.map(([at, flowtime], i) => `${i ? `H${x(at)}V` : `M${x(at)} `}${y(flowtime)}`);
+  const y = (flowtime) =>
+    (HEIGHT - ((flowtime - bound) / (most - bound)) * (HEIGHT - 8) - 2).toFixed(1);
+  const corners = points.map(
+    ([at, flowtime], i) => `${i ? `H${x(at)}V` : `M${x(at)} `}${y(flowtime)}`,
+  );
   return `${corners.join("")}H${x(last)}`;
 }

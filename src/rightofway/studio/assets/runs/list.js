@@ -28,8 +28,14 @@ function Row({ studio, run }) {
   const { number, figures } = run;
   const isShown = number === runs.shown;
   const named = (action) => `${action}: ${number} ${titleOf(run)}`;
-  const method = run.request?.planner ?? run.request?.rule ?? (run.kind === "plan" ? runs.planners.default : words.runKinds[run.kind]);
-  const took = run.started && run.ended && run.ended > run.started ? `${(run.ended - run.started).toFixed(1)} s` : "";
+  const method =
+    run.request?.planner ??
+    run.request?.rule ??
+    (run.kind === "plan" ? runs.planners.default : words.runKinds[run.kind]);
+  const took =
+    run.started && run.ended && run.ended > run.started
+      ? `${(run.ended - run.started).toFixed(1)} s`
+      : "";
   return html`
     <tr class=${isShown ? "chosen" : ""} data-run=${number} data-state=${run.state}>
       <td><button type="button" class="show" disabled=${!canBeShown(run)} aria-pressed=${String(isShown)} aria-label=${named(words.show)} title=${words.show} onClick=${() => studio.showRun(number)}>${number}</button></td>
@@ -38,8 +44,13 @@ function Row({ studio, run }) {
         <small>${[method, words.states[run.state]].filter(Boolean).join(", ")}</small></td>
       <td>${figures?.text.flowtime}</td><td class="short">${figures?.text.gap}</td><td class="short">${took}</td>
       <td class="do">
-        ${run.has_plan && runs.run?.has_plan && !isShown && html`<button type="button" class="quiet" aria-pressed=${String(runs.beside === number)} aria-label=${named(words.compare)} title=${words.compare}
-          onClick=${() => studio.attempt(() => runs.compare(runs.beside === number ? null : number))}>⇄</button>`}
+        ${
+          run.has_plan &&
+          runs.run?.has_plan &&
+          !isShown &&
+          html`<button type="button" class="quiet" aria-pressed=${String(runs.beside === number)} aria-label=${named(words.compare)} title=${words.compare}
+          onClick=${() => studio.attempt(() => runs.compare(runs.beside === number ? null : number))}>⇄</button>`
+        }
         ${isOver(run) && html`<button type="button" class="quiet" aria-label=${named(words.remove)} title=${words.remove} onClick=${() => studio.attempt(() => runs.forget(number))}>✕</button>`}</td>
     </tr>
     ${run.error && html`<tr class="why"><td></td><td colspan="5"><${Failure} studio=${studio} error=${run.error} /></td></tr>`}`;

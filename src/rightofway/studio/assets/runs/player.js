@@ -61,7 +61,9 @@ export class Player {
     choice.on("heat", () => {
       shows("heat", choice.heat);
       document.getElementById("heat-legend").hidden = !choice.heat;
-      const marks = [0, this.use.most].map((ticks) => Object.assign(document.createElement("span"), { textContent: said.duration(ticks) }));
+      const marks = [0, this.use.most].map((ticks) =>
+        Object.assign(document.createElement("span"), { textContent: said.duration(ticks) }),
+      );
       document.getElementById("heat-scale").replaceChildren(...marks);
     });
   }

@@ -8,7 +8,15 @@ export const canBeShown = (run) => run.has_plan || run.has_payload;
 
 const NO_COMMAND = ["flip", "opened"]; // kinds of runs that no command makes
 const NO_CHOICES = { rules: {}, delays: { default: "", examples: {} }, formats: {} };
-const NOTHING_SHOWN = { shown: null, payload: null, losses: null, report: null, command: "", beside: null, comparison: null };
+const NOTHING_SHOWN = {
+  shown: null,
+  payload: null,
+  losses: null,
+  report: null,
+  command: "",
+  beside: null,
+  comparison: null,
+};
 
 /** Events: `runs` when any has changed, `payload` when another plan is to be shown or none, `refusal`. */
 export class RunStore extends Observable {
@@ -27,7 +35,11 @@ export class RunStore extends Observable {
   #live = 0; // the last run that was made by a change
 
   async load() {
-    const [planners, { runs }, choices] = await Promise.all([get("/planners"), get("/runs"), get("/choices")]);
+    const [planners, { runs }, choices] = await Promise.all([
+      get("/planners"),
+      get("/runs"),
+      get("/choices"),
+    ]);
     Object.assign(this, { planners, runs, choices });
     for (const run of runs) if (!isOver(run)) this.#hear(run.number);
     this.tell("runs");
@@ -54,7 +66,8 @@ export class RunStore extends Observable {
 
   /** The document that a run was made from. */
   async documentOf(number) {
-    if (!this.#documents.has(number)) this.#documents.set(number, (await get(`/runs/${number}/document`)).document);
+    if (!this.#documents.has(number))
+      this.#documents.set(number, (await get(`/runs/${number}/document`)).document);
     return this.#documents.get(number);
   }
 
@@ -94,13 +107,15 @@ export class RunStore extends Observable {
     const turn = ++this.#wanted;
     const payload = await get(`/runs/${number}/payload`);
     if (turn !== this.#wanted) return;
-    if (this.shown !== number) Object.assign(this, { losses: null, comparison: null, report: null, command: "" });
+    if (this.shown !== number)
+      Object.assign(this, { losses: null, comparison: null, report: null, command: "" });
     Object.assign(this, { shown: number, payload });
     this.tell("payload");
     const run = this.find(number);
     if (!run || !isOver(run)) return;
     const [losses, report, command] = await Promise.all([
-      run.has_plan ? get(`/runs/${number}/losses`) : { losses: [] }, run.has_report ? get(`/runs/${number}/report`) : null,
+      run.has_plan ? get(`/runs/${number}/losses`) : { losses: [] },
+      run.has_report ? get(`/runs/${number}/report`) : null,
       NO_COMMAND.includes(run.kind) ? { command: "" } : get(`/runs/${number}/command`),
     ]);
     if (this.shown !== number) return;
@@ -129,7 +144,11 @@ export class RunStore extends Observable {
   /** Let a robot that waits go first, and show what follows. */
   async flip({ robot, for: other, end }) {
     const base = this.shown;
-    const { run } = await post(`/runs/${base}/flip`, { waits: robot, goes_first: other, tick: end });
+    const { run } = await post(`/runs/${base}/flip`, {
+      waits: robot,
+      goes_first: other,
+      tick: end,
+    });
     if (this.#documents.has(base)) this.#documents.set(run.number, this.#documents.get(base));
     this.#keep(run);
     this.beside = base;
@@ -156,9 +175,11 @@ export class RunStore extends Observable {
   #keep(run) {
     const before = this.find(run.number);
     const points = run.points?.length || !before ? run.points : before.points;
-    const since = run.state === "running" ? before?.since ?? performance.now() : undefined; // clocks of server and browser may differ
+    const since = run.state === "running" ? (before?.since ?? performance.now()) : undefined; // clocks of server and browser may differ
     const kept = { ...run, points: points ?? [], since };
-    this.runs = [kept, ...this.runs.filter(({ number }) => number !== run.number)].sort((a, b) => b.number - a.number);
+    this.runs = [kept, ...this.runs.filter(({ number }) => number !== run.number)].sort(
+      (a, b) => b.number - a.number,
+    );
     this.tell("runs");
   }
 

@@ -27,7 +27,9 @@ export function Settings({ studio }) {
       <p id="planner-summary" class="hint">${spec?.summary}</p>
       ${spec?.options.length > 0 && html`<details><summary>${words.options}</summary><${Options} spec=${spec} given=${settings.options} set=${(options) => set({ options })} /></details>`}
       </details>
-      <label class="check"><input type="checkbox" checked=${studio.isLive} onChange=${({ target }) => {
+      <label class="check"><input type="checkbox" checked=${studio.isLive} onChange=${({
+        target,
+      }) => {
         studio.isLive = target.checked;
         studio.tell("change");
       }} /> ${words.live}</label>
@@ -46,9 +48,12 @@ function Options({ spec, given, set }) {
     const { [name]: before, ...rest } = given;
     set(value === "" ? rest : { ...rest, [name]: value });
   };
-  const field = ({ name, choices, least, default: usual }) => (choices.length
-    ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option>${each}</option>`)}</select>`
-    : html`<input aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${String(usual ?? "")} inputmode=${least === null ? "text" : "numeric"} onChange=${({ target }) => write(name, target.value.trim())} />`);
-  return html`<div class="options">${spec.options.map((option) => html`
-    <label>${option.name}${field(option)}</label><p id=${`option-${option.name}`} class="hint">${option.summary}</p>`)}</div>`;
+  const field = ({ name, choices, least, default: usual }) =>
+    choices.length
+      ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option>${each}</option>`)}</select>`
+      : html`<input aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${String(usual ?? "")} inputmode=${least === null ? "text" : "numeric"} onChange=${({ target }) => write(name, target.value.trim())} />`;
+  return html`<div class="options">${spec.options.map(
+    (option) => html`
+    <label>${option.name}${field(option)}</label><p id=${`option-${option.name}`} class="hint">${option.summary}</p>`,
+  )}</div>`;
 }

@@ -11,21 +11,39 @@ export function Studies({ studio }) {
   const [count, setCount] = useState(1000);
   const { seed, time_limit } = studio.settings;
   const given = delays.trim();
-  const simulate = () => studio.study({
-    kind: "simulate", based_on: run.kind === "simulate" ? run.based_on : run.number, seed: Number(seed), runs: Number(count), delays: given ? [given] : [],
-  });
+  const simulate = () =>
+    studio.study({
+      kind: "simulate",
+      based_on: run.kind === "simulate" ? run.based_on : run.number,
+      seed: Number(seed),
+      runs: Number(count),
+      delays: given ? [given] : [],
+    });
   return html`
     <section aria-labelledby="studies-title"><h2 id="studies-title">${words.studies}</h2>
       <details class="laps"><summary>${words.lapsTitle}</summary>
         <form class="fields" onSubmit=${(event) => {
           event.preventDefault();
           const { document, folder, path } = store;
-          studio.study({ kind: "laps", document, folder, source: path, rule, seed: Number(seed), time_limit: Number(time_limit) }, document);
+          studio.study(
+            {
+              kind: "laps",
+              document,
+              folder,
+              source: path,
+              rule,
+              seed: Number(seed),
+              time_limit: Number(time_limit),
+            },
+            document,
+          );
         }}>
           <label>${words.rule}<select id="rule" aria-describedby="rule-summary" value=${rule} onChange=${({ target }) => setRule(target.value)}>${Object.keys(choices.rules).map((name) => html`<option>${name}</option>`)}</select></label>
           <button type="submit" class="framed" disabled=${Boolean(runs.running) || !store.survey.ok}>${words.runLaps}</button>
         </form><p id="rule-summary" class="hint">${choices.rules[rule]}</p></details>
-      ${run?.has_plan && html`<details class="delays"><summary>${words.delaysTitle}</summary>
+      ${
+        run?.has_plan &&
+        html`<details class="delays"><summary>${words.delaysTitle}</summary>
         <form class="fields" onSubmit=${(event) => {
           event.preventDefault();
           simulate();
@@ -34,7 +52,8 @@ export function Studies({ studio }) {
           <label>${words.runCount}<input type="number" id="run-count" required min="1" max="100000" step="1" value=${count} onInput=${({ target }) => setCount(target.value)} /></label>
           <button type="submit" class="framed" disabled=${Boolean(runs.running)}>${words.simulate}</button>
           <datalist id="delay-examples">${Object.entries(choices.delays.examples).map(([example, means]) => html`<option value=${example}>${means}</option>`)}</datalist>
-        </form><p id="delay-summary" class="hint">${choices.delays.examples[given || choices.delays.default]}</p></details>`}
+        </form><p id="delay-summary" class="hint">${choices.delays.examples[given || choices.delays.default]}</p></details>`
+      }
     </section>`;
 }
 
@@ -44,7 +63,14 @@ export function Report({ studio }) {
   if (!report?.text) return null;
   const playWorst = () => {
     const { delays, runs, seed } = run.request;
-    studio.study({ kind: "simulate", based_on: run.based_on, delays, runs, seed, run: report.worst });
+    studio.study({
+      kind: "simulate",
+      based_on: run.based_on,
+      delays,
+      runs,
+      seed,
+      run: report.worst,
+    });
   };
   return html`
     <section aria-labelledby="report-title"><h2 id="report-title">${words.report}</h2>

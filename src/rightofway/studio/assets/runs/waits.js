@@ -17,11 +17,17 @@ export function Waits({ studio }) {
   };
   return html`
     <section aria-labelledby="waits-title"><h2 id="waits-title">${chosen ? words.waitsOf(chosen) : words.waits}</h2>
-      ${found.length ? html`<ol class="waits">${found.slice(0, MOST).map((loss) => html`<li>
+      ${
+        found.length
+          ? html`<ol class="waits">${found.slice(0, MOST).map(
+              (loss) => html`<li>
         <button type="button" class="watch" onClick=${() => watch(loss)}>${loss.sentence}</button>
         ${loss.because && html`<p><small>${loss.because.decision} ${loss.because.reason}</small></p>`}
         ${loss.for && html`<button type="button" class="framed" onClick=${() => studio.attempt(() => runs.flip(loss))}>${words.letGoFirst(loss.robot)}</button>`}
-      </li>`)}</ol>` : html`<p class="hint">${words.noWaits}</p>`}
+      </li>`,
+            )}</ol>`
+          : html`<p class="hint">${words.noWaits}</p>`
+      }
       ${found.length > MOST && html`<p class="hint">${words.moreWaits(found.length - MOST)}</p>`}
     </section>`;
 }

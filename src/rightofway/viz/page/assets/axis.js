@@ -19,7 +19,9 @@ export class Area {
   }
 
   x(tick) {
-    return this.left + ((tick === Infinity ? this.end : tick) / this.end) * (this.right - this.left);
+    return (
+      this.left + ((tick === Infinity ? this.end : tick) / this.end) * (this.right - this.left)
+    );
   }
 
   tick(x) {
@@ -35,11 +37,14 @@ function labelStep(area, plan) {
   const least = (LABEL_GAP / (area.right - area.left)) * area.end;
   const perUnit = plan.tick.denominator / plan.tick.numerator;
   const round = [];
-  for (let power = -3; power < 15; power++) for (const digit of [1, 2, 5]) round.push(digit * 10 ** power);
+  for (let power = -3; power < 15; power++)
+    for (const digit of [1, 2, 5]) round.push(digit * 10 ** power);
   const whole = (ticks) => Math.abs(ticks - Math.round(ticks)) < 1e-6 && ticks >= least;
   const { seconds } = plan.quantities;
   const inUnit = seconds ? Number(seconds[0]) / Number(seconds[1]) : 1;
-  const times = seconds ? [...round.filter((time) => time < 10), ...ROUND_SECONDS].map((time) => time / inUnit) : round;
+  const times = seconds
+    ? [...round.filter((time) => time < 10), ...ROUND_SECONDS].map((time) => time / inUnit)
+    : round;
   return Math.max(times.map((units) => units * perUnit).find(whole) ?? round.find(whole), 1);
 }
 
@@ -77,6 +82,10 @@ export function paintRowNames(context, area, theme, names, rowHeight, middle) {
   context.textAlign = "right";
   context.textBaseline = "middle";
   for (let row = 0; row < names.length; row += every) {
-    context.fillText(shortened(context, names[row], area.left - 34), area.left - 12, middle(row) + 0.5);
+    context.fillText(
+      shortened(context, names[row], area.left - 34),
+      area.left - 12,
+      middle(row) + 0.5,
+    );
   }
 }

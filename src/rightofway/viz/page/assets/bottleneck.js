@@ -63,7 +63,11 @@ export class Bottleneck {
     if (!circuit.length || tick < this.group.start || this.choice.mode !== "plan") return [];
     const { period } = this.group;
     const since = ({ begin }) => (((tick - begin) % period) + period) % period;
-    return [...new Set(circuit.filter((step) => since(step) < step.ticks).map(({ robot }) => robot.index))];
+    return [
+      ...new Set(
+        circuit.filter((step) => since(step) < step.ticks).map(({ robot }) => robot.index),
+      ),
+    ];
   }
 
   /** Light the visits of all periods; `rowOf` returns top and height of a visit's row, or nothing. */
@@ -77,7 +81,8 @@ export class Bottleneck {
       circuit.forEach((step, i) => this.#cell(context, area, rows[i], step, shift));
       circuit.forEach((step, i) => {
         const next = (i + 1) % circuit.length;
-        if (circuit[next].robot !== step.robot) this.#link(context, area, rows[i], rows[next], step, shift);
+        if (circuit[next].robot !== step.robot)
+          this.#link(context, area, rows[i], rows[next], step, shift);
       });
     }
   }
@@ -103,13 +108,26 @@ export class Bottleneck {
 
   /** From a visit to that of another robot, which waits for it. */
   #link(context, area, from, to, { begin, next }, shift) {
-    if (!from || !to || from.top === to.top || !this.#repeats(begin + shift) || !this.#repeats(next + shift)) return;
+    if (
+      !from ||
+      !to ||
+      from.top === to.top ||
+      !this.#repeats(begin + shift) ||
+      !this.#repeats(next + shift)
+    )
+      return;
     const down = to.top > from.top;
     const x = area.x(next + shift);
     context.strokeStyle = this.theme.litEdge;
     context.lineWidth = 1.5;
     context.beginPath();
-    line(context, x, down ? from.top + from.height : from.top, x, down ? to.top : to.top + to.height);
+    line(
+      context,
+      x,
+      down ? from.top + from.height : from.top,
+      x,
+      down ? to.top : to.top + to.height,
+    );
     context.stroke();
   }
 

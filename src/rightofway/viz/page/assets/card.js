@@ -17,7 +17,11 @@ export class Card {
     const { robot, decision, fault } = this.choice;
     this.box.hidden = !robot;
     if (!robot) return;
-    const content = fault ? this.#fault(fault) : decision ? this.#decision(decision) : this.#robot(robot);
+    const content = fault
+      ? this.#fault(fault)
+      : decision
+        ? this.#decision(decision)
+        : this.#robot(robot);
     this.box.replaceChildren(...content);
     this.box.scrollTop = 0;
     this.#clearMap();
@@ -27,7 +31,9 @@ export class Card {
   #clearMap() {
     const map = document.querySelector(".map");
     const { top, bottom } = map.getBoundingClientRect();
-    const isOver = getComputedStyle(this.box).position === "fixed" && bottom > this.box.getBoundingClientRect().top;
+    const isOver =
+      getComputedStyle(this.box).position === "fixed" &&
+      bottom > this.box.getBoundingClientRect().top;
     if (isOver && top > 0 && top < innerHeight / 2) map.scrollIntoView();
   }
 
@@ -46,7 +52,9 @@ export class Card {
       ...(robot.planned || this.plan.steady ? [] : this.#sum(robot)),
       facts([
         ...this.#times(robot),
-        ...(this.comparison ? [[`In ${this.plan.other.title}`, this.comparison.changeInWords(robot)]] : []),
+        ...(this.comparison
+          ? [[`In ${this.plan.other.title}`, this.comparison.changeInWords(robot)]]
+          : []),
         ["Speed", this.plan.quantities.speed(robot.speed)],
         ["Radius", robot.radius ? this.plan.quantities.length(robot.radius) : ""],
         ["Home", words.vertex(robot.home)],
@@ -77,13 +85,30 @@ export class Card {
   /** Where the completion time goes: alone + detours + making room + waiting. */
   #sum(robot) {
     const { detours, makingRoom, waiting } = robot.lost;
-    const parts = [["Detours", detours], ["Making room", makingRoom], ["Waiting", waiting]].filter(([, ticks]) => ticks);
-    const row = (sign, term, ticks, className = "") => element("tr", { className },
-      element("td", {}, sign), element("th", { scope: "row" }, term), element("td", {}, this.words.time(ticks)));
+    const parts = [
+      ["Detours", detours],
+      ["Making room", makingRoom],
+      ["Waiting", waiting],
+    ].filter(([, ticks]) => ticks);
+    const row = (sign, term, ticks, className = "") =>
+      element(
+        "tr",
+        { className },
+        element("td", {}, sign),
+        element("th", { scope: "row" }, term),
+        element("td", {}, this.words.time(ticks)),
+      );
     const end = this.plan.endsAtHome ? "Home at" : "Done at";
-    const table = element("table", { className: "sum" }, row("", "Alone", robot.alone),
-      ...parts.map(([term, ticks]) => row(ticks < 0 ? "−" : "+", term, Math.abs(ticks))), row("=", end, robot.completion, "all"));
-    return parts.length ? [table] : [table, element("p", { className: "none-lost" }, "It loses no time.")];
+    const table = element(
+      "table",
+      { className: "sum" },
+      row("", "Alone", robot.alone),
+      ...parts.map(([term, ticks]) => row(ticks < 0 ? "−" : "+", term, Math.abs(ticks))),
+      row("=", end, robot.completion, "all"),
+    );
+    return parts.length
+      ? [table]
+      : [table, element("p", { className: "none-lost" }, "It loses no time.")];
   }
 
   #times(robot) {
@@ -99,9 +124,14 @@ export class Card {
       ["Held up", robot.held ? `${words.time(robot.held)} in all` : ""],
       ["Waits", waited ? `${words.time(waited)} in all` : "never"],
     ];
-    if (robot.ending === BROKEN) return [["Breaks down", `at ${words.time(robot.broken)}`], ...planned];
-    if (robot.ending === WAIT) return [["Done", words.stuck(robot.stuckBehind(this.plan.happened))], ...planned];
-    return [["Done at", `${words.time(robot.completion)} (${words.lateness(robot.delayInAll)})`], ...planned];
+    if (robot.ending === BROKEN)
+      return [["Breaks down", `at ${words.time(robot.broken)}`], ...planned];
+    if (robot.ending === WAIT)
+      return [["Done", words.stuck(robot.stuckBehind(this.plan.happened))], ...planned];
+    return [
+      ["Done at", `${words.time(robot.completion)} (${words.lateness(robot.delayInAll)})`],
+      ...planned,
+    ];
   }
 
   /** From when on it repeats itself, and how often. */
@@ -115,7 +145,8 @@ export class Card {
   #stage(robot, stage) {
     const dwell = [];
     if (stage.work) dwell.push(`works ${this.words.duration(stage.work)}`);
-    if (stage.turn && stage.visit + 1 < robot.vertices.length) dwell.push(`turns ${this.words.duration(stage.turn)}`);
+    if (stage.turn && stage.visit + 1 < robot.vertices.length)
+      dwell.push(`turns ${this.words.duration(stage.turn)}`);
     const text = [this.words.vertex(stage.vertex), ...dwell].join(", ");
     if (stage.visit < 0) return goTo("never", text, () => {});
     return this.#moment(robot.enter[stage.visit], text);
@@ -123,13 +154,16 @@ export class Card {
 
   #losses(robot) {
     if (!robot.losses.length) return [];
-    const lines = this.#lines(robot.losses, (loss) => this.#moment(loss.tick, this.words.loss(loss, robot)));
+    const lines = this.#lines(robot.losses, (loss) =>
+      this.#moment(loss.tick, this.words.loss(loss, robot)),
+    );
     return [element("h3", {}, robot.planned ? "Waits" : "Loses time"), lines];
   }
 
   #lines(items, make) {
     const list = element("ol", {}, ...items.slice(0, MOST_LINES).map(make));
-    if (items.length > MOST_LINES) list.append(element("li", {}, `and ${items.length - MOST_LINES} more`));
+    if (items.length > MOST_LINES)
+      list.append(element("li", {}, `and ${items.length - MOST_LINES} more`));
     return list;
   }
 
@@ -142,13 +176,21 @@ export class Card {
 
   #fault(fault) {
     const robots = fault.robots.map((index) => this.plan.robots[index]);
-    const names = robots.map((robot) => link(robot.name, () => this.choice.chooseRobot(robot.index)));
-    const title = element("h2", {}, ...names.flatMap((name, i) => (i ? [i < names.length - 1 ? ", " : " and ", name] : [name])));
+    const names = robots.map((robot) =>
+      link(robot.name, () => this.choice.chooseRobot(robot.index)),
+    );
+    const title = element(
+      "h2",
+      {},
+      ...names.flatMap((name, i) => (i ? [i < names.length - 1 ? ", " : " and ", name] : [name])),
+    );
     return [
       this.#header(...robots.slice(0, 3).map(swatch), title),
       element("p", { className: "name wrong" }, `${this.words.fault(fault)}.`),
       element("p", {}, this.words.remedy(fault)),
-      ...(fault.reason ? [] : [element("ol", {}, this.#moment(fault.tick, `the fault (${fault.kind})`))]),
+      ...(fault.reason
+        ? []
+        : [element("ol", {}, this.#moment(fault.tick, `the fault (${fault.kind})`))]),
     ];
   }
 
@@ -167,10 +209,23 @@ export class Card {
   /** The two choices side by side, the one that was taken stronger; nothing where no figure decided. */
   #choices(decision, pair) {
     const cell = (tag, text, side) =>
-      element(tag, { className: decision.waits === decision.robots[side] ? "taken" : "" }, String(text));
+      element(
+        tag,
+        { className: decision.waits === decision.robots[side] ? "taken" : "" },
+        String(text),
+      );
     const row = (tag, label, both) =>
-      element("tr", {}, element("th", {}, label), ...both.map((text, side) => cell(tag, text, side)));
-    const head = row("th", "If it waits", pair.map((robot) => robot.name));
+      element(
+        "tr",
+        {},
+        element("th", {}, label),
+        ...both.map((text, side) => cell(tag, text, side)),
+      );
+    const head = row(
+      "th",
+      "If it waits",
+      pair.map((robot) => robot.name),
+    );
     const rows = this.words.figures(decision).map(([label, ...both]) => row("td", label, both));
     return rows.length ? [element("table", { className: "choices" }, head, ...rows)] : [];
   }

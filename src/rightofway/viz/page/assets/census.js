@@ -28,7 +28,14 @@ export class Census {
     const counts = this.#counts.value;
     const below = new Float64Array(this.samples);
     const { work, turn, drive, wait, held, broken } = this.theme;
-    const colours = { [WORK]: work, [TURN]: turn, [DRIVE]: drive, [WAIT]: wait, [HELD]: held, [BROKEN]: broken };
+    const colours = {
+      [WORK]: work,
+      [TURN]: turn,
+      [DRIVE]: drive,
+      [WAIT]: wait,
+      [HELD]: held,
+      [BROKEN]: broken,
+    };
     for (const activity of this.#stack) {
       context.fillStyle = colours[activity];
       this.#band(context, area, below, counts[activity]);
@@ -38,7 +45,9 @@ export class Census {
   }
 
   get #stack() {
-    return STACK.filter((activity) => activity < DONE || this.#counts.value[activity].some(Boolean));
+    return STACK.filter(
+      (activity) => activity < DONE || this.#counts.value[activity].some(Boolean),
+    );
   }
 
   /** How many robots are not done yet, in each sample. */

@@ -130,7 +130,7 @@ export class Choice extends Observable {
 
   /** The robots that the diagram draws thin beside those shown: by plan, or in the other plan; or null. */
   get beside() {
-    return this.ghosts ? this.plan.planned : this.plan.other?.planned ?? null;
+    return this.ghosts ? this.plan.planned : (this.plan.other?.planned ?? null);
   }
 
   /** Where they drive like that. */
@@ -145,7 +145,8 @@ export class Choice extends Observable {
   }
 
   #set(robot, decision, fault = -1) {
-    if (robot === this.robotIndex && decision === this.decisionIndex && fault === this.faultIndex) return;
+    if (robot === this.robotIndex && decision === this.decisionIndex && fault === this.faultIndex)
+      return;
     if (robot !== this.robotIndex) this.pair = -1;
     this.faultIndex = fault;
     this.robotIndex = robot;

@@ -19,7 +19,8 @@ export class Clock extends Observable {
     this.tick = 0;
     this.playing = false;
     this.ticksPerUnit = plan.tick.denominator / plan.tick.numerator;
-    const shown = plan.steady && !plan.happened ? Math.min(2 * plan.steady.largest.period, this.end) : this.end;
+    const shown =
+      plan.steady && !plan.happened ? Math.min(2 * plan.steady.largest.period, this.end) : this.end;
     const pace = shown / this.ticksPerUnit / PLEASANT_SECONDS;
     this.rate = RATES.findLast((rate) => rate < 1.5 * pace) ?? RATES[0];
     this.loop = null; // { from, to }
@@ -114,7 +115,7 @@ export class Clock extends Observable {
     this.pause();
     const events = robot ? robot.phases.begin : this.#events.value;
     const index = lastAtMost(events, by < 0 ? this.tick - 1e-9 : this.tick + 1e-9);
-    this.seek(by < 0 ? events[index] : events[index + 1] ?? this.end);
+    this.seek(by < 0 ? events[index] : (events[index + 1] ?? this.end));
   }
 }
 

@@ -14,7 +14,14 @@ import { Words } from "./words.js";
  */
 export class Comparison {
   constructor(plan, other, clock, choice, theme, mapView) {
-    Object.assign(this, { plan, other, clock, choice, words: new Words(other), motion: new Motion(other) });
+    Object.assign(this, {
+      plan,
+      other,
+      clock,
+      choice,
+      words: new Words(other),
+      motion: new Motion(other),
+    });
     this.otherChoice = new Choice(other);
     this.#linkChoices();
     const ghosts = new Motion({ robots: other.planned, roadmap: other.roadmap });
@@ -22,11 +29,20 @@ export class Comparison {
     const canvas = document.getElementById("other-map");
     canvas.parentElement.hidden = false;
     this.view = new MapView(canvas, other, theme, {
-      motion: this.motion, ghosts, clock, choice: this.otherChoice, words: this.words, bottleneck: lit,
+      motion: this.motion,
+      ghosts,
+      clock,
+      choice: this.otherChoice,
+      words: this.words,
+      bottleneck: lit,
     });
     this.#linkViews(mapView);
     document.body.classList.add("compared");
-    for (const [id, shown] of [["map-title", plan], ["other-title", other]]) this.#title(document.getElementById(id), shown);
+    for (const [id, shown] of [
+      ["map-title", plan],
+      ["other-title", other],
+    ])
+      this.#title(document.getElementById(id), shown);
     this.find = document.getElementById("find-compared");
     this.list = new VirtualList(document.getElementById("compared-list"), {
       rowHeight: 50,
@@ -59,28 +75,36 @@ export class Comparison {
   /** The same in words: "6 s earlier". */
   changeInWords(robot) {
     const change = this.change(robot);
-    return change ? `${this.words.time(Math.abs(change))} ${change < 0 ? "earlier" : "later"}` : "the same";
+    return change
+      ? `${this.words.time(Math.abs(change))} ${change < 0 ? "earlier" : "later"}`
+      : "the same";
   }
 
   #linkChoices() {
     const { choice, otherChoice } = this;
     choice.on("choice", () => otherChoice.chooseRobot(choice.robotIndex));
-    otherChoice.on("choice", () => otherChoice.robotIndex !== choice.robotIndex && choice.chooseRobot(otherChoice.robotIndex));
+    otherChoice.on(
+      "choice",
+      () =>
+        otherChoice.robotIndex !== choice.robotIndex && choice.chooseRobot(otherChoice.robotIndex),
+    );
     choice.on("heat", () => otherChoice.toggleHeat());
     choice.on("space", () => {
       if (otherChoice.space !== choice.space) otherChoice.toggleSpace();
     });
-    for (const event of ["choice", "heat", "space"]) otherChoice.on(event, () => (this.view.base.stale = true));
+    for (const event of ["choice", "heat", "space"])
+      otherChoice.on(event, () => (this.view.base.stale = true));
   }
 
   /** Both maps show the same part. */
   #linkViews(mapView) {
-    const follow = (view, other) => view.viewport.on("view", () => {
-      const { left, top, scale, fitted } = view.viewport;
-      Object.assign(other.viewport, { left, top, scale, fitted });
-      view.base.stale = other.base.stale = true;
-      this.clock.tell("tick");
-    });
+    const follow = (view, other) =>
+      view.viewport.on("view", () => {
+        const { left, top, scale, fitted } = view.viewport;
+        Object.assign(other.viewport, { left, top, scale, fitted });
+        view.base.stale = other.base.stale = true;
+        this.clock.tell("tick");
+      });
     follow(mapView, this.view);
     follow(this.view, mapView);
   }
@@ -89,7 +113,11 @@ export class Comparison {
     heading.hidden = false;
     const outcome = faultCount
       ? element("span", { className: "wrong" }, counted(faultCount, "fault"))
-      : element("span", {}, `all ${endsAtHome ? "home" : "done"} at ${this.words.time(metrics.makespan)}`);
+      : element(
+          "span",
+          {},
+          `all ${endsAtHome ? "home" : "done"} at ${this.words.time(metrics.makespan)}`,
+        );
     heading.replaceChildren(element("b", { className: "name" }, title), outcome);
   }
 
@@ -104,8 +132,14 @@ export class Comparison {
     row.filled = robot;
     const other = this.other.planned[robot.index];
     row.replaceChildren(
-      swatch(robot), element("span", { className: "name" }, robot.name),
+      swatch(robot),
+      element("span", { className: "name" }, robot.name),
       element("span", { className: "late" }, this.changeInWords(robot)),
-      element("span", { className: "state" }, `${this.words.time(robot.completion)} → ${this.words.time(other.completion)}`));
+      element(
+        "span",
+        { className: "state" },
+        `${this.words.time(robot.completion)} → ${this.words.time(other.completion)}`,
+      ),
+    );
   }
 }

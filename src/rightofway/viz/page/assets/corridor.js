@@ -10,7 +10,8 @@ export class Corridor {
     this.roadmap = roadmap;
     this.sections = [];
     let entry = this.#begin(route[0]);
-    for (const vertex of route.slice(1)) if (vertex !== entry.vertex) entry = this.#walk(entry, vertex);
+    for (const vertex of route.slice(1))
+      if (vertex !== entry.vertex) entry = this.#walk(entry, vertex);
     let at = 0;
     for (const section of this.sections) {
       const lowest = section[0].at;
@@ -60,7 +61,8 @@ export class Corridor {
     const from = free ?? this.#begin(entry.vertex);
     const length = this.roadmap.distance(from.vertex, vertex);
     const { section } = from;
-    if (!from.up) return (from.up = this.#add({ vertex, at: from.at + length, up: null, down: from, section }));
+    if (!from.up)
+      return (from.up = this.#add({ vertex, at: from.at + length, up: null, down: from, section }));
     return (from.down = this.#add({ vertex, at: from.at - length, up: from, down: null, section }));
   }
 }

@@ -14,12 +14,16 @@ export class DecisionList {
     this.list = new VirtualList(document.getElementById("decision-list"), {
       rowHeight: 52,
       className: "two",
-      none: this.items.length ? "No decision fits that." : "No decisions are recorded. Choose a robot: its card lists its waits.",
+      none: this.items.length
+        ? "No decision fits that."
+        : "No decisions are recorded. Choose a robot: its card lists its waits.",
       fill: fillTwoLines,
       choose: (item) => item.choose(),
     });
     connectFind(this.find, this.list, () => this.#select());
-    choice.on("choice", () => this.list.setChosen(this.items.find((item) => item.isChosen()) ?? null));
+    choice.on("choice", () =>
+      this.list.setChosen(this.items.find((item) => item.isChosen()) ?? null),
+    );
     this.#select();
   }
 
@@ -28,7 +32,11 @@ export class DecisionList {
   }
 
   #decision(decision, index) {
-    const parts = [`at ${this.words.moment(decision.tick)}`, this.words.cost(decision), this.words.why(decision)];
+    const parts = [
+      `at ${this.words.moment(decision.tick)}`,
+      this.words.cost(decision),
+      this.words.why(decision),
+    ];
     return {
       head: this.words.decision(decision),
       detail: parts.join(" · "),
@@ -51,7 +59,9 @@ export class DecisionList {
   }
 
   #select() {
-    this.list.setItems(this.items.filter(({ head, detail }) => matches(`${head} ${detail}`, this.find.value)));
+    this.list.setItems(
+      this.items.filter(({ head, detail }) => matches(`${head} ${detail}`, this.find.value)),
+    );
   }
 }
 

@@ -24,8 +24,11 @@ export class DeepLink {
     if (this.plan.faults[fault]) this.choice.chooseFault(fault);
     else if (this.plan.decisions[decision]) this.choice.chooseDecision(decision);
     else if (robot >= 0) this.choice.chooseRobot(robot);
-    if (this.plan.happened && MODES.includes(asked.get("show"))) this.choice.show(asked.get("show"));
-    this.choice.showCorridor(...["from", "to"].map((end) => this.plan.roadmap.vertexNamed(asked.get(end))));
+    if (this.plan.happened && MODES.includes(asked.get("show")))
+      this.choice.show(asked.get("show"));
+    this.choice.showCorridor(
+      ...["from", "to"].map((end) => this.plan.roadmap.vertexNamed(asked.get(end))),
+    );
     const tick = asked.get("tick") ?? this.choice.decision?.tick ?? 0;
     this.clock.seek(Number.parseFloat(tick) || 0);
     return asked.size > 0;
@@ -49,7 +52,8 @@ export class DeepLink {
     else if (this.choice.robot) state.set("robot", this.choice.robot.name);
     if (this.plan.happened) state.set("show", this.choice.mode);
     const { corridor } = this.choice;
-    if (corridor) ["from", "to"].forEach((end, i) => state.set(end, this.plan.roadmap.name(corridor.at(-i))));
+    if (corridor)
+      ["from", "to"].forEach((end, i) => state.set(end, this.plan.roadmap.name(corridor.at(-i))));
     return `${location.href.split("#")[0]}#${state}`;
   }
 }

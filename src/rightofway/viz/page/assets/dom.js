@@ -24,8 +24,12 @@ export function link(text, action) {
 
 /** A line of a list: a time, and what happens then; pressing it goes there. */
 export function goTo(time, text, action) {
-  const button = element("button", { type: "button", className: "go" },
-    element("time", {}, time), element("span", { className: "name" }, text));
+  const button = element(
+    "button",
+    { type: "button", className: "go" },
+    element("time", {}, time),
+    element("span", { className: "name" }, text),
+  );
   button.addEventListener("click", action);
   return element("li", {}, button);
 }
@@ -33,6 +37,9 @@ export function goTo(time, text, action) {
 /** Terms and what they are; leaves out those without. */
 export function facts(pairs) {
   const given = pairs.filter(([, value]) => value !== null && value !== "");
-  return element("dl", { className: "facts" },
-    ...given.flatMap(([term, value]) => [element("dt", {}, term), element("dd", {}, value)]));
+  return element(
+    "dl",
+    { className: "facts" },
+    ...given.flatMap(([term, value]) => [element("dt", {}, term), element("dd", {}, value)]),
+  );
 }

@@ -10,7 +10,9 @@ export class FaultList {
     Object.assign(this, { plan, clock, choice, words });
     this.find = document.getElementById("find-fault");
     this.items = plan.faults.map((fault, index) => this.#item(fault, index));
-    const isLong = this.items.some(({ head, detail }) => Math.max(head.length, detail.length) > LINE);
+    const isLong = this.items.some(
+      ({ head, detail }) => Math.max(head.length, detail.length) > LINE,
+    );
     this.list = new VirtualList(document.getElementById("fault-list"), {
       rowHeight: isLong ? 72 : 52,
       className: isLong ? "two long" : "two",
@@ -20,7 +22,8 @@ export class FaultList {
     });
     connectFind(this.find, this.list, () => this.#select());
     choice.on("choice", () => this.list.setChosen(this.items[choice.faultIndex] ?? null));
-    if (plan.faultCount > plan.faults.length) this.find.placeholder = `Find among the first ${plan.faults.length}`;
+    if (plan.faultCount > plan.faults.length)
+      this.find.placeholder = `Find among the first ${plan.faults.length}`;
     this.#select();
   }
 
@@ -31,7 +34,9 @@ export class FaultList {
   #item(fault, index) {
     return {
       head: this.words.fault(fault),
-      detail: fault.reason ? this.words.remedy(fault) : `at ${this.words.moment(fault.tick)} · ${fault.kind}`,
+      detail: fault.reason
+        ? this.words.remedy(fault)
+        : `at ${this.words.moment(fault.tick)} · ${fault.kind}`,
       choose: () => {
         this.clock.pause();
         this.clock.seek(fault.tick);
@@ -41,6 +46,8 @@ export class FaultList {
   }
 
   #select() {
-    this.list.setItems(this.items.filter(({ head, detail }) => matches(`${head} ${detail}`, this.find.value)));
+    this.list.setItems(
+      this.items.filter(({ head, detail }) => matches(`${head} ${detail}`, this.find.value)),
+    );
   }
 }

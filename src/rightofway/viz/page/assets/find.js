@@ -3,7 +3,8 @@ export function connectFind(field, list, filter) {
   field.addEventListener("input", filter);
   field.addEventListener("keydown", (event) => {
     if (event.key === "Enter") list.chooseFirst();
-    else if (event.key === "ArrowDown" || event.key === "ArrowUp") list.step(event.key === "ArrowDown" ? 1 : -1);
+    else if (event.key === "ArrowDown" || event.key === "ArrowUp")
+      list.step(event.key === "ArrowDown" ? 1 : -1);
     else if (event.key === "Escape" && field.value) {
       field.value = "";
       filter();
@@ -16,5 +17,9 @@ export function connectFind(field, list, filter) {
 /** Whether a text has all words of a search, in any order. */
 export function matches(text, search) {
   const whole = text.toLowerCase();
-  return search.trim().toLowerCase().split(/\s+/).every((word) => whole.includes(word));
+  return search
+    .trim()
+    .toLowerCase()
+    .split(/\s+/)
+    .every((word) => whole.includes(word));
 }

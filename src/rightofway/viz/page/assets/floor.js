@@ -4,7 +4,9 @@ import { Robot, giveLosses } from "./robot.js";
 
 /** The robots as they drove on the floor: the same visits at other ticks, and some of them never. */
 export function onTheFloor(raw, planned) {
-  const robots = raw.floor.robots.map((run, index) => new FloorRobot(raw.robots[index], run, planned[index]));
+  const robots = raw.floor.robots.map(
+    (run, index) => new FloorRobot(raw.robots[index], run, planned[index]),
+  );
   giveLosses(robots, raw.floor.losses);
   return robots;
 }
@@ -31,14 +33,22 @@ class FloorRobot extends Robot {
   /** Ticks that it stood still by itself. */
   get held() {
     const { phases } = this;
-    return phases.begin.reduce((sum, begin, i) => sum + (phases.activity[i] === HELD ? phases.end(i) - begin : 0), 0);
+    return phases.begin.reduce(
+      (sum, begin, i) => sum + (phases.activity[i] === HELD ? phases.end(i) - begin : 0),
+      0,
+    );
   }
 
   /** How much longer the waits of a loss were than planned. */
   unplanned(loss) {
-    const [first, last] = [lastAtMost(this.enter, loss.tick), lastAtMost(this.enter, loss.end - 0.5)];
+    const [first, last] = [
+      lastAtMost(this.enter, loss.tick),
+      lastAtMost(this.enter, loss.end - 0.5),
+    ];
     if (last >= this.asPlanned) return 0;
-    return this.plannedWait.slice(first, last + 1).reduce((rest, planned) => rest - planned, loss.ticks);
+    return this.plannedWait
+      .slice(first, last + 1)
+      .reduce((rest, planned) => rest - planned, loss.ticks);
   }
 
   /** The robot that stands for ever where this one has to go next, or null. */
@@ -55,7 +65,10 @@ class FloorRobot extends Robot {
 }
 
 function floorTrip(raw, run) {
-  const still = run.still.map(([begin, ticks]) => [begin, ticks === null ? Infinity : begin + ticks]);
+  const still = run.still.map(([begin, ticks]) => [
+    begin,
+    ticks === null ? Infinity : begin + ticks,
+  ]);
   const isBroken = still.some(([, to]) => to === Infinity);
   const ending = run.completion !== null ? DONE : isBroken ? BROKEN : WAIT;
   return { ...raw, vertices: raw.vertices.slice(0, run.enter.length), ...run, still, ending };

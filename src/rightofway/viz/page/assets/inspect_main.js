@@ -20,7 +20,9 @@ class InspectPage {
     this.list = new VirtualList(document.getElementById("finding-list"), {
       rowHeight: 92,
       className: "two long finding",
-      none: raw.levels.some(({ findings }) => findings.length) ? "No finding fits that." : "Nothing was found that will hurt.",
+      none: raw.levels.some(({ findings }) => findings.length)
+        ? "No finding fits that."
+        : "Nothing was found that will hurt.",
       fill: (row, finding) => this.#fill(row, finding),
       choose: (finding) => this.choose(finding),
     });
@@ -57,29 +59,50 @@ class InspectPage {
     const { choice, viewport } = this.view;
     const { x, y } = this.site.roadmap;
     choice.light(finding?.vertices ?? []);
-    if (finding?.vertices.length) viewport.showAll(finding.vertices.map((vertex) => [x[vertex], y[vertex]]));
+    if (finding?.vertices.length)
+      viewport.showAll(finding.vertices.map((vertex) => [x[vertex], y[vertex]]));
     this.list.setChosen(finding);
     this.#showCard(finding);
   }
 
   #showHead() {
     const { title, what, notes, levels } = this.raw;
-    document.getElementById("headline").replaceChildren(element("b", { className: "name" }, title), element("span", {}, what));
+    document
+      .getElementById("headline")
+      .replaceChildren(element("b", { className: "name" }, title), element("span", {}, what));
     document.getElementById("level-choice").hidden = levels.length < 2;
-    document.getElementById("level").replaceChildren(...levels.map(({ name }, index) => element("option", { value: String(index) }, name)));
+    document
+      .getElementById("level")
+      .replaceChildren(
+        ...levels.map(({ name }, index) => element("option", { value: String(index) }, name)),
+      );
     const box = document.getElementById("notes");
     box.hidden = !notes.length;
     box.open = notes.length <= FEW_NOTES;
-    box.querySelector("summary").textContent = `${counted(notes.length, "note")} of the reader: what was mended or left out`;
+    box.querySelector("summary").textContent =
+      `${counted(notes.length, "note")} of the reader: what was mended or left out`;
     box.querySelector("ul").replaceChildren(...notes.map((note) => element("li", {}, note)));
   }
 
   /** How many findings there are of each severity. */
   #showCounts() {
-    const counts = Object.entries(this.raw.headings).map(([severity, heading]) =>
-      [severity, heading, this.level.findings.filter((finding) => finding.severity === severity).length]);
-    document.getElementById("figures").replaceChildren(...counts.map(([severity, heading, count]) =>
-      element("div", { title: heading }, element("dt", {}, severitySign(severity), heading.split(" (")[0]), element("dd", {}, String(count)))));
+    const counts = Object.entries(this.raw.headings).map(([severity, heading]) => [
+      severity,
+      heading,
+      this.level.findings.filter((finding) => finding.severity === severity).length,
+    ]);
+    document
+      .getElementById("figures")
+      .replaceChildren(
+        ...counts.map(([severity, heading, count]) =>
+          element(
+            "div",
+            { title: heading },
+            element("dt", {}, severitySign(severity), heading.split(" (")[0]),
+            element("dd", {}, String(count)),
+          ),
+        ),
+      );
   }
 
   #fill(row, finding) {
@@ -87,21 +110,39 @@ class InspectPage {
     row.filled = finding;
     row.title = `${finding.fact} (${finding.remedy})`;
     row.replaceChildren(
-      severitySign(finding.severity), element("span", { className: "text name" }, finding.fact),
-      element("span", { className: "text name" }, finding.remedy));
+      severitySign(finding.severity),
+      element("span", { className: "text name" }, finding.fact),
+      element("span", { className: "text name" }, finding.remedy),
+    );
   }
 
   #showCard(finding) {
     const box = document.getElementById("card");
     box.hidden = !finding;
     if (!finding) return;
-    const close = element("button", { type: "button", className: "quiet", ariaLabel: "Choose nothing", title: "Choose nothing (Esc)" }, "✕");
+    const close = element(
+      "button",
+      {
+        type: "button",
+        className: "quiet",
+        ariaLabel: "Choose nothing",
+        title: "Choose nothing (Esc)",
+      },
+      "✕",
+    );
     close.addEventListener("click", () => this.choose(null));
     const title = this.raw.headings[finding.severity].split(" (")[0].replace(/s$/, "");
     box.replaceChildren(
-      element("header", {}, severitySign(finding.severity), element("h2", {}, `${title}: ${finding.kind}`), close),
+      element(
+        "header",
+        {},
+        severitySign(finding.severity),
+        element("h2", {}, `${title}: ${finding.kind}`),
+        close,
+      ),
       element("p", { className: "name" }, `${finding.fact}.`),
-      element("p", { className: "name" }, `${upperFirst(finding.remedy)}.`));
+      element("p", { className: "name" }, `${upperFirst(finding.remedy)}.`),
+    );
     box.scrollTop = 0;
   }
 
@@ -109,14 +150,23 @@ class InspectPage {
   #chooseAtPointer() {
     const { viewport } = this.view;
     const { roadmap } = this.site;
-    const vertex = nearest(roadmap.x, roadmap.y, viewport.pointer.x, viewport.pointer.y, Math.max(0.5, 12 / viewport.scale));
+    const vertex = nearest(
+      roadmap.x,
+      roadmap.y,
+      viewport.pointer.x,
+      viewport.pointer.y,
+      Math.max(0.5, 12 / viewport.scale),
+    );
     const about = this.level.findings.filter(({ vertices }) => vertices.includes(vertex));
     this.choose(about[(about.indexOf(this.chosen) + 1) % about.length] ?? null);
   }
 
   #select() {
-    this.list.setItems(this.level.findings.filter(({ severity, kind, fact, remedy }) =>
-      matches(`${severity} ${kind} ${fact} ${remedy}`, this.find.value)));
+    this.list.setItems(
+      this.level.findings.filter(({ severity, kind, fact, remedy }) =>
+        matches(`${severity} ${kind} ${fact} ${remedy}`, this.find.value),
+      ),
+    );
   }
 
   #listen() {
@@ -126,11 +176,18 @@ class InspectPage {
       fit: () => this.view.viewport.fit(),
       print: () => window.print(),
     };
-    for (const [id, action] of Object.entries(actions)) document.getElementById(id).addEventListener("click", action);
-    document.getElementById("level").addEventListener("change", ({ target }) => this.showLevel(Number(target.value)));
+    for (const [id, action] of Object.entries(actions))
+      document.getElementById(id).addEventListener("click", action);
+    document
+      .getElementById("level")
+      .addEventListener("change", ({ target }) => this.showLevel(Number(target.value)));
     const keys = {
-      "+": actions["zoom-in"], "=": actions["zoom-in"], "-": actions["zoom-out"], 0: actions.fit,
-      "/": () => this.find.focus(), Escape: () => this.choose(null),
+      "+": actions["zoom-in"],
+      "=": actions["zoom-in"],
+      "-": actions["zoom-out"],
+      0: actions.fit,
+      "/": () => this.find.focus(),
+      Escape: () => this.choose(null),
     };
     document.addEventListener("keydown", (event) => {
       const isWriting = event.target.matches("input, select") && event.key !== "Escape";
@@ -148,12 +205,24 @@ class InspectPage {
     document.documentElement.classList.toggle("on-paper", onPaper);
     this.theme.refresh();
     this.#paint();
-    const groups = Object.entries(this.raw.headings).map(([severity, heading]) =>
-      [heading, this.level.findings.filter((finding) => finding.severity === severity)]);
-    document.getElementById("paper-findings").replaceChildren(...groups.filter(([, found]) => found.length).flatMap(([heading, found]) => [
-      element("h2", {}, `${heading}: ${found.length}`),
-      element("ul", {}, ...found.map(({ fact, remedy }) => element("li", {}, `${fact} (${remedy})`))),
-    ]));
+    const groups = Object.entries(this.raw.headings).map(([severity, heading]) => [
+      heading,
+      this.level.findings.filter((finding) => finding.severity === severity),
+    ]);
+    document
+      .getElementById("paper-findings")
+      .replaceChildren(
+        ...groups
+          .filter(([, found]) => found.length)
+          .flatMap(([heading, found]) => [
+            element("h2", {}, `${heading}: ${found.length}`),
+            element(
+              "ul",
+              {},
+              ...found.map(({ fact, remedy }) => element("li", {}, `${fact} (${remedy})`)),
+            ),
+          ]),
+      );
   }
 
   #repaint() {
@@ -179,7 +248,11 @@ class InspectPage {
 
 /** A sign of how much a finding hurts: shape and colour. */
 function severitySign(severity) {
-  const sign = element("span", { className: `severity ${severity}`, title: severity }, { error: "✕", warning: "!", note: "i" }[severity]);
+  const sign = element(
+    "span",
+    { className: `severity ${severity}`, title: severity },
+    { error: "✕", warning: "!", note: "i" }[severity],
+  );
   sign.setAttribute("role", "img");
   sign.setAttribute("aria-label", severity);
   return sign;

@@ -29,7 +29,16 @@ export function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
   document.getElementById("about-open").addEventListener("click", () => about.showModal());
   document.addEventListener("keydown", (event) => {
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    if (!action || help.open || about.open || event.ctrlKey || event.metaKey || event.altKey || isTaken(event)) return;
+    if (
+      !action ||
+      help.open ||
+      about.open ||
+      event.ctrlKey ||
+      event.metaKey ||
+      event.altKey ||
+      isTaken(event)
+    )
+      return;
     event.preventDefault();
     action(event);
   });
@@ -40,6 +49,7 @@ function isTaken(event) {
   const { target } = event;
   if (target.matches("input[type=search]")) return event.key !== "Escape";
   if (target.matches("select")) return true;
-  if (target.matches("input[type=radio]")) return event.key === " " || event.key.startsWith("Arrow");
+  if (target.matches("input[type=radio]"))
+    return event.key === " " || event.key.startsWith("Arrow");
   return target.matches("button, [role=tab]") && event.key === " ";
 }

@@ -17,7 +17,15 @@ export class LabelBoard {
 
   /** Keep a disc free of labels. */
   takeDisc(x, y, radius) {
-    this.#add({ left: x - radius, top: y - radius, right: x + radius, bottom: y + radius, x, y, radius });
+    this.#add({
+      left: x - radius,
+      top: y - radius,
+      right: x + radius,
+      bottom: y + radius,
+      x,
+      y,
+      radius,
+    });
   }
 
   isFree(left, top, right, bottom) {
@@ -43,16 +51,29 @@ export class LabelBoard {
 
   *#keys(left, top, right, bottom) {
     for (let row = Math.floor(top / SQUARE); row <= Math.floor(bottom / SQUARE); row++) {
-      for (let column = Math.floor(left / SQUARE); column <= Math.floor(right / SQUARE); column++) yield row * 65536 + column;
+      for (let column = Math.floor(left / SQUARE); column <= Math.floor(right / SQUARE); column++)
+        yield row * 65536 + column;
     }
   }
 }
 
 /** Where a label may stand round a disc, best first: how far right and down its middle is. */
-export const SIDES = [[1, 0], [-1, 0], [0, -1], [0, 1], [0.75, -0.8], [-0.75, -0.8], [0.75, 0.8], [-0.75, 0.8]];
+export const SIDES = [
+  [1, 0],
+  [-1, 0],
+  [0, -1],
+  [0, 1],
+  [0.75, -0.8],
+  [-0.75, -0.8],
+  [0.75, 0.8],
+  [-0.75, 0.8],
+];
 
 /** The box of a label on a side of a disc. */
 export function boxBeside(x, y, radius, width, height, [right, down]) {
-  const [middleX, middleY] = [x + right * (radius + 3 + width / 2), y + down * (radius + 2 + height / 2)];
+  const [middleX, middleY] = [
+    x + right * (radius + 3 + width / 2),
+    y + down * (radius + 2 + height / 2),
+  ];
   return [middleX - width / 2, middleY - height / 2, middleX + width / 2, middleY + height / 2];
 }

@@ -30,7 +30,9 @@ export class Loop {
   #show() {
     if (!this.plan.steady) return;
     this.button.disabled = !this.#window;
-    this.button.title = this.#window ? "Play one period for ever (L)" : "The plan ends before a whole period does";
+    this.button.title = this.#window
+      ? "Play one period for ever (L)"
+      : "The plan ends before a whole period does";
     this.button.setAttribute("aria-pressed", Boolean(this.clock.loop));
   }
 }

@@ -35,7 +35,16 @@ const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap }); // a
 const use = new Use(plan);
 const bottleneck = new Bottleneck(plan, clock, choice, theme, words);
 
-const mapView = new MapView(document.getElementById("map"), plan, theme, { motion, ghosts, clock, choice, words, use, bottleneck, tools: true });
+const mapView = new MapView(document.getElementById("map"), plan, theme, {
+  motion,
+  ghosts,
+  clock,
+  choice,
+  words,
+  use,
+  bottleneck,
+  tools: true,
+});
 const diagram = new Diagram(plan, clock, choice, theme, words, use, bottleneck);
 const transport = new Transport(plan, clock, words);
 const loop = new Loop(plan, clock, choice);
@@ -46,16 +55,34 @@ const card = new Card(plan, clock, choice, words, comparison, mapView.space); //
 const robotList = new RobotList(plan, motion, clock, choice, words);
 const decisionList = new DecisionList(plan, clock, choice, words);
 const faultList = new FaultList(plan, clock, choice, words);
-const tabs = new Tabs([plan.robots.length, decisionList.items.length, plan.faultCount || null, plan.other && plan.robots.length], () => {
-  robotList.refresh();
-  decisionList.refresh();
-  faultList.refresh();
-  comparison?.refresh();
-});
+const tabs = new Tabs(
+  [
+    plan.robots.length,
+    decisionList.items.length,
+    plan.faultCount || null,
+    plan.other && plan.robots.length,
+  ],
+  () => {
+    robotList.refresh();
+    decisionList.refresh();
+    faultList.refresh();
+    comparison?.refresh();
+  },
+);
 const deepLink = new DeepLink(plan, clock, choice);
 const summary = new Summary(plan, choice, words, comparison);
-const share = new Share(plan, clock, [mapView, ...(comparison ? [comparison.view] : [])], diagram, theme, words, deepLink);
-const paper = new Paper(plan, clock, theme, words, comparison, () => frames.paint(performance.now()));
+const share = new Share(
+  plan,
+  clock,
+  [mapView, ...(comparison ? [comparison.view] : [])],
+  diagram,
+  theme,
+  words,
+  deepLink,
+);
+const paper = new Paper(plan, clock, theme, words, comparison, () =>
+  frames.paint(performance.now()),
+);
 layOut();
 window.addEventListener("resize", layOut);
 document.querySelector(".caption").classList.toggle("full", Boolean(plan.happened || plan.steady));
@@ -148,4 +175,10 @@ if (plan.faultCount) tabs.show(2);
 else if (comparison) tabs.show(3);
 if (plan.noPlan && !linked) choice.chooseFault(0);
 frames.ask();
-if (!linked && !plan.faultCount && !EMBEDDED && !matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
+if (
+  !linked &&
+  !plan.faultCount &&
+  !EMBEDDED &&
+  !matchMedia("(prefers-reduced-motion: reduce)").matches
+)
+  clock.play();

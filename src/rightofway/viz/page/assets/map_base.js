@@ -86,7 +86,10 @@ export class MapBase {
   }
 
   #strength(robot) {
-    return (this.choice.standsOut(robot.index) ? 1 : 0.25) * (this.plan.robots.length > MANY_ROBOTS ? 0.45 : 1);
+    return (
+      (this.choice.standsOut(robot.index) ? 1 : 0.25) *
+      (this.plan.robots.length > MANY_ROBOTS ? 0.45 : 1)
+    );
   }
 
   /** A home is a frame in the robot's colour. */

@@ -60,7 +60,12 @@ export class MapGround {
     rows.forEach((row, y) => {
       for (const run of row.matchAll(/[^.]+/g)) {
         const more = y + 1 < height ? this.#pixels(0.6) : 0; // no hairline between two rows
-        context.fillRect(run.index - 0.5, y - 0.5, run[0].length, 1 + more * (rows[y + 1]?.[run.index] !== "."));
+        context.fillRect(
+          run.index - 0.5,
+          y - 0.5,
+          run[0].length,
+          1 + more * (rows[y + 1]?.[run.index] !== "."),
+        );
       }
     });
     context.globalAlpha = 1;
@@ -76,7 +81,10 @@ export class MapGround {
     context.fillStyle = this.theme.wall;
     context.fillRect(-0.5, -0.5, width, height);
     context.fillStyle = this.theme.line;
-    const fill = (less) => sides.forEach((side, vertex) => context.fillRect(x[vertex] - side / 2, y[vertex] - side / 2, side - less, side - less));
+    const fill = (less) =>
+      sides.forEach((side, vertex) =>
+        context.fillRect(x[vertex] - side / 2, y[vertex] - side / 2, side - less, side - less),
+      );
     fill(this.#pixels(-0.3)); // no hairline between two cells
     context.fillStyle = this.theme.floor;
     fill(gap);
@@ -94,7 +102,9 @@ export class MapGround {
   /** Lanes: broad with a dashed middle where both ways are driven, narrower with arrow heads for one way. */
   #network(context) {
     const { x, y } = this.roadmap;
-    const [oneWay, bothWays] = [this.roadmap.lanes.oneWay, this.roadmap.lanes.bothWays].map((lanes) => this.#inSight(lanes));
+    const [oneWay, bothWays] = [this.roadmap.lanes.oneWay, this.roadmap.lanes.bothWays].map(
+      (lanes) => this.#inSight(lanes),
+    );
     const { lane } = this.sizes;
     const draw = (lanes, width, colour) => {
       context.strokeStyle = colour;
@@ -102,7 +112,8 @@ export class MapGround {
       context.beginPath();
       for (const [tail, head] of lanes) {
         const curve = this.roadmap.curve(tail, head) ?? this.roadmap.curve(head, tail);
-        if (curve) curve.points.forEach(([atX, atY], i) => context[i ? "lineTo" : "moveTo"](atX, atY));
+        if (curve)
+          curve.points.forEach(([atX, atY], i) => context[i ? "lineTo" : "moveTo"](atX, atY));
         else line(context, x[tail], y[tail], x[head], y[head]);
       }
       context.stroke();
@@ -126,10 +137,19 @@ export class MapGround {
     const { x, y } = this.roadmap;
     const { viewport } = this;
     const { clientWidth: width, clientHeight: height } = viewport.canvas;
-    const [left, top, right, bottom] = [viewport.toX(-20), viewport.toY(-20), viewport.toX(width + 20), viewport.toY(height + 20)];
-    return lanes.filter(([tail, head]) =>
-      Math.max(x[tail], x[head]) >= left && Math.min(x[tail], x[head]) <= right &&
-      Math.max(y[tail], y[head]) >= top && Math.min(y[tail], y[head]) <= bottom);
+    const [left, top, right, bottom] = [
+      viewport.toX(-20),
+      viewport.toY(-20),
+      viewport.toX(width + 20),
+      viewport.toY(height + 20),
+    ];
+    return lanes.filter(
+      ([tail, head]) =>
+        Math.max(x[tail], x[head]) >= left &&
+        Math.min(x[tail], x[head]) <= right &&
+        Math.max(y[tail], y[head]) >= top &&
+        Math.min(y[tail], y[head]) <= bottom,
+    );
   }
 
   /** The ends of lanes, and vertices without any. */

@@ -27,7 +27,10 @@ export class MapMarks {
     const [x, y] = roadmap.toDrawing(0, 0);
     const length = this.#pixels(AXIS);
     context.lineWidth = this.#pixels(2);
-    for (const [colour, toX, toY] of [[this.theme.held, 1, 0], [this.theme.drive, 0, 1]]) {
+    for (const [colour, toX, toY] of [
+      [this.theme.held, 1, 0],
+      [this.theme.drive, 0, 1],
+    ]) {
       const [endX, endY] = roadmap.toDrawing(toX, toY);
       const [right, down] = [endX - x, endY - y];
       const share = length / Math.hypot(right, down);
@@ -82,7 +85,8 @@ export class MapMarks {
     context.setLineDash([this.#pixels(3), this.#pixels(3)]);
     context.beginPath();
     for (const [one, other] of vertices) line(context, x[one], y[one], x[other], y[other]);
-    for (const [vertex, tail, head] of beside) line(context, x[vertex], y[vertex], ...footOn(roadmap, vertex, tail, head));
+    for (const [vertex, tail, head] of beside)
+      line(context, x[vertex], y[vertex], ...footOn(roadmap, vertex, tail, head));
     context.stroke();
     context.setLineDash([]);
   }
@@ -148,7 +152,14 @@ function letter(context, text, x, y, theme, side) {
 /** The sign for electricity, in a square. */
 function bolt(context, x, y, side) {
   context.beginPath();
-  for (const [right, down] of [[0.1, -0.4], [-0.25, 0.08], [-0.02, 0.08], [-0.1, 0.4], [0.25, -0.08], [0.02, -0.08]]) {
+  for (const [right, down] of [
+    [0.1, -0.4],
+    [-0.25, 0.08],
+    [-0.02, 0.08],
+    [-0.1, 0.4],
+    [0.25, -0.08],
+    [0.02, -0.08],
+  ]) {
     context.lineTo(x + right * side, y + down * side);
   }
   context.fill();

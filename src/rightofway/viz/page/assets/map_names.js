@@ -52,13 +52,15 @@ export class MapNames {
     this.#spots ??= this.#findSpots(context, width, height);
     this.#robots.clear(width, height);
     const inSight = this.#inSight(width, height);
-    const named = inSight.length <= MOST_NAMED ? inSight : inSight.filter((index) => this.#isChosen(index));
+    const named =
+      inSight.length <= MOST_NAMED ? inSight : inSight.filter((index) => this.#isChosen(index));
     if (!named.length && !this.#spots.length) return;
     for (const index of inSight) this.#robots.takeDisc(...this.#at(index), this.#radius(index));
     const outside = named.filter((index) => !this.#fitsInside(context, index, this.#radius(index)));
     for (const index of outside) this.#beside(context, index, this.#radius(index));
     const outsiders = new Set(outside);
-    for (const index of named) if (!outsiders.has(index)) this.#inside(context, index, this.#radius(index));
+    for (const index of named)
+      if (!outsiders.has(index)) this.#inside(context, index, this.#radius(index));
     this.#writePlaces(context);
   }
 
@@ -82,8 +84,11 @@ export class MapNames {
       const [x, y] = this.#at(index);
       if (x > -5 && x < width + 5 && y > -5 && y < height + 5) found.push(index);
     }
-    const rank = (index) => (this.#isChosen(index) ? 0 : this.motion.activity[index] === DONE ? 2 : 1);
-    return found.length > MOST_NAMED ? found : found.sort((one, other) => rank(one) - rank(other) || one - other);
+    const rank = (index) =>
+      this.#isChosen(index) ? 0 : this.motion.activity[index] === DONE ? 2 : 1;
+    return found.length > MOST_NAMED
+      ? found
+      : found.sort((one, other) => rank(one) - rank(other) || one - other);
   }
 
   #width(context, text, font) {
@@ -100,7 +105,10 @@ export class MapNames {
   }
 
   #fitsInside(context, index, radius) {
-    return radius >= 13 && this.#width(context, this.plan.robots[index].name, this.#insideFont(radius)) < radius * 1.7;
+    return (
+      radius >= 13 &&
+      this.#width(context, this.plan.robots[index].name, this.#insideFont(radius)) < radius * 1.7
+    );
   }
 
   #inside(context, index, radius) {
@@ -132,39 +140,62 @@ export class MapNames {
     const font = this.theme.font(ROBOT_TYPE, 600);
     const width = this.#width(context, name, font);
     const [x, y] = this.#at(index);
-    const away = Math.max(this.#isHome(index) ? this.sizes.homeOf(this.plan.robots[index]) : 0, radius + (this.#isChosen(index) ? 5 : 0));
+    const away = Math.max(
+      this.#isHome(index) ? this.sizes.homeOf(this.plan.robots[index]) : 0,
+      radius + (this.#isChosen(index) ? 5 : 0),
+    );
     const change = this.clock.playing ? 9 : 1;
     let [best, least, box] = [-1, Infinity, null];
     for (let step = 0; step < SIDES.length; step++) {
       const side = (this.#sides[index] + step) % SIDES.length;
       const there = boxBeside(x, y, away, width, ROBOT_TYPE + 2, SIDES[side]);
       if (!this.#robots.isFree(...there)) continue;
-      const cost = (this.#places.isFree(...there) ? 0 : 3) + (this.#marks.isFree(...there) ? 0 : 2) + (step ? change : 0);
+      const cost =
+        (this.#places.isFree(...there) ? 0 : 3) +
+        (this.#marks.isFree(...there) ? 0 : 2) +
+        (step ? change : 0);
       if (cost < least) [best, least, box] = [side, cost, there];
       if (least <= (step ? change : change - 1)) break;
     }
     if (!box && !this.#isChosen(index)) return;
     if (box) this.#sides[index] = best;
-    else box = this.#overOthers(SIDES.map((side) => boxBeside(x, y, away, width, ROBOT_TYPE + 2, side)));
+    else
+      box = this.#overOthers(
+        SIDES.map((side) => boxBeside(x, y, away, width, ROBOT_TYPE + 2, side)),
+      );
     this.#robots.take(...box);
     context.font = font;
     context.globalAlpha = this.choice.standsOut(index) ? 1 : 0.6;
-    this.#write(context, name, box, this.motion.activity[index] === DONE ? this.theme.muted : this.theme.ink);
+    this.#write(
+      context,
+      name,
+      box,
+      this.motion.activity[index] === DONE ? this.theme.muted : this.theme.ink,
+    );
     context.globalAlpha = 1;
   }
 
   /** Where the name of a chosen robot stands in a crowd: over other robots, but over no other name. */
   #overOthers(boxes) {
-    const covers = (box, it) => box[0] < it.box[2] && it.box[0] < box[2] && box[1] < it.box[3] && it.box[1] < box[3];
+    const covers = (box, it) =>
+      box[0] < it.box[2] && it.box[0] < box[2] && box[1] < it.box[3] && it.box[1] < box[3];
     const { width, height } = this.#robots;
-    const inside = boxes.filter(([left, top, right, bottom]) => left >= 0 && top >= 0 && right <= width && bottom <= height);
-    return inside.find((box) => !this.written.some((it) => covers(box, it))) ?? inside[0] ?? boxes[0];
+    const inside = boxes.filter(
+      ([left, top, right, bottom]) => left >= 0 && top >= 0 && right <= width && bottom <= height,
+    );
+    return (
+      inside.find((box) => !this.written.some((it) => covers(box, it))) ?? inside[0] ?? boxes[0]
+    );
   }
 
   #isHome(index) {
     const { x, y } = this.plan.roadmap;
     const { home } = this.plan.robots[index];
-    return Math.hypot(this.motion.x[index] - x[home], this.motion.y[index] - y[home]) * this.viewport.scale < 3;
+    return (
+      Math.hypot(this.motion.x[index] - x[home], this.motion.y[index] - y[home]) *
+        this.viewport.scale <
+      3
+    );
   }
 
   #write(context, name, box, ink) {
@@ -215,7 +246,9 @@ export class MapNames {
     };
     const inSight = [...this.#named(marks)].filter(isInSight);
     const spots = [];
-    for (const vertex of inSight.length > MOST_VERTICES ? inSight.filter((it) => marks.has(it)) : inSight) {
+    for (const vertex of inSight.length > MOST_VERTICES
+      ? inSight.filter((it) => marks.has(it))
+      : inSight) {
       const mark = marks.get(vertex);
       const font = this.theme.font(PLACE_TYPE, mark ? 600 : 400);
       const name = cut(roadmap.label(vertex), mark ? LONGEST_MARK : LONGEST_NAME);
@@ -238,8 +271,13 @@ export class MapNames {
       const name = cut(whole);
       const wide = this.#width(context, name, font);
       const anchors = new Set([...vertices, ...edges.flat()]);
-      const boxes = [...anchors].slice(0, MOST_ANCHORS).flatMap((vertex) =>
-        SIDES.map((side) => boxBeside(...this.#pointOf(vertex), this.sizes.zone / 2, wide, PLACE_TYPE + 2, side)));
+      const boxes = [...anchors]
+        .slice(0, MOST_ANCHORS)
+        .flatMap((vertex) =>
+          SIDES.map((side) =>
+            boxBeside(...this.#pointOf(vertex), this.sizes.zone / 2, wide, PLACE_TYPE + 2, side),
+          ),
+        );
       const free = boxes.filter((box) => this.#places.isFree(...box) && this.#marks.isFree(...box));
       const box = free.find((each) => this.#lanes.isFree(...each)) ?? free[0];
       if (!box) continue;
@@ -254,7 +292,8 @@ export class MapNames {
     const font = this.theme.font(11, 600);
     for (const { tail, head, limit } of limits ?? []) {
       if (limit === usualLimit) continue;
-      if (Math.hypot(xs[head] - xs[tail], ys[head] - ys[tail]) * this.viewport.scale < SIGNED_LANE) continue;
+      if (Math.hypot(xs[head] - xs[tail], ys[head] - ys[tail]) * this.viewport.scale < SIGNED_LANE)
+        continue;
       const name = decimal(fraction(limit));
       const radius = Math.max(this.#width(context, name, font) / 2 + 4, 9);
       const [one, other] = [this.#pointOf(tail), this.#pointOf(head)];
@@ -286,7 +325,10 @@ export class MapNames {
       if (2 * across > it.width * scale || 2 * down > it.height * scale) continue;
       const x = left + (it.left + it.width / 2) * scale;
       const boxes = [0.5, 1, 0].map((share) => {
-        const y = top + it.top * scale + Math.min(Math.max(it.height * scale * share, down), it.height * scale - down);
+        const y =
+          top +
+          it.top * scale +
+          Math.min(Math.max(it.height * scale * share, down), it.height * scale - down);
         return [x - across, y - down, x + across, y + down];
       });
       const box = boxes.find((each) => this.#places.isFree(...each) && this.#marks.isFree(...each));
@@ -297,7 +339,10 @@ export class MapNames {
   }
 
   #colours(vertex, isMark) {
-    const { theme, plan: { roadmap } } = this;
+    const {
+      theme,
+      plan: { roadmap },
+    } = this;
     const heat = this.choice.heat && roadmap.hasCells ? this.use.heat(vertex, theme) : null;
     if (heat && this.viewport.scale >= NAMED_CELL) return { ink: inkOn(heat), halo: heat };
     return { ink: isMark ? theme.ink : theme.muted, halo: this.#halo };
@@ -311,14 +356,26 @@ export class MapNames {
   /** Marks, and on a roadmap lanes, that names rather do not cover. */
   #keepFree(marks, width, height) {
     for (const board of [this.#places, this.#marks, this.#lanes]) board.clear(width, height);
-    this.#places.take(width - LONGEST_BAR - (this.plan.roadmap.usualLimit ? 240 : 40), height - 28, width, height); // scale bar
-    for (const [vertex, mark] of marks) this.#marks.takeDisc(...this.#pointOf(vertex), this.#reach(mark));
+    this.#places.take(
+      width - LONGEST_BAR - (this.plan.roadmap.usualLimit ? 240 : 40),
+      height - 28,
+      width,
+      height,
+    ); // scale bar
+    for (const [vertex, mark] of marks)
+      this.#marks.takeDisc(...this.#pointOf(vertex), this.#reach(mark));
     if (this.plan.roadmap.hasCells) return;
     const { bothWays, oneWay } = this.plan.roadmap.lanes;
     const half = this.sizes.lane / 2;
     for (const [tail, head] of [...bothWays, ...oneWay]) {
       const [[x, y], [toX, toY]] = [this.#pointOf(tail), this.#pointOf(head)];
-      if (Math.max(x, toX) < 0 || Math.min(x, toX) > width || Math.max(y, toY) < 0 || Math.min(y, toY) > height) continue;
+      if (
+        Math.max(x, toX) < 0 ||
+        Math.min(x, toX) > width ||
+        Math.max(y, toY) < 0 ||
+        Math.min(y, toY) > height
+      )
+        continue;
       const pieces = Math.min(Math.ceil(Math.hypot(toX - x, toY - y) / (2 * half)), 300);
       for (let i = 0; i <= pieces; i++) {
         this.#lanes.takeDisc(x + ((toX - x) * i) / pieces, y + ((toY - y) * i) / pieces, half);
@@ -346,7 +403,7 @@ export class MapNames {
     const radius = Math.max(this.sizes.lane / 2, this.sizes.vertex, mark ? this.#reach(mark) : 0);
     const boxes = SIDES.map((side) => boxBeside(x, y, radius, wide, high, side));
     const free = boxes.filter((box) => this.#places.isFree(...box) && this.#marks.isFree(...box));
-    return free.find((box) => this.#lanes.isFree(...box)) ?? (mayCover ? free[0] ?? null : null);
+    return free.find((box) => this.#lanes.isFree(...box)) ?? (mayCover ? (free[0] ?? null) : null);
   }
 
   /** The vertices that may have a name, in the order of their importance. */
@@ -354,7 +411,9 @@ export class MapNames {
     const { roadmap } = this.plan;
     const isChosen = (vertex) => marks.get(vertex).robots.some((index) => this.#isChosen(index));
     if (roadmap.hasCells && this.viewport.scale < NAMED_CELL) {
-      const shown = [...marks.keys()].filter((vertex) => this.plan.robots.length <= FEW_MARKS || isChosen(vertex));
+      const shown = [...marks.keys()].filter(
+        (vertex) => this.plan.robots.length <= FEW_MARKS || isChosen(vertex),
+      );
       return new Set([...(this.choice.decision?.vertices ?? []), ...shown]);
     }
     const chosenFirst = [...marks.keys()].sort((one, other) => isChosen(other) - isChosen(one));

@@ -11,13 +11,17 @@ export class MapRobots {
 
   /** Paint all robots in map units; those that stand out come last, and so on top. */
   paint(context, scale) {
-    if (this.choice.ghosts) for (const robot of this.#haunted) this.#ghost(context, robot, this.#radius(robot, scale), scale);
+    if (this.choice.ghosts)
+      for (const robot of this.#haunted)
+        this.#ghost(context, robot, this.#radius(robot, scale), scale);
     if (this.choice.robotIndex < 0) {
-      for (const robot of this.plan.robots) this.#robot(context, robot, this.#radius(robot, scale), scale);
+      for (const robot of this.plan.robots)
+        this.#robot(context, robot, this.#radius(robot, scale), scale);
     } else {
       context.globalAlpha = 0.4;
       for (const robot of this.plan.robots) {
-        if (!this.choice.standsOut(robot.index)) this.#robot(context, robot, this.#radius(robot, scale), scale);
+        if (!this.choice.standsOut(robot.index))
+          this.#robot(context, robot, this.#radius(robot, scale), scale);
       }
       context.globalAlpha = 1;
       const chosen = this.choice.decision?.robots ?? [this.choice.robotIndex];
@@ -38,14 +42,19 @@ export class MapRobots {
     for (const index of faulty) {
       const robot = this.plan.robots[index];
       const radius = this.#radius(robot, scale);
-      const wide = robot.radius ? radius + 4 / scale : faulty.length > FEW ? radius * 1.3 : Math.max(radius * 1.75, 9 / scale);
+      const wide = robot.radius
+        ? radius + 4 / scale
+        : faulty.length > FEW
+          ? radius * 1.3
+          : Math.max(radius * 1.75, 9 / scale);
       ring(context, this.motion.x[index], this.motion.y[index], wide);
     }
   }
 
   /** The robots shown with their ghosts: those chosen; all of a small fleet where none is. */
   get #haunted() {
-    if (this.choice.robot) return this.plan.robots.filter(({ index }) => this.choice.standsOut(index));
+    if (this.choice.robot)
+      return this.plan.robots.filter(({ index }) => this.choice.standsOut(index));
     return this.plan.robots.length <= FEW ? this.plan.robots : [];
   }
 
@@ -66,7 +75,13 @@ export class MapRobots {
       const share = outer / apart;
       context.globalAlpha = 0.6;
       context.beginPath();
-      line(context, x + right * share, y + down * share, x + right * (1 - share), y + down * (1 - share));
+      line(
+        context,
+        x + right * share,
+        y + down * share,
+        x + right * (1 - share),
+        y + down * (1 - share),
+      );
       context.stroke();
     }
     context.globalAlpha = 1;
@@ -78,7 +93,12 @@ export class MapRobots {
     const grown = Math.max(radius, 7 / scale);
     context.strokeStyle = this.theme.ink;
     context.lineWidth = 2.5 / scale;
-    ring(context, x, y, grown + (this.#dialled(robot.index) && !robot.radius ? 0.42 * grown : 0) + 4 / scale);
+    ring(
+      context,
+      x,
+      y,
+      grown + (this.#dialled(robot.index) && !robot.radius ? 0.42 * grown : 0) + 4 / scale,
+    );
     this.#robot(context, robot, grown, scale);
   }
 
@@ -94,7 +114,8 @@ export class MapRobots {
     const alpha = context.globalAlpha;
     if (this.#outlined) this.#outline(context, x, y, radius, scale);
     if (activity === WAIT) this.#waiting(context, robot, x, y, radius, scale);
-    else if (activity === HELD || activity === BROKEN) this.#trouble(context, robot, x, y, radius, scale);
+    else if (activity === HELD || activity === BROKEN)
+      this.#trouble(context, robot, x, y, radius, scale);
     else {
       if (activity === DONE) context.globalAlpha = alpha * 0.45;
       context.fillStyle = robot.colour;
@@ -118,7 +139,8 @@ export class MapRobots {
   }
 
   #waiting(context, robot, x, y, radius, scale) {
-    if (this.plan.robots.length <= FEW && this.choice.robotIndex < 0) this.#wish(context, robot, x, y, scale);
+    if (this.plan.robots.length <= FEW && this.choice.robotIndex < 0)
+      this.#wish(context, robot, x, y, scale);
     const width = Math.max(radius * 0.26, 1 / scale);
     context.fillStyle = this.theme.floor;
     disc(context, x, y, radius);

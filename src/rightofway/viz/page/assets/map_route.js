@@ -16,7 +16,9 @@ export class MapRoute {
     const { robot, decision } = this.choice;
     if (decision) this.#place(context, decision, scale);
     const chosen = decision?.robots ?? (robot ? [robot.index] : []);
-    chosen.forEach((index, place) => this.#route(context, this.plan.robots[index], this.aside(place), scale));
+    chosen.forEach((index, place) =>
+      this.#route(context, this.plan.robots[index], this.aside(place), scale),
+    );
   }
 
   /**
@@ -49,7 +51,8 @@ export class MapRoute {
     for (let visit = from + 1; visit <= to; visit++) {
       const vertex = robot.vertices[visit];
       const after = visit < to ? this.#side(robot, visit, aside) : before;
-      for (const turn of corner(before, after)) context.lineTo(x[vertex] + turn.x, y[vertex] + turn.y);
+      for (const turn of corner(before, after))
+        context.lineTo(x[vertex] + turn.x, y[vertex] + turn.y);
       before = after;
     }
     context.stroke();
@@ -72,7 +75,9 @@ export class MapRoute {
     context.lineWidth = Math.max(2 * this.sizes.robot + 18, 4 * this.sizes.route.apart + 8) / scale;
     context.globalAlpha = 0.2;
     context.beginPath();
-    vertices.forEach((vertex, i) => (i ? context.lineTo(x[vertex], y[vertex]) : context.moveTo(x[vertex], y[vertex])));
+    vertices.forEach((vertex, i) =>
+      i ? context.lineTo(x[vertex], y[vertex]) : context.moveTo(x[vertex], y[vertex]),
+    );
     context.stroke();
     context.globalAlpha = 1;
     context.lineCap = "butt";

@@ -15,7 +15,9 @@ export class MapSizes {
 
   /** Radius of a robot: its own, if it has one, as long as that can be seen. */
   of(robot) {
-    return robot.radius ? Math.max((robot.radius / this.plan.roadmap.unit) * this.viewport.scale, SMALLEST_RADIUS) : this.#point;
+    return robot.radius
+      ? Math.max((robot.radius / this.plan.roadmap.unit) * this.viewport.scale, SMALLEST_RADIUS)
+      : this.#point;
   }
 
   /** Radius of the largest robot. */
@@ -30,7 +32,10 @@ export class MapSizes {
     const apart = Math.sqrt((roadmap.width * roadmap.height) / robots.length) * scale; // on average
     const cap = Math.max(SMALLEST_CAP.many, Math.min(SMALLEST_CAP.few, apart * 0.1), scale * 0.95);
     const least = Math.min(apart * 0.16, READABLE_RADIUS, cap);
-    return Math.min(Math.max(scale * 0.31, least, 1.8), LARGEST_RADIUS[roadmap.hasCells ? "grid" : "network"]);
+    return Math.min(
+      Math.max(scale * 0.31, least, 1.8),
+      LARGEST_RADIUS[roadmap.hasCells ? "grid" : "network"],
+    );
   }
 
   /** Half the side of a robot's home. */

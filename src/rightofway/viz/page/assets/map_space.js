@@ -38,7 +38,10 @@ export class MapSpace {
     this.#encounter = this.#findEncounter();
     if (!this.#encounter) return;
     const [one, other] = [this.choice.robotIndex, this.#encounter.other.index];
-    for (const [colour, width] of [[this.theme.paper, 5], [this.theme.ink, 2]]) {
+    for (const [colour, width] of [
+      [this.theme.paper, 5],
+      [this.theme.ink, 2],
+    ]) {
       context.strokeStyle = colour;
       context.lineWidth = width / scale;
       context.beginPath();
@@ -59,10 +62,21 @@ export class MapSpace {
     context.textAlign = "center";
     context.textBaseline = "bottom";
     const middle = left + ((x[one] + x[other]) / 2) * scale;
-    const ends = [one, other].map((index) => [top + y[index] * scale, this.sizes.of(this.plan.robots[index])]);
+    const ends = [one, other].map((index) => [
+      top + y[index] * scale,
+      this.sizes.of(this.plan.robots[index]),
+    ]);
     const above = Math.min(...ends.map(([at, radius]) => at - radius)) - 8;
     const below = Math.max(...ends.map(([at, radius]) => at + radius)) + 24;
-    haloed(context, words.apart(this.#encounter), middle, above < 20 ? below : above, this.theme.ink, this.theme.paper, 4);
+    haloed(
+      context,
+      words.apart(this.#encounter),
+      middle,
+      above < 20 ? below : above,
+      this.theme.ink,
+      this.theme.paper,
+      4,
+    );
   }
 
   /** The robot that is looked at with the one chosen, or the nearest one. */
@@ -73,13 +87,16 @@ export class MapSpace {
     if (pair < 0 || !nearest) return nearest;
     const other = this.plan.robots[pair];
     const { x, y } = this.motion;
-    const distance = Math.hypot(x[robot.index] - x[pair], y[robot.index] - y[pair]) * this.plan.roadmap.unit;
+    const distance =
+      Math.hypot(x[robot.index] - x[pair], y[robot.index] - y[pair]) * this.plan.roadmap.unit;
     return { other, distance, room: this.plan.room(robot, other) };
   }
 
   /** Half the width of what a robot books, in map units. */
   #half(robot) {
-    return robot.radius ? (robot.radius + this.plan.clearance / 2) / this.plan.roadmap.unit : this.sizes.of(robot) / this.viewport.scale;
+    return robot.radius
+      ? (robot.radius + this.plan.clearance / 2) / this.plan.roadmap.unit
+      : this.sizes.of(robot) / this.viewport.scale;
   }
 
   #zones(context, scale) {
@@ -144,24 +161,41 @@ export class MapSpace {
     const { roadmap } = this.plan;
     const others = this.plan.robots.filter((other) => other !== robot);
     if (!robot.radius || !others.length) return;
-    const least = others.reduce((smallest, other) => (other.radius < smallest.radius ? other : smallest));
+    const least = others.reduce((smallest, other) =>
+      other.radius < smallest.radius ? other : smallest,
+    );
     const limit = this.plan.room(robot, least) / roadmap.unit - 1e-9;
     const { vertices, edges } = this.space.heldBy(robot);
     const shapes = [...vertices.map((vertex) => [vertex, vertex]), ...edges];
     const { x: xs, y: ys } = roadmap;
     const corners = shapes.flat();
-    const [left, right] = [Math.min(...corners.map((at) => xs[at])) - limit, Math.max(...corners.map((at) => xs[at])) + limit];
-    const [top, bottom] = [Math.min(...corners.map((at) => ys[at])) - limit, Math.max(...corners.map((at) => ys[at])) + limit];
-    const isAround = (tail, head) => Math.max(xs[tail], xs[head]) > left && Math.min(xs[tail], xs[head]) < right &&
-      Math.max(ys[tail], ys[head]) > top && Math.min(ys[tail], ys[head]) < bottom;
-    const isNear = (tail, head) => isAround(tail, head) && shapes.some((shape) => lanesApart(roadmap, shape, [tail, head]) < limit);
-    const isOwn = (tail, head) => edges.some(([from, to]) => (from === tail && to === head) || (from === head && to === tail));
+    const [left, right] = [
+      Math.min(...corners.map((at) => xs[at])) - limit,
+      Math.max(...corners.map((at) => xs[at])) + limit,
+    ];
+    const [top, bottom] = [
+      Math.min(...corners.map((at) => ys[at])) - limit,
+      Math.max(...corners.map((at) => ys[at])) + limit,
+    ];
+    const isAround = (tail, head) =>
+      Math.max(xs[tail], xs[head]) > left &&
+      Math.min(xs[tail], xs[head]) < right &&
+      Math.max(ys[tail], ys[head]) > top &&
+      Math.min(ys[tail], ys[head]) < bottom;
+    const isNear = (tail, head) =>
+      isAround(tail, head) &&
+      shapes.some((shape) => lanesApart(roadmap, shape, [tail, head]) < limit);
+    const isOwn = (tail, head) =>
+      edges.some(([from, to]) => (from === tail && to === head) || (from === head && to === tail));
     context.strokeStyle = this.theme.held;
     context.lineWidth = 2 / scale;
     context.setLineDash([5 / scale, 4 / scale]);
     context.beginPath();
-    for (const [tail, head] of roadmap.lanes ? [...roadmap.lanes.bothWays, ...roadmap.lanes.oneWay] : []) {
-      if (!isOwn(tail, head) && isNear(tail, head)) line(context, xs[tail], ys[tail], xs[head], ys[head]);
+    for (const [tail, head] of roadmap.lanes
+      ? [...roadmap.lanes.bothWays, ...roadmap.lanes.oneWay]
+      : []) {
+      if (!isOwn(tail, head) && isNear(tail, head))
+        line(context, xs[tail], ys[tail], xs[head], ys[head]);
     }
     context.stroke();
     context.setLineDash([]);

@@ -17,7 +17,10 @@ export class MapTip {
     this.refresh(viewport, sizes);
     if (this.box.hidden) return;
     const { width, height } = this.canvas.getBoundingClientRect();
-    const [x, y] = [viewport.left + viewport.pointer.x * viewport.scale, viewport.top + viewport.pointer.y * viewport.scale];
+    const [x, y] = [
+      viewport.left + viewport.pointer.x * viewport.scale,
+      viewport.top + viewport.pointer.y * viewport.scale,
+    ];
     const { offsetWidth: wide, offsetHeight: high } = this.box;
     const left = x + TIP_GAP + wide < width ? x + TIP_GAP : Math.max(x - TIP_GAP - wide, 4);
     const top = y + TIP_GAP + high < height ? y + TIP_GAP : Math.max(y - TIP_GAP - high, 4);
@@ -32,8 +35,11 @@ export class MapTip {
     const text = lines.map(({ text }) => text).join("\n");
     if (text === this.text) return;
     this.text = text;
-    this.box.replaceChildren(...lines.map(({ text: words, robot, kind }) =>
-      element("div", { className: kind ?? "" }, ...(robot ? [swatch(robot)] : []), words)));
+    this.box.replaceChildren(
+      ...lines.map(({ text: words, robot, kind }) =>
+        element("div", { className: kind ?? "" }, ...(robot ? [swatch(robot)] : []), words),
+      ),
+    );
   }
 
   #about(x, y, radius) {
@@ -44,7 +50,9 @@ export class MapTip {
       ...(index < 0 ? [] : this.#aboutRobot(this.plan.robots[index])),
       ...(vertex < 0 ? [] : this.#aboutPlace(vertex, index)),
       ...(vertex < 0 ? [] : this.#aboutZones(vertex)),
-      ...this.plan.closures.filter(({ vertices }) => vertices.includes(vertex)).map((closure) => ({ text: this.words.closure(closure) })),
+      ...this.plan.closures
+        .filter(({ vertices }) => vertices.includes(vertex))
+        .map((closure) => ({ text: this.words.closure(closure) })),
       ...(obstacle ? [{ text: obstacle.name, kind: "title" }] : []),
       { text: this.#position(x, y), kind: "position" },
     ];
@@ -58,9 +66,13 @@ export class MapTip {
     const { begin, visit } = robot.phases;
     const activity = this.motion.activity[robot.index];
     const here = words.vertex(robot.vertices[visit[phase]]);
-    const where = activity === DRIVE ? ` to ${words.vertex(robot.vertices[visit[phase] + 1])}` : ` in ${here}`;
+    const where =
+      activity === DRIVE ? ` to ${words.vertex(robot.vertices[visit[phase] + 1])}` : ` in ${here}`;
     const end = robot.phases.end(phase);
-    const times = end === Infinity ? `since ${words.moment(begin[phase])}` : `${words.moment(begin[phase])} to ${words.moment(end)}`;
+    const times =
+      end === Infinity
+        ? `since ${words.moment(begin[phase])}`
+        : `${words.moment(begin[phase])} to ${words.moment(end)}`;
     return [
       { text: robot.name, robot, kind: "title" },
       { text: `${ACTIVITY_WORDS[activity]}${where}, ${times}` },
@@ -82,8 +94,12 @@ export class MapTip {
   #aboutPlace(vertex, named) {
     const now = this.clock.tick;
     const { words } = this;
-    const visits = this.use.visitsAt(vertex).sort(([one, a], [two, b]) => one.enter[a] - two.enter[b]);
-    const here = visits.find(([robot, visit]) => robot.enter[visit] <= now && now < robot.leave(visit));
+    const visits = this.use
+      .visitsAt(vertex)
+      .sort(([one, a], [two, b]) => one.enter[a] - two.enter[b]);
+    const here = visits.find(
+      ([robot, visit]) => robot.enter[visit] <= now && now < robot.leave(visit),
+    );
     const next = visits.find(([robot, visit]) => robot.enter[visit] > now);
     const lines = [{ text: this.#placeName(vertex), kind: "title" }];
     if (this.plan.isStill) return lines;
@@ -92,8 +108,13 @@ export class MapTip {
       const until = leave === Infinity ? "stays" : `until ${words.moment(leave)}`;
       lines.push({ text: `${here[0].name} ${until}`, robot: here[0] });
     }
-    if (next) lines.push({ text: `next ${next[0].name}, at ${words.moment(next[0].enter[next[1]])}`, robot: next[0] });
-    if (this.choice.heat) lines.push({ text: `held for ${words.duration(this.use.held[vertex])} in all` });
+    if (next)
+      lines.push({
+        text: `next ${next[0].name}, at ${words.moment(next[0].enter[next[1]])}`,
+        robot: next[0],
+      });
+    if (this.choice.heat)
+      lines.push({ text: `held for ${words.duration(this.use.held[vertex])} in all` });
     return lines;
   }
 
@@ -101,8 +122,13 @@ export class MapTip {
   #placeName(vertex) {
     const homes = this.plan.robots.filter((robot) => robot.home === vertex).map(({ name }) => name);
     const stops = (this.plan.stops.get(vertex) ?? []).map(({ name }) => name);
-    const uses = [homes.length ? `home of ${several(homes)}` : "", stops.length ? `stop of ${several(stops)}` : ""];
-    return [this.words.vertex(vertex), this.plan.roadmap.uses(vertex), ...uses].filter(Boolean).join(", ");
+    const uses = [
+      homes.length ? `home of ${several(homes)}` : "",
+      stops.length ? `stop of ${several(stops)}` : "",
+    ];
+    return [this.words.vertex(vertex), this.plan.roadmap.uses(vertex), ...uses]
+      .filter(Boolean)
+      .join(", ");
   }
 
   /** Coordinates in the site's frame, to a hundredth of a cell or so. */

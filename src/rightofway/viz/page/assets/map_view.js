@@ -26,10 +26,21 @@ const STILL = Object.freeze({ tick: 0, playing: false });
  * an element with room for a tip (class `hover`); without `tools`, no button of the page acts on it.
  */
 export class MapView {
-  constructor(canvas, plan, theme, {
-    motion = new Motion(plan), ghosts = motion, clock = STILL, choice = new Choice(plan), words = new Words(plan),
-    use = new Use(plan), bottleneck = null, tools = false,
-  } = {}) {
+  constructor(
+    canvas,
+    plan,
+    theme,
+    {
+      motion = new Motion(plan),
+      ghosts = motion,
+      clock = STILL,
+      choice = new Choice(plan),
+      words = new Words(plan),
+      use = new Use(plan),
+      bottleneck = null,
+      tools = false,
+    } = {},
+  ) {
     Object.assign(this, { canvas, motion, clock, choice, words, use, bottleneck });
     this.context = canvas.getContext("2d");
     this.roadmap = plan.roadmap;
@@ -42,14 +53,27 @@ export class MapView {
       this.names.refresh();
     });
     this.space = new Space(plan, motion);
-    this.bookings = new MapSpace(plan, motion, clock, this.space, this.viewport, this.sizes, theme, choice, base.marks);
+    this.bookings = new MapSpace(
+      plan,
+      motion,
+      clock,
+      this.space,
+      this.viewport,
+      this.sizes,
+      theme,
+      choice,
+      base.marks,
+    );
     this.robots = new MapRobots(plan, motion, ghosts, this.sizes, theme, choice);
     this.route = new MapRoute(plan, motion, this.sizes, theme, choice);
     this.names = new MapNames(plan, motion, this.viewport, this.sizes, clock, theme, choice, use);
     this.tip = new MapTip(canvas, plan, motion, clock, choice, words, use, this.space);
     canvas.parentElement.style.setProperty("--ratio", plan.roadmap.width / plan.roadmap.height);
     const { length } = plan.robots;
-    canvas.setAttribute("aria-label", length ? `Map with ${counted(length, "robot")}` : `Map with ${plan.roadmap.size} vertices`);
+    canvas.setAttribute(
+      "aria-label",
+      length ? `Map with ${counted(length, "robot")}` : `Map with ${plan.roadmap.size} vertices`,
+    );
     this.viewport.on("click", () => this.#click());
     this.viewport.on("hover", () => this.tip.show(this.viewport, this.sizes));
     choice.on("choice", () => this.#bringIntoSight());
@@ -81,7 +105,13 @@ export class MapView {
   #click() {
     const { x, y } = this.viewport.pointer;
     if (this.choice.picked) {
-      const vertex = nearest(this.roadmap.x, this.roadmap.y, x, y, Math.max(0.5, 16 / this.viewport.scale));
+      const vertex = nearest(
+        this.roadmap.x,
+        this.roadmap.y,
+        x,
+        y,
+        Math.max(0.5, 16 / this.viewport.scale),
+      );
       if (vertex >= 0) this.choice.pickEnd(vertex);
       return;
     }
@@ -103,8 +133,11 @@ export class MapView {
     press("corridor", () => this.choice.toggleCorridor());
     press("space", () => this.choice.toggleSpace());
     document.getElementById("space").hidden = !plan.hasSpace;
-    this.choice.on("space", () => document.getElementById("space").setAttribute("aria-pressed", this.choice.space));
-    for (const event of ["space", "choice", "mode"]) this.choice.on(event, () => this.#showClosest());
+    this.choice.on("space", () =>
+      document.getElementById("space").setAttribute("aria-pressed", this.choice.space),
+    );
+    for (const event of ["space", "choice", "mode"])
+      this.choice.on(event, () => this.#showClosest());
     this.choice.on("corridor", () => {
       const { picked, corridor } = this.choice;
       document.getElementById("corridor").setAttribute("aria-pressed", Boolean(picked || corridor));
@@ -121,12 +154,15 @@ export class MapView {
     if (!closest) return;
     const { robot, other, tick } = closest;
     const text = `${robot.name} and ${other.name}, ${this.words.apart(closest)}, at ${this.words.moment(tick)}`;
-    legend.replaceChildren("Closest approach:", link(text, () => {
-      this.clock.pause();
-      this.clock.seek(tick);
-      this.choice.chooseRobot(robot.index);
-      this.choice.lookAtPair(other.index);
-    }));
+    legend.replaceChildren(
+      "Closest approach:",
+      link(text, () => {
+        this.clock.pause();
+        this.clock.seek(tick);
+        this.choice.chooseRobot(robot.index);
+        this.choice.lookAtPair(other.index);
+      }),
+    );
   }
 
   /** The scale of the heat map is linear, with its unit. */
@@ -134,7 +170,10 @@ export class MapView {
     document.getElementById("heat").setAttribute("aria-pressed", this.choice.heat);
     document.getElementById("heat-legend").hidden = !this.choice.heat;
     const marks = [0, this.use.most / 2, this.use.most];
-    const texts = [...marks.slice(0, -1).map((ticks) => this.words.time(ticks)), this.words.duration(marks.at(-1))];
+    const texts = [
+      ...marks.slice(0, -1).map((ticks) => this.words.time(ticks)),
+      this.words.duration(marks.at(-1)),
+    ];
     const labels = texts.map((text) => element("span", {}, text));
     document.getElementById("heat-scale").replaceChildren(...labels);
   }

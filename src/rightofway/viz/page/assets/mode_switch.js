@@ -13,10 +13,12 @@ export class ModeSwitch {
 
   /** Show what comes next. */
   next() {
-    if (this.plan.happened) this.choice.show(MODES[(MODES.indexOf(this.choice.mode) + 1) % MODES.length]);
+    if (this.plan.happened)
+      this.choice.show(MODES[(MODES.indexOf(this.choice.mode) + 1) % MODES.length]);
   }
 
   #show() {
-    for (const radio of this.box.querySelectorAll("input")) radio.checked = radio.value === this.choice.mode;
+    for (const radio of this.box.querySelectorAll("input"))
+      radio.checked = radio.value === this.choice.mode;
   }
 }

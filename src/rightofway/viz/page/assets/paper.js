@@ -18,7 +18,9 @@ export class Paper {
     if (!onPaper) return;
     document.getElementById("paper-moment").textContent =
       `The map at ${this.words.moment(this.clock.tick)} of ${this.words.time(this.clock.end)}.`;
-    document.getElementById("paper-robots").replaceChildren(...(this.comparison ? this.#comparedTable() : this.#table()));
+    document
+      .getElementById("paper-robots")
+      .replaceChildren(...(this.comparison ? this.#comparedTable() : this.#table()));
   }
 
   get #end() {
@@ -32,30 +34,59 @@ export class Paper {
   #table() {
     const { words } = this;
     const head = ["Robot", this.#end, "Alone", "Detours", "Making room", "Waiting"];
-    return this.#rows(head, ({ delay }) => delay, "which lose less", (robot) => [
-      robot.name, words.time(robot.completion), words.time(robot.alone),
-      ...[robot.lost.detours, robot.lost.makingRoom, robot.lost.waiting].map((ticks) => this.#time(ticks)),
-    ]);
+    return this.#rows(
+      head,
+      ({ delay }) => delay,
+      "which lose less",
+      (robot) => [
+        robot.name,
+        words.time(robot.completion),
+        words.time(robot.alone),
+        ...[robot.lost.detours, robot.lost.makingRoom, robot.lost.waiting].map((ticks) =>
+          this.#time(ticks),
+        ),
+      ],
+    );
   }
 
   #comparedTable() {
     const { plan, words, comparison } = this;
     const [one, two] = [plan.title, plan.other.title];
-    const head = ["Robot", `${this.#end}, ${one}`, `${this.#end}, ${two}`, `In ${two}`, `Time lost, ${one}`, `Time lost, ${two}`];
-    return this.#rows(head, (robot) => Math.abs(comparison.change(robot)), "which differ less", (robot) => {
-      const other = plan.other.planned[robot.index];
-      return [
-        robot.name, words.time(robot.completion), words.time(other.completion), comparison.changeInWords(robot),
-        this.#time(robot.delay), this.#time(other.delay),
-      ];
-    });
+    const head = [
+      "Robot",
+      `${this.#end}, ${one}`,
+      `${this.#end}, ${two}`,
+      `In ${two}`,
+      `Time lost, ${one}`,
+      `Time lost, ${two}`,
+    ];
+    return this.#rows(
+      head,
+      (robot) => Math.abs(comparison.change(robot)),
+      "which differ less",
+      (robot) => {
+        const other = plan.other.planned[robot.index];
+        return [
+          robot.name,
+          words.time(robot.completion),
+          words.time(other.completion),
+          comparison.changeInWords(robot),
+          this.#time(robot.delay),
+          this.#time(other.delay),
+        ];
+      },
+    );
   }
 
   /** A row for each robot; of many, those with the largest values. */
   #rows(head, valueOf, less, cellsOf) {
     const row = (tag, cells) => element("tr", {}, ...cells.map((cell) => element(tag, {}, cell)));
-    const most = this.plan.planned.toSorted((one, other) => valueOf(other) - valueOf(one)).slice(0, ROWS_ON_PAPER);
-    const rows = most.toSorted((one, other) => one.index - other.index).map((robot) => row("td", cellsOf(robot)));
+    const most = this.plan.planned
+      .toSorted((one, other) => valueOf(other) - valueOf(one))
+      .slice(0, ROWS_ON_PAPER);
+    const rows = most
+      .toSorted((one, other) => one.index - other.index)
+      .map((robot) => row("td", cellsOf(robot)));
     const left = this.plan.robots.length - rows.length;
     return [row("th", head), ...rows, ...(left ? [row("td", [`and ${left} more, ${less}`])] : [])];
   }

@@ -20,7 +20,8 @@ export function phasesOf(robot) {
   let stage = 0;
   for (let visit = 0; visit <= last; visit++) {
     const leave = robot.leave(visit);
-    const go = visit < last ? Math.max(leave - robot.drive[visit + 1], robot.enter[visit]) : robot.broken;
+    const go =
+      visit < last ? Math.max(leave - robot.drive[visit + 1], robot.enter[visit]) : robot.broken;
     let now = robot.enter[visit];
     const add = (ticks, activity) => {
       const end = Math.min(now + ticks + robot.stillIn(now, ticks), go);

@@ -57,7 +57,9 @@ export class Quantities {
   /** How long a number of ticks lasts: "6 min 23 s", "2 time units". */
   duration(ticks) {
     const time = this.#time(ticks);
-    return this.seconds ? this.#clock(times(time, this.seconds)) : counted(decimal(time), "time unit");
+    return this.seconds
+      ? this.#clock(times(time, this.seconds))
+      : counted(decimal(time), "time unit");
   }
 
   /** A point in time: "6 min 23 s" after the start, "time 2". */
@@ -78,19 +80,25 @@ export class Quantities {
   /** The same while time runs: always with `digits` decimals, so that the text does not jump. */
   running(ticks, digits = 1) {
     const time = this.#time(ticks);
-    return this.seconds ? this.#clock(times(time, this.seconds), (part) => fixed(part, digits)) : fixed(time, digits);
+    return this.seconds
+      ? this.#clock(times(time, this.seconds), (part) => fixed(part, digits))
+      : fixed(time, digits);
   }
 
   /** A length: "0.45 m", "0.45 length units". */
   length(value) {
     const { length } = this.units;
-    return length ? `${decimal(fraction(value))} ${length}` : counted(decimal(fraction(value)), "length unit");
+    return length
+      ? `${decimal(fraction(value))} ${length}`
+      : counted(decimal(fraction(value)), "length unit");
   }
 
   /** A speed: "1.2 m/s"; a bare number where the scenario names no units. */
   speed(value) {
     const { length, time } = this.units;
-    return length && time ? `${decimal(fraction(value))} ${length}/${time}` : decimal(fraction(value));
+    return length && time
+      ? `${decimal(fraction(value))} ${length}/${time}`
+      : decimal(fraction(value));
   }
 
   #time(ticks) {
@@ -108,8 +116,15 @@ export class Quantities {
       return `${tenths / 600n} min${rest || write !== decimal ? ` ${write([rest, 10n], 1)} s` : ""}`;
     }
     const seconds = halfUp([top, bottom]);
-    const parts = [[seconds / 3600n, "h"], [(seconds / 60n) % 60n, "min"], [seconds % 60n, "s"]];
-    return parts.filter(([number]) => number).map(([number, unit]) => `${number} ${unit}`).join(" ");
+    const parts = [
+      [seconds / 3600n, "h"],
+      [(seconds / 60n) % 60n, "min"],
+      [seconds % 60n, "s"],
+    ];
+    return parts
+      .filter(([number]) => number)
+      .map(([number, unit]) => `${number} ${unit}`)
+      .join(" ");
   }
 }
 

@@ -12,9 +12,16 @@ export class Roadmap {
     this.frame = raw.frame; // where (0, 0) of the drawing is on the site, and whether y grows upwards there
     this.unit = raw.frame.unit; // length units in a unit of the drawing
     this.background = raw.background ?? null;
-    this.obstacles = (raw.obstacles ?? []).map(([name, left, top, width, height]) => ({ name, left, top, width, height }));
+    this.obstacles = (raw.obstacles ?? []).map(([name, left, top, width, height]) => ({
+      name,
+      left,
+      top,
+      width,
+      height,
+    }));
     this.stations = new Map(); // names of the stations at a vertex
-    for (const [name, at] of raw.stations ?? []) this.stations.set(at, [...(this.stations.get(at) ?? []), name]);
+    for (const [name, at] of raw.stations ?? [])
+      this.stations.set(at, [...(this.stations.get(at) ?? []), name]);
     this.parking = new Set(raw.parking);
     this.charging = new Set(raw.charging);
     this.zones = (raw.zones ?? []).map(([name, vertices, edges]) => ({ name, vertices, edges }));
@@ -35,13 +42,17 @@ export class Roadmap {
   /** What a vertex is called on the map: its name, and those of the stations there. */
   label(vertex) {
     const name = this.name(vertex);
-    return [name, ...(this.stations.get(vertex) ?? []).filter((station) => station !== name)].join(" · ");
+    return [name, ...(this.stations.get(vertex) ?? []).filter((station) => station !== name)].join(
+      " · ",
+    );
   }
 
   /** What a vertex is for: "station Press, parking"; empty for a vertex to pass. */
   uses(vertex) {
     return [
-      ...(this.stations.get(vertex) ?? []).map((name) => (name === this.name(vertex) ? "station" : `station ${name}`)),
+      ...(this.stations.get(vertex) ?? []).map((name) =>
+        name === this.name(vertex) ? "station" : `station ${name}`,
+      ),
       ...(this.parking.has(vertex) ? ["parking"] : []),
       ...(this.charging.has(vertex) ? ["charging"] : []),
     ].join(", ");
@@ -72,12 +83,19 @@ export class Roadmap {
 
   /** The named obstacle at a point of the drawing, or undefined. */
   obstacleAt(x, y) {
-    return this.obstacles.find(({ left, top, width, height }) => x >= left && x <= left + width && y >= top && y <= top + height);
+    return this.obstacles.find(
+      ({ left, top, width, height }) =>
+        x >= left && x <= left + width && y >= top && y <= top + height,
+    );
   }
 
   /** The vertex within half a unit of a point, or whose cell holds it, or -1. */
   near(x, y) {
-    if (this.sides) return this.sides.findIndex((side, vertex) => 2 * Math.max(Math.abs(x - this.x[vertex]), Math.abs(y - this.y[vertex])) <= side);
+    if (this.sides)
+      return this.sides.findIndex(
+        (side, vertex) =>
+          2 * Math.max(Math.abs(x - this.x[vertex]), Math.abs(y - this.y[vertex])) <= side,
+      );
     if (!this.rows) return nearest(this.x, this.y, x, y, 0.5);
     const [column, row] = [Math.round(x), Math.round(y)];
     if (row < 0 || row >= this.height || column < 0 || column >= this.width) return -1;
@@ -102,7 +120,12 @@ export class Roadmap {
   /** How long the way between two neighbours is [length unit]. */
   distance(tail, head) {
     if (this.rows) return this.unit;
-    this.#lengths ??= new Map(Array.from(this.tails, (from, edge) => [from * this.size + this.heads[edge], this.lengths[edge]]));
+    this.#lengths ??= new Map(
+      Array.from(this.tails, (from, edge) => [
+        from * this.size + this.heads[edge],
+        this.lengths[edge],
+      ]),
+    );
     return this.#lengths.get(tail * this.size + head) ?? this.#lengths.get(head * this.size + tail);
   }
 
@@ -112,7 +135,14 @@ export class Roadmap {
   #besideEach() {
     return Array.from({ length: this.size }, (_, vertex) => {
       const [x, y] = [this.x[vertex], this.y[vertex]];
-      return [[x + 1, y], [x, y + 1], [x - 1, y], [x, y - 1]].map((cell) => this.near(...cell)).filter((it) => it >= 0);
+      return [
+        [x + 1, y],
+        [x, y + 1],
+        [x - 1, y],
+        [x, y - 1],
+      ]
+        .map((cell) => this.near(...cell))
+        .filter((it) => it >= 0);
     });
   }
 
@@ -143,12 +173,21 @@ export class Roadmap {
     this.lengths = raw.lengths;
     this.sides = raw.sides ?? null; // of the square cell round each vertex, where the map is cut into squares
     this.lanes = this.#sortLanes();
-    this.curves = new Map((raw.curves ?? []).map(([tail, head, ...flat]) => {
-      const between = Array.from({ length: flat.length / 2 }, (_, i) => [flat[2 * i], flat[2 * i + 1]]);
-      return [tail * raw.names.length + head, measured([this.#point(tail), ...between, this.#point(head)])];
-    }));
+    this.curves = new Map(
+      (raw.curves ?? []).map(([tail, head, ...flat]) => {
+        const between = Array.from({ length: flat.length / 2 }, (_, i) => [
+          flat[2 * i],
+          flat[2 * i + 1],
+        ]);
+        return [
+          tail * raw.names.length + head,
+          measured([this.#point(tail), ...between, this.#point(head)]),
+        ];
+      }),
+    );
     this.limits = this.#limitedLanes(raw.limits ?? []);
-    this.usualLimit = (raw.limits ?? []).find(([, edges]) => 2 * edges.length > this.tails.length)?.[0] ?? null; // of most lanes
+    this.usualLimit =
+      (raw.limits ?? []).find(([, edges]) => 2 * edges.length > this.tails.length)?.[0] ?? null; // of most lanes
     this.close = { crossings: [], beside: [], vertices: [], ...raw.close }; // nearer than robots need
     const joined = new Set([...this.tails, ...this.heads]);
     this.lonely = Array.from(raw.names.keys()).filter((vertex) => !joined.has(vertex)); // vertices without a lane
@@ -186,7 +225,9 @@ export class Roadmap {
 function measured(points) {
   const along = [0];
   for (let i = 1; i < points.length; i++) {
-    along.push(along[i - 1] + Math.hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]));
+    along.push(
+      along[i - 1] + Math.hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]),
+    );
   }
   return { points, shares: along.map((length) => length / along.at(-1)) };
 }

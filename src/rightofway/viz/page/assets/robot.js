@@ -11,9 +11,10 @@ export class Robot {
     this.radius = raw.radius ?? 0; // [length unit]; a point has none
     this.vertices = fromDifferences(raw.vertices, Int32Array);
     this.enter = fromDifferences(raw.enter, Float64Array);
-    this.drive = typeof raw.drive === "number"
-      ? new Float64Array(this.vertices.length).fill(raw.drive)
-      : Float64Array.from(raw.drive);
+    this.drive =
+      typeof raw.drive === "number"
+        ? new Float64Array(this.vertices.length).fill(raw.drive)
+        : Float64Array.from(raw.drive);
     this.stages = raw.stages.map(([vertex, work, turn, visit]) => ({ vertex, work, turn, visit }));
     this.turns = new Map(raw.turns); // on the spot between two edges, by visit [ticks]
     this.completion = raw.completion;

@@ -31,7 +31,8 @@ export class RobotList {
 
   #select() {
     const found = this.plan.robots.filter((robot) => matches(robot.name, this.find.value));
-    if (this.sort.getAttribute("aria-pressed") === "true") found.sort((one, other) => lost(other) - lost(one));
+    if (this.sort.getAttribute("aria-pressed") === "true")
+      found.sort((one, other) => lost(other) - lost(one));
     this.list.setItems(found);
   }
 
@@ -65,14 +66,20 @@ export class RobotList {
     row.state = element("span", { className: "state" });
     row.late = element("span", { className: "late" });
     if (this.#now(robot) === null) this.#times(row.late, robot);
-    row.replaceChildren(swatch(robot), element("span", { className: "name" }, robot.name), row.state, row.late);
+    row.replaceChildren(
+      swatch(robot),
+      element("span", { className: "name" }, robot.name),
+      row.state,
+      row.late,
+    );
   }
 
   /** When it is done, and what of that it owes to the others. */
   #times(late, robot) {
     late.append(element("span", {}, this.words.time(robot.completion)), " ");
     if (robot.delay > 0) late.append(element("small", {}, `+${this.words.time(robot.delay)}`));
-    late.title = `${this.plan.endsAtHome ? "Home" : "Done"} at ${this.words.moment(robot.completion)}, ` +
+    late.title =
+      `${this.plan.endsAtHome ? "Home" : "Done"} at ${this.words.moment(robot.completion)}, ` +
       `alone at ${this.words.moment(robot.alone)}`;
   }
 
@@ -81,7 +88,9 @@ export class RobotList {
     const { index } = robot;
     if (robot.planned) {
       if (this.motion.activity[index] === BROKEN || this.#isStuck(robot)) return "";
-      return this.words.lateness(robot.lateness(this.clock.wholeTick, robot.phases.visit[this.motion.phase[index]]));
+      return this.words.lateness(
+        robot.lateness(this.clock.wholeTick, robot.phases.visit[this.motion.phase[index]]),
+      );
     }
     const { steady } = this.plan;
     if (!steady) return null;

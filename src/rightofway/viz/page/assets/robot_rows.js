@@ -16,7 +16,8 @@ export class RobotRows {
   get title() {
     const { mode, beside, besideName } = this.choice;
     const other = beside && `, grey: ${this.#hasGhosts ? "" : "done in "}${besideName}`;
-    if (mode !== "plan") return `Robots over time; red: held up, orange: waits for a late robot${other ?? ""}`;
+    if (mode !== "plan")
+      return `Robots over time; red: held up, orange: waits for a late robot${other ?? ""}`;
     if (beside) return `${this.plan.title}: lines drive, frames wait, blocks work${other}`;
     return "Robots over time: lines drive, frames wait, blocks work or turn";
   }
@@ -51,7 +52,12 @@ export class RobotRows {
       return;
     }
     const bar = (from, to, height) =>
-      context.fillRect(this.area.x(from), top + (thick - height) / 2, this.area.x(to) - this.area.x(from), height);
+      context.fillRect(
+        this.area.x(from),
+        top + (thick - height) / 2,
+        this.area.x(to) - this.area.x(from),
+        height,
+      );
     bar(0, robot.completion, Math.max(thick * 0.3, 0.6));
     phases.activity.forEach((activity, i) => {
       if (activity === WORK || activity === TURN) bar(phases.begin[i], phases.end(i), thick);
@@ -71,15 +77,24 @@ export class RobotRows {
   #row(context, robot) {
     const { phases } = robot;
     const middle = this.#middle(robot.index) + (this.#hasGhosts ? this.rowHeight * 0.12 : 0);
-    const full = Math.max(Math.min(this.rowHeight * (this.#hasGhosts ? 0.56 : 0.68), THICKEST), 1.5);
+    const full = Math.max(
+      Math.min(this.rowHeight * (this.#hasGhosts ? 0.56 : 0.68), THICKEST),
+      1.5,
+    );
     context.fillStyle = context.strokeStyle = robot.colour;
     const begin = this.area.x(0);
-    context.fillRect(begin, middle - full * 0.16, this.area.x(robot.completion ?? Infinity) - begin, full * 0.32);
+    context.fillRect(
+      begin,
+      middle - full * 0.16,
+      this.area.x(robot.completion ?? Infinity) - begin,
+      full * 0.32,
+    );
     for (let i = 0; i < phases.begin.length; i++) {
       const left = this.area.x(phases.begin[i]);
       const right = this.area.x(phases.end(i));
       this.#bar(context, phases.activity[i], left, right - left, middle, full);
-      if (robot.plannedWait && phases.activity[i] === WAIT) this.#late(context, robot, i, right, middle, full);
+      if (robot.plannedWait && phases.activity[i] === WAIT)
+        this.#late(context, robot, i, right, middle, full);
     }
   }
 

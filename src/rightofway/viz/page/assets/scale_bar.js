@@ -33,8 +33,24 @@ export function paintScaleBar(context, width, height, plan, { scale }, theme) {
   context.font = theme.font(12);
   context.textAlign = "right";
   context.textBaseline = "bottom";
-  haloed(context, plan.quantities.length(Number(length.toPrecision(1))), right, bottom - 6, theme.ink, theme.paper, 3);
+  haloed(
+    context,
+    plan.quantities.length(Number(length.toPrecision(1))),
+    right,
+    bottom - 6,
+    theme.ink,
+    theme.paper,
+    3,
+  );
   const { usualLimit } = plan.roadmap;
   if (!usualLimit || width < LIMIT_NOTED) return;
-  haloed(context, `speed limit ${plan.quantities.speed(usualLimit)} without a sign`, right - wide - 20, bottom + 2, theme.muted, theme.paper, 3);
+  haloed(
+    context,
+    `speed limit ${plan.quantities.speed(usualLimit)} without a sign`,
+    right - wide - 20,
+    bottom + 2,
+    theme.muted,
+    theme.paper,
+    3,
+  );
 }

@@ -80,7 +80,8 @@ export function stripes(context, left, top, width, height) {
   context.strokeStyle = context.fillStyle;
   context.lineWidth = 2;
   context.beginPath();
-  for (let x = left - height; x < left + width; x += 5) line(context, x, top + height, x + height, top);
+  for (let x = left - height; x < left + width; x += 5)
+    line(context, x, top + height, x + height, top);
   context.stroke();
   context.restore();
 }

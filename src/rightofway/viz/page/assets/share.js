@@ -7,7 +7,11 @@ const SAID_FOR = 2000; // how long a button says what it did [ms]
 export class Share {
   constructor(plan, clock, maps, diagram, theme, words, deepLink) {
     Object.assign(this, { plan, clock, maps, diagram, theme, words, deepLink });
-    const buttons = { "copy-link": () => this.copyLink(), "save-picture": () => this.savePicture(), print: () => window.print() };
+    const buttons = {
+      "copy-link": () => this.copyLink(),
+      "save-picture": () => this.savePicture(),
+      print: () => window.print(),
+    };
     for (const [id, action] of Object.entries(buttons)) {
       this[id] = document.getElementById(id);
       this[id].addEventListener("click", action);
@@ -29,8 +33,12 @@ export class Share {
   savePicture() {
     this.picture().toBlob((blob) => {
       const address = URL.createObjectURL(blob);
-      const stem = this.#titles.map((title) => title.replace(/\.[^.]*$/, "")).join(" and ") || "plan";
-      element("a", { href: address, download: `${stem} at ${this.words.time(this.clock.tick)}.png` }).click();
+      const stem =
+        this.#titles.map((title) => title.replace(/\.[^.]*$/, "")).join(" and ") || "plan";
+      element("a", {
+        href: address,
+        download: `${stem} at ${this.words.time(this.clock.tick)}.png`,
+      }).click();
       setTimeout(() => URL.revokeObjectURL(address), SAID_FOR);
     });
   }
@@ -61,9 +69,14 @@ export class Share {
     context.scale(ratio, ratio);
     context.fillStyle = theme.ink;
     context.font = theme.font(16, 600);
-    context.fillText([this.#titles.join(" and "), words.moment(clock.tick)].filter(Boolean).join(": "), 28, 31);
+    context.fillText(
+      [this.#titles.join(" and "), words.moment(clock.tick)].filter(Boolean).join(": "),
+      28,
+      31,
+    );
     const x = left / ratio + this.diagram.area.x(clock.tick);
-    if (diagram.height) context.fillRect(x - 0.75, top / ratio, 1.5, diagram.clientHeight - AXIS_HEIGHT);
+    if (diagram.height)
+      context.fillRect(x - 0.75, top / ratio, 1.5, diagram.clientHeight - AXIS_HEIGHT);
     return made;
   }
 

@@ -13,7 +13,10 @@ export class Site {
     this.robots = this.planned; // those that are shown
     this.clearance = raw.clearance ?? 0; // [length unit]
     this.largestRadius = this.planned.reduce((most, { radius }) => Math.max(most, radius), 0);
-    this.closures = (raw.closures ?? []).map((closure) => ({ ...closure, until: closure.until ?? Infinity }));
+    this.closures = (raw.closures ?? []).map((closure) => ({
+      ...closure,
+      until: closure.until ?? Infinity,
+    }));
     this.faults = [];
     this.decisions = [];
     this.happened = null;

@@ -14,7 +14,10 @@ export class Space {
     const { zones, size } = plan.roadmap;
     this.zonesOf = new Map(); // numbers of the zones of a vertex, and of a lane by tail * size + head
     zones.forEach(({ vertices, edges }, zone) => {
-      for (const key of [...vertices.map(String), ...edges.map(([tail, head]) => tail * size + head)]) {
+      for (const key of [
+        ...vertices.map(String),
+        ...edges.map(([tail, head]) => tail * size + head),
+      ]) {
         this.zonesOf.set(key, [...(this.zonesOf.get(key) ?? []), zone]);
       }
     });
@@ -40,7 +43,8 @@ export class Space {
       held.vertices.push(robot.vertices[visit - 1]);
       this.#passZones(robot, visit - 1, held.zones);
     }
-    for (const [tail, head] of held.edges) this.#addZones(tail * plan.roadmap.size + head, held.zones);
+    for (const [tail, head] of held.edges)
+      this.#addZones(tail * plan.roadmap.size + head, held.zones);
     return held;
   }
 
@@ -50,7 +54,8 @@ export class Space {
     if (!this.zonesOf.size || visit === 0 || visit + 1 >= vertices.length) return;
     const { size } = this.plan.roadmap;
     const out = this.zonesOf.get(vertices[visit] * size + vertices[visit + 1]) ?? [];
-    for (const zone of this.zonesOf.get(vertices[visit - 1] * size + vertices[visit]) ?? []) if (out.includes(zone)) zones.add(zone);
+    for (const zone of this.zonesOf.get(vertices[visit - 1] * size + vertices[visit]) ?? [])
+      if (out.includes(zone)) zones.add(zone);
   }
 
   #addZones(key, zones) {
@@ -61,7 +66,8 @@ export class Space {
   get zoneHolders() {
     const holders = new Map();
     if (!this.zonesOf.size) return holders;
-    for (const robot of this.plan.robots) for (const zone of this.heldBy(robot).zones) holders.set(zone, robot);
+    for (const robot of this.plan.robots)
+      for (const zone of this.heldBy(robot).zones) holders.set(zone, robot);
     return holders;
   }
 
@@ -86,7 +92,12 @@ export class Space {
   get closest() {
     const { robots } = this.plan;
     if (!this.plan.largestRadius || robots.length > MOST_COMPARED) return null;
-    const [first] = robots.flatMap((robot) => this.encounters(robot).slice(0, 1).map((encounter) => ({ robot, ...encounter })))
+    const [first] = robots
+      .flatMap((robot) =>
+        this.encounters(robot)
+          .slice(0, 1)
+          .map((encounter) => ({ robot, ...encounter })),
+      )
       .sort((one, other) => one.distance - one.room - (other.distance - other.room));
     return first ?? null;
   }
@@ -102,7 +113,11 @@ export class Space {
     const { roadmap, robots } = this.plan;
     return robots
       .filter((other) => other !== robot && this.plan.room(robot, other))
-      .map((other) => ({ other, room: this.plan.room(robot, other), ...closestApproach(robot, other, roadmap) }))
+      .map((other) => ({
+        other,
+        room: this.plan.room(robot, other),
+        ...closestApproach(robot, other, roadmap),
+      }))
       .sort((one, other) => one.distance - one.room - (other.distance - other.room))
       .slice(0, MOST_ENCOUNTERS);
   }
@@ -112,7 +127,7 @@ export class Space {
 function closestApproach(one, other, roadmap) {
   const runs = [one, other].map(({ phases, vertices }) => ({ phases, vertices, at: 0 }));
   let best = { distance: Infinity, tick: 0 };
-  for (let now = 0; now < Infinity; ) {
+  for (let now = 0; now < Infinity;) {
     const end = Math.min(...runs.map(({ phases, at }) => phases.end(at)));
     const [[ax, ay], [bx, by]] = runs.map((run) => whereAt(run, now, roadmap));
     const [right, down] = [bx - ax, by - ay];
@@ -122,7 +137,11 @@ function closestApproach(one, other, roadmap) {
       const [u, v] = [dx - cx - right, dy - cy - down];
       const square = u * u + v * v;
       share = square ? Math.min(Math.max(-(right * u + down * v) / square, 0), 1) : 0;
-      best = nearer(best, Math.hypot(right + u * share, down + v * share), now + (end - now) * share);
+      best = nearer(
+        best,
+        Math.hypot(right + u * share, down + v * share),
+        now + (end - now) * share,
+      );
     } else best = nearer(best, Math.hypot(right, down), now);
     for (const run of runs) if (run.phases.end(run.at) === end) run.at++;
     now = end;

@@ -11,8 +11,13 @@ class SpaceAxis {
     for (const row of rows) this.byVertex.set(row.vertex, [...this.spots(row.vertex), row]);
     const sorted = [...rows].sort((one, other) => other.y - one.y);
     sorted.forEach((row, i) => {
-      const apart = [sorted[i - 1], sorted[i + 1]].filter(Boolean).map((next) => Math.abs(next.y - row.y));
-      row.half = Math.min(Math.max(Math.min(...apart, TALLEST_FIELD / 0.8) * 0.4, 1), TALLEST_FIELD / 2);
+      const apart = [sorted[i - 1], sorted[i + 1]]
+        .filter(Boolean)
+        .map((next) => Math.abs(next.y - row.y));
+      row.half = Math.min(
+        Math.max(Math.min(...apart, TALLEST_FIELD / 0.8) * 0.4, 1),
+        TALLEST_FIELD / 2,
+      );
     });
   }
 
@@ -30,7 +35,8 @@ class SpaceAxis {
   named(isImportant) {
     const named = [];
     const order = [...this.rows.filter(isImportant), ...this.rows];
-    for (const row of order) if (named.every(({ y }) => Math.abs(y - row.y) >= NAME_GAP)) named.push(row);
+    for (const row of order)
+      if (named.every(({ y }) => Math.abs(y - row.y) >= NAME_GAP)) named.push(row);
     return named;
   }
 }
@@ -41,11 +47,17 @@ export class CorridorAxis extends SpaceAxis {
     const gaps = Math.min(SECTION_GAP * (corridor.sections.length - 1), area.height * 0.4);
     const room = area.height - 2 * PAD - gaps;
     const perSection = gaps / Math.max(corridor.sections.length - 1, 1);
-    super(corridor.entries.map((entry) => ({
-      vertex: entry.vertex,
-      y: area.bottom - PAD - (entry.at / (corridor.length || 1)) * room - entry.section * perSection,
-      entry,
-    })));
+    super(
+      corridor.entries.map((entry) => ({
+        vertex: entry.vertex,
+        y:
+          area.bottom -
+          PAD -
+          (entry.at / (corridor.length || 1)) * room -
+          entry.section * perSection,
+        entry,
+      })),
+    );
     this.corridor = corridor;
     this.perLength = room / (corridor.length || 1); // pixels
     this.rowOf = new Map(this.rows.map((row) => [row.entry, row]));
@@ -64,20 +76,28 @@ export class LineAxis extends SpaceAxis {
     const steps = line.slice(1).map(({ at }, i) => at - line[i].at);
     const room = area.height - 2 * PAD;
     const least = Math.min(NAME_GAP + 2, room / Math.max(steps.length, 1));
-    const total = (perLength) => steps.reduce((sum, step) => sum + Math.max(step * perLength, least), 0);
+    const total = (perLength) =>
+      steps.reduce((sum, step) => sum + Math.max(step * perLength, least), 0);
     let [low, high] = [0, room / (line.at(-1).at - line[0].at || 1)];
-    for (let i = 0; i < 40; i++) [low, high] = total((low + high) / 2) > room ? [low, (low + high) / 2] : [(low + high) / 2, high];
+    for (let i = 0; i < 40; i++)
+      [low, high] =
+        total((low + high) / 2) > room ? [low, (low + high) / 2] : [(low + high) / 2, high];
     let y = area.bottom - PAD;
-    super(line.map(({ vertex, at }, i) => {
-      if (i) y -= Math.max(steps[i - 1] * low, least);
-      return { vertex, y, at };
-    }));
+    super(
+      line.map(({ vertex, at }, i) => {
+        if (i) y -= Math.max(steps[i - 1] * low, least);
+        return { vertex, y, at };
+      }),
+    );
     this.distance = distance;
   }
 
   /** The rows between which a way leads, and whether the line has them about as far apart as they are. */
   way(tail, head) {
     const [[from], [to]] = [this.spots(tail), this.spots(head)];
-    return from && to && { from, to, isTrue: Math.abs(to.at - from.at) < 1.6 * this.distance(tail, head) };
+    return (
+      from &&
+      to && { from, to, isTrue: Math.abs(to.at - from.at) < 1.6 * this.distance(tail, head) }
+    );
   }
 }

@@ -15,7 +15,9 @@ export class SpaceTime {
   }
 
   get title() {
-    return this.choice.mode === "plan" ? `${this.#where}: ${this.#signs}` : `${this.#where}: ${this.#signsOfFloor}`;
+    return this.choice.mode === "plan"
+      ? `${this.#where}: ${this.#signs}`
+      : `${this.#where}: ${this.#signsOfFloor}`;
   }
 
   /** The vertices along which distances are true; null for all places of a small fleet in one line. */
@@ -31,7 +33,9 @@ export class SpaceTime {
     const { robot, corridor } = this.choice;
     const vertices = this.#route;
     if (!vertices) return "Place over time";
-    const length = this.plan.quantities.length(this.#rounded(new Corridor(this.plan.roadmap, vertices).length));
+    const length = this.plan.quantities.length(
+      this.#rounded(new Corridor(this.plan.roadmap, vertices).length),
+    );
     if (!corridor) return `Route of ${robot.name}, ${length}`;
     return `${this.words.vertex(corridor[0])} to ${this.words.vertex(corridor.at(-1))}, ${length}`;
   }
@@ -44,7 +48,9 @@ export class SpaceTime {
     const { decision, beside, besideName } = this.choice;
     if (beside) return `strong lines ${this.plan.title}, thin lines ${besideName}`;
     if (decision) return `${several(this.#drawn().map(({ name }) => name))}, fields are bookings`;
-    return this.#route ? "slopes are speeds, fields bookings" : "lines are robots, fields their bookings";
+    return this.#route
+      ? "slopes are speeds, fields bookings"
+      : "lines are robots, fields their bookings";
   }
 
   get #signsOfFloor() {
@@ -110,7 +116,11 @@ export class SpaceTime {
     context.textAlign = "right";
     context.textBaseline = "middle";
     for (const { vertex, y } of named) {
-      context.fillText(shortened(context, this.words.vertex(vertex), this.area.left - 34), this.area.left - 12, y + 0.5);
+      context.fillText(
+        shortened(context, this.words.vertex(vertex), this.area.left - 34),
+        this.area.left - 12,
+        y + 0.5,
+      );
     }
     this.named = named;
   }
@@ -146,8 +156,16 @@ export class SpaceTime {
     context.beginPath();
     for (let i = 0; i < phases.begin.length; i++) {
       const visit = phases.visit[i];
-      const way = phases.activity[i] === DRIVE && this.axis.way(vertices[visit], vertices[visit + 1]);
-      if (way) line(context, this.area.x(phases.begin[i]), way.from.y, this.area.x(phases.end(i)), way.to.y);
+      const way =
+        phases.activity[i] === DRIVE && this.axis.way(vertices[visit], vertices[visit + 1]);
+      if (way)
+        line(
+          context,
+          this.area.x(phases.begin[i]),
+          way.from.y,
+          this.area.x(phases.end(i)),
+          way.to.y,
+        );
     }
     context.stroke();
   }
@@ -160,9 +178,13 @@ export class SpaceTime {
       const activity = phases.activity[i];
       const visit = phases.visit[i];
       const way = activity === DRIVE ? this.axis.way(vertices[visit], vertices[visit + 1]) : null;
-      const stays = activity === DRIVE ? [] : this.axis.spots(vertices[visit]).map((row) => ({ from: row, to: row, isTrue: true }));
+      const stays =
+        activity === DRIVE
+          ? []
+          : this.axis.spots(vertices[visit]).map((row) => ({ from: row, to: row, isTrue: true }));
       for (const { from, to, isTrue } of way ? [way] : stays) {
-        if (ghost || !isTrue) this.#thin(context, phases.begin[i], phases.end(i), from.y, to.y, isTrue);
+        if (ghost || !isTrue)
+          this.#thin(context, phases.begin[i], phases.end(i), from.y, to.y, isTrue);
         else {
           if (robot.plannedWait && activity === WAIT) this.#late(context, robot, i, from);
           this.#stroke(context, activity, phases.begin[i], phases.end(i), from, to);

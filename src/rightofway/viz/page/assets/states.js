@@ -23,7 +23,9 @@ export class States {
     this.#counts = ACTIVITY_WORDS.map(() => element("b"));
     const digits = String(motion.plan.robots.length).length;
     for (const count of this.#counts) count.style.minWidth = `${digits}ch`; // or the layout would move with the count
-    this.rows = ACTIVITY_WORDS.map((word, activity) => element("li", {}, sign(SIGNS[activity]), word, this.#counts[activity]));
+    this.rows = ACTIVITY_WORDS.map((word, activity) =>
+      element("li", {}, sign(SIGNS[activity]), word, this.#counts[activity]),
+    );
     this.ghost = element("li", {}, sign(GHOST_SIGN), "by plan");
     document.getElementById("states").replaceChildren(...this.rows, this.ghost);
     choice.on("mode", () => this.#suit());
@@ -33,7 +35,9 @@ export class States {
   /** Show the signs that may be on the map. */
   #suit() {
     for (const activity of [HELD, BROKEN]) {
-      this.rows[activity].hidden = !this.motion.plan.robots.some(({ phases }) => phases.activity.includes(activity));
+      this.rows[activity].hidden = !this.motion.plan.robots.some(({ phases }) =>
+        phases.activity.includes(activity),
+      );
     }
     this.ghost.hidden = !this.choice.ghosts;
   }

@@ -5,7 +5,9 @@ export class Steady {
   constructor(raw, robots) {
     this.groups = raw.steady.map((group) => new Group(group, robots));
     this.groupOf = robots.map(({ index }) => this.groups.find((group) => group.has(index)) ?? null);
-    this.largest = this.groups.reduce((most, group) => (group.robots.length > most.robots.length ? group : most));
+    this.largest = this.groups.reduce((most, group) =>
+      group.robots.length > most.robots.length ? group : most,
+    );
     this.lapEnds = robots.map((robot) => lapEnds(robot, raw.laps[robot.index]));
   }
 
@@ -85,14 +87,18 @@ function circuitOf({ critical, period }, robots) {
   });
   const notBefore = (tick, now) => tick + Math.max(Math.ceil((now - tick) / period), 0) * period;
   steps.forEach((step, i) => i && (step.begin = notBefore(step.begin, steps[i - 1].begin)));
-  steps.forEach((step, i) => (step.next = steps[i + 1]?.begin ?? notBefore(steps[0].begin, step.begin)));
+  steps.forEach(
+    (step, i) => (step.next = steps[i + 1]?.begin ?? notBefore(steps[0].begin, step.begin)),
+  );
   return steps;
 }
 
 /** When each lap of a robot ends. */
 function lapEnds(robot, laps) {
   const perLap = robot.stages.length / laps;
-  const lasts = robot.stages.filter((stage, index) => (index + 1) % perLap === 0 && stage.visit >= 0);
+  const lasts = robot.stages.filter(
+    (stage, index) => (index + 1) % perLap === 0 && stage.visit >= 0,
+  );
   return lasts.map(({ visit }) => robot.enter[visit]);
 }
 

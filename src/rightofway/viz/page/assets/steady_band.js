@@ -29,7 +29,8 @@ export class SteadyBand {
     context.fillRect(area.x(start), area.top, area.x(until) - area.x(start), area.height);
     context.globalAlpha = 1;
     this.#part(context, area, top, 0, start, "transient", 0);
-    if (apart < NARROWEST_PERIOD) this.#part(context, area, top, start, until, this.#everyTime(), 0.12);
+    if (apart < NARROWEST_PERIOD)
+      this.#part(context, area, top, start, until, this.#everyTime(), 0.12);
     else borders.forEach((tick, index) => this.#period(context, area, top, tick, index));
   }
 
@@ -66,12 +67,14 @@ export class SteadyBand {
     context.fillStyle = strength ? this.theme.ink : this.theme.muted;
     context.textAlign = "center";
     context.textBaseline = "middle";
-    if (/^\d+$/.test(label)) { // as many of these are given as have room
+    if (/^\d+$/.test(label)) {
+      // as many of these are given as have room
       context.fillText(label, (left + right) / 2, top + BAND_HEIGHT / 2 + 0.5);
       return;
     }
-    const fits = [label, label.split(":")[0], label.split(":")[0].replace("period ", "")]
-      .find((text) => context.measureText(text).width < right - left - 4);
+    const fits = [label, label.split(":")[0], label.split(":")[0].replace("period ", "")].find(
+      (text) => context.measureText(text).width < right - left - 4,
+    );
     if (fits) context.fillText(fits, (left + right) / 2, top + BAND_HEIGHT / 2 + 0.5);
   }
 }

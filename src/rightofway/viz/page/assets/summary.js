@@ -10,15 +10,27 @@ export class Summary {
     const outcome = this.#outcome();
     if (plan.other) document.title = `${plan.title} and ${plan.other.title}`;
     const rest = plan.title ? [robots, outcome] : [outcome];
-    document.getElementById("headline").replaceChildren(
-      element("b", { className: "name" }, plan.title || robots),
-      ...(plan.other ? [element("span", {}, "→"), element("b", { className: "name" }, plan.other.title)] : []),
-      ...rest.filter(Boolean).map((part) => element("span", {}, part)));
+    document
+      .getElementById("headline")
+      .replaceChildren(
+        element("b", { className: "name" }, plan.title || robots),
+        ...(plan.other
+          ? [element("span", {}, "→"), element("b", { className: "name" }, plan.other.title)]
+          : []),
+        ...rest.filter(Boolean).map((part) => element("span", {}, part)),
+      );
     document.body.classList.toggle("faulty", plan.faultCount > 0 || plan.other?.faultCount > 0);
-    document.getElementById("figures").replaceChildren(...this.figures.map(([term, value, title]) =>
-      element("div", { title }, element("dt", {}, term), element("dd", {}, ...[value].flat()))));
+    document
+      .getElementById("figures")
+      .replaceChildren(
+        ...this.figures.map(([term, value, title]) =>
+          element("div", { title }, element("dt", {}, term), element("dd", {}, ...[value].flat())),
+        ),
+      );
     const header = document.querySelector(".summary");
-    new ResizeObserver(() => (header.tabIndex = header.scrollWidth > header.clientWidth ? 0 : -1)).observe(header); // scrolls by keys
+    new ResizeObserver(
+      () => (header.tabIndex = header.scrollWidth > header.clientWidth ? 0 : -1),
+    ).observe(header); // scrolls by keys
     document.getElementById("about-open").hidden = plan.noPlan;
     document.getElementById("made").replaceChildren(facts(this.#made()), ...this.#explanation());
   }
@@ -41,7 +53,9 @@ export class Summary {
   /** Which of two plans has faults. */
   #comparedOutcome() {
     const faulty = [this.plan, this.plan.other].filter(({ faultCount }) => faultCount);
-    return faulty.map(({ title, faultCount }) => `${title} has ${counted(faultCount, "fault")}: do not run it`).join(", ");
+    return faulty
+      .map(({ title, faultCount }) => `${title} has ${counted(faultCount, "fault")}: do not run it`)
+      .join(", ");
   }
 
   /** What a robot is that has done everything. */
@@ -60,9 +74,18 @@ export class Summary {
     const { noPlan, faultCount, happened, steady } = this.plan;
     if (noPlan) return [];
     if (this.plan.other?.faultCount) return [];
-    if (faultCount) return Object.entries(this.plan.faultKinds).map(([kind, count]) => [kind, String(count), this.words.remedy({ kind })]);
+    if (faultCount)
+      return Object.entries(this.plan.faultKinds).map(([kind, count]) => [
+        kind,
+        String(count),
+        this.words.remedy({ kind }),
+      ]);
     if (this.comparison) return this.#comparedFigures();
-    const figures = happened ? this.#floorFigures() : steady ? this.#steadyFigures() : this.#planFigures();
+    const figures = happened
+      ? this.#floorFigures()
+      : steady
+        ? this.#steadyFigures()
+        : this.#planFigures();
     return figures.filter(([, value]) => value);
   }
 
@@ -71,17 +94,31 @@ export class Summary {
     const latest = mostOf(robots, ({ completion }) => completion);
     const loser = mostOf(robots, ({ delay }) => delay);
     return [
-      [`All ${this.#arrived} at`, this.words.time(metrics.makespan), `When the last robot is ${this.#arrived}`],
+      [
+        `All ${this.#arrived} at`,
+        this.words.time(metrics.makespan),
+        `When the last robot is ${this.#arrived}`,
+      ],
       ["Latest", this.#robot(latest), `The robot that is ${this.#arrived} last`],
-      ["Time lost", this.#timeLost(robots), "How much later the robots arrive, all together, than if each drove alone"],
-      ["Loses most", loser.delay > 0 ? [this.#robot(loser), `, ${this.words.time(loser.delay)}`] : "", "The robot that loses most time to others"],
+      [
+        "Time lost",
+        this.#timeLost(robots),
+        "How much later the robots arrive, all together, than if each drove alone",
+      ],
+      [
+        "Loses most",
+        loser.delay > 0 ? [this.#robot(loser), `, ${this.words.time(loser.delay)}`] : "",
+        "The robot that loses most time to others",
+      ],
     ];
   }
 
   /** The sum of all lost time, and its parts. */
   #timeLost(robots) {
     const all = robots.reduce((sum, { delay }) => sum + delay, 0);
-    return all ? [this.words.time(all), element("small", {}, ` ${this.#lostParts(robots)}`)] : "none";
+    return all
+      ? [this.words.time(all), element("small", {}, ` ${this.#lostParts(robots)}`)]
+      : "none";
   }
 
   /** "(waiting 35 s, detours 6 s)"; the only part without its time. */
@@ -102,9 +139,21 @@ export class Summary {
     const changes = plan.planned.map((robot) => comparison.change(robot));
     const count = (holds) => String(changes.filter(holds).length);
     return [
-      [`All ${this.#arrived} at`, both(({ metrics }) => metrics.makespan), `When the last robot is ${this.#arrived}, in both plans`],
-      ["Time lost", both(({ metrics }) => metrics.flowtime - metrics.lowerBound), "How much later the robots arrive, all together, than if each drove alone"],
-      ["Earlier", count((change) => change < 0), `Robots that arrive earlier in ${plan.other.title}`],
+      [
+        `All ${this.#arrived} at`,
+        both(({ metrics }) => metrics.makespan),
+        `When the last robot is ${this.#arrived}, in both plans`,
+      ],
+      [
+        "Time lost",
+        both(({ metrics }) => metrics.flowtime - metrics.lowerBound),
+        "How much later the robots arrive, all together, than if each drove alone",
+      ],
+      [
+        "Earlier",
+        count((change) => change < 0),
+        `Robots that arrive earlier in ${plan.other.title}`,
+      ],
       ["Later", count((change) => change > 0), `Robots that arrive later in ${plan.other.title}`],
     ];
   }
@@ -115,9 +164,21 @@ export class Summary {
     const laps = largest.robots.reduce((sum, index) => sum + steady.lapsInPeriod(index), 0);
     const whose = groups.length > 1 ? " (largest group)" : "";
     return [
-      [`Repeats every${whose}`, this.words.time(largest.period), "The period: the time after which all visits repeat"],
-      ["From", this.words.time(largest.start), "The transient: how long it takes until everything repeats"],
-      ["Laps in that time", largest.whole ? String(laps) : "", "Laps that all robots together make in a period"],
+      [
+        `Repeats every${whose}`,
+        this.words.time(largest.period),
+        "The period: the time after which all visits repeat",
+      ],
+      [
+        "From",
+        this.words.time(largest.start),
+        "The transient: how long it takes until everything repeats",
+      ],
+      [
+        "Laps in that time",
+        largest.whole ? String(laps) : "",
+        "Laps that all robots together make in a period",
+      ],
     ];
   }
 
@@ -127,9 +188,23 @@ export class Summary {
     const done = happened.filter(({ ending }) => ending === DONE);
     const latest = mostOf(done, ({ delayInAll }) => delayInAll);
     return [
-      [`All ${this.#arrived} at`, done.length === happened.length ? this.#insteadOf(metrics.makespan) : "", `When the last robot was ${this.#arrived}`],
-      ["Late", `${late.length} of ${happened.length}`, "Robots that arrived later than planned, or never"],
-      ["Latest by", latest?.delayInAll > 0 ? [`${this.words.time(latest.delayInAll)}, `, this.#robot(latest)] : "", "The largest delay of a robot that arrived"],
+      [
+        `All ${this.#arrived} at`,
+        done.length === happened.length ? this.#insteadOf(metrics.makespan) : "",
+        `When the last robot was ${this.#arrived}`,
+      ],
+      [
+        "Late",
+        `${late.length} of ${happened.length}`,
+        "Robots that arrived later than planned, or never",
+      ],
+      [
+        "Latest by",
+        latest?.delayInAll > 0
+          ? [`${this.words.time(latest.delayInAll)}, `, this.#robot(latest)]
+          : "",
+        "The largest delay of a robot that arrived",
+      ],
     ];
   }
 
@@ -137,7 +212,9 @@ export class Summary {
   #insteadOf(makespan) {
     const planned = this.words.time(makespan);
     const last = Math.max(...this.plan.happened.map(({ completion }) => completion));
-    return last === makespan ? `${planned}, as planned` : `${this.words.time(last)} instead of ${planned}`;
+    return last === makespan
+      ? `${planned}, as planned`
+      : `${this.words.time(last)} instead of ${planned}`;
   }
 
   #robot(robot) {
@@ -153,10 +230,17 @@ export class Summary {
   }
 
   #made() {
-    const { planner, metrics: { flowtime, makespan, lowerBound }, tick } = this.plan;
+    const {
+      planner,
+      metrics: { flowtime, makespan, lowerBound },
+      tick,
+    } = this.plan;
     const gap = lowerBound ? this.words.percent(flowtime / lowerBound - 1) : "";
     const isUnit = tick.numerator === tick.denominator;
-    const origin = [["Planner", planner.name], ["Method", this.#method()]];
+    const origin = [
+      ["Planner", planner.name],
+      ["Method", this.#method()],
+    ];
     if (this.plan.faultCount) return origin; // its times are worth nothing
     return [
       ...origin,
@@ -164,7 +248,13 @@ export class Summary {
       ["Lower bound", this.words.time(lowerBound)],
       ["Gap", gap],
       ["Makespan", this.words.time(makespan)],
-      ["Time lost", [this.#timeLost(this.plan.planned)].flat().map((part) => part.textContent ?? part).join("")],
+      [
+        "Time lost",
+        [this.#timeLost(this.plan.planned)]
+          .flat()
+          .map((part) => part.textContent ?? part)
+          .join(""),
+      ],
       ["Tick", isUnit ? "" : `${this.words.duration(1)}, the step in which times are counted`],
     ];
   }
@@ -181,5 +271,8 @@ export class Summary {
 
 /** The item with the largest value; the first one of several. */
 function mostOf(items, valueOf) {
-  return items.reduce((most, item) => (most === null || valueOf(item) > valueOf(most) ? item : most), null);
+  return items.reduce(
+    (most, item) => (most === null || valueOf(item) > valueOf(most) ? item : most),
+    null,
+  );
 }

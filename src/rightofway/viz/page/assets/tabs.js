@@ -15,7 +15,9 @@ export class Tabs {
     this.tabs.forEach((tab, index) => {
       tab.setAttribute("aria-selected", index === chosen);
       tab.tabIndex = index === chosen ? 0 : -1;
-      if (index === chosen) tab.parentElement.scrollLeft = tab.offsetLeft + tab.offsetWidth - tab.parentElement.clientWidth;
+      if (index === chosen)
+        tab.parentElement.scrollLeft =
+          tab.offsetLeft + tab.offsetWidth - tab.parentElement.clientWidth;
       document.getElementById(tab.getAttribute("aria-controls")).hidden = index !== chosen;
     });
     this.shown();

@@ -17,7 +17,9 @@ export class Theme extends Observable {
   #read() {
     const style = getComputedStyle(document.documentElement);
     for (const name of THEME_COLOURS) {
-      this[name.replace(/-./g, (dash) => dash[1].toUpperCase())] = style.getPropertyValue(`--${name}`).trim();
+      this[name.replace(/-./g, (dash) => dash[1].toUpperCase())] = style
+        .getPropertyValue(`--${name}`)
+        .trim();
     }
     this.sans = style.getPropertyValue("--sans");
   }
@@ -28,8 +30,24 @@ export class Theme extends Observable {
 }
 
 const THEME_COLOURS = [
-  "paper", "panel", "floor", "wall", "line", "ink", "muted", "heat-low", "heat-high",
-  "drive", "wait", "work", "turn", "held", "broken", "lit", "lit-edge", "zone",
+  "paper",
+  "panel",
+  "floor",
+  "wall",
+  "line",
+  "ink",
+  "muted",
+  "heat-low",
+  "heat-high",
+  "drive",
+  "wait",
+  "work",
+  "turn",
+  "held",
+  "broken",
+  "lit",
+  "lit-edge",
+  "zone",
 ];
 
 /** The channels of "#rrggbb", 0 to 255. */

@@ -31,7 +31,8 @@ export class Use {
   visitsAt(vertex) {
     const { first, robots, visits } = this.#byVertex.value;
     const pairs = [];
-    for (let i = first[vertex]; i < first[vertex + 1]; i++) pairs.push([this.plan.robots[robots[i]], visits[i]]);
+    for (let i = first[vertex]; i < first[vertex + 1]; i++)
+      pairs.push([this.plan.robots[robots[i]], visits[i]]);
     return pairs;
   }
 
@@ -49,7 +50,8 @@ export class Use {
   #sort() {
     const first = new Int32Array(this.plan.roadmap.size + 1);
     for (const robot of this.plan.robots) for (const vertex of robot.vertices) first[vertex + 1]++;
-    for (let vertex = 0; vertex < this.plan.roadmap.size; vertex++) first[vertex + 1] += first[vertex];
+    for (let vertex = 0; vertex < this.plan.roadmap.size; vertex++)
+      first[vertex + 1] += first[vertex];
     const next = first.slice();
     const [robots, visits] = [new Int32Array(first.at(-1)), new Int32Array(first.at(-1))];
     for (const robot of this.plan.robots) {

@@ -43,9 +43,15 @@ export class Viewport extends Observable {
     const [across, down] = [columns - 1 + beyond, lines - 1 + beyond];
     const margin = rows ? 16 : 26;
     const title = this.canvas.parentElement.querySelector(".map-title");
-    const above = Math.max(1.25 * margin, title?.textContent ? title.offsetTop + title.offsetHeight + 4 : 0);
+    const above = Math.max(
+      1.25 * margin,
+      title?.textContent ? title.offsetTop + title.offsetHeight + 4 : 0,
+    );
     const room = { width: width - 2 * margin, height: height - above - LEGEND_HEIGHT };
-    const fitting = Math.min(room.width / Math.max(across, 1e-9), room.height / Math.max(down, 1e-9));
+    const fitting = Math.min(
+      room.width / Math.max(across, 1e-9),
+      room.height / Math.max(down, 1e-9),
+    );
     this.scale = Math.max(Math.min(fitting, LARGEST_FITTED[rows ? "cell" : "edge"]), 0.1);
     this.left = (width - (columns - 1) * this.scale) / 2;
     this.top = above + (room.height - (lines - 1) * this.scale) / 2;
@@ -77,17 +83,30 @@ export class Viewport extends Observable {
   show(x, y) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const [right, down] = [this.left + x * this.scale, this.top + y * this.scale];
-    if (right < 0 || right > width || down < 0 || down > height) this.pan(width / 2 - right, height / 2 - down);
+    if (right < 0 || right > width || down < 0 || down > height)
+      this.pan(width / 2 - right, height / 2 - down);
   }
 
   /** Bring several points into sight: as they are if they all are, else their middle, smaller if need be. */
   showAll(points) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
-    const [left, top, right, bottom] = [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
-    const isInSight = left >= this.toX(20) && right <= this.toX(width - 20) && top >= this.toY(20) && bottom <= this.toY(height - 20);
+    const [left, top, right, bottom] = [
+      Math.min(...xs),
+      Math.min(...ys),
+      Math.max(...xs),
+      Math.max(...ys),
+    ];
+    const isInSight =
+      left >= this.toX(20) &&
+      right <= this.toX(width - 20) &&
+      top >= this.toY(20) &&
+      bottom <= this.toY(height - 20);
     if (isInSight) return;
-    const fitting = Math.min((width - 80) / Math.max(right - left, 1e-9), (height - 80) / Math.max(bottom - top, 1e-9));
+    const fitting = Math.min(
+      (width - 80) / Math.max(right - left, 1e-9),
+      (height - 80) / Math.max(bottom - top, 1e-9),
+    );
     this.scale = Math.min(this.scale, fitting);
     this.left = width / 2 - ((left + right) / 2) * this.scale;
     this.top = height / 2 - ((top + bottom) / 2) * this.scale;
@@ -122,7 +141,12 @@ export class Viewport extends Observable {
 
   /** Arrow keys pan while the map has the focus. */
   #key(event) {
-    const step = { ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60] }[event.key];
+    const step = {
+      ArrowLeft: [60, 0],
+      ArrowRight: [-60, 0],
+      ArrowUp: [0, 60],
+      ArrowDown: [0, -60],
+    }[event.key];
     if (!step || event.shiftKey) return;
     event.preventDefault();
     event.stopPropagation();
@@ -161,7 +185,11 @@ export class Viewport extends Observable {
   #span() {
     const [one, two] = this.#touches.values();
     if (!two) return { length: 0 };
-    return { length: Math.hypot(one.x - two.x, one.y - two.y), x: (one.x + two.x) / 2, y: (one.y + two.y) / 2 };
+    return {
+      length: Math.hypot(one.x - two.x, one.y - two.y),
+      x: (one.x + two.x) / 2,
+      y: (one.y + two.y) / 2,
+    };
   }
 
   #point(x, y) {

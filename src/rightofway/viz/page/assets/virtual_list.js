@@ -81,7 +81,8 @@ export class VirtualList {
   #reveal(index) {
     const [top, bottom] = [index * this.rowHeight, (index + 1) * this.rowHeight];
     if (top < this.box.scrollTop) this.box.scrollTop = top;
-    else if (bottom > this.box.scrollTop + this.box.clientHeight) this.box.scrollTop = bottom - this.box.clientHeight;
+    else if (bottom > this.box.scrollTop + this.box.clientHeight)
+      this.box.scrollTop = bottom - this.box.clientHeight;
   }
 
   /** Choose the first item, if there is one. */
@@ -91,12 +92,16 @@ export class VirtualList {
 
   /** Choose the item before (-1) or after (1) the one that is chosen. */
   step(by) {
-    const target = Math.min(Math.max(this.items.indexOf(this.chosen) + by, 0), this.items.length - 1);
+    const target = Math.min(
+      Math.max(this.items.indexOf(this.chosen) + by, 0),
+      this.items.length - 1,
+    );
     if (target >= 0) this.choose(this.items[target]);
   }
 
   #key(event) {
-    if (event.key === "ArrowDown" || event.key === "ArrowUp") this.step(event.key === "ArrowDown" ? 1 : -1);
+    if (event.key === "ArrowDown" || event.key === "ArrowUp")
+      this.step(event.key === "ArrowDown" ? 1 : -1);
     else if (event.key === "Home") this.chooseFirst();
     else if (event.key === "End" && this.items.length) this.choose(this.items.at(-1));
     else return;

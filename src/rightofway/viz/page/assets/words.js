@@ -1,7 +1,15 @@
 import { BROKEN } from "./phases.js";
 import { FOLLOWS, MAKES_ROOM } from "./robot.js";
 
-export const ACTIVITY_WORDS = ["driving", "waiting", "working", "turning", "done", "held up", "broken down"];
+export const ACTIVITY_WORDS = [
+  "driving",
+  "waiting",
+  "working",
+  "turning",
+  "done",
+  "held up",
+  "broken down",
+];
 
 /** "R1, R2 and R3"; the first few of many. */
 export function several(names) {
@@ -63,7 +71,9 @@ export class Words {
   /** How a robot loses time, and on the floor how much more than planned. */
   loss(loss, robot) {
     const more = robot.planned ? robot.unplanned(loss) : 0;
-    return more > 0 ? `${this.#loss(loss)}, ${this.time(more)} more than planned` : this.#loss(loss);
+    return more > 0
+      ? `${this.#loss(loss)}, ${this.time(more)} more than planned`
+      : this.#loss(loss);
   }
 
   /** How far two robots are apart, and how far they have to be: "0.95 m apart, 0.9 m needed". */
@@ -74,7 +84,10 @@ export class Words {
 
   /** When a place is closed. */
   closure({ from, until, vertices }) {
-    const what = vertices.length > 1 ? `${this.vertex(vertices[0])} to ${this.vertex(vertices.at(-1))} closed` : "closed";
+    const what =
+      vertices.length > 1
+        ? `${this.vertex(vertices[0])} to ${this.vertex(vertices.at(-1))} closed`
+        : "closed";
     return `${what} from ${this.moment(from)} ${until === Infinity ? "on" : `until ${this.moment(until)}`}`;
   }
 
@@ -87,8 +100,10 @@ export class Words {
   #loss({ kind, forRobot, vertex, until, towards, freed, ticks }) {
     const [here, lasts] = [this.vertex(vertex), this.duration(ticks)];
     const other = forRobot === null ? null : this.robot(forRobot);
-    if (kind === MAKES_ROOM) return `leaves ${here}${other ? ` to make room for ${other}` : ""} and comes back, loses ${lasts}`;
-    if (kind === FOLLOWS) return `follows ${other} from ${here} to ${this.vertex(until)}, loses ${lasts}`;
+    if (kind === MAKES_ROOM)
+      return `leaves ${here}${other ? ` to make room for ${other}` : ""} and comes back, loses ${lasts}`;
+    if (kind === FOLLOWS)
+      return `follows ${other} from ${here} to ${this.vertex(until)}, loses ${lasts}`;
     if (other === null) return `waits ${lasts} in ${here}, though no robot is in its way`;
     const ahead = freed === towards ? "" : ", further on its way";
     return `waits ${lasts} in ${here} for ${other} to leave ${this.vertex(freed)}${ahead}`;
@@ -110,9 +125,13 @@ export class Words {
 
   /** The same with its places. */
   bottleneckAtLength(group) {
-    const steps = group.circuit.map(({ robot, vertex }) => `${robot.name} in ${this.vertex(vertex)}`);
-    return `${this.bottleneck(group)}. Each of these visits begins as soon as the one before allows, ` +
-      `the first again a period later: ${steps.join(", ")}`;
+    const steps = group.circuit.map(
+      ({ robot, vertex }) => `${robot.name} in ${this.vertex(vertex)}`,
+    );
+    return (
+      `${this.bottleneck(group)}. Each of these visits begins as soon as the one before allows, ` +
+      `the first again a period later: ${steps.join(", ")}`
+    );
   }
 
   /** What is wrong, in a sentence. */
@@ -122,22 +141,38 @@ export class Words {
     const places = vertices.map((vertex) => this.vertex(vertex));
     const [who, where] = [several(names), several(places) ?? "a place that is not on the map"];
     switch (kind) {
-      case "vertex conflict": return `${who} are both in ${where}`;
-      case "too close": return `${who} come nearer than their sizes allow, ${where}`;
-      case "space conflict": return `${who} book places that are too near to each other, ${where}`;
-      case "zone conflict": return `${who} are both in one zone, ${where}`;
-      case "headway": return `${who} come to ${where} too soon after each other`;
-      case "swap conflict": return `${who} drive through each other between ${where}`;
-      case "rotation": return `${who} move round ${where} all at once`;
-      case "jump": return `${who} jumps from ${places[0]} to ${places[1] ?? "nowhere"}`;
-      case "too fast": return `${who} drives from ${places[0]} to ${places[1]} faster than it can`;
-      case "turn cut short": return `${who} turns at ${places[0]} faster than it can`;
-      case "work cut short": return `${who} leaves ${where} before its work there is done`;
-      case "stop missed": return `${who} does not come to its stop ${where}`;
-      case "wrong home": return `${who} does not start at its home: it starts in ${where}`;
-      case "wrong end": return `${who} does not end where its trip ends: it ends in ${where}`;
-      case "backwards": return `${who} leaves ${where} before it comes there`;
-      default: return `${who}: ${kind}, ${where}`;
+      case "vertex conflict":
+        return `${who} are both in ${where}`;
+      case "too close":
+        return `${who} come nearer than their sizes allow, ${where}`;
+      case "space conflict":
+        return `${who} book places that are too near to each other, ${where}`;
+      case "zone conflict":
+        return `${who} are both in one zone, ${where}`;
+      case "headway":
+        return `${who} come to ${where} too soon after each other`;
+      case "swap conflict":
+        return `${who} drive through each other between ${where}`;
+      case "rotation":
+        return `${who} move round ${where} all at once`;
+      case "jump":
+        return `${who} jumps from ${places[0]} to ${places[1] ?? "nowhere"}`;
+      case "too fast":
+        return `${who} drives from ${places[0]} to ${places[1]} faster than it can`;
+      case "turn cut short":
+        return `${who} turns at ${places[0]} faster than it can`;
+      case "work cut short":
+        return `${who} leaves ${where} before its work there is done`;
+      case "stop missed":
+        return `${who} does not come to its stop ${where}`;
+      case "wrong home":
+        return `${who} does not start at its home: it starts in ${where}`;
+      case "wrong end":
+        return `${who} does not end where its trip ends: it ends in ${where}`;
+      case "backwards":
+        return `${who} leaves ${where} before it comes there`;
+      default:
+        return `${who}: ${kind}, ${where}`;
     }
   }
 
@@ -145,19 +180,22 @@ export class Words {
   remedy({ kind, reason }) {
     const [, advice] = reason?.match(/ \(([^()]*)\)$/) ?? [];
     if (advice) return `${advice[0].toUpperCase()}${advice.slice(1)}.`;
-    return {
-      "vertex conflict": "A place holds one robot: let one come when the other has left.",
-      headway: "Let the second robot come later: the rules ask for a headway.",
-      "swap conflict": "Two robots cannot exchange their places: let one wait aside until the other is by.",
-      rotation: "The rules forbid rotations: let one wait until its place is empty.",
-      jump: "No way joins these two places.",
-      "too fast": "Let the drive take as long as the robot needs.",
-      "turn cut short": "Let it stay until it has turned.",
-      "work cut short": "Let it stay until its work and turning are done.",
-      "stop missed": "Let it visit its stops in their order.",
-      "wrong home": "Let it start at its home at time 0.",
-      "wrong end": "Let it end where its trip ends.",
-    }[kind] ?? "";
+    return (
+      {
+        "vertex conflict": "A place holds one robot: let one come when the other has left.",
+        headway: "Let the second robot come later: the rules ask for a headway.",
+        "swap conflict":
+          "Two robots cannot exchange their places: let one wait aside until the other is by.",
+        rotation: "The rules forbid rotations: let one wait until its place is empty.",
+        jump: "No way joins these two places.",
+        "too fast": "Let the drive take as long as the robot needs.",
+        "turn cut short": "Let it stay until it has turned.",
+        "work cut short": "Let it stay until its work and turning are done.",
+        "stop missed": "Let it visit its stops in their order.",
+        "wrong home": "Let it start at its home at time 0.",
+        "wrong end": "Let it end where its trip ends.",
+      }[kind] ?? ""
+    );
   }
 
   /** Where two robots would have met. */
@@ -175,9 +213,12 @@ export class Words {
   decision(decision) {
     const [waits, first] = [this.robot(decision.waits), this.robot(this.first(decision))];
     switch (decision.kind) {
-      case "head-on": return `${waits} waits for ${first}, head-on, ${this.place(decision)}`;
-      case "following": return `${waits} follows ${first}, ${this.place(decision)}`;
-      default: return `${waits} waits for ${first}, ${this.place(decision)}`;
+      case "head-on":
+        return `${waits} waits for ${first}, head-on, ${this.place(decision)}`;
+      case "following":
+        return `${waits} follows ${first}, ${this.place(decision)}`;
+      default:
+        return `${waits} waits for ${first}, ${this.place(decision)}`;
     }
   }
 
@@ -212,10 +253,14 @@ export class Words {
   #meeting(decision, i, j) {
     const place = this.place(decision);
     switch (decision.kind) {
-      case "head-on": return `${i} and ${j} would have met head-on on the way from ${place}.`;
-      case "following": return `${i} and ${j} go the same way from ${place} and cannot overtake.`;
-      case "crossing": return `${i} and ${j} would have come too near to each other: ${this.robot(this.first(decision))} drives from ${place}.`;
-      default: return `${i} and ${j} would both have been in ${place}.`;
+      case "head-on":
+        return `${i} and ${j} would have met head-on on the way from ${place}.`;
+      case "following":
+        return `${i} and ${j} go the same way from ${place} and cannot overtake.`;
+      case "crossing":
+        return `${i} and ${j} would have come too near to each other: ${this.robot(this.first(decision))} drives from ${place}.`;
+      default:
+        return `${i} and ${j} would both have been in ${place}.`;
     }
   }
 
@@ -224,10 +269,14 @@ export class Words {
     const waits = this.robot(decision.waits);
     const first = this.robot(this.first(decision));
     switch (decision.level) {
-      case "node": return `${waits} waits because that leaves fewer conflicts in the whole system.`;
-      case "settled": return `${first} cannot wait: it would then meet robots that are settled already.`;
-      case "priority": return `${waits} waits because ${first} has the higher priority.`;
-      case "only": return `${first} cannot wait: that was impossible.`;
+      case "node":
+        return `${waits} waits because that leaves fewer conflicts in the whole system.`;
+      case "settled":
+        return `${first} cannot wait: it would then meet robots that are settled already.`;
+      case "priority":
+        return `${waits} waits because ${first} has the higher priority.`;
+      case "only":
+        return `${first} cannot wait: that was impossible.`;
       default:
         return isTie(decision)
           ? `A tie: ${EQUAL_CONFLICTS}, and the completion times add up to the same. Then the first of the two waits.`
@@ -239,7 +288,10 @@ export class Words {
   figures(decision) {
     const rows = [];
     if (decision.conflictsLeft.some((count) => count !== null)) {
-      rows.push(["Conflicts left", ...decision.conflictsLeft.map((count) => count ?? "impossible")]);
+      rows.push([
+        "Conflicts left",
+        ...decision.conflictsLeft.map((count) => count ?? "impossible"),
+      ]);
     }
     if (decision.completionSums) {
       const sums = decision.completionSums.map((sum) => (sum === null ? "no way" : this.time(sum)));
