@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tests.viewer.conftest import Viewer
+from tests.builders.browsers import Viewer
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page

@@ -8,23 +8,14 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.builders.browsers import Viewer, needs_browser
 from tests.builders.drawing import StudioPage
 from tests.builders.studios import running
-from tests.viewer.conftest import ARGUMENTS, CHROMIUM, Viewer
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
-pytestmark = pytest.mark.skipif(not CHROMIUM, reason="there is no browser")
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    playwright_api = pytest.importorskip("playwright.sync_api")
-    with playwright_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*ARGUMENTS])
-        yield browser
-        browser.close()
+pytestmark = needs_browser
 
 
 @pytest.fixture

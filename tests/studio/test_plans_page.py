@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.builders.browsers import needs_browser
 from tests.builders.drawing import StudioPage
 from tests.builders.studios import running
-from tests.viewer.conftest import ARGUMENTS, CHROMIUM
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
-pytestmark = pytest.mark.skipif(not CHROMIUM, reason="there is no browser")
+pytestmark = needs_browser
 
 BAY = """\
 format: rightofway-scenario/1
@@ -48,15 +48,6 @@ def crowd() -> str:
         for i, (home, target) in enumerate(zip(places[::2], places[1::2], strict=True), 1)
     ]
     return json.dumps({"format": "rightofway-scenario/1", "map": {"grid": rows}, "robots": robots})
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    playwright_api = pytest.importorskip("playwright.sync_api")
-    with playwright_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*ARGUMENTS])
-        yield browser
-        browser.close()
 
 
 Opener = Callable[[str], StudioPage]

@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.builders.browsers import needs_browser
 from tests.builders.drawing import StudioPage
 from tests.builders.studios import running
-from tests.viewer.conftest import ARGUMENTS, CHROMIUM
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
-pytestmark = pytest.mark.skipif(not CHROMIUM, reason="there is no browser")
+pytestmark = needs_browser
 
 LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
 TWO_MINUTES = 120
@@ -33,15 +33,6 @@ DROP = """([files]) => {
   }
   document.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true }));
 }"""
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    playwright_api = pytest.importorskip("playwright.sync_api")
-    with playwright_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*ARGUMENTS])
-        yield browser
-        browser.close()
 
 
 Opener = Callable[..., StudioPage]

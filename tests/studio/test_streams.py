@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import pytest
-
+from tests.builders.browsers import Viewer, needs_browser
 from tests.builders.studios import DOOR, running
-from tests.viewer.conftest import ARGUMENTS, CHROMIUM, Viewer
 
-pytestmark = pytest.mark.skipif(not CHROMIUM, reason="there is no browser")
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = needs_browser
 
 BEGIN = """async (document) => {
   const { listen, post } = await import("/assets/api.js");
@@ -21,16 +23,15 @@ BEGIN = """async (document) => {
 }"""
 
 
-def test_ten_runs_at_once_are_heard_by_one_connection(folder: Path) -> None:
+def test_ten_runs_at_once_are_heard_by_one_connection(browser: Browser, folder: Path) -> None:
     """A browser has six connections to a server; a seventh request would wait for ever."""
-    api = pytest.importorskip("playwright.sync_api")
-    with api.sync_playwright() as playwright, running(folder, keeps=False) as client:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*ARGUMENTS])
-        viewer = Viewer(browser.new_page())
+    with running(folder, keeps=False) as client:
+        context = browser.new_context()
+        viewer = Viewer(context.new_page())
         viewer.page.goto(str(client.base_url).removesuffix("api/v1/"))
         viewer.page.evaluate(BEGIN, DOOR)
         viewer.wait_for("Object.values(states).filter((state) => state === 'done').length === 10")
         streams = [url for url in viewer.requests if url.endswith("/events")]
         assert streams
         assert all(url.endswith("/api/v1/events") for url in streams)
-        browser.close()
+        context.close()

@@ -7,8 +7,9 @@ from typing import Any
 
 import pytest
 
+from tests.builders.browsers import Viewer
 from tests.builders.plans import crowd, door, loop, yard
-from tests.viewer.conftest import Opener, Viewer
+from tests.viewer.conftest import Opener
 
 
 def entries(viewer: Viewer, route: list[int]) -> list[list[Any]]:

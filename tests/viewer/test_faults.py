@@ -2,8 +2,9 @@
 
 import pytest
 
+from tests.builders.browsers import Viewer
 from tests.builders.plans import door, door_shifted
-from tests.viewer.conftest import Opener, Viewer
+from tests.viewer.conftest import Opener
 
 
 @pytest.fixture

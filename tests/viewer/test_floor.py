@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from rightofway.model import ExecutionTrace, Tick, Track
+from tests.builders.browsers import Viewer
 from tests.builders.plans import counter, counter_late, counter_steady, crowd, delayed, door
-from tests.viewer.conftest import Opener, Viewer, pixel
+from tests.viewer.conftest import Opener, pixel
 
 
 @pytest.fixture

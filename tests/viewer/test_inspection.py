@@ -11,7 +11,7 @@ import pytest
 from rightofway.io.sites import Choice, read_sites
 from rightofway.metrics import inspect, sentences
 from rightofway.viz import write_inspection
-from tests.viewer.conftest import Viewer
+from tests.builders.browsers import Viewer
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

@@ -15,7 +15,8 @@ from rightofway.io import scenario_of
 from rightofway.model import Plan
 from rightofway.solve import solve
 from rightofway.viz import Background
-from tests.viewer.conftest import Opener, Viewer
+from tests.builders.browsers import Viewer
+from tests.viewer.conftest import Opener
 
 LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
 

@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from rightofway.model import SteadyState, Tick
+from tests.builders.browsers import Viewer
 from tests.builders.plans import counter, counter_late, counter_steady, door
-from tests.viewer.conftest import Opener, Viewer, pixel
+from tests.viewer.conftest import Opener, pixel
 
 
 def lit(viewer: Viewer) -> list[int]:

@@ -13,8 +13,9 @@ from PIL import Image
 
 from rightofway.model import Obstacle, Plan
 from rightofway.viz import Background
+from tests.builders.browsers import Viewer
 from tests.builders.plans import crowd, door, loop, yard
-from tests.viewer.conftest import Opener, Viewer, pixel
+from tests.viewer.conftest import Opener, pixel
 
 SIZES = [(1600, 1000), (1280, 720), (390, 844)]
 

@@ -16,7 +16,7 @@ import pytest
 from rightofway.io.sites import Choice, read_sites
 from rightofway.viz import page_of, site_data
 from rightofway.viz.page.document import style_sheet
-from tests.viewer.conftest import Viewer
+from tests.builders.browsers import Viewer
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

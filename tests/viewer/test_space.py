@@ -10,8 +10,9 @@ import pytest
 from rightofway.io import scenario_of
 from rightofway.model import Plan, PlannerRun, Track
 from rightofway.solve import solve
+from tests.builders.browsers import Viewer
 from tests.builders.plans import crowd, door
-from tests.viewer.conftest import Opener, Viewer
+from tests.viewer.conftest import Opener
 
 CROSS = {
     "vertices": {"A": [0, 0], "B": [8, 0], "C": [4, -4], "D": [4, 4]},

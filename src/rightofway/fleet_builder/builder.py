@@ -1,42 +1,40 @@
-"""A fleet built in Python: the map, the robots and the rules, without a file."""
+"""The builder of a fleet: each call adds a part, and says at once what is wrong with the part."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import fields, replace
-from fractions import Fraction
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal, Self
 
-from rightofway.errors import InputError, nearest, shown
+from rightofway.errors import InputError, shown
+from rightofway.fleet_builder.lanes import DrawnLanes, lanes_of_graph
+from rightofway.fleet_builder.values import (
+    pair_of,
+    place_and_work,
+    point_of,
+    radius_of,
+    rules_of,
+    units_of,
+    within,
+)
 from rightofway.model import (
-    Edge,
-    Point,
     Roadmap,
     Robot,
-    Rules,
     Scenario,
     Stop,
     TripEnd,
     Units,
     VertexId,
-    roadmap_of_edges,
     roadmap_of_grid,
-    rounding_step,
-    squared_distance,
-    straight_length,
 )
 from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.layout import Layout, LevelRoadmap, roadmap_of_level
-from rightofway.model.places import as_place, is_cell, vertex_at
-from rightofway.model.resources import circle_around
-from rightofway.model.spacing import SplitLanes, split_lanes
-from rightofway.model.values import Number, coordinate, names, number
+from rightofway.model.places import as_place, vertex_at
+from rightofway.model.values import Number
 from rightofway.model.values import length as exact_length
 from rightofway.model.zones import NamedZone
-
-__all__ = ["FleetBuilder"]
 
 
 class FleetBuilder:
@@ -128,31 +126,28 @@ class FleetBuilder:
                 "level" if level else "vehicle_type", "is for a layout (take it out)"
             )
         self._spacing = None if spacing is None else exact_length(spacing, "spacing")
-        self._positions: dict[str, Point] = {}
-        self._edges: list[tuple[str, str, Fraction | None, dict[str, Any]]] = []
-        self._barred: dict[str, frozenset[str]] = {}
-        self._surcharges: dict[str, Fraction] = {}
+        self._drawn = DrawnLanes()
         self._closures: list[Closure] = []
-        self._zones: list[NamedZone] = []
         self._robots: list[Robot] = []
         self._roadmap: Roadmap | None = None
-        self._lanes: Callable[..., LevelRoadmap] | None = None
+        self._level: Callable[..., LevelRoadmap] | None = None
         self._stations: dict[str, VertexId] = {}
-        self._is_drawn = True
-        self._rules = _rules(rules)
-        self._units = _units(units)
+        self._has_positions = True
+        self._rules = rules_of(rules)
+        self._units = units_of(units)
         self._y_up = y == "up"
-        corner = None if origin is None else _point("origin", *_pair("origin", origin))
+        corner = None if origin is None else point_of("origin", *pair_of("origin", origin))
         frame: dict[str, Any] = {"cell_size": cell_size, "y_up": self._y_up, "origin": corner}
         if grid is not None:
             rows = grid.strip("\n").split("\n") if isinstance(grid, str) else grid
-            self._roadmap = _within("grid", roadmap_of_grid, rows, **frame)
+            self._roadmap = within("grid", roadmap_of_grid, rows, **frame)
         elif map_file is not None:
             from rightofway.io import load_map
 
             self._roadmap = roadmap_of_grid(load_map(Path(map_file)), **frame)
         elif graph is not None:
-            self._add_graph(graph)
+            self._drawn, self._has_positions = lanes_of_graph(graph)
+            self.roadmap()
         elif layout is not None:
             self._take_layout(layout, level, vehicle_type)
 
@@ -184,15 +179,8 @@ class FleetBuilder:
             For a name that is none or taken, a position that is no number, or where the map is a
             grid or robots were added already.
         """
-        place = f"vertex {shown(name)}"
-        self._refuse_fixed_map(place)
-        if not isinstance(name, str) or not name:
-            raise InputError.at(place, "is no name (give text)")
-        if name in self._positions:
-            raise InputError.at(place, "is there already (give each vertex a name of its own)")
-        self._positions[name] = _point(place, x, y)
-        self._barred[name] = _types(f"{place}: barred", barred)
-        self._surcharges[name] = _surcharge(f"{place}: surcharge", surcharge)
+        self._refuse_fixed_map(f"vertex {shown(name)}")
+        self._drawn.add_vertex(name, x, y, barred=barred, surcharge=surcharge)
         return self
 
     def add_edge(
@@ -231,25 +219,16 @@ class FleetBuilder:
             For a vertex that is not there, a length that is not positive, or no length where both
             vertices are at one position.
         """
-        place = f"edge {shown(tail)} to {shown(head)}"
-        self._refuse_fixed_map(place)
-        for name in (tail, head):
-            if name not in self._positions:
-                near = nearest(name, self._positions)
-                hint = f"did you mean {near!r}?" if near else "add it first"
-                raise InputError.at(place, f"no vertex is named {shown(name)} ({hint})")
-        given = None if length is None else exact_length(length, f"{place}: length")
-        if given is None:
-            _within(place, straight_length, self._square(tail, head))
-        limit = None if max_speed is None else exact_length(max_speed, f"{place}: max_speed")
-        more = {
-            "max_speed": limit,
-            "barred": _types(f"{place}: barred", barred),
-            "surcharge": _surcharge(f"{place}: surcharge", surcharge),
-        }
-        self._edges.append((tail, head, given, more))
-        if both_ways:
-            self._edges.append((head, tail, given, more))
+        self._refuse_fixed_map(f"edge {shown(tail)} to {shown(head)}")
+        self._drawn.add_edge(
+            tail,
+            head,
+            length,
+            both_ways=both_ways,
+            max_speed=max_speed,
+            barred=barred,
+            surcharge=surcharge,
+        )
         return self
 
     def add_zone(
@@ -277,7 +256,7 @@ class FleetBuilder:
         """
         self._refuse_fixed_map(f"zone {shown(name)}")
         pairs = tuple((tail, head) for tail, head in edges)
-        self._zones.append(NamedZone(name=name, vertices=tuple(vertices), edges=pairs))
+        self._drawn.zones.append(NamedZone(name=name, vertices=tuple(vertices), edges=pairs))
         return self
 
     def add_robot(
@@ -338,7 +317,7 @@ class FleetBuilder:
         if stops is None:
             trip = [("target", target, work)]
         else:
-            trip = [(f"stops[{k}]", *_place_and_work(stop)) for k, stop in enumerate(stops)]
+            trip = [(f"stops[{k}]", *place_and_work(stop)) for k, stop in enumerate(stops)]
         from rightofway.io.scenario.homes import HOMELESS
 
         try:
@@ -353,7 +332,7 @@ class FleetBuilder:
                 turn=turn,  # type: ignore[arg-type]
                 ends=ends,
                 laps=laps,
-                radius=_radius(radius, size),
+                radius=radius_of(radius, size),
                 type=type,
                 turn_rate=turn_rate,  # type: ignore[arg-type]
             )
@@ -423,12 +402,12 @@ class FleetBuilder:
         from rightofway.io.scenario.homes import housed
 
         rates = [self._rules.turn_rate, *(robot.turn_rate for robot in self._robots)]
-        if not self._is_drawn and any(rates):
+        if not self._has_positions and any(rates):
             remedy = "give each node a pos, or x and y; or leave it out"
             raise InputError.at("turn_rate", f"needs positions, and the graph has none ({remedy})")
         roadmap, rules = self.roadmap(), self._rules
-        if self._lanes and any(robot.radius for robot in self._robots):
-            cut = self._lanes(cuts_curves=True)
+        if self._level and any(robot.radius for robot in self._robots):
+            cut = self._level(cuts_curves=True)
             roadmap = cut.roadmap
             rules = replace(rules, clearance=rules.clearance + 2 * cut.chord_error)
         robots, _ = housed(self._robots, roadmap, rules)
@@ -449,39 +428,11 @@ class FleetBuilder:
             Where there is none, or an edge is given twice.
         """
         if self._roadmap is None:
-            if not self._positions:
+            if not self._drawn.positions:
                 remedy = "give grid, map_file, graph or layout, or add vertices and edges"
                 raise InputError.at("", f"the fleet has no map ({remedy})")
-            squares = [
-                self._square(tail, head) for tail, head, given, _ in self._edges if given is None
-            ]
-            step = rounding_step(squares)
-            edges = [
-                Edge(
-                    tail=tail,
-                    head=head,
-                    length=given or straight_length(self._square(tail, head), step),
-                    **more,
-                )
-                for tail, head, given, more in self._edges
-            ]
-            split = SplitLanes(self._positions, edges, {})
-            if self._spacing is not None:
-                split = split_lanes(self._positions, edges, self._spacing)
-            drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
-            self._roadmap = roadmap_of_edges(
-                drawn,
-                split.edges,
-                y_up=self._y_up,
-                zones=self._zones,
-                pieces=split.pieces,
-                barred={name: types for name, types in self._barred.items() if types},
-                surcharges={name: more for name, more in self._surcharges.items() if more},
-            )
+            self._roadmap = self._drawn.roadmap(spacing=self._spacing, y_up=self._y_up)
         return self._roadmap
-
-    def _square(self, tail: str, head: str) -> Fraction:
-        return squared_distance(self._positions[tail], self._positions[head])
 
     def _vertex(self, key: str, place: Any) -> VertexId:
         """Return the vertex of a place as users write it."""
@@ -494,8 +445,8 @@ class FleetBuilder:
             and place not in (roadmap.labels or ())
         ):
             return self._stations[place]
-        found = _within(key, as_place, place, roadmap)
-        vertex: VertexId = _within(key, vertex_at, roadmap, found, units=self._units)
+        found = within(key, as_place, place, roadmap)
+        vertex: VertexId = within(key, vertex_at, roadmap, found, units=self._units)
         return vertex
 
     def _refuse_fixed_map(self, place: str) -> None:
@@ -519,7 +470,7 @@ class FleetBuilder:
         metres, seconds = self._units.metres, self._units.seconds
         assert metres, "a unit of length has a length"
         assert seconds, "a unit of time has a length"
-        self._lanes = partial(
+        self._level = partial(
             roadmap_of_level,
             layout.level(level),
             vehicle_type=vehicle_type,
@@ -527,107 +478,5 @@ class FleetBuilder:
             second=1 / seconds,
             spacing=self._spacing,
         )
-        self._roadmap = self._lanes().roadmap
+        self._roadmap = self._level().roadmap
         self._stations = dict(self._roadmap.drawing.stations)
-
-    def _add_graph(self, graph: Any) -> None:
-        """Add the nodes and edges of a networkx graph."""
-        if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
-            raise InputError.at("graph", f"{shown(graph)} is no graph (give a networkx graph)")
-        nodes = dict(graph.nodes(data=True))
-        at = {node: _position(node, data) for node, data in nodes.items()}
-        self._is_drawn = is_drawn = all(at.values())
-        for index, (node, position) in enumerate(at.items()):
-            self.add_vertex(str(node), *(position if position and is_drawn else (index, 0)))
-        for tail, head, data in graph.edges(data=True):
-            length = data.get("length", data.get("weight", None if is_drawn else 1))
-            self.add_edge(
-                str(tail),
-                str(head),
-                length,
-                both_ways=not graph.is_directed(),
-                max_speed=data.get("max_speed"),
-            )
-        self.roadmap()
-
-
-def _types(place: str, given: Iterable[str]) -> frozenset[str]:
-    """Return types of robots; a text alone is no list of them."""
-    try:
-        return names(given if isinstance(given, str) else list(given))
-    except (TypeError, ValueError):
-        message = f"{shown(given)} are no types of robots (give a list of texts)"
-        raise InputError.at(place, message) from None
-
-
-def _surcharge(place: str, given: Number) -> Fraction:
-    try:
-        found = number(given)
-    except ValueError as error:
-        raise InputError.at(place, str(error)) from None
-    if found < 0:
-        raise InputError.at(place, f"{shown(given)} is negative (give 0 or more)")
-    return found
-
-
-def _rules(given: dict[str, Any]) -> Rules:
-    known = [field.name for field in fields(Rules)]
-    for name in given:
-        if name not in known:
-            raise InputError.at(name, f"is unknown to FleetBuilder (rules are {', '.join(known)})")
-    return Rules(**given)
-
-
-def _units(given: Units | Mapping[str, Any] | None) -> Units:
-    if given is None or isinstance(given, Units):
-        return given or Units()
-    if not (isinstance(given, Mapping) and given.keys() <= {"length", "time"}):
-        remedy = 'give {"length": "m", "time": "s"}'
-        raise InputError.at("units", f"{shown(given)} are no units ({remedy})")
-    return Units(**given)
-
-
-def _pair(place: str, given: Any) -> tuple[Any, Any]:
-    if not isinstance(given, list | tuple) or len(given) != 2:  # noqa: PLR2004 (x and y)
-        raise InputError.at(place, f"{shown(given)} is no point (give (x, y))")
-    return given[0], given[1]
-
-
-def _point(place: str, x: Number, y: Number) -> Point:
-    try:
-        return coordinate(x), coordinate(y)
-    except ValueError as error:
-        raise InputError.at(place, str(error)) from None
-
-
-def _radius(radius: Number | None, size: tuple[Number, Number] | None) -> Fraction:
-    """Return the radius of a robot, or of the circle around its sides."""
-    if size is None:
-        return Fraction(0) if radius is None else radius  # type: ignore[return-value]
-    length, width = (exact_length(side, f"size[{k}]") for k, side in enumerate(size))
-    return circle_around(length, width)
-
-
-def _place_and_work(stop: Any) -> tuple[Any, Number]:
-    """Return the place of a stop and the work there: of (place, work), or of a place alone.
-
-    A pair of whole numbers is (row, column).
-    """
-    is_pair = isinstance(stop, list | tuple) and len(stop) == 2  # noqa: PLR2004 (place and work)
-    return (stop[0], stop[1]) if is_pair and not is_cell(stop) else (stop, 0)
-
-
-def _position(node: Any, data: dict[str, Any]) -> tuple[Any, Any] | None:
-    """Return where a node of a graph lies, if it says so."""
-    found = data.get("pos", (data["x"], data["y"]) if {"x", "y"} <= data.keys() else node)
-    if isinstance(found, str) or not hasattr(found, "__len__") or len(found) != 2:  # noqa: PLR2004 (x and y)
-        return None
-    return found[0], found[1]
-
-
-def _within(place: str, make: Any, *arguments: Any, **named: Any) -> Any:
-    """Call a function; its faults are faults of the place."""
-    try:
-        return make(*arguments, **named)
-    except InputError as error:
-        raise InputError(fault.within(place) for fault in error.faults) from None

@@ -1,0 +1,153 @@
+"""Vertices, edges and zones that are added one by one, and the roadmap that they become."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+from rightofway.errors import InputError, nearest, shown
+from rightofway.fleet_builder.values import point_of, surcharge_of, types_of, within
+from rightofway.model import (
+    Edge,
+    Point,
+    Roadmap,
+    roadmap_of_edges,
+    rounding_step,
+    squared_distance,
+    straight_length,
+)
+from rightofway.model.spacing import SplitLanes, split_lanes
+from rightofway.model.values import Number
+from rightofway.model.values import length as exact_length
+from rightofway.model.zones import NamedZone
+
+
+@dataclass
+class DrawnLanes:
+    """Vertices, edges and zones, as `FleetBuilder` adds them.
+
+    Attributes
+    ----------
+    positions
+        Name and position of each vertex [length unit].
+    edges
+        Tail, head, length if it is given, and the other attributes of each directed edge.
+    barred, surcharges
+        What vertices were given.
+    zones
+        Zones by the names of their vertices and edges.
+    """
+
+    positions: dict[str, Point] = field(default_factory=dict)
+    edges: list[tuple[str, str, Fraction | None, dict[str, Any]]] = field(default_factory=list)
+    barred: dict[str, frozenset[str]] = field(default_factory=dict)
+    surcharges: dict[str, Fraction] = field(default_factory=dict)
+    zones: list[NamedZone] = field(default_factory=list)
+
+    def add_vertex(
+        self, name: str, x: Number, y: Number, *, barred: Iterable[str], surcharge: Number
+    ) -> None:
+        """Add a vertex, as `FleetBuilder.add_vertex`."""
+        place = f"vertex {shown(name)}"
+        if not isinstance(name, str) or not name:
+            raise InputError.at(place, "is no name (give text)")
+        if name in self.positions:
+            raise InputError.at(place, "is there already (give each vertex a name of its own)")
+        self.positions[name] = point_of(place, x, y)
+        if types := types_of(f"{place}: barred", barred):
+            self.barred[name] = types
+        if more := surcharge_of(f"{place}: surcharge", surcharge):
+            self.surcharges[name] = more
+
+    def add_edge(
+        self,
+        tail: str,
+        head: str,
+        length: Number | None,
+        *,
+        both_ways: bool,
+        max_speed: Number | None,
+        barred: Iterable[str],
+        surcharge: Number,
+    ) -> None:
+        """Add an edge, as `FleetBuilder.add_edge`."""
+        place = f"edge {shown(tail)} to {shown(head)}"
+        for name in (tail, head):
+            if name not in self.positions:
+                near = nearest(name, self.positions)
+                hint = f"did you mean {near!r}?" if near else "add it first"
+                raise InputError.at(place, f"no vertex is named {shown(name)} ({hint})")
+        given = None if length is None else exact_length(length, f"{place}: length")
+        if given is None:
+            within(place, straight_length, self._square(tail, head))
+        limit = None if max_speed is None else exact_length(max_speed, f"{place}: max_speed")
+        more = {
+            "max_speed": limit,
+            "barred": types_of(f"{place}: barred", barred),
+            "surcharge": surcharge_of(f"{place}: surcharge", surcharge),
+        }
+        self.edges.append((tail, head, given, more))
+        if both_ways:
+            self.edges.append((head, tail, given, more))
+
+    def roadmap(self, *, spacing: Fraction | None, y_up: bool) -> Roadmap:
+        """Return the roadmap; longer edges are split into pieces of at most ``spacing``."""
+        squares = [self._square(tail, head) for tail, head, given, _ in self.edges if given is None]
+        step = rounding_step(squares)
+        edges = [
+            Edge(
+                tail=tail,
+                head=head,
+                length=given or straight_length(self._square(tail, head), step),
+                **more,
+            )
+            for tail, head, given, more in self.edges
+        ]
+        split = SplitLanes(self.positions, edges, {})
+        if spacing is not None:
+            split = split_lanes(self.positions, edges, spacing)
+        return roadmap_of_edges(
+            {name: (float(x), float(y)) for name, (x, y) in split.positions.items()},
+            split.edges,
+            y_up=y_up,
+            zones=self.zones,
+            pieces=split.pieces,
+            barred=self.barred,
+            surcharges=self.surcharges,
+        )
+
+    def _square(self, tail: str, head: str) -> Fraction:
+        return squared_distance(self.positions[tail], self.positions[head])
+
+
+def lanes_of_graph(graph: Any) -> tuple[DrawnLanes, bool]:
+    """Return the lanes of a `networkx` graph, and whether all its nodes have positions."""
+    if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
+        raise InputError.at("graph", f"{shown(graph)} is no graph (give a networkx graph)")
+    at = {node: _position(node, data) for node, data in graph.nodes(data=True)}
+    is_drawn = all(at.values())
+    lanes = DrawnLanes()
+    for index, (node, position) in enumerate(at.items()):
+        x, y = position if position and is_drawn else (index, 0)
+        lanes.add_vertex(str(node), x, y, barred=(), surcharge=0)
+    for tail, head, data in graph.edges(data=True):
+        lanes.add_edge(
+            str(tail),
+            str(head),
+            data.get("length", data.get("weight", None if is_drawn else 1)),
+            both_ways=not graph.is_directed(),
+            max_speed=data.get("max_speed"),
+            barred=(),
+            surcharge=0,
+        )
+    return lanes, is_drawn
+
+
+def _position(node: Any, data: dict[str, Any]) -> tuple[Any, Any] | None:
+    """Return where a node of a graph lies, if it says so."""
+    found = data.get("pos", (data["x"], data["y"]) if {"x", "y"} <= data.keys() else node)
+    if isinstance(found, str) or not hasattr(found, "__len__") or len(found) != 2:  # noqa: PLR2004 (x and y)
+        return None
+    return found[0], found[1]

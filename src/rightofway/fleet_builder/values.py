@@ -1,0 +1,93 @@
+"""Values as users of Python write them, and the place of a fault in them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import fields
+from fractions import Fraction
+from typing import Any
+
+from rightofway.errors import InputError, shown
+from rightofway.model import Point, Rules, Units
+from rightofway.model.places import is_cell
+from rightofway.model.resources import circle_around
+from rightofway.model.values import Number, coordinate, length, names, number
+
+
+def within(place: str, make: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
+    """Call a function; its faults are faults of the place."""
+    try:
+        return make(*arguments, **named)
+    except InputError as error:
+        raise InputError(fault.within(place) for fault in error.faults) from None
+
+
+def rules_of(given: dict[str, Any]) -> Rules:
+    """Return the rules of a fleet by their names."""
+    known = [field.name for field in fields(Rules)]
+    for name in given:
+        if name not in known:
+            raise InputError.at(name, f"is unknown to FleetBuilder (rules are {', '.join(known)})")
+    return Rules(**given)
+
+
+def units_of(given: Units | Mapping[str, Any] | None) -> Units:
+    """Return units; none by default."""
+    if given is None or isinstance(given, Units):
+        return given or Units()
+    if not (isinstance(given, Mapping) and given.keys() <= {"length", "time"}):
+        remedy = 'give {"length": "m", "time": "s"}'
+        raise InputError.at("units", f"{shown(given)} are no units ({remedy})")
+    return Units(**given)
+
+
+def types_of(place: str, given: Iterable[str]) -> frozenset[str]:
+    """Return types of robots; a text alone is no list of them."""
+    try:
+        return names(given if isinstance(given, str) else list(given))
+    except (TypeError, ValueError):
+        message = f"{shown(given)} are no types of robots (give a list of texts)"
+        raise InputError.at(place, message) from None
+
+
+def surcharge_of(place: str, given: Number) -> Fraction:
+    """Return a surcharge, which is not negative [time unit]."""
+    try:
+        found = number(given)
+    except ValueError as error:
+        raise InputError.at(place, str(error)) from None
+    if found < 0:
+        raise InputError.at(place, f"{shown(given)} is negative (give 0 or more)")
+    return found
+
+
+def pair_of(place: str, given: Any) -> tuple[Any, Any]:
+    """Return both parts of (x, y)."""
+    if not isinstance(given, list | tuple) or len(given) != 2:  # noqa: PLR2004 (x and y)
+        raise InputError.at(place, f"{shown(given)} is no point (give (x, y))")
+    return given[0], given[1]
+
+
+def point_of(place: str, x: Number, y: Number) -> Point:
+    """Return a point, exactly [length unit]."""
+    try:
+        return coordinate(x), coordinate(y)
+    except ValueError as error:
+        raise InputError.at(place, str(error)) from None
+
+
+def radius_of(radius: Number | None, size: tuple[Number, Number] | None) -> Fraction:
+    """Return the radius of a robot, or of the circle around its sides [length unit]."""
+    if size is None:
+        return Fraction(0) if radius is None else radius  # type: ignore[return-value]
+    long, wide = (length(side, f"size[{k}]") for k, side in enumerate(size))
+    return circle_around(long, wide)
+
+
+def place_and_work(stop: Any) -> tuple[Any, Number]:
+    """Return the place of a stop and the work there: of (place, work), or of a place alone.
+
+    A pair of whole numbers is (row, column).
+    """
+    is_pair = isinstance(stop, list | tuple) and len(stop) == 2  # noqa: PLR2004 (place and work)
+    return (stop[0], stop[1]) if is_pair and not is_cell(stop) else (stop, 0)

@@ -1,0 +1,83 @@
+"""A headless Chromium for tests, and what goes wrong on a page.
+
+The browser is the one that ``RIGHTOFWAY_CHROMIUM`` names, or the first of the usual names on the
+path.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+FOUND = os.environ.get("RIGHTOFWAY_CHROMIUM") or next(filter(None, map(shutil.which, NAMES)), "")
+CHROMIUM = FOUND if find_spec("playwright") else ""
+"""Path of the browser; empty where there is none, or no Playwright."""
+
+needs_browser = pytest.mark.skipif(not CHROMIUM, reason="there is no browser")
+
+PATIENCE = 500
+"""How often to look, 20 ms apart."""
+
+ARGUMENTS = (
+    "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync",
+)  # fmt: skip
+
+
+class Viewer:
+    """A page that plays a plan, and what went wrong in it.
+
+    Attributes
+    ----------
+    page
+        The page.
+    complaints
+        Messages on the console and uncaught errors.
+    requests
+        Addresses that the page asked for, itself apart.
+    """
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.complaints: list[str] = []
+        self.requests: list[str] = []
+        page.on("console", lambda message: self.complaints.append(message.text))
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.on("request", lambda request: self.requests.append(request.url))
+
+    def ask(self, expression: str) -> Any:
+        """Return the value of a JavaScript expression; the page's own names are in scope."""
+        return self.page.evaluate(expression)
+
+    def wait_for(self, expression: str) -> None:
+        """Wait until an expression holds; the page's policy forbids it to watch itself."""
+        for _ in range(PATIENCE):
+            if self.ask(expression):
+                return
+            self.page.wait_for_timeout(20)
+        pytest.fail(f"{expression} did not come true")
+
+    def text(self, selector: str) -> str:
+        """Return the text that stands in an element."""
+        return self.page.inner_text(selector)
+
+
+@contextmanager
+def chromium() -> Iterator[Browser]:
+    """Yield a browser; one process can have one Playwright only, so tests share it."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*ARGUMENTS])
+        yield browser
+        browser.close()
