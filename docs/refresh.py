@@ -187,7 +187,7 @@ def public_names(module: str) -> Iterable[str]:
 def _link(name: str, value: Any) -> str:
     """Return a name that links to the page of the room that defines it."""
     room = value.__module__.split(".")[1]
-    return f"[`{name}`]({'solve' if room == 'fleet_builder' else room}.md)"
+    return f"[`{name}`]({room}.md)"
 
 
 def _first(name: str, value: Any) -> str:
