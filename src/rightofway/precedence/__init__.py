@@ -10,8 +10,8 @@ from rightofway.precedence.adg import (
     order_of,
     rights_in,
 )
+from rightofway.precedence.bookings import BookedRows
 from rightofway.precedence.graph import (
-    BookedRows,
     Meeting,
     PrecedenceGraph,
     graph_of,

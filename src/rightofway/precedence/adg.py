@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import NEVER, Route, Scenario, Tick, Track, route_of
-from rightofway.precedence.graph import BookedRows, ClosedPlaces, Pairs, graph_on
+from rightofway.precedence.bookings import BookedRows, ClosedPlaces
+from rightofway.precedence.graph import Pairs, graph_on
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
 """Kinds of random delay; the kernel takes the index."""

@@ -15,15 +15,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import accumulate, groupby, pairwise
+from itertools import groupby, pairwise
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Lap, Route, Scenario, Tick, Track, VertexId, route_of
-from rightofway.model.passed_zones import visit_rows
+from rightofway.model import Route, Scenario, Tick, Track, VertexId, route_of
+from rightofway.precedence.bookings import BookedRows, ClosedPlaces
 from rightofway.precedence.segments import (
     IncompatiblePair,
     Segment,
@@ -37,140 +37,6 @@ Visit = int
 
 Pairs = NDArray[np.int32]
 """Pairs of visits; int32, shape (n, 2)."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class BookedRows:
-    """What the visits of robots with a size book.
-
-    Attributes
-    ----------
-    vertex, edge
-        The row of each visit's vertex, and of the edge driven out of it, -1 for last visits; int32,
-        shape (N,).
-    first, excluded
-        The lists of rows that each row excludes, as in `Resources`.
-    """
-
-    vertex: NDArray[np.int32]
-    edge: NDArray[np.int32]
-    first: NDArray[np.int32]
-    excluded: NDArray[np.int32]
-
-    @classmethod
-    def of(
-        cls, scenario: Scenario, vertices: Sequence[Sequence[int] | NDArray[np.int32]]
-    ) -> BookedRows | None:
-        """Return the rows of visits, or None where no robot has a size.
-
-        Parameters
-        ----------
-        scenario
-            The problem.
-        vertices
-            The vertices that each robot visits.
-        """
-        resources = scenario.problem.resources
-        if resources is None:
-            return None
-        at_vertex, first, excluded = visit_rows(scenario, vertices)
-        along_edge = []
-        for robot, route in enumerate(vertices):
-            visited = np.asarray(route, np.int32)
-            edges = scenario.roadmap.edges(visited[:-1], visited[1:])
-            along_edge.append(np.append(resources.edge_row(robot, 0) + edges, -1))
-        return cls(
-            vertex=np.concatenate(at_vertex, dtype=np.int32),
-            edge=np.concatenate(along_edge, dtype=np.int32, casting="same_kind"),
-            first=first,
-            excluded=excluded,
-        )
-
-    @classmethod
-    def of_laps(
-        cls, scenario: Scenario, robots: Sequence[int], laps: Sequence[Lap], counts: Sequence[int]
-    ) -> BookedRows | None:
-        """Return the rows of visits that repeat, or None where no robot has a size.
-
-        Parameters
-        ----------
-        scenario
-            The problem.
-        robots, laps, counts
-            Robots of the scenario, the lap of each, and how many laps it makes in a period.
-        """
-        resources = scenario.problem.resources
-        if resources is None:
-            return None
-        at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
-        for robot, lap, count in zip(robots, laps, counts, strict=True):
-            rows = resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)
-            for found, own in zip((at_vertex, along_edge), rows, strict=True):
-                found.append(np.tile(own, count))
-        return cls(
-            vertex=np.concatenate(at_vertex, dtype=np.int32),
-            edge=np.concatenate(along_edge, dtype=np.int32),
-            first=resources.first,
-            excluded=resources.excluded,
-        )
-
-    def arrays(self) -> tuple[NDArray[np.int32], ...]:
-        """Return the arrays as kernels take them: the rows, and the lists of excluded rows."""
-        return self.vertex, self.edge, self.first, self.excluded
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ClosedPlaces:
-    """When the places that visits book are closed.
-
-    Attributes
-    ----------
-    first
-        List ``2 x`` is of the vertex of visit ``x``, list ``2 x + 1`` of the edge driven into it:
-        entries ``first[k]`` to ``first[k + 1]`` (exclusive); int32, shape (2 N + 1,).
-    start, end
-        When each entry is closed [ticks]; int64, shape (K,).
-    drive
-        Ticks of the drive into each visit; int64, shape (N,).
-    """
-
-    first: NDArray[np.int32]
-    start: NDArray[np.int64]
-    end: NDArray[np.int64]
-    drive: NDArray[np.int64]
-
-    @classmethod
-    def of(cls, scenario: Scenario, routes: Sequence[Route]) -> ClosedPlaces | None:
-        """Return when the places of routes are closed, or None where nothing ever is.
-
-        Parameters
-        ----------
-        scenario
-            The problem.
-        routes
-            One for each robot.
-        """
-        closures = scenario.problem.closures
-        if closures is None:
-            return None
-        lists: list[list[tuple[Tick, Tick]]] = []
-        for robot, route in enumerate(routes):
-            visited = np.array(route.vertices, np.int32)
-            edges = scenario.roadmap.edges(visited[:-1], visited[1:]).tolist()
-            for vertex, edge in zip(route.vertices, [None, *edges], strict=True):
-                lists.append(closures.at_vertex(robot, vertex))
-                lists.append([] if edge is None else closures.along_edge(robot, edge))
-        times = [time for closed in lists for time in closed]
-        return cls(
-            first=np.array([0, *accumulate(map(len, lists))], np.int32),
-            start=np.array([start for start, _ in times], np.int64),
-            end=np.array([end for _, end in times], np.int64),
-            drive=np.array([ticks for route in routes for ticks in route.drive], np.int64),
-        )
-
-    def arrays(self) -> tuple[NDArray[np.int32] | NDArray[np.int64], ...]:
-        """Return the arrays as kernels take them."""
-        return self.first, self.start, self.end, self.drive
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
