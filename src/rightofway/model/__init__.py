@@ -5,6 +5,7 @@ from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, s
 from rightofway.model.edges import Edge, roadmap_of_edges
 from rightofway.model.geometry import Frame, Point, rounding_step, squared_distance, straight_length
 from rightofway.model.grid import roadmap_of_grid
+from rightofway.model.lap import Lap, lap_of, visits_of_laps
 from rightofway.model.lost_time import Loss, LostTime
 from rightofway.model.plan import Decision, Improvement, Plan, PlannerRun, Reroute, RobotPlan, Wait
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
@@ -13,24 +14,17 @@ from rightofway.model.resources import Resources
 from rightofway.model.roadmap import Grid, Roadmap
 from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn, Walls
 from rightofway.model.route import (
-    Lap,
     Route,
-    Stays,
     Track,
-    completions_of,
-    cost_of,
     drives_along,
-    flowtime_of,
-    lap_of,
     route_along,
     route_of,
     route_through,
     serving_visits,
-    stays_of,
     turns_along,
-    visits_of_laps,
 )
 from rightofway.model.scenario import Scenario
+from rightofway.model.stays import Stays, completions_of, cost_of, flowtime_of, stays_of
 from rightofway.model.steady_state import SteadyState
 from rightofway.model.trace import ExecutionTrace
 from rightofway.model.units import NEVER, Clock, Tick, VertexId, checked_time_limit, choose_clock

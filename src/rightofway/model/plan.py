@@ -11,8 +11,9 @@ from rightofway.errors import InputError, nearest, shown
 from rightofway.model.above import from_above
 from rightofway.model.lost_time import LostTime
 from rightofway.model.robot import Robot
-from rightofway.model.route import Track, completions_of
+from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
+from rightofway.model.stays import completions_of
 from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick, VertexId
 

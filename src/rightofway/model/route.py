@@ -1,4 +1,4 @@
-"""Routes, laps, and what each visit is for: the stages it serves, its least dwell, its drive.
+"""Routes and tracks, and what each visit serves: its stages, its least dwell, its drive.
 
 A stage is served in the first visit of its vertex, from the one that serves the stage before it on,
 that lasts long enough beyond its drive; several stages that follow each other at one vertex may
@@ -10,8 +10,6 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
-from itertools import takewhile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +17,6 @@ from numpy.typing import NDArray
 from rightofway.errors import InputError
 from rightofway.model.problem import Itinerary, Stage, least_dwell
 from rightofway.model.roadmap import Roadmap
-from rightofway.model.scenario import Scenario
 from rightofway.model.units import NEVER, Tick, VertexId
 
 
@@ -169,7 +166,7 @@ def _serves(
 def _route(
     roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId], serves: Sequence[int]
 ) -> Route:
-    dwell = _least_dwells(itinerary.stages, serves, len(vertices))
+    dwell = least_dwells(itinerary.stages, serves, len(vertices))
     dwell += turns_along(roadmap, itinerary, np.array(vertices, np.int32))
     drive = map(Tick, drives_along(roadmap, itinerary, vertices))
     return Route(
@@ -261,230 +258,19 @@ def serving_visits(
     return serves
 
 
-def _least_dwells(
+def least_dwells(
     stages: Sequence[Stage], serves: Sequence[int], n_visits: int
 ) -> NDArray[np.int64]:
-    """Return the least ticks of each visit, without its drive, given the visits of the stages."""
+    """Return the least ticks of each visit, without its drive; int64, shape (n,).
+
+    Parameters
+    ----------
+    stages, serves
+        What the robot has to do, and the visit that serves each stage.
+    n_visits
+        How many visits there are; the last one has no drive.
+    """
     dwell = np.zeros(n_visits, np.int64)
     for stage, visit in zip(stages, serves, strict=False):
         dwell[visit] += least_dwell([stage], leaves=visit < n_visits - 1)
     return dwell
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Lap:
-    """The visits of one lap; after the last visit the first one follows.
-
-    Attributes
-    ----------
-    vertices
-        Where each visit is; the first is at home.
-    dwell
-        How long each visit lasts at least, without the drive that follows: at a stop the work and
-        the turn, at home the turn between two laps [ticks].
-    drive
-        Ticks of the edge driven into each visit; into the first: from the last one.
-    """
-
-    vertices: tuple[VertexId, ...]
-    dwell: tuple[Tick, ...]
-    drive: tuple[Tick, ...]
-
-    def __len__(self) -> int:
-        return len(self.vertices)
-
-    @property
-    def duration(self) -> Tick:
-        """How long a lap without waits lasts [ticks]."""
-        return Tick(sum(self.dwell) + sum(self.drive))
-
-    def least(self, visit: int) -> Tick:
-        """Return the least ticks from a visit's enter to the next one's."""
-        return Tick(self.dwell[visit] + self.drive[(visit + 1) % len(self)])
-
-    def leasts(self) -> tuple[Tick, ...]:
-        """Return the least ticks of all visits."""
-        drives = (*self.drive[1:], self.drive[0])
-        return tuple(Tick(dwell + drive) for dwell, drive in zip(self.dwell, drives, strict=True))
-
-
-@lru_cache(maxsize=1 << 14)
-def visits_of_laps(
-    lap: Lap, count: int
-) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
-    """Return vertex, dwell and drive [ticks] of all visits of some laps."""
-    return (
-        np.array(lap.vertices * count, np.int32),
-        np.array(lap.dwell * count, np.int64),
-        np.array(lap.drive * count, np.int64),
-    )
-
-
-def lap_of(itinerary: Itinerary, route: Route) -> Lap:
-    """Wrap a round trip into a lap.
-
-    Parameters
-    ----------
-    itinerary
-        What the robot has to do in one lap; it ends at home.
-    route
-        Where it goes for that; the last visit serves all stages at home at the end.
-    """
-    at_home = takewhile(lambda stage: stage.vertex == itinerary.home, reversed(itinerary.stages))
-    between = route.dwell[0] + sum(stage.work + stage.turn for stage in at_home)
-    return Lap(
-        vertices=route.vertices[:-1],
-        dwell=(Tick(between), *route.dwell[1:-1]),
-        drive=(route.drive[-1], *route.drive[1:-1]),
-    )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Stays:
-    """The visits of one robot.
-
-    Attributes
-    ----------
-    dwell
-        The least ticks of each visit before the robot drives on: the work and turning of the stages
-        that it serves, and `turns`; int64, shape (n,). For the last visit: the work that is left to
-        do there.
-    drive
-        Ticks of the edge that ends each visit, 0 for the last one; int64, shape (n,).
-    waits
-        Ticks of each visit beyond both, 0 for the last one; int64, shape (n,).
-    turns
-        How long the robot turns on the spot between two edges, a part of `dwell`, 0 for the first
-        visit and the last one; int64, shape (n,).
-    serves
-        The visit that serves each stage. It ends before the first stage that no visit serves.
-    completion
-        When the robot has entered its last vertex and done the work there [ticks].
-    """
-
-    dwell: NDArray[np.int64]
-    drive: NDArray[np.int64]
-    waits: NDArray[np.int64]
-    turns: NDArray[np.int64]
-    serves: tuple[int, ...]
-    completion: Tick
-
-
-def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
-    """Return what the visits of a fleet are for.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    tracks
-        One track for each robot; they may break the rules.
-
-    Notes
-    -----
-    Of tracks that break the rules, a move without an edge takes no time, and what comes after a
-    missed stop is waiting. All tracks lie side by side in the arrays that the answer looks into.
-    """
-    ends = np.cumsum([len(track) for track in tracks])
-    enter = np.concatenate([track.enter for track in tracks])
-    edges = _edges_of_fleet(scenario.roadmap, tracks, ends)
-    owns = [slice(end - len(track), end) for track, end in zip(tracks, ends.tolist(), strict=True)]
-    drive, dwell = _drives_of_fleet(scenario, tracks, edges), np.zeros(len(enter), np.int64)
-    turns = np.zeros(len(enter), np.int64)
-    for own, itinerary in zip(owns, scenario.problem.itineraries, strict=True):
-        if itinerary.turning is not None:
-            turns[own][1:] = itinerary.turning.between(edges[own])
-    spare = np.append(np.diff(enter), 0) - drive - turns
-    spare[ends - 1] = NEVER
-    all_serves = []
-    for own, track, itinerary in zip(owns, tracks, scenario.problem.itineraries, strict=True):
-        serves = serving_visits(itinerary.stages, track.vertices, spare[own])
-        dwell[own] = _least_dwells(itinerary.stages, serves, len(track))
-        all_serves.append(tuple(serves))
-    dwell += turns
-    completion = (enter + dwell)[ends - 1].tolist()
-    waits = spare + turns - dwell
-    waits[ends - 1] = 0
-    return tuple(
-        Stays(
-            dwell=dwell[own],
-            drive=drive[own],
-            waits=waits[own],
-            turns=turns[own],
-            serves=serves,
-            completion=Tick(done),
-        )
-        for own, serves, done in zip(owns, all_serves, completion, strict=True)
-    )
-
-
-def completions_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
-    """Return when each robot has done its work and entered its last vertex [ticks].
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    tracks
-        One track for each robot.
-    """
-    return tuple(stay.completion for stay in stays_of(scenario, tracks))
-
-
-def flowtime_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
-    """Return the sum of the robots' completion times [ticks].
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    tracks
-        One track for each robot.
-    """
-    return Tick(sum(completions_of(scenario, tracks)))
-
-
-def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
-    """Return what planners minimize: the flowtime and the surcharges of all edges driven [ticks].
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    tracks
-        One track for each robot.
-    """
-    cost, roadmap = flowtime_of(scenario, tracks), scenario.roadmap
-    if roadmap.surcharges:
-        for itinerary, track in zip(scenario.problem.itineraries, tracks, strict=True):
-            edges = roadmap.edges(track.vertices[:-1], track.vertices[1:])
-            by_class = np.array(itinerary.surcharges, np.int64)
-            cost = Tick(cost + int(by_class[roadmap.length_class[edges]].sum()))
-    return cost
-
-
-def _edges_of_fleet(
-    roadmap: Roadmap, tracks: Sequence[Track], ends: NDArray[np.int64]
-) -> NDArray[np.int32]:
-    """Return the edge after each visit of all tracks, -1 where there is none; int32."""
-    vertices = np.concatenate([track.vertices for track in tracks])
-    vertices[(vertices < 0) | (vertices >= roadmap.n_vertices)] = -1
-    edges = np.append(roadmap.edges(vertices[:-1], vertices[1:]), np.int32(-1))
-    edges[vertices < 0] = -1
-    edges[ends - 1] = -1
-    return edges
-
-
-def _drives_of_fleet(
-    scenario: Scenario, tracks: Sequence[Track], edges: NDArray[np.int32]
-) -> NDArray[np.int64]:
-    """Return the ticks of the edge after each visit of all tracks, 0 where there is none."""
-    roadmap, itineraries = scenario.roadmap, scenario.problem.itineraries
-    row = {pace: k for k, pace in enumerate({one.edge_ticks: None for one in itineraries})}
-    by_class = np.array([[*pace, 0] for pace in row], np.int64)  # the last column: no edge
-    length_class = np.append(roadmap.length_class, -1)
-    rows = np.repeat(
-        [row[itinerary.edge_ticks] for itinerary in itineraries], [len(track) for track in tracks]
-    )
-    drives: NDArray[np.int64] = by_class[rows, length_class[edges]]
-    return np.maximum(drives, 0)  # -1: a track that drives along an edge where it is barred

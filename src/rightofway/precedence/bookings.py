@@ -1,4 +1,4 @@
-"""What the visits of a precedence graph book, and when those places are closed, as kernels take it."""
+"""What visits book, and when those places are closed, as kernels take it."""
 
 from __future__ import annotations
 

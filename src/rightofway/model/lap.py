@@ -1,0 +1,82 @@
+"""Laps: round trips that a robot makes again and again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import takewhile
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.model.problem import Itinerary
+from rightofway.model.route import Route
+from rightofway.model.units import Tick, VertexId
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lap:
+    """The visits of one lap; after the last visit the first one follows.
+
+    Attributes
+    ----------
+    vertices
+        Where each visit is; the first is at home.
+    dwell
+        How long each visit lasts at least, without the drive that follows: at a stop the work and
+        the turn, at home the turn between two laps [ticks].
+    drive
+        Ticks of the edge driven into each visit; into the first: from the last one.
+    """
+
+    vertices: tuple[VertexId, ...]
+    dwell: tuple[Tick, ...]
+    drive: tuple[Tick, ...]
+
+    def __len__(self) -> int:
+        return len(self.vertices)
+
+    @property
+    def duration(self) -> Tick:
+        """How long a lap without waits lasts [ticks]."""
+        return Tick(sum(self.dwell) + sum(self.drive))
+
+    def least(self, visit: int) -> Tick:
+        """Return the least ticks from a visit's enter to the next one's."""
+        return Tick(self.dwell[visit] + self.drive[(visit + 1) % len(self)])
+
+    def leasts(self) -> tuple[Tick, ...]:
+        """Return the least ticks of all visits."""
+        drives = (*self.drive[1:], self.drive[0])
+        return tuple(Tick(dwell + drive) for dwell, drive in zip(self.dwell, drives, strict=True))
+
+
+@lru_cache(maxsize=1 << 14)
+def visits_of_laps(
+    lap: Lap, count: int
+) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
+    """Return vertex, dwell and drive [ticks] of all visits of some laps."""
+    return (
+        np.array(lap.vertices * count, np.int32),
+        np.array(lap.dwell * count, np.int64),
+        np.array(lap.drive * count, np.int64),
+    )
+
+
+def lap_of(itinerary: Itinerary, route: Route) -> Lap:
+    """Wrap a round trip into a lap.
+
+    Parameters
+    ----------
+    itinerary
+        What the robot has to do in one lap; it ends at home.
+    route
+        Where it goes for that; the last visit serves all stages at home at the end.
+    """
+    at_home = takewhile(lambda stage: stage.vertex == itinerary.home, reversed(itinerary.stages))
+    between = route.dwell[0] + sum(stage.work + stage.turn for stage in at_home)
+    return Lap(
+        vertices=route.vertices[:-1],
+        dwell=(Tick(between), *route.dwell[1:-1]),
+        drive=(route.drive[-1], *route.drive[1:-1]),
+    )

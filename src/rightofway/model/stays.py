@@ -1,0 +1,165 @@
+"""What each visit of a fleet is for: work, turns, drives and waits; and the costs that follow."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.model.roadmap import Roadmap
+from rightofway.model.route import Track, least_dwells, serving_visits
+from rightofway.model.scenario import Scenario
+from rightofway.model.units import NEVER, Tick
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Stays:
+    """The visits of one robot.
+
+    Attributes
+    ----------
+    dwell
+        The least ticks of each visit before the robot drives on: the work and turning of the stages
+        that it serves, and `turns`; int64, shape (n,). For the last visit: the work that is left to
+        do there.
+    drive
+        Ticks of the edge that ends each visit, 0 for the last one; int64, shape (n,).
+    waits
+        Ticks of each visit beyond both, 0 for the last one; int64, shape (n,).
+    turns
+        How long the robot turns on the spot between two edges, a part of `dwell`, 0 for the first
+        visit and the last one; int64, shape (n,).
+    serves
+        The visit that serves each stage. It ends before the first stage that no visit serves.
+    completion
+        When the robot has entered its last vertex and done the work there [ticks].
+    """
+
+    dwell: NDArray[np.int64]
+    drive: NDArray[np.int64]
+    waits: NDArray[np.int64]
+    turns: NDArray[np.int64]
+    serves: tuple[int, ...]
+    completion: Tick
+
+
+def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
+    """Return what the visits of a fleet are for.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot; they may break the rules.
+
+    Notes
+    -----
+    Of tracks that break the rules, a move without an edge takes no time, and what comes after a
+    missed stop is waiting. All tracks lie side by side in the arrays that the answer looks into.
+    """
+    ends = np.cumsum([len(track) for track in tracks])
+    enter = np.concatenate([track.enter for track in tracks])
+    edges = _edges_of_fleet(scenario.roadmap, tracks, ends)
+    owns = [slice(end - len(track), end) for track, end in zip(tracks, ends.tolist(), strict=True)]
+    drive, dwell = _drives_of_fleet(scenario, tracks, edges), np.zeros(len(enter), np.int64)
+    turns = np.zeros(len(enter), np.int64)
+    for own, itinerary in zip(owns, scenario.problem.itineraries, strict=True):
+        if itinerary.turning is not None:
+            turns[own][1:] = itinerary.turning.between(edges[own])
+    spare = np.append(np.diff(enter), 0) - drive - turns
+    spare[ends - 1] = NEVER
+    all_serves = []
+    for own, track, itinerary in zip(owns, tracks, scenario.problem.itineraries, strict=True):
+        serves = serving_visits(itinerary.stages, track.vertices, spare[own])
+        dwell[own] = least_dwells(itinerary.stages, serves, len(track))
+        all_serves.append(tuple(serves))
+    dwell += turns
+    completion = (enter + dwell)[ends - 1].tolist()
+    waits = spare + turns - dwell
+    waits[ends - 1] = 0
+    return tuple(
+        Stays(
+            dwell=dwell[own],
+            drive=drive[own],
+            waits=waits[own],
+            turns=turns[own],
+            serves=serves,
+            completion=Tick(done),
+        )
+        for own, serves, done in zip(owns, all_serves, completion, strict=True)
+    )
+
+
+def completions_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
+    """Return when each robot has done its work and entered its last vertex [ticks].
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    """
+    return tuple(stay.completion for stay in stays_of(scenario, tracks))
+
+
+def flowtime_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
+    """Return the sum of the robots' completion times [ticks].
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    """
+    return Tick(sum(completions_of(scenario, tracks)))
+
+
+def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
+    """Return what planners minimize: the flowtime and the surcharges of all edges driven [ticks].
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    """
+    cost, roadmap = flowtime_of(scenario, tracks), scenario.roadmap
+    if roadmap.surcharges:
+        for itinerary, track in zip(scenario.problem.itineraries, tracks, strict=True):
+            edges = roadmap.edges(track.vertices[:-1], track.vertices[1:])
+            by_class = np.array(itinerary.surcharges, np.int64)
+            cost = Tick(cost + int(by_class[roadmap.length_class[edges]].sum()))
+    return cost
+
+
+def _edges_of_fleet(
+    roadmap: Roadmap, tracks: Sequence[Track], ends: NDArray[np.int64]
+) -> NDArray[np.int32]:
+    """Return the edge after each visit of all tracks, -1 where there is none; int32."""
+    vertices = np.concatenate([track.vertices for track in tracks])
+    vertices[(vertices < 0) | (vertices >= roadmap.n_vertices)] = -1
+    edges = np.append(roadmap.edges(vertices[:-1], vertices[1:]), np.int32(-1))
+    edges[vertices < 0] = -1
+    edges[ends - 1] = -1
+    return edges
+
+
+def _drives_of_fleet(
+    scenario: Scenario, tracks: Sequence[Track], edges: NDArray[np.int32]
+) -> NDArray[np.int64]:
+    """Return the ticks of the edge after each visit of all tracks, 0 where there is none."""
+    roadmap, itineraries = scenario.roadmap, scenario.problem.itineraries
+    row = {pace: k for k, pace in enumerate({one.edge_ticks: None for one in itineraries})}
+    by_class = np.array([[*pace, 0] for pace in row], np.int64)  # the last column: no edge
+    length_class = np.append(roadmap.length_class, -1)
+    rows = np.repeat(
+        [row[itinerary.edge_ticks] for itinerary in itineraries], [len(track) for track in tracks]
+    )
+    drives: NDArray[np.int64] = by_class[rows, length_class[edges]]
+    return np.maximum(drives, 0)  # -1: a track that drives along an edge where it is barred
