@@ -6,19 +6,20 @@ import re
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import rightofway
+from rightofway.bench import Row
 from rightofway.bench.report import markdown_table
 from rightofway.model import Scenario
 
 __all__ = [
-    "DOCS", "IMAGES", "README", "SEEDS", "grouped", "movingai_fleet", "percent", "plain_axes",
-    "save_figure", "table", "tables_in", "write_tables",
+    "DOCS", "IMAGES", "README", "SEEDS", "grouped", "movingai_fleet", "option", "percent",
+    "place_of", "plain_axes", "save_figure", "table", "tables_in", "write_tables",
 ]  # fmt: skip
 
 README = Path(__file__).with_name("README.md")
@@ -40,6 +41,17 @@ def grouped(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list
     for item in items:
         groups.setdefault(key(item), []).append(item)
     return groups
+
+
+def option(row: Row, name: str) -> str:
+    """Return the value of an option of the planner of a row."""
+    options: dict[str, str] = dict(each.split("=", 1) for each in row["options"].split())
+    return options[name]
+
+
+def place_of(row: Row) -> tuple[Any, ...]:
+    """Return what draws homes and targets; other speeds, work and rules go to the same places."""
+    return row["map"], row["scen"], row["robots"], row["seed"]
 
 
 def table(heads: Sequence[str], lines: Iterable[Sequence[str]]) -> str:

@@ -11,17 +11,9 @@ import jsonschema
 import pytest
 
 from benchmarks.common import README, tables_in, write_tables
-from benchmarks.pages import (
-    OTHERS,
-    laps_plots,
-    laps_tables,
-    later,
-    pairs,
-    paper_table,
-    priorities_plots,
-    priorities_tables,
-    timetable_tables,
-)
+from benchmarks.page_laps import laps_plots, laps_tables, paper_table
+from benchmarks.page_priorities import OTHERS, later, pairs, priorities_plots, priorities_tables
+from benchmarks.page_timetables import timetable_tables
 from rightofway.bench import Row, read_suite
 from rightofway.bench.run import run
 from rightofway.io import schema
