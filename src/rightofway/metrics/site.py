@@ -166,7 +166,7 @@ class Site:
     def name(self, vertex: int) -> str:
         """Return the name of a vertex with what it is: ``D1 (station Press)``.
 
-        A cell of a floor that has a unit of length goes by its middle: ``(2.25, 0.75, home of R1)``.
+        A cell where lengths have a unit goes by its middle: ``(2.25, 0.75, home of R1)``.
         """
         what = self.places.get(vertex)
         if self.roadmap.has_cells and self.units.length:

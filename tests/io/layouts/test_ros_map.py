@@ -75,7 +75,8 @@ def test_formats_of_pictures(tmp_path: Path, name: str) -> None:
 
 def test_a_map_is_cut_into_cells_of_half_a_metre_unless_it_is_said(tmp_path: Path) -> None:
     """In every command, whether a scenario names the map or `inspect` reads it alone."""
-    pixels(tmp_path, Image.new("L", (4, 4), 255))
+    pixels(tmp_path, Image.new("L", (40, 40), 255))
+    (tmp_path / "a.yaml").write_text(YAML.replace("resolution: 1", "resolution: 0.1") + "negate: 0")
     robots = [{"name": "R1", "home": "N0", "target": "N63"}]
     drawn = {"layout": str(tmp_path / "a.yaml")}
     scenario = read_scenario(
