@@ -191,9 +191,9 @@ def test_a_corridor_counts_the_robots_that_must_pass_it() -> None:
     robots = (robot("R1", 0, 3), robot("R2", 2, 1), robot("R3", 4, 1))
     (finding,) = found(Site(roadmap=roadmap, units=METRES, robots=robots), "corridor")
     assert str(finding) == (
-        "N9 to N11 is a corridor of 4 m without a passing place; 2 of 3 robots must use it, and no"
-        " way leads round it (add a passing place in the middle, or make it one-way with a way"
-        " back)"
+        "(2.5, 1.5) to (4.5, 1.5) is a corridor of 4 m without a passing place; 2 of 3 robots must"
+        " use it, and no way leads round it (add a passing place in the middle, or make it one-way"
+        " with a way back)"
     )
     assert (finding.severity, finding.robots) == ("warning", ("R1", "R2"))
 
@@ -225,6 +225,24 @@ def test_the_busiest_vertex_is_a_bottleneck_with_its_share() -> None:
     (finding,) = found(site, "bottleneck")
     assert finding.fact == "M is on 100 % of the shortest routes between places"
     assert inspect(site).sampled is None
+
+
+def test_an_open_floor_without_places_has_no_bottleneck_and_one_with_a_door_has() -> None:
+    open_floor = ["." * 24] * 16
+    assert inspect(Site(roadmap=roadmap_of_grid(open_floor), units=METRES)).findings == ()
+    walled = ["." * 14 + "@" + "." * 9] * 16
+    walled[7] = "." * 24
+    (finding,) = inspect(Site(roadmap=roadmap_of_grid(walled), units=METRES)).findings
+    assert finding.fact.startswith("(13.5, 7.5) is on")  # the cell before the door
+
+
+def test_a_cell_goes_by_its_middle_where_lengths_have_a_unit() -> None:
+    """Cells of a grid without a unit go by the number that people write in its file."""
+    roadmap = roadmap_of_grid(["...", "..."])
+    robots = (robot("R1", 0, 4),)
+    assert Site(roadmap=roadmap, units=METRES, robots=robots).name(4) == "(1.5, 1.5, stop of R1)"
+    assert Site(roadmap=roadmap, units=METRES).name(5) == "(2.5, 1.5)"
+    assert Site(roadmap=roadmap, robots=robots).name(4) == "N4 (stop of R1)"
 
 
 def test_a_stop_that_cannot_be_reached_is_an_error_of_its_robot() -> None:

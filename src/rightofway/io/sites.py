@@ -20,10 +20,6 @@ from rightofway.io.text import read_text
 from rightofway.metrics import Site
 from rightofway.model import Scenario, Units
 from rightofway.model.layout import Layout, Level, roadmap_of_level
-from rightofway.model.occupancy import Occupancy
-
-CELL_SIZE = Fraction(1, 2)
-"""Side of the cells that a map in pixels is cut into where none is given [m]."""
 
 METRES = Units(length="m", time="s")
 
@@ -92,8 +88,6 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
     found = read_layout(path)
     if robots is not None:
         keys = choice.keys()
-        if isinstance(found, Occupancy):
-            keys.setdefault("cell_size", CELL_SIZE)
         if isinstance(found, Layout):
             level = _level(path, found, choice)
             if choice.vehicle_type is None and (name := _usual_type(level)):
@@ -153,10 +147,7 @@ def _usual_type(level: Level) -> str | None:
 def _of_cells(path: Path, found: Any, choice: Choice) -> Sites:
     from rightofway.io.scenario.shape import MapDocument
 
-    keys = choice.keys()
-    if isinstance(found, Occupancy):
-        keys.setdefault("cell_size", CELL_SIZE)
-    document = checked(MapDocument, {"layout": str(path.resolve()), **keys})
+    document = checked(MapDocument, {"layout": str(path.resolve()), **choice.keys()})
     loaded = map_of(document, None, Path(), Units(), lambda: Fraction(0))
     assert loaded, "only a floor needs speeds"
     site = Site(roadmap=loaded.roadmap, units=loaded.units)

@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
 
+import numpy as np
+
 from rightofway.errors import listed
 from rightofway.metrics.connectivity import (
     Corridor,
@@ -23,7 +25,7 @@ from rightofway.metrics.connectivity import (
     strong_parts,
     ways_of,
 )
-from rightofway.metrics.nearness import nearness, rounded_distance, smallest_cell
+from rightofway.metrics.nearness import nearness, rounded_distance
 from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, trip_of
 from rightofway.model import Roadmap, decimal
 
@@ -37,6 +39,9 @@ FEWEST_SOURCES = 4
 
 SPREAD = 16
 """Vertices between which routes are counted where a site names no place."""
+
+BITS = 10
+"""Bits of a coordinate by which vertices are put in order."""
 
 BUSY = Fraction(3, 10)
 """From this share of the shortest routes on, a vertex is a bottleneck."""
@@ -91,7 +96,7 @@ def _load(
             if {start, goal} <= inside:
                 trips[start][goal] = count
     else:
-        ends = places if len(places) > 1 else _spread(part, SPREAD)
+        ends = places if len(places) > 1 else _spread(_by_nearness(site.roadmap, part), SPREAD)
         trips.update({start: {goal: 1 for goal in ends if goal != start} for start in ends})
     size = len(ways.along) + sum(map(len, ways.along))
     most = max(FEWEST_SOURCES, EFFORT // max(size, 1))
@@ -107,6 +112,17 @@ def _spread(vertices: Sequence[int], most: int) -> list[int]:
     """Return at most ``most`` of some vertices, spread over them."""
     count = min(most, len(vertices))
     return [vertices[k * len(vertices) // count] for k in range(count)]
+
+
+def _by_nearness(roadmap: Roadmap, vertices: Sequence[int]) -> list[int]:
+    """Return vertices so that neighbours in the list are near on the map: in Morton's order."""
+    at = roadmap.positions[list(vertices)]
+    low, span = at.min(axis=0), np.ptp(at, axis=0).max() or 1
+    right, down = (((at - low) / span) * (2**BITS - 1)).astype(int).T
+    keys = sum(
+        ((right >> bit & 1) << 2 * bit) | ((down >> bit & 1) << 2 * bit + 1) for bit in range(BITS)
+    )
+    return [vertices[at] for at in np.argsort(keys, kind="stable").tolist()]
 
 
 def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator[Finding]:
@@ -138,7 +154,6 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
         ("unreachable", behind & rest, "{} can be left and not reached", "a lane to it"),
         ("cut off", rest - ahead - behind, "No lane joins {} to the largest part", "lanes"),
     )
-    has_cells = smallest_cell(site.roadmap) is not None
     for kind, found, fact, remedy in kinds:
         pieces, seen = list[list[int]](), set[int]()
         beside = {vertex: ways.beside(vertex) & found for vertex in sorted(found)}
@@ -161,7 +176,7 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
                 severity="error" if own else "note" if kind == "cut off" else "warning",
                 fact=fact.format(what + more),
                 remedy="make a way wide enough for a cell, or ignore it"
-                if has_cells
+                if site.roadmap.has_cells
                 else f"add {remedy}, or take {'it' if len(piece) == 1 else 'them'} out",
                 vertices=site.names(piece),
             )
@@ -191,7 +206,7 @@ def _on_the_way(
             return "let no other robot need the way while one stands there, or add a way round"
         taken.add(spot)
         away = site.units.written_length(rounded_distance(site.roadmap, vertex, spot))
-        place = f"{site.roadmap.name(spot)}, {away} away"
+        place = f"{site.name(spot)}, {away} away"
         return f"park at {place}, which no route needs, or add a way round"
 
     separating = [(vertex, beyond) for vertex, beyond in apart.items() if vertex in site.places]
@@ -241,7 +256,7 @@ def _corridors(
     for corridor in busiest[:LISTED_CORRIDORS]:
         ends, inside = corridor.ends, set(corridor.inside)
         first = set(grown_from(ends[:1], ways.along, _outside_of(inside)))
-        names = site.names((corridor.inside[0], corridor.inside[-1]))
+        names = site.name(corridor.inside[0]), site.name(corridor.inside[-1])
         using = _using(site, first, inside)
         is_only = ends[1] not in first
         if site.robots and is_only:

@@ -31,6 +31,9 @@ HEADINGS: dict[Severity, str] = {
 
 SEVERITIES = tuple(HEADINGS)
 
+PLACES = 3
+"""Decimal places of the middle of a cell, in names of people."""
+
 LISTED_PARTS = 8
 """Sizes of strongly connected parts that a report lists."""
 
@@ -161,8 +164,14 @@ class Site:
         return sum(self.radii) + self.rules.clearance if self.radii[0] else Fraction(0)
 
     def name(self, vertex: int) -> str:
-        """Return the name of a vertex with what it is: ``D1 (station Press)``."""
+        """Return the name of a vertex with what it is: ``D1 (station Press)``.
+
+        A cell where lengths have a unit goes by its middle: ``(2.25, 0.75, home of R1)``.
+        """
         what = self.places.get(vertex)
+        if self.roadmap.has_cells and self.units.length:
+            middle = [decimal(each, PLACES) for each in self.roadmap.point(vertex)]
+            return f"({', '.join([*middle, *([what] if what else [])])})"
         return f"{self.roadmap.name(vertex)} ({what})" if what else self.roadmap.name(vertex)
 
     def names(self, vertices: Iterable[int]) -> tuple[str, ...]:
@@ -184,8 +193,7 @@ def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
     vertices = _counted(inspection.vertices, "vertex", "vertices")
     edges = _counted(inspection.edges, "directed edge")
     places = _counted(inspection.places, "place")
-    spans = site.roadmap.positions.max(axis=0) - site.roadmap.positions.min(axis=0)
-    width, height = (Fraction(repr(span)) for span in spans.tolist())
+    width, height = _extent(site.roadmap)
     extent = f"{decimal(width)} x {site.units.written_length(height)}"
     found = [f"{vertices}, {edges}{one_way}, {extent}; {places}."]
     if len(inspection.parts) == 1:
@@ -200,6 +208,17 @@ def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
         some, all_of = inspection.sampled
         found.append(f"Shortest routes are counted from {some} of {all_of} vertices only.")
     return tuple(found)
+
+
+def _extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:
+    """Return how wide and high a roadmap is; cells reach beyond their middles [length unit]."""
+    if roadmap.grid is not None:
+        grid = roadmap.grid
+        return grid.columns * grid.cell_size, grid.rows * grid.cell_size
+    reach = 0.0 if roadmap.sides is None else roadmap.sides[:, None] / 2
+    spans = (roadmap.positions + reach).max(axis=0) - (roadmap.positions - reach).min(axis=0)
+    width, height = (Fraction(repr(span)) for span in spans.tolist())
+    return width, height
 
 
 def _counted(number: int, noun: str, plural: str = "") -> str:

@@ -186,6 +186,11 @@ class Roadmap:
         """Number of directed edges."""
         return len(self.heads)
 
+    @property
+    def has_cells(self) -> bool:
+        """Whether vertices are square cells, of a grid or of several sizes."""
+        return self.grid is not None or self.sides is not None
+
     def name(self, vertex: int) -> str:
         """Return the name of a vertex: its label, or ``N<row-major number>`` on a grid."""
         if self.labels is not None:

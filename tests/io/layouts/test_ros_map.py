@@ -1,5 +1,6 @@
 """Pixels of ROS maps become free, occupied or unknown as the map server has it."""
 
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,9 @@ from PIL import Image
 
 from rightofway.errors import InputError
 from rightofway.io import read_layout
+from rightofway.io.formats import SCENARIO_FORMAT
+from rightofway.io.scenario.reader import read_scenario
+from rightofway.io.sites import Choice, read_sites
 from rightofway.model.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy
 
 YAML = "image: a.png\nresolution: 1\norigin: [0, 0, 0]\nfree_thresh: 0.196\noccupied_thresh: 0.65\n"
@@ -67,6 +71,21 @@ def test_pictures_of_16_bits_are_read_exactly(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["a.pgm", "a.bmp", "a.png"])
 def test_formats_of_pictures(tmp_path: Path, name: str) -> None:
     assert pixels(tmp_path, grey(0, 254), name=name) == "@."
+
+
+def test_a_map_is_cut_into_cells_of_half_a_metre_unless_it_is_said(tmp_path: Path) -> None:
+    """In every command, whether a scenario names the map or `inspect` reads it alone."""
+    pixels(tmp_path, Image.new("L", (40, 40), 255))
+    (tmp_path / "a.yaml").write_text(YAML.replace("resolution: 1", "resolution: 0.1") + "negate: 0")
+    robots = [{"name": "R1", "home": "N0", "target": "N63"}]
+    drawn = {"layout": str(tmp_path / "a.yaml")}
+    scenario = read_scenario(
+        {"format": SCENARIO_FORMAT, "map": drawn, "robots": robots}, tmp_path
+    ).scenario
+    ((_, site),) = read_sites(tmp_path / "a.yaml", Choice()).sites
+    for roadmap in (scenario.roadmap, site.roadmap):
+        assert roadmap.grid is not None
+        assert (roadmap.grid.columns, roadmap.grid.cell_size) == (8, Fraction(1, 2))
 
 
 def test_pictures_that_would_fill_the_memory_are_refused(tmp_path: Path) -> None:

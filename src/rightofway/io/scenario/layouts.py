@@ -21,6 +21,9 @@ from rightofway.model.quadtree import MAX_SMALLEST, roadmap_of_squares
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import MapDocument
 
+CELL_SIZE = Fraction(1, 2)
+"""Side of the cells that a map in finer pixels is cut into where none is given [m]."""
+
 
 def laid_out(
     document: MapDocument,
@@ -82,7 +85,11 @@ def _cut(
     """Cut a map in pixels into cells."""
     if document.cell_size == "adaptive":
         return _joined(document, found, units, metres, radius)
-    size = document.cell_size if isinstance(document.cell_size, Fraction) else 1 / metres
+    size = (
+        document.cell_size
+        if isinstance(document.cell_size, Fraction)
+        else _usual_cell(found) / metres
+    )
     lines = found.cells(
         size * metres, radius=radius * metres, unknown_is_free=document.unknown == "free"
     )
@@ -110,12 +117,19 @@ def _cut(
     )
 
 
+def _usual_cell(found: Occupancy) -> Fraction:
+    """Return the side of cells where none is given; no cell is below a pixel [m]."""
+    return max(CELL_SIZE, found.resolution)
+
+
 def _joined(
     document: MapDocument, found: Occupancy, units: Units, metres: Fraction, radius: Fraction
 ) -> LoadedMap:
-    """Cut a map in pixels into squares; the smallest are as wide as the largest robot, or 1 m."""
+    """Cut a map in pixels into squares; the smallest are as wide as the largest robot."""
     pixel = found.resolution / metres
-    smallest = document.smallest or (max(2 * radius, pixel) if radius else 1 / metres)
+    smallest = document.smallest or (
+        max(2 * radius, pixel) if radius else _usual_cell(found) / metres
+    )
     free = found.free_cells(
         smallest * metres,
         radius=radius * metres,

@@ -214,8 +214,8 @@ class MapDocument(Document):
         default="blocked", description="blocked, or free: pixels of a picture that are not known"
     )
     cell_size: CellSize = optional(
-        "side of a cell [length unit]: 1 by default; on a floor clustered by default; adaptive:"
-        " squares of a quadtree"
+        "side of a cell [length unit]: 1 by default, 0.5 m on a ROS map, on a floor clustered;"
+        " adaptive: squares of a quadtree"
     )
     smallest: Positive = optional("side of the smallest adaptive cells [length unit]")
     largest: Positive = optional(

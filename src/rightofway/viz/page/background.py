@@ -121,8 +121,7 @@ def place_of(roadmap: Roadmap, background: Background, columns: int, rows: int) 
         return (float(x) - plane.corner[0]) / plane.unit, (float(y) - plane.corner[1]) / plane.unit
 
     turn = float(Fraction(background.yaw) - frame.yaw) * (-1 if frame.y_up else 1)
-    has_cells = roadmap.grid is not None or roadmap.sides is not None
-    margin = 0.5 if has_cells else 0.0  # cells reach beyond their centres
+    margin = 0.5 if roadmap.has_cells else 0.0  # cells reach beyond their centres
     pixel = (plane.width - 1 + 2 * margin) / columns
     if background.scale is not None:
         pixel = background.scale / plane.unit

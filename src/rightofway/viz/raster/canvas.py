@@ -42,8 +42,7 @@ class Scene:
         self.points: list[Point] = [(x, y) for x, y in self.plane.points.tolist()]
         tails = np.repeat(np.arange(self.roadmap.n_vertices), np.diff(self.roadmap.indptr))
         self.edges = list(zip(tails.tolist(), self.roadmap.heads.tolist(), strict=True))
-        has_cells = self.roadmap.grid is not None or self.roadmap.sides is not None
-        self.ground = theme.floor if has_cells else theme.paper
+        self.ground = theme.floor if self.roadmap.has_cells else theme.paper
 
     def faint(self, colour: str, share: float) -> str:
         """Return a colour as it looks when it covers only a share of the ground."""
