@@ -77,8 +77,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.slow)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    """Return a headless browser for all tests of this process."""
+    """Return a headless browser; while it runs, its process can run no other event loop."""
     with chromium() as browser:
         yield browser

@@ -74,7 +74,7 @@ class Viewer:
 
 @contextmanager
 def chromium() -> Iterator[Browser]:
-    """Yield a browser; one process can have one Playwright only, so tests share it."""
+    """Yield a browser; a process has one at a time, so tests share it."""
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
