@@ -55,7 +55,7 @@ def test_the_page_carries_the_payload() -> None:
 
 
 def test_a_small_plan_makes_a_small_page() -> None:
-    assert len(page_of(door()).encode()) < 245_000
+    assert len(page_of(door()).encode()) < 285_000  # of these 40 kB are texts in two languages
 
 
 def test_names_bring_no_element_and_no_attribute_with_them() -> None:
@@ -98,9 +98,10 @@ def test_the_page_names_no_address() -> None:
 def test_every_script_is_on_a_page_and_short() -> None:
     used = {*scripts_of("main"), *scripts_of("inspect_main"), "widget"}
     assets = Path(page_of.__code__.co_filename).parent / "assets"
-    for script in assets.glob("*.js"):
-        assert script.stem in used
-        assert len(script.read_text("utf-8").splitlines()) < 400
+    for script in assets.rglob("*.js"):
+        assert script.relative_to(assets).with_suffix("").as_posix() in used
+        is_table = script.parent.name == "texts"
+        assert len(script.read_text("utf-8").splitlines()) < (600 if is_table else 400)
 
 
 def test_long_lists_are_written_as_differences() -> None:

@@ -1,7 +1,7 @@
 """The scripts of pages: modules as a browser imports them, and in one piece for a single file.
 
-The files under ``assets/`` are ECMAScript modules, one concept each; every import is a line of its
-own at the top. A page that needs no other file has them as classic scripts that share one scope, so
+The files under ``assets/`` are ECMAScript modules, one concept each, and under ``assets/texts/`` a
+file of texts for each language; every import is a line of its own at the top. A page that needs no other file has them as classic scripts that share one scope, so
 names are unique among all modules.
 """
 
@@ -10,8 +10,9 @@ from __future__ import annotations
 import re
 from functools import cache
 from importlib.resources import files
+from posixpath import dirname, join, normpath
 
-IMPORT = re.compile(r'^import [^;]*? from "\./(\w+)\.js";\n', re.MULTILINE)
+IMPORT = re.compile(r'^import [^;]*? from "(\.{1,2}/[\w/]+)\.js";\n', re.MULTILINE)
 EXPORT = re.compile(r"^export (?!default)", re.MULTILINE)
 NOTES = re.compile(r"(?ms)^\s*((/\*\*.*?\*/|//[^\n]*)\s*)*")
 """Comments that fill lines, and indentation: a fifth of a script."""
@@ -39,7 +40,7 @@ def scripts_of(entry: str) -> tuple[str, ...]:
         if name not in entered:
             entered.add(name)
             for imported in IMPORT.findall(asset(f"{name}.js")):
-                enter(imported)
+                enter(normpath(join(dirname(name), imported)))
             found[name] = None
 
     enter(entry)

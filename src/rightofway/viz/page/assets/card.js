@@ -1,6 +1,7 @@
 import { element, facts, goTo, link, swatch } from "./dom.js";
+import { texts } from "./language.js";
 import { BROKEN, WAIT } from "./phases.js";
-import { counted } from "./quantities.js";
+import { joined } from "./words.js";
 
 const MOST_LINES = 200; // of stages or losses in a card
 
@@ -38,7 +39,7 @@ export class Card {
   }
 
   #header(...title) {
-    const said = { ariaLabel: "Choose nothing", title: "Choose nothing (Esc)" };
+    const said = { ariaLabel: texts.chooseNothing, title: texts.chooseNothingKey };
     const close = element("button", { type: "button", className: "quiet", ...said }, "✕");
     close.addEventListener("click", () => this.choice.chooseNothing());
     return element("header", {}, ...title, close);
@@ -53,14 +54,14 @@ export class Card {
       facts([
         ...this.#times(robot),
         ...(this.comparison
-          ? [[`In ${this.plan.other.title}`, this.comparison.changeInWords(robot)]]
+          ? [[texts.inPlan(this.plan.other.title), this.comparison.changeInWords(robot)]]
           : []),
-        ["Speed", this.plan.quantities.speed(robot.speed)],
-        ["Radius", robot.radius ? this.plan.quantities.length(robot.radius) : ""],
-        ["Home", words.vertex(robot.home)],
-        ["Another way", rerouted?.because ?? ""],
+        [texts.speed, this.plan.quantities.speed(robot.speed)],
+        [texts.radius, robot.radius ? this.plan.quantities.length(robot.radius) : ""],
+        [texts.home, words.vertex(robot.home)],
+        [texts.anotherWay, rerouted?.because ?? ""],
       ]),
-      element("h3", {}, "Trip"),
+      element("h3", {}, texts.trip),
       this.#lines(robot.stages, (stage) => this.#stage(robot, stage)),
       ...this.#losses(robot),
       ...this.#encounters(robot),
@@ -79,16 +80,16 @@ export class Card {
         this.choice.lookAtPair(encounter.other.index);
       });
     });
-    return [element("h3", {}, "Closest approaches"), lines];
+    return [element("h3", {}, texts.closest), lines];
   }
 
   /** Where the completion time goes: alone + detours + making room + waiting. */
   #sum(robot) {
     const { detours, makingRoom, waiting } = robot.lost;
     const parts = [
-      ["Detours", detours],
-      ["Making room", makingRoom],
-      ["Waiting", waiting],
+      [texts.detours, detours],
+      [texts.makingRoom, makingRoom],
+      [texts.waiting, waiting],
     ].filter(([, ticks]) => ticks);
     const row = (sign, term, ticks, className = "") =>
       element(
@@ -98,17 +99,17 @@ export class Card {
         element("th", { scope: "row" }, term),
         element("td", {}, this.words.time(ticks)),
       );
-    const end = this.plan.endsAtHome ? "Home at" : "Done at";
+    const end = texts.doneAt(this.plan.endsAtHome);
     const table = element(
       "table",
       { className: "sum" },
-      row("", "Alone", robot.alone),
+      row("", texts.alone, robot.alone),
       ...parts.map(([term, ticks]) => row(ticks < 0 ? "−" : "+", term, Math.abs(ticks))),
       row("=", end, robot.completion, "all"),
     );
     return parts.length
       ? [table]
-      : [table, element("p", { className: "none-lost" }, "It loses no time.")];
+      : [table, element("p", { className: "none-lost" }, texts.losesNothing)];
   }
 
   #times(robot) {
@@ -120,16 +121,19 @@ export class Card {
     const { words } = this;
     const waited = robot.losses.reduce((sum, { ticks }) => sum + ticks, 0);
     const planned = [
-      ["Planned", words.time(robot.planned.completion)],
-      ["Held up", robot.held ? `${words.time(robot.held)} in all` : ""],
-      ["Waits", waited ? `${words.time(waited)} in all` : "never"],
+      [texts.planned, words.time(robot.planned.completion)],
+      [texts.heldUp, robot.held ? texts.inAll(words.time(robot.held)) : ""],
+      [texts.waits, waited ? texts.inAll(words.time(waited)) : texts.never],
     ];
     if (robot.ending === BROKEN)
-      return [["Breaks down", `at ${words.time(robot.broken)}`], ...planned];
+      return [[texts.breaksDown, texts.at(words.time(robot.broken))], ...planned];
     if (robot.ending === WAIT)
-      return [["Done", words.stuck(robot.stuckBehind(this.plan.happened))], ...planned];
+      return [[texts.done, words.stuck(robot.stuckBehind(this.plan.happened))], ...planned];
     return [
-      ["Done at", `${words.time(robot.completion)} (${words.lateness(robot.delayInAll)})`],
+      [
+        texts.doneAt(false),
+        `${words.time(robot.completion)} (${words.lateness(robot.delayInAll)})`,
+      ],
       ...planned,
     ];
   }
@@ -137,18 +141,19 @@ export class Card {
   /** From when on it repeats itself, and how often. */
   #lapTimes(robot) {
     const group = this.plan.steady.groupOf[robot.index];
-    if (!group?.whole) return [["Repeats", "not within what is shown"]];
-    const every = `${counted(this.plan.steady.lapsInPeriod(robot.index), "lap")} every ${this.words.time(group.period)}`;
-    return [["Repeats", `${every}, from ${this.words.time(group.start)} on`]];
+    if (!group?.whole) return [[texts.repeats, texts.notShown]];
+    const laps = this.plan.steady.lapsInPeriod(robot.index);
+    const [period, start] = [group.period, group.start].map((ticks) => this.words.time(ticks));
+    return [[texts.repeats, texts.lapsEvery(laps, period, start)]];
   }
 
   #stage(robot, stage) {
     const dwell = [];
-    if (stage.work) dwell.push(`works ${this.words.duration(stage.work)}`);
+    if (stage.work) dwell.push(texts.works(this.words.duration(stage.work)));
     if (stage.turn && stage.visit + 1 < robot.vertices.length)
-      dwell.push(`turns ${this.words.duration(stage.turn)}`);
+      dwell.push(texts.turns(this.words.duration(stage.turn)));
     const text = [this.words.vertex(stage.vertex), ...dwell].join(", ");
-    if (stage.visit < 0) return goTo("never", text, () => {});
+    if (stage.visit < 0) return goTo(texts.never, text, () => {});
     return this.#moment(robot.enter[stage.visit], text);
   }
 
@@ -157,13 +162,13 @@ export class Card {
     const lines = this.#lines(robot.losses, (loss) =>
       this.#moment(loss.tick, this.words.loss(loss, robot)),
     );
-    return [element("h3", {}, robot.planned ? "Waits" : "Loses time"), lines];
+    return [element("h3", {}, robot.planned ? texts.waits : texts.losesTime), lines];
   }
 
   #lines(items, make) {
     const list = element("ol", {}, ...items.slice(0, MOST_LINES).map(make));
     if (items.length > MOST_LINES)
-      list.append(element("li", {}, `and ${items.length - MOST_LINES} more`));
+      list.append(element("li", {}, texts.andMore(items.length - MOST_LINES)));
     return list;
   }
 
@@ -179,25 +184,30 @@ export class Card {
     const names = robots.map((robot) =>
       link(robot.name, () => this.choice.chooseRobot(robot.index)),
     );
-    const title = element(
-      "h2",
-      {},
-      ...names.flatMap((name, i) => (i ? [i < names.length - 1 ? ", " : " and ", name] : [name])),
-    );
+    const title = element("h2", {}, ...joined(names));
     return [
       this.#header(...robots.slice(0, 3).map(swatch), title),
       element("p", { className: "name wrong" }, `${this.words.fault(fault)}.`),
       element("p", {}, this.words.remedy(fault)),
       ...(fault.reason
         ? []
-        : [element("ol", {}, this.#moment(fault.tick, `the fault (${fault.kind})`))]),
+        : [
+            element(
+              "ol",
+              {},
+              this.#moment(
+                fault.tick,
+                texts.theFault(texts.faultKinds[fault.kind]?.name ?? fault.kind),
+              ),
+            ),
+          ]),
     ];
   }
 
   #decision(decision) {
     const pair = decision.robots.map((index) => this.plan.robots[index]);
     const names = pair.map((robot) => link(robot.name, () => this.choice.chooseRobot(robot.index)));
-    const title = element("h2", {}, names[0], " and ", names[1]);
+    const title = element("h2", {}, ...joined(names));
     return [
       this.#header(swatch(pair[0]), swatch(pair[1]), title),
       element("p", { className: "name" }, this.words.decisionAtLength(decision)),
@@ -223,7 +233,7 @@ export class Card {
       );
     const head = row(
       "th",
-      "If it waits",
+      texts.ifItWaits,
       pair.map((robot) => robot.name),
     );
     const rows = this.words.figures(decision).map(([label, ...both]) => row("td", label, both));

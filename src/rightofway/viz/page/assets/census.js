@@ -1,7 +1,6 @@
 import { FleetMemo } from "./fleet_memo.js";
+import { texts } from "./language.js";
 import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "./phases.js";
-import { counted } from "./quantities.js";
-import { ACTIVITY_WORDS } from "./words.js";
 
 const MOST_SAMPLES = 1200;
 const STACK = [WORK, TURN, DRIVE, WAIT, HELD, BROKEN]; // from the bottom up; robots that are done are the empty space above
@@ -19,9 +18,9 @@ export class Census {
   }
 
   get title() {
-    const what = `What the ${this.plan.robots.length} robots do over time`;
+    const what = texts.census(this.plan.robots.length);
     const { beside, besideName } = this.choice;
-    return beside ? `${what}; the line: how many are out in ${besideName}` : what;
+    return beside ? texts.censusBeside(what, besideName) : what;
   }
 
   paint(context, area) {
@@ -71,7 +70,7 @@ export class Census {
 
   /** Robots by activity, in the middle of each sample. */
   #count(robots) {
-    const counts = ACTIVITY_WORDS.map(() => new Int32Array(this.samples + 1));
+    const counts = texts.activities.map(() => new Int32Array(this.samples + 1));
     const sample = (tick) =>
       Math.min(Math.max(Math.ceil((tick / this.plan.end) * this.samples - 0.5), 0), this.samples);
     for (const { phases } of robots) {
@@ -109,13 +108,13 @@ export class Census {
     context.textAlign = "left";
     context.textBaseline = "middle";
     context.fillStyle = this.theme.muted;
-    context.fillText(counted(this.plan.robots.length, "robot"), 28, area.top + 4);
+    context.fillText(texts.robots(this.plan.robots.length), 28, area.top + 4);
     this.#stack.forEach((activity, place) => {
       const y = area.bottom - 12 - place * 22;
       context.fillStyle = colours[activity];
       context.fillRect(28, y - 5, 10, 10);
       context.fillStyle = this.theme.muted;
-      context.fillText(ACTIVITY_WORDS[activity], 46, y + 0.5);
+      context.fillText(texts.activities[activity], 46, y + 0.5);
     });
   }
 }

@@ -1,4 +1,5 @@
 import { shortestWay } from "./corridor.js";
+import { texts } from "./language.js";
 import { Observable } from "./observable.js";
 
 /**
@@ -135,7 +136,7 @@ export class Choice extends Observable {
 
   /** Where they drive like that. */
   get besideName() {
-    return this.ghosts ? "the plan" : this.plan.other?.title;
+    return this.ghosts ? texts.thePlan : this.plan.other?.title;
   }
 
   /** Whether a robot is to stand out; all do while none is chosen. */

@@ -2,9 +2,9 @@ import { Bottleneck } from "./bottleneck.js";
 import { Choice } from "./choice.js";
 import { element, swatch } from "./dom.js";
 import { connectFind, matches } from "./find.js";
+import { texts } from "./language.js";
 import { MapView } from "./map_view.js";
 import { Motion } from "./motion.js";
-import { counted } from "./quantities.js";
 import { VirtualList } from "./virtual_list.js";
 import { Words } from "./words.js";
 
@@ -47,7 +47,7 @@ export class Comparison {
     this.list = new VirtualList(document.getElementById("compared-list"), {
       rowHeight: 50,
       className: "change",
-      none: "No robot has that name.",
+      none: texts.noRobotNamed,
       fill: (row, robot) => this.#fill(row, robot),
       choose: (robot) => choice.chooseRobot(robot.index),
     });
@@ -75,9 +75,9 @@ export class Comparison {
   /** The same in words: "6 s earlier". */
   changeInWords(robot) {
     const change = this.change(robot);
-    return change
-      ? `${this.words.time(Math.abs(change))} ${change < 0 ? "earlier" : "later"}`
-      : "the same";
+    if (!change) return texts.same;
+    const time = this.words.time(Math.abs(change));
+    return change < 0 ? texts.isEarlier(time) : texts.isLater(time);
   }
 
   #linkChoices() {
@@ -112,12 +112,8 @@ export class Comparison {
   #title(heading, { title, metrics, endsAtHome, faultCount }) {
     heading.hidden = false;
     const outcome = faultCount
-      ? element("span", { className: "wrong" }, counted(faultCount, "fault"))
-      : element(
-          "span",
-          {},
-          `all ${endsAtHome ? "home" : "done"} at ${this.words.time(metrics.makespan)}`,
-        );
+      ? element("span", { className: "wrong" }, texts.faults(faultCount))
+      : element("span", {}, texts.allArrived(endsAtHome, this.words.time(metrics.makespan)));
     heading.replaceChildren(element("b", { className: "name" }, title), outcome);
   }
 

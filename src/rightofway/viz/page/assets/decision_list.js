@@ -1,5 +1,6 @@
 import { element } from "./dom.js";
 import { connectFind, matches } from "./find.js";
+import { texts } from "./language.js";
 import { VirtualList } from "./virtual_list.js";
 
 /** All resolved conflicts, and the robots that were sent another way. */
@@ -14,9 +15,7 @@ export class DecisionList {
     this.list = new VirtualList(document.getElementById("decision-list"), {
       rowHeight: 52,
       className: "two",
-      none: this.items.length
-        ? "No decision fits that."
-        : "No decisions are recorded. Choose a robot: its card lists its waits.",
+      none: this.items.length ? texts.noDecisionFits : texts.noDecisions,
       fill: fillTwoLines,
       choose: (item) => item.choose(),
     });
@@ -33,7 +32,7 @@ export class DecisionList {
 
   #decision(decision, index) {
     const parts = [
-      `at ${this.words.moment(decision.tick)}`,
+      texts.at(this.words.moment(decision.tick)),
       this.words.cost(decision),
       this.words.why(decision),
     ];
@@ -51,7 +50,7 @@ export class DecisionList {
 
   #reroute(reroute) {
     return {
-      head: `${this.words.robot(reroute.robot)} was sent another way`,
+      head: texts.rerouted(this.words.robot(reroute.robot)),
       detail: reroute.because,
       isChosen: () => this.choice.decisionIndex < 0 && this.choice.robotIndex === reroute.robot,
       choose: () => this.choice.chooseRobot(reroute.robot),

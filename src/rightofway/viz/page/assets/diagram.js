@@ -1,6 +1,7 @@
 import { Area, paintAxis } from "./axis.js";
 import { Layer, fitCanvas } from "./canvas.js";
 import { Census } from "./census.js";
+import { texts } from "./language.js";
 import { MOST_ROWS, RobotRows } from "./robot_rows.js";
 import { pointer } from "./shapes.js";
 import { SpaceTime } from "./space_time.js";
@@ -46,8 +47,8 @@ export class Diagram {
   get #title() {
     const { picked } = this.choice;
     if (!picked) return this.view.title;
-    if (!picked.length) return "Corridor: press the place on the map where it begins";
-    return `Corridor from ${this.words.vertex(picked[0])}: press the place where it ends`;
+    if (!picked.length) return texts.corridorBegins;
+    return texts.corridorEnds(this.words.vertex(picked[0]));
   }
 
   #areaOf({ width, height }) {

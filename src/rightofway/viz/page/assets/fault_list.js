@@ -1,5 +1,6 @@
 import { fillTwoLines } from "./decision_list.js";
 import { connectFind, matches } from "./find.js";
+import { texts } from "./language.js";
 import { VirtualList } from "./virtual_list.js";
 
 const LINE = 36; // letters of a fault that surely fit in a line
@@ -16,14 +17,14 @@ export class FaultList {
     this.list = new VirtualList(document.getElementById("fault-list"), {
       rowHeight: isLong ? 72 : 52,
       className: isLong ? "two long" : "two",
-      none: this.items.length ? "No fault fits that." : "The plan keeps every rule.",
+      none: this.items.length ? texts.noFaultFits : texts.noFaults,
       fill: fillTwoLines,
       choose: (item) => item.choose(),
     });
     connectFind(this.find, this.list, () => this.#select());
     choice.on("choice", () => this.list.setChosen(this.items[choice.faultIndex] ?? null));
     if (plan.faultCount > plan.faults.length)
-      this.find.placeholder = `Find among the first ${plan.faults.length}`;
+      this.find.placeholder = texts.findAmong(plan.faults.length);
     this.#select();
   }
 
@@ -36,7 +37,7 @@ export class FaultList {
       head: this.words.fault(fault),
       detail: fault.reason
         ? this.words.remedy(fault)
-        : `at ${this.words.moment(fault.tick)} · ${fault.kind}`,
+        : `${texts.at(this.words.moment(fault.tick))} · ${texts.faultKinds[fault.kind]?.name ?? fault.kind}`,
       choose: () => {
         this.clock.pause();
         this.clock.seek(fault.tick);

@@ -1,8 +1,8 @@
 import { nearest } from "./arrays.js";
 import { element } from "./dom.js";
 import { connectFind, matches } from "./find.js";
+import { askedLanguage, offerLanguages, setLanguage, texts, writeMarkup } from "./language.js";
 import { MapView } from "./map_view.js";
-import { counted } from "./quantities.js";
 import { Site } from "./site.js";
 import { Theme } from "./theme.js";
 import { VirtualList } from "./virtual_list.js";
@@ -21,8 +21,8 @@ class InspectPage {
       rowHeight: 92,
       className: "two long finding",
       none: raw.levels.some(({ findings }) => findings.length)
-        ? "No finding fits that."
-        : "Nothing was found that will hurt.",
+        ? texts.noFindingFits
+        : texts.noFindings,
       fill: (row, finding) => this.#fill(row, finding),
       choose: (finding) => this.choose(finding),
     });
@@ -79,8 +79,7 @@ class InspectPage {
     const box = document.getElementById("notes");
     box.hidden = !notes.length;
     box.open = notes.length <= FEW_NOTES;
-    box.querySelector("summary").textContent =
-      `${counted(notes.length, "note")} of the reader: what was mended or left out`;
+    box.querySelector("summary").textContent = texts.readerNotes(notes.length);
     box.querySelector("ul").replaceChildren(...notes.map((note) => element("li", {}, note)));
   }
 
@@ -125,8 +124,8 @@ class InspectPage {
       {
         type: "button",
         className: "quiet",
-        ariaLabel: "Choose nothing",
-        title: "Choose nothing (Esc)",
+        ariaLabel: texts.chooseNothing,
+        title: texts.chooseNothingKey,
       },
       "✕",
     );
@@ -258,4 +257,7 @@ function severitySign(severity) {
   return sign;
 }
 
+setLanguage(askedLanguage());
+writeMarkup();
+offerLanguages(document.getElementById("language"));
 const inspectPage = new InspectPage(JSON.parse(document.getElementById("site").textContent));

@@ -1,3 +1,5 @@
+import { texts } from "./language.js";
+
 /** The button that plays one period for ever. */
 export class Loop {
   constructor(plan, clock, choice) {
@@ -30,9 +32,7 @@ export class Loop {
   #show() {
     if (!this.plan.steady) return;
     this.button.disabled = !this.#window;
-    this.button.title = this.#window
-      ? "Play one period for ever (L)"
-      : "The plan ends before a whole period does";
+    this.button.title = this.#window ? texts.loopKey : texts.noLoop;
     this.button.setAttribute("aria-pressed", Boolean(this.clock.loop));
   }
 }

@@ -9,6 +9,7 @@ import { Diagram } from "./diagram.js";
 import { EMBEDDED } from "./dom.js";
 import { FaultList } from "./fault_list.js";
 import { listenToKeys } from "./keys.js";
+import { askedLanguage, offerLanguages, setLanguage, writeMarkup } from "./language.js";
 import { Loop } from "./loop.js";
 import { MapView } from "./map_view.js";
 import { ModeSwitch } from "./mode_switch.js";
@@ -24,6 +25,10 @@ import { Theme } from "./theme.js";
 import { Transport } from "./transport.js";
 import { Use } from "./use.js";
 import { Words } from "./words.js";
+
+setLanguage(askedLanguage());
+writeMarkup();
+offerLanguages(document.getElementById("language"));
 
 const plan = new Plan(JSON.parse(document.getElementById("plan").textContent));
 const words = new Words(plan);

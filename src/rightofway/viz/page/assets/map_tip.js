@@ -1,7 +1,8 @@
 import { nearest } from "./arrays.js";
 import { element, swatch } from "./dom.js";
+import { texts } from "./language.js";
 import { DRIVE } from "./phases.js";
-import { ACTIVITY_WORDS, several } from "./words.js";
+import { several } from "./words.js";
 
 const TIP_GAP = 16; // pixels from the pointer
 
@@ -66,17 +67,16 @@ export class MapTip {
     const { begin, visit } = robot.phases;
     const activity = this.motion.activity[robot.index];
     const here = words.vertex(robot.vertices[visit[phase]]);
-    const where =
-      activity === DRIVE ? ` to ${words.vertex(robot.vertices[visit[phase] + 1])}` : ` in ${here}`;
+    const does =
+      activity === DRIVE
+        ? texts.doesTo(texts.activities[DRIVE], words.vertex(robot.vertices[visit[phase] + 1]))
+        : texts.doesIn(texts.activities[activity], here);
     const end = robot.phases.end(phase);
     const times =
       end === Infinity
-        ? `since ${words.moment(begin[phase])}`
-        : `${words.moment(begin[phase])} to ${words.moment(end)}`;
-    return [
-      { text: robot.name, robot, kind: "title" },
-      { text: `${ACTIVITY_WORDS[activity]}${where}, ${times}` },
-    ];
+        ? texts.since(words.moment(begin[phase]))
+        : texts.fromTo(words.moment(begin[phase]), words.moment(end));
+    return [{ text: robot.name, robot, kind: "title" }, { text: `${does}, ${times}` }];
   }
 
   /** The zones of a place, and the robot that holds each. */
@@ -86,7 +86,7 @@ export class MapTip {
     return zones.map((zone) => {
       const { name } = this.plan.roadmap.zones[zone];
       const robot = holders.get(zone);
-      return { text: `zone ${name}${robot ? `, held by ${robot.name}` : ""}`, robot };
+      return { text: robot ? texts.zoneHeldBy(name, robot.name) : texts.zone(name), robot };
     });
   }
 
@@ -105,16 +105,17 @@ export class MapTip {
     if (this.plan.isStill) return lines;
     if (here && here[0].index !== named) {
       const leave = here[0].leave(here[1]);
-      const until = leave === Infinity ? "stays" : `until ${words.moment(leave)}`;
-      lines.push({ text: `${here[0].name} ${until}`, robot: here[0] });
+      const [{ name }] = here;
+      const text = leave === Infinity ? texts.stays(name) : texts.until(name, words.moment(leave));
+      lines.push({ text, robot: here[0] });
     }
     if (next)
       lines.push({
-        text: `next ${next[0].name}, at ${words.moment(next[0].enter[next[1]])}`,
+        text: texts.next(next[0].name, words.moment(next[0].enter[next[1]])),
         robot: next[0],
       });
     if (this.choice.heat)
-      lines.push({ text: `held for ${words.duration(this.use.held[vertex])} in all` });
+      lines.push({ text: texts.heldFor(words.duration(this.use.held[vertex])) });
     return lines;
   }
 
@@ -123,8 +124,8 @@ export class MapTip {
     const homes = this.plan.robots.filter((robot) => robot.home === vertex).map(({ name }) => name);
     const stops = (this.plan.stops.get(vertex) ?? []).map(({ name }) => name);
     const uses = [
-      homes.length ? `home of ${several(homes)}` : "",
-      stops.length ? `stop of ${several(stops)}` : "",
+      homes.length ? texts.homeOf(several(homes)) : "",
+      stops.length ? texts.stopOf(several(stops)) : "",
     ];
     return [this.words.vertex(vertex), this.plan.roadmap.uses(vertex), ...uses]
       .filter(Boolean)

@@ -2,6 +2,7 @@ import { nearest } from "./arrays.js";
 import { Layer, fitCanvas } from "./canvas.js";
 import { Choice } from "./choice.js";
 import { element, link } from "./dom.js";
+import { texts } from "./language.js";
 import { MapBase } from "./map_base.js";
 import { MapNames } from "./map_names.js";
 import { MapRobots } from "./map_robots.js";
@@ -10,7 +11,6 @@ import { MapSizes } from "./map_sizes.js";
 import { MapSpace } from "./map_space.js";
 import { MapTip } from "./map_tip.js";
 import { Motion } from "./motion.js";
-import { counted } from "./quantities.js";
 import { paintScaleBar } from "./scale_bar.js";
 import { Space } from "./space.js";
 import { Use } from "./use.js";
@@ -72,7 +72,7 @@ export class MapView {
     const { length } = plan.robots;
     canvas.setAttribute(
       "aria-label",
-      length ? `Map with ${counted(length, "robot")}` : `Map with ${plan.roadmap.size} vertices`,
+      length ? texts.mapOf(texts.robots(length)) : texts.mapOf(texts.vertices(plan.roadmap.size)),
     );
     this.viewport.on("click", () => this.#click());
     this.viewport.on("hover", () => this.tip.show(this.viewport, this.sizes));
@@ -153,9 +153,10 @@ export class MapView {
     legend.hidden = !closest;
     if (!closest) return;
     const { robot, other, tick } = closest;
-    const text = `${robot.name} and ${other.name}, ${this.words.apart(closest)}, at ${this.words.moment(tick)}`;
+    const who = texts.twoTitles(robot.name, other.name);
+    const text = `${who}, ${this.words.apart(closest)}, ${texts.at(this.words.moment(tick))}`;
     legend.replaceChildren(
-      "Closest approach:",
+      texts.closestOfAll,
       link(text, () => {
         this.clock.pause();
         this.clock.seek(tick);
@@ -170,11 +171,11 @@ export class MapView {
     document.getElementById("heat").setAttribute("aria-pressed", this.choice.heat);
     document.getElementById("heat-legend").hidden = !this.choice.heat;
     const marks = [0, this.use.most / 2, this.use.most];
-    const texts = [
+    const times = [
       ...marks.slice(0, -1).map((ticks) => this.words.time(ticks)),
       this.words.duration(marks.at(-1)),
     ];
-    const labels = texts.map((text) => element("span", {}, text));
+    const labels = times.map((text) => element("span", {}, text));
     document.getElementById("heat-scale").replaceChildren(...labels);
   }
 }

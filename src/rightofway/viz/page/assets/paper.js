@@ -1,4 +1,5 @@
 import { element } from "./dom.js";
+import { texts } from "./language.js";
 
 const ROWS_ON_PAPER = 50;
 
@@ -16,15 +17,17 @@ export class Paper {
     this.theme.refresh();
     this.repaint();
     if (!onPaper) return;
-    document.getElementById("paper-moment").textContent =
-      `The map at ${this.words.moment(this.clock.tick)} of ${this.words.time(this.clock.end)}.`;
+    document.getElementById("paper-moment").textContent = texts.mapAt(
+      this.words.moment(this.clock.tick),
+      this.words.time(this.clock.end),
+    );
     document
       .getElementById("paper-robots")
       .replaceChildren(...(this.comparison ? this.#comparedTable() : this.#table()));
   }
 
   get #end() {
-    return this.plan.endsAtHome ? "Home at" : "Done at";
+    return texts.doneAt(this.plan.endsAtHome);
   }
 
   #time(ticks) {
@@ -33,11 +36,18 @@ export class Paper {
 
   #table() {
     const { words } = this;
-    const head = ["Robot", this.#end, "Alone", "Detours", "Making room", "Waiting"];
+    const head = [
+      texts.robot,
+      this.#end,
+      texts.alone,
+      texts.detours,
+      texts.makingRoom,
+      texts.waiting,
+    ];
     return this.#rows(
       head,
       ({ delay }) => delay,
-      "which lose less",
+      texts.loseLess,
       (robot) => [
         robot.name,
         words.time(robot.completion),
@@ -53,17 +63,17 @@ export class Paper {
     const { plan, words, comparison } = this;
     const [one, two] = [plan.title, plan.other.title];
     const head = [
-      "Robot",
-      `${this.#end}, ${one}`,
-      `${this.#end}, ${two}`,
-      `In ${two}`,
-      `Time lost, ${one}`,
-      `Time lost, ${two}`,
+      texts.robot,
+      texts.headOf(this.#end, one),
+      texts.headOf(this.#end, two),
+      texts.inPlan(two),
+      texts.headOf(texts.timeLost, one),
+      texts.headOf(texts.timeLost, two),
     ];
     return this.#rows(
       head,
       (robot) => Math.abs(comparison.change(robot)),
-      "which differ less",
+      texts.differLess,
       (robot) => {
         const other = plan.other.planned[robot.index];
         return [
@@ -88,6 +98,10 @@ export class Paper {
       .toSorted((one, other) => one.index - other.index)
       .map((robot) => row("td", cellsOf(robot)));
     const left = this.plan.robots.length - rows.length;
-    return [row("th", head), ...rows, ...(left ? [row("td", [`and ${left} more, ${less}`])] : [])];
+    return [
+      row("th", head),
+      ...rows,
+      ...(left ? [row("td", [texts.andMoreThat(left, less)])] : []),
+    ];
   }
 }

@@ -1,3 +1,5 @@
+import { texts } from "./language.js";
+
 /** Length of each unit of time [s]. */
 const SECONDS = { ms: [1n, 1000n], s: [1n, 1n], min: [60n, 1n], h: [3600n, 1n] };
 
@@ -57,14 +59,12 @@ export class Quantities {
   /** How long a number of ticks lasts: "6 min 23 s", "2 time units". */
   duration(ticks) {
     const time = this.#time(ticks);
-    return this.seconds
-      ? this.#clock(times(time, this.seconds))
-      : counted(decimal(time), "time unit");
+    return this.seconds ? this.#clock(times(time, this.seconds)) : texts.timeUnits(decimal(time));
   }
 
   /** A point in time: "6 min 23 s" after the start, "time 2". */
   moment(ticks) {
-    return this.seconds ? this.duration(ticks) : `time ${this.cell(ticks)}`;
+    return this.seconds ? this.duration(ticks) : texts.moment(this.cell(ticks));
   }
 
   /** A time as the bare number of a table's cell. */
@@ -90,7 +90,7 @@ export class Quantities {
     const { length } = this.units;
     return length
       ? `${decimal(fraction(value))} ${length}`
-      : counted(decimal(fraction(value)), "length unit");
+      : texts.lengthUnits(decimal(fraction(value)));
   }
 
   /** A speed: "1.2 m/s"; a bare number where the scenario names no units. */
@@ -130,9 +130,4 @@ export class Quantities {
 
 function times([top, bottom], [otherTop, otherBottom]) {
   return [top * otherTop, bottom * otherBottom];
-}
-
-/** "1 time unit", "1.5 time units". */
-export function counted(number, thing) {
-  return `${number} ${thing}${String(number) === "1" ? "" : "s"}`;
 }

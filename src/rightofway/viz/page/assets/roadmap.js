@@ -1,4 +1,5 @@
 import { fromDifferences, lastAtMost, nearest } from "./arrays.js";
+import { texts } from "./language.js";
 
 /**
  * The graph that robots drive on and what is marked on it, as map_data.py wrote it. It is laid out for
@@ -51,10 +52,10 @@ export class Roadmap {
   uses(vertex) {
     return [
       ...(this.stations.get(vertex) ?? []).map((name) =>
-        name === this.name(vertex) ? "station" : `station ${name}`,
+        name === this.name(vertex) ? texts.station : texts.stationNamed(name),
       ),
-      ...(this.parking.has(vertex) ? ["parking"] : []),
-      ...(this.charging.has(vertex) ? ["charging"] : []),
+      ...(this.parking.has(vertex) ? [texts.parking] : []),
+      ...(this.charging.has(vertex) ? [texts.charging] : []),
     ].join(", ");
   }
 

@@ -1,8 +1,8 @@
 import { element, swatch } from "./dom.js";
 import { connectFind, matches } from "./find.js";
+import { texts } from "./language.js";
 import { BROKEN, WAIT } from "./phases.js";
 import { VirtualList } from "./virtual_list.js";
-import { ACTIVITY_WORDS } from "./words.js";
 
 /** All robots: what they do now, when they are done, how much the others cost them. */
 export class RobotList {
@@ -12,7 +12,7 @@ export class RobotList {
     this.sort = document.getElementById("sort");
     this.list = new VirtualList(document.getElementById("robot-list"), {
       rowHeight: 34,
-      none: "No robot has that name.",
+      none: texts.noRobotNamed,
       fill: (row, robot) => this.#fill(row, robot),
       choose: (robot) => choice.chooseRobot(robot.index),
     });
@@ -51,7 +51,7 @@ export class RobotList {
   }
 
   #state(robot) {
-    return this.#isStuck(robot) ? "stuck" : ACTIVITY_WORDS[this.motion.activity[robot.index]];
+    return this.#isStuck(robot) ? texts.stuck : texts.activities[this.motion.activity[robot.index]];
   }
 
   /** Whether it waits for ever, and already longer than planned. */
@@ -78,9 +78,8 @@ export class RobotList {
   #times(late, robot) {
     late.append(element("span", {}, this.words.time(robot.completion)), " ");
     if (robot.delay > 0) late.append(element("small", {}, `+${this.words.time(robot.delay)}`));
-    late.title =
-      `${this.plan.endsAtHome ? "Home" : "Done"} at ${this.words.moment(robot.completion)}, ` +
-      `alone at ${this.words.moment(robot.alone)}`;
+    const [done, alone] = [robot.completion, robot.alone].map((tick) => this.words.moment(tick));
+    late.title = texts.doneAloneAt(this.plan.endsAtHome, done, alone);
   }
 
   /** How late it is at this moment, or which lap it is on; null where there is no such thing. */
@@ -96,7 +95,7 @@ export class RobotList {
     if (!steady) return null;
     const { loop, tick, running } = this.clock;
     const made = loop ? steady.lapsForEver(index, running) : steady.laps(index, tick);
-    return `lap ${made + 1}`;
+    return texts.lap(made + 1);
   }
 }
 

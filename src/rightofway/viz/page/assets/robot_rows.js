@@ -1,4 +1,5 @@
 import { paintRowNames } from "./axis.js";
+import { texts } from "./language.js";
 import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "./phases.js";
 import { crossedOut, stripes } from "./shapes.js";
 
@@ -15,11 +16,9 @@ export class RobotRows {
 
   get title() {
     const { mode, beside, besideName } = this.choice;
-    const other = beside && `, grey: ${this.#hasGhosts ? "" : "done in "}${besideName}`;
-    if (mode !== "plan")
-      return `Robots over time; red: held up, orange: waits for a late robot${other ?? ""}`;
-    if (beside) return `${this.plan.title}: lines drive, frames wait, blocks work${other}`;
-    return "Robots over time: lines drive, frames wait, blocks work or turn";
+    const other = beside ? texts.rows.grey(besideName, !this.#hasGhosts) : "";
+    if (mode !== "plan") return texts.rows.floor + other;
+    return beside ? texts.rows.beside(this.plan.title) + other : texts.rows.title;
   }
 
   paint(context, area) {

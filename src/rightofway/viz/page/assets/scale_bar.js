@@ -1,3 +1,4 @@
+import { texts } from "./language.js";
 import { haloed } from "./shapes.js";
 
 export const LONGEST_BAR = 130; // pixels
@@ -46,7 +47,7 @@ export function paintScaleBar(context, width, height, plan, { scale }, theme) {
   if (!usualLimit || width < LIMIT_NOTED) return;
   haloed(
     context,
-    `speed limit ${plan.quantities.speed(usualLimit)} without a sign`,
+    texts.usualLimit(plan.quantities.speed(usualLimit)),
     right - wide - 20,
     bottom + 2,
     theme.muted,

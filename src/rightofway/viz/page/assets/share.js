@@ -1,5 +1,6 @@
 import { AXIS_HEIGHT } from "./axis.js";
 import { EMBEDDED, element } from "./dom.js";
+import { texts } from "./language.js";
 
 const SAID_FOR = 2000; // how long a button says what it did [ms]
 
@@ -23,9 +24,9 @@ export class Share {
     const address = this.deepLink.address;
     try {
       await navigator.clipboard.writeText(address);
-      this.#say(this["copy-link"], "Copied");
+      this.#say(this["copy-link"], texts.copied);
     } catch {
-      window.prompt("Copy this link", address); // where the browser keeps the clipboard to itself
+      window.prompt(texts.copyThis, address); // where the browser keeps the clipboard to itself
     }
   }
 
@@ -33,11 +34,10 @@ export class Share {
   savePicture() {
     this.picture().toBlob((blob) => {
       const address = URL.createObjectURL(blob);
-      const stem =
-        this.#titles.map((title) => title.replace(/\.[^.]*$/, "")).join(" and ") || "plan";
+      const title = this.#title(this.#titles.map((each) => each.replace(/\.[^.]*$/, "")));
       element("a", {
         href: address,
-        download: `${stem} at ${this.words.time(this.clock.tick)}.png`,
+        download: `${texts.pictureName(title, this.words.time(this.clock.tick))}.png`,
       }).click();
       setTimeout(() => URL.revokeObjectURL(address), SAID_FOR);
     });
@@ -45,6 +45,10 @@ export class Share {
 
   get #titles() {
     return [this.plan.title, this.plan.other?.title].filter(Boolean);
+  }
+
+  #title(titles) {
+    return titles.length > 1 ? texts.twoTitles(...titles) : (titles[0] ?? "");
   }
 
   /** Heading, maps and diagram of the moment on one canvas. */
@@ -70,7 +74,7 @@ export class Share {
     context.fillStyle = theme.ink;
     context.font = theme.font(16, 600);
     context.fillText(
-      [this.#titles.join(" and "), words.moment(clock.tick)].filter(Boolean).join(": "),
+      [this.#title(this.#titles), words.moment(clock.tick)].filter(Boolean).join(": "),
       28,
       31,
     );

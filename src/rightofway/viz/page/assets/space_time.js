@@ -1,4 +1,5 @@
 import { Corridor } from "./corridor.js";
+import { texts } from "./language.js";
 import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "./phases.js";
 import { crossedOut, line, shortened, stripes } from "./shapes.js";
 import { CorridorAxis, LineAxis } from "./space_axis.js";
@@ -32,12 +33,13 @@ export class SpaceTime {
   get #where() {
     const { robot, corridor } = this.choice;
     const vertices = this.#route;
-    if (!vertices) return "Place over time";
+    if (!vertices) return texts.placeOverTime;
     const length = this.plan.quantities.length(
       this.#rounded(new Corridor(this.plan.roadmap, vertices).length),
     );
-    if (!corridor) return `Route of ${robot.name}, ${length}`;
-    return `${this.words.vertex(corridor[0])} to ${this.words.vertex(corridor.at(-1))}, ${length}`;
+    if (!corridor) return texts.routeOf(robot.name, length);
+    const [from, to] = [corridor[0], corridor.at(-1)].map((end) => this.words.vertex(end));
+    return texts.wayBetween(from, to, length);
   }
 
   #rounded(length) {
@@ -46,17 +48,14 @@ export class SpaceTime {
 
   get #signs() {
     const { decision, beside, besideName } = this.choice;
-    if (beside) return `strong lines ${this.plan.title}, thin lines ${besideName}`;
-    if (decision) return `${several(this.#drawn().map(({ name }) => name))}, fields are bookings`;
-    return this.#route
-      ? "slopes are speeds, fields bookings"
-      : "lines are robots, fields their bookings";
+    if (beside) return texts.signs.beside(this.plan.title, besideName);
+    if (decision) return texts.signs.decision(several(this.#drawn().map(({ name }) => name)));
+    return this.#route ? texts.signs.route : texts.signs.fleet;
   }
 
   get #signsOfFloor() {
-    const signs = ["stripes: held up", "orange: waits for a late robot"];
-    if (this.choice.ghosts) signs.push(`thin lines: ${this.choice.besideName}`);
-    return signs.join(", ");
+    const { floor, thin } = texts.signs;
+    return this.choice.ghosts ? `${floor}, ${thin(this.choice.besideName)}` : floor;
   }
 
   paint(context, area) {

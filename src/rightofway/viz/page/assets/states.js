@@ -1,6 +1,6 @@
 import { element } from "./dom.js";
+import { texts } from "./language.js";
 import { BROKEN, HELD } from "./phases.js";
-import { ACTIVITY_WORDS } from "./words.js";
 
 const DISC = '<circle cx="8" cy="8" r="4" fill="currentColor" stroke="none"/>';
 const SIGNS = [
@@ -20,13 +20,13 @@ export class States {
 
   constructor(motion, choice) {
     Object.assign(this, { motion, choice });
-    this.#counts = ACTIVITY_WORDS.map(() => element("b"));
+    this.#counts = texts.activities.map(() => element("b"));
     const digits = String(motion.plan.robots.length).length;
     for (const count of this.#counts) count.style.minWidth = `${digits}ch`; // or the layout would move with the count
-    this.rows = ACTIVITY_WORDS.map((word, activity) =>
+    this.rows = texts.activities.map((word, activity) =>
       element("li", {}, sign(SIGNS[activity]), word, this.#counts[activity]),
     );
-    this.ghost = element("li", {}, sign(GHOST_SIGN), "by plan");
+    this.ghost = element("li", {}, sign(GHOST_SIGN), texts.byPlan);
     document.getElementById("states").replaceChildren(...this.rows, this.ghost);
     choice.on("mode", () => this.#suit());
     this.#suit();

@@ -1,3 +1,4 @@
+import { texts } from "./language.js";
 import { line } from "./shapes.js";
 
 const BAND_HEIGHT = 17;
@@ -28,14 +29,14 @@ export class SteadyBand {
     context.globalAlpha = 0.05;
     context.fillRect(area.x(start), area.top, area.x(until) - area.x(start), area.height);
     context.globalAlpha = 1;
-    this.#part(context, area, top, 0, start, "transient", 0);
+    this.#part(context, area, top, 0, start, [texts.transient], 0);
     if (apart < NARROWEST_PERIOD)
-      this.#part(context, area, top, start, until, this.#everyTime(), 0.12);
+      this.#part(context, area, top, start, until, [this.#everyTime()], 0.12);
     else borders.forEach((tick, index) => this.#period(context, area, top, tick, index));
   }
 
   #everyTime() {
-    return `every ${this.words.time(this.group.period)}`;
+    return texts.every(this.words.time(this.group.period));
   }
 
   #period(context, area, top, tick, index) {
@@ -44,8 +45,8 @@ export class SteadyBand {
     const looped = this.clock.loop?.from === tick;
     const every = 10 ** Math.max(Math.ceil(Math.log10(26 / (area.x(period) - area.x(0)))), 0);
     const number = (index + 1) % every === 0 ? String(index + 1) : "";
-    const label = index ? number : `period 1: ${this.words.time(period)}`;
-    this.#part(context, area, top, tick, end, label, looped ? 0.3 : index % 2 ? 0.07 : 0.13);
+    const labels = index ? [number] : texts.period(this.words.time(period));
+    this.#part(context, area, top, tick, end, labels, looped ? 0.3 : index % 2 ? 0.07 : 0.13);
     context.strokeStyle = this.theme.muted;
     context.lineWidth = 1;
     context.setLineDash([2, 3]);
@@ -55,8 +56,8 @@ export class SteadyBand {
     context.setLineDash([]);
   }
 
-  /** A stretch of time with its name, as much of that as has room. */
-  #part(context, area, top, from, to, label, strength) {
+  /** A stretch of time with the longest of its labels that has room. */
+  #part(context, area, top, from, to, labels, strength) {
     const [left, right] = [area.x(from), area.x(to)];
     if (right - left < 1) return;
     context.fillStyle = this.theme.ink;
@@ -67,14 +68,12 @@ export class SteadyBand {
     context.fillStyle = strength ? this.theme.ink : this.theme.muted;
     context.textAlign = "center";
     context.textBaseline = "middle";
-    if (/^\d+$/.test(label)) {
+    if (/^\d+$/.test(labels[0])) {
       // as many of these are given as have room
-      context.fillText(label, (left + right) / 2, top + BAND_HEIGHT / 2 + 0.5);
+      context.fillText(labels[0], (left + right) / 2, top + BAND_HEIGHT / 2 + 0.5);
       return;
     }
-    const fits = [label, label.split(":")[0], label.split(":")[0].replace("period ", "")].find(
-      (text) => context.measureText(text).width < right - left - 4,
-    );
+    const fits = labels.find((text) => context.measureText(text).width < right - left - 4);
     if (fits) context.fillText(fits, (left + right) / 2, top + BAND_HEIGHT / 2 + 0.5);
   }
 }

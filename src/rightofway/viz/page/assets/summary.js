@@ -1,14 +1,14 @@
 import { element, facts, link } from "./dom.js";
+import { texts } from "./language.js";
 import { DONE, WAIT } from "./phases.js";
-import { counted } from "./quantities.js";
 
 /** The head of the page: what the plan achieves, in plain words and few figures; how it was made, on request. */
 export class Summary {
   constructor(plan, choice, words, comparison) {
     Object.assign(this, { plan, choice, words, comparison });
-    const robots = counted(plan.robots.length, "robot");
+    const robots = texts.robots(plan.robots.length);
     const outcome = this.#outcome();
-    if (plan.other) document.title = `${plan.title} and ${plan.other.title}`;
+    if (plan.other) document.title = texts.twoTitles(plan.title, plan.other.title);
     const rest = plan.title ? [robots, outcome] : [outcome];
     document
       .getElementById("headline")
@@ -38,35 +38,28 @@ export class Summary {
   /** What figures cannot say: faults, robots that are stuck, what repeats itself. */
   #outcome() {
     const { faultCount, noPlan, other, happened, steady, robots } = this.plan;
-    if (noPlan) return "no plan exists";
+    if (noPlan) return texts.noPlan;
     if (other) return this.#comparedOutcome();
-    if (faultCount) return `${counted(faultCount, "fault")}: do not run this plan`;
+    if (faultCount) return texts.doNotRun(faultCount);
     if (happened) {
       const failed = happened.filter(({ ending }) => ending !== DONE).length;
-      return failed ? `${failed} of them never ${this.#arrived}` : "";
+      return failed ? texts.neverArrived(failed, this.plan.endsAtHome) : "";
     }
     const stuck = robots.filter(({ ending }) => ending === WAIT).length;
-    if (stuck) return `${stuck} of them stuck for ever`;
+    if (stuck) return texts.stuckForEver(stuck);
     return steady ? this.#repetition(steady) : "";
   }
 
   /** Which of two plans has faults. */
   #comparedOutcome() {
     const faulty = [this.plan, this.plan.other].filter(({ faultCount }) => faultCount);
-    return faulty
-      .map(({ title, faultCount }) => `${title} has ${counted(faultCount, "fault")}: do not run it`)
-      .join(", ");
-  }
-
-  /** What a robot is that has done everything. */
-  get #arrived() {
-    return this.plan.endsAtHome ? "home" : "done";
+    return faulty.map(({ title, faultCount }) => texts.doNotRunOther(title, faultCount)).join(", ");
   }
 
   #repetition({ groups, groupOf }) {
     const robots = groupOf.filter(Boolean).length;
-    if (robots < groupOf.length) return `${robots} of them known to repeat themselves`;
-    return groups.length > 1 ? `in ${groups.length} groups that repeat themselves` : "";
+    if (robots < groupOf.length) return texts.someRepeat(robots);
+    return groups.length > 1 ? texts.groupsRepeat(groups.length) : "";
   }
 
   /** Terms, values and explanations. */
@@ -76,7 +69,7 @@ export class Summary {
     if (this.plan.other?.faultCount) return [];
     if (faultCount)
       return Object.entries(this.plan.faultKinds).map(([kind, count]) => [
-        kind,
+        texts.faultKinds[kind]?.name ?? kind,
         String(count),
         this.words.remedy({ kind }),
       ]);
@@ -90,25 +83,17 @@ export class Summary {
   }
 
   #planFigures() {
-    const { robots, metrics } = this.plan;
+    const { robots, metrics, endsAtHome } = this.plan;
     const latest = mostOf(robots, ({ completion }) => completion);
     const loser = mostOf(robots, ({ delay }) => delay);
     return [
+      [texts.allAt(endsAtHome), this.words.time(metrics.makespan), texts.allAtLength(endsAtHome)],
+      [texts.latest, this.#robot(latest), texts.latestAtLength(endsAtHome)],
+      [texts.timeLost, this.#timeLost(robots), texts.timeLostAtLength],
       [
-        `All ${this.#arrived} at`,
-        this.words.time(metrics.makespan),
-        `When the last robot is ${this.#arrived}`,
-      ],
-      ["Latest", this.#robot(latest), `The robot that is ${this.#arrived} last`],
-      [
-        "Time lost",
-        this.#timeLost(robots),
-        "How much later the robots arrive, all together, than if each drove alone",
-      ],
-      [
-        "Loses most",
+        texts.losesMost,
         loser.delay > 0 ? [this.#robot(loser), `, ${this.words.time(loser.delay)}`] : "",
-        "The robot that loses most time to others",
+        texts.losesMostAtLength,
       ],
     ];
   }
@@ -118,16 +103,16 @@ export class Summary {
     const all = robots.reduce((sum, { delay }) => sum + delay, 0);
     return all
       ? [this.words.time(all), element("small", {}, ` ${this.#lostParts(robots)}`)]
-      : "none";
+      : texts.none;
   }
 
   /** "(waiting 35 s, detours 6 s)"; the only part without its time. */
   #lostParts(robots) {
     const sum = (part) => robots.reduce((all, robot) => all + part(robot), 0);
     const parts = [
-      ["waiting", sum(({ lost }) => lost.waiting)],
-      ["detours", sum(({ lost }) => lost.detours)],
-      ["making room", sum(({ lost }) => lost.makingRoom)],
+      [texts.lost.waiting, sum(({ lost }) => lost.waiting)],
+      [texts.lost.detours, sum(({ lost }) => lost.detours)],
+      [texts.lost.makingRoom, sum(({ lost }) => lost.makingRoom)],
     ].filter(([, ticks]) => ticks);
     return `(${parts.length > 1 ? parts.map(([what, ticks]) => `${what} ${this.words.time(ticks)}`).join(", ") : parts[0][0]})`;
   }
@@ -140,21 +125,17 @@ export class Summary {
     const count = (holds) => String(changes.filter(holds).length);
     return [
       [
-        `All ${this.#arrived} at`,
+        texts.allAt(plan.endsAtHome),
         both(({ metrics }) => metrics.makespan),
-        `When the last robot is ${this.#arrived}, in both plans`,
+        texts.allBothAtLength(plan.endsAtHome),
       ],
       [
-        "Time lost",
+        texts.timeLost,
         both(({ metrics }) => metrics.flowtime - metrics.lowerBound),
-        "How much later the robots arrive, all together, than if each drove alone",
+        texts.timeLostAtLength,
       ],
-      [
-        "Earlier",
-        count((change) => change < 0),
-        `Robots that arrive earlier in ${plan.other.title}`,
-      ],
-      ["Later", count((change) => change > 0), `Robots that arrive later in ${plan.other.title}`],
+      [texts.earlier, count((change) => change < 0), texts.earlierAtLength(plan.other.title)],
+      [texts.later, count((change) => change > 0), texts.laterAtLength(plan.other.title)],
     ];
   }
 
@@ -162,48 +143,35 @@ export class Summary {
     const { steady } = this.plan;
     const { largest, groups } = steady;
     const laps = largest.robots.reduce((sum, index) => sum + steady.lapsInPeriod(index), 0);
-    const whose = groups.length > 1 ? " (largest group)" : "";
     return [
       [
-        `Repeats every${whose}`,
+        texts.repeatsEvery(groups.length > 1),
         this.words.time(largest.period),
-        "The period: the time after which all visits repeat",
+        texts.repeatsEveryAtLength,
       ],
-      [
-        "From",
-        this.words.time(largest.start),
-        "The transient: how long it takes until everything repeats",
-      ],
-      [
-        "Laps in that time",
-        largest.whole ? String(laps) : "",
-        "Laps that all robots together make in a period",
-      ],
+      [texts.from, this.words.time(largest.start), texts.fromAtLength],
+      [texts.lapsInThat, largest.whole ? String(laps) : "", texts.lapsInThatAtLength],
     ];
   }
 
   #floorFigures() {
-    const { happened, metrics } = this.plan;
+    const { happened, metrics, endsAtHome } = this.plan;
     const late = happened.filter(({ delayInAll }) => delayInAll > 0);
     const done = happened.filter(({ ending }) => ending === DONE);
     const latest = mostOf(done, ({ delayInAll }) => delayInAll);
     return [
       [
-        `All ${this.#arrived} at`,
+        texts.allAt(endsAtHome),
         done.length === happened.length ? this.#insteadOf(metrics.makespan) : "",
-        `When the last robot was ${this.#arrived}`,
+        texts.allWasAtLength(endsAtHome),
       ],
+      [texts.late, texts.lateOf(late.length, happened.length), texts.lateAtLength],
       [
-        "Late",
-        `${late.length} of ${happened.length}`,
-        "Robots that arrived later than planned, or never",
-      ],
-      [
-        "Latest by",
+        texts.latestBy,
         latest?.delayInAll > 0
           ? [`${this.words.time(latest.delayInAll)}, `, this.#robot(latest)]
           : "",
-        "The largest delay of a robot that arrived",
+        texts.latestByAtLength,
       ],
     ];
   }
@@ -213,8 +181,8 @@ export class Summary {
     const planned = this.words.time(makespan);
     const last = Math.max(...this.plan.happened.map(({ completion }) => completion));
     return last === makespan
-      ? `${planned}, as planned`
-      : `${this.words.time(last)} instead of ${planned}`;
+      ? texts.asPlanned(planned)
+      : texts.insteadOf(this.words.time(last), planned);
   }
 
   #robot(robot) {
@@ -225,8 +193,8 @@ export class Summary {
   #method() {
     const { status, saved, tries } = this.plan.planner;
     if (saved === undefined) return status;
-    const gain = saved > 0 ? `saved ${this.words.duration(saved)}` : "found no better plan";
-    return `${tries === null ? "attempts" : counted(tries, "attempt")} to improve the first plan ${gain}`;
+    const gain = saved > 0 ? texts.saved(this.words.duration(saved)) : texts.savedNothing;
+    return texts.improvement(tries, gain);
   }
 
   #made() {
@@ -238,34 +206,30 @@ export class Summary {
     const gap = lowerBound ? this.words.percent(flowtime / lowerBound - 1) : "";
     const isUnit = tick.numerator === tick.denominator;
     const origin = [
-      ["Planner", planner.name],
-      ["Method", this.#method()],
+      [texts.planner, planner.name],
+      [texts.method, this.#method()],
     ];
     if (this.plan.faultCount) return origin; // its times are worth nothing
     return [
       ...origin,
-      ["Flowtime", this.words.time(flowtime)],
-      ["Lower bound", this.words.time(lowerBound)],
-      ["Gap", gap],
-      ["Makespan", this.words.time(makespan)],
+      [texts.flowtime, this.words.time(flowtime)],
+      [texts.lowerBound, this.words.time(lowerBound)],
+      [texts.gap, gap],
+      [texts.makespan, this.words.time(makespan)],
       [
-        "Time lost",
+        texts.timeLost,
         [this.#timeLost(this.plan.planned)]
           .flat()
           .map((part) => part.textContent ?? part)
           .join(""),
       ],
-      ["Tick", isUnit ? "" : `${this.words.duration(1)}, the step in which times are counted`],
+      [texts.tick, isUnit ? "" : texts.tickAtLength(this.words.duration(1))],
     ];
   }
 
   #explanation() {
     if (this.plan.faultCount) return [];
-    return [
-      "The flowtime is the sum of the times at which the robots are done. The lower bound is the same sum if each robot " +
-        "drove alone: no plan has a smaller flowtime. The gap is how far the flowtime of this plan is above the lower bound.",
-      "The makespan is the time at which the last robot is done.",
-    ].map((text) => element("p", {}, text));
+    return texts.explanation.map((text) => element("p", {}, text));
   }
 }
 

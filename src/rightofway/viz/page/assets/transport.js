@@ -1,5 +1,6 @@
 import { RATES } from "./clock.js";
 import { element } from "./dom.js";
+import { texts } from "./language.js";
 
 /** Play, step, slider, speed, and the moment in figures. */
 export class Transport {
@@ -15,7 +16,7 @@ export class Transport {
     this.digits = plan.end / clock.ticksPerUnit < 10 ? 2 : 1;
     const label = (rate) => (rate < 1 ? `1/${1 / rate} ×` : `${rate} ×`);
     this.speed.append(...RATES.map((rate) => element("option", { value: rate }, label(rate))));
-    this.speed.title = `1 × plays 1 ${plan.quantities.units.time ?? "time unit"} of the plan in a second`;
+    this.speed.title = texts.rate(plan.quantities.units.time ?? texts.timeUnit);
     this.#listen();
     this.#showPlaying();
   }
@@ -28,9 +29,9 @@ export class Transport {
     const now = playing ? this.plan.quantities.running(tick, this.digits) : this.words.time(tick);
     if (now === this.#written) return;
     this.#written = now;
-    const all = this.words.time(end);
-    this.readout.replaceChildren(element("b", {}, now), element("span", {}, ` of ${all}`));
-    if (!playing) this.slider.setAttribute("aria-valuetext", `${now} of ${all}`);
+    const [moment, ofAll] = texts.of(now, this.words.time(end));
+    this.readout.replaceChildren(element("b", {}, moment), element("span", {}, ofAll));
+    if (!playing) this.slider.setAttribute("aria-valuetext", `${moment}${ofAll}`);
   }
 
   #listen() {
@@ -50,7 +51,7 @@ export class Transport {
   #showPlaying() {
     const { playing, rate } = this.clock;
     this.play.classList.toggle("playing", playing);
-    this.play.setAttribute("aria-label", playing ? "Pause" : "Play");
+    this.play.setAttribute("aria-label", playing ? texts.pause : texts.markup.play);
     this.speed.value = rate;
   }
 }

@@ -1,0 +1,61 @@
+import { EMBEDDED } from "./dom.js";
+import { GERMAN } from "./texts/de.js";
+import { ENGLISH } from "./texts/en.js";
+
+/** Each language by its code: its own name, and its texts. Another language is a file and a line. */
+export const LANGUAGES = {
+  en: { name: "English", texts: ENGLISH },
+  de: { name: "Deutsch", texts: GERMAN },
+};
+
+/** The language that is spoken, and its texts; all modules read them here at the time of writing. */
+export let language = "en";
+export let texts = ENGLISH;
+
+/** Speak a language, English where it is not known; texts that it lacks are English. */
+export function setLanguage(code) {
+  language = Object.hasOwn(LANGUAGES, code) ? code : "en";
+  texts = completed(LANGUAGES[language].texts, ENGLISH);
+  document.documentElement.lang = language;
+}
+
+/** The language that the address asks for (`?lang=de`), or that of the browser. */
+export function askedLanguage() {
+  const asked = new URLSearchParams(document.isPart ? "" : location.search).get("lang");
+  return asked ?? navigator.language.slice(0, 2);
+}
+
+/** Texts, with those of another language where there are none. */
+export function completed(own, other) {
+  const isTable = (value) => typeof value === "object" && !Array.isArray(value);
+  const both = Object.entries(other).map(([key, value]) => [
+    key,
+    isTable(value) ? completed(own[key] ?? {}, value) : (own[key] ?? value),
+  ]);
+  return { ...own, ...Object.fromEntries(both) };
+}
+
+/** Write the texts of the markup: what stands in an element, its title, and its name for screen readers. */
+export function writeMarkup() {
+  const { markup } = texts;
+  for (const each of document.querySelectorAll("[data-text]"))
+    each.textContent = markup[each.dataset.text];
+  for (const each of document.querySelectorAll("[data-title]"))
+    each.title = markup[each.dataset.title];
+  for (const each of document.querySelectorAll("[data-label]"))
+    each.setAttribute("aria-label", markup[each.dataset.label]);
+  for (const each of document.querySelectorAll("[data-hint]"))
+    each.placeholder = markup[each.dataset.hint];
+}
+
+/** Fill the choice of a language; another one opens the page anew, at the same moment. */
+export function offerLanguages(select) {
+  select.hidden = EMBEDDED;
+  for (const [code, { name }] of Object.entries(LANGUAGES)) select.append(new Option(name, code));
+  select.value = language;
+  select.addEventListener("change", () => {
+    const address = new URL(location.href);
+    address.searchParams.set("lang", select.value);
+    location.assign(address);
+  });
+}
