@@ -77,3 +77,22 @@ export function boxBeside(x, y, radius, width, height, [right, down]) {
   ];
   return [middleX - width / 2, middleY - height / 2, middleX + width / 2, middleY + height / 2];
 }
+
+/** How wide texts are in a font [pixels]; each is measured once. */
+export class TextWidths {
+  #widths = new Map();
+
+  of(context, text, font) {
+    const key = `${font} ${text}`;
+    if (!this.#widths.has(key)) {
+      context.font = font;
+      this.#widths.set(key, context.measureText(text).width);
+    }
+    return this.#widths.get(key);
+  }
+}
+
+/** A name, and the beginning of one that is too long [characters]. */
+export function cut(name, longest = 20) {
+  return name.length > longest ? `${name.slice(0, longest - 1)}…` : name;
+}

@@ -1,22 +1,11 @@
-import { FleetMemo } from "./fleet_memo.js";
-import { LabelBoard, SIDES, boxBeside } from "./label_board.js";
+import { LabelBoard, SIDES, TextWidths, boxBeside, cut } from "./label_board.js";
 import { BROKEN, DONE, DRIVE, TURN, WORK } from "./phases.js";
-import { decimal, fraction } from "./quantities.js";
-import { LONGEST_BAR } from "./scale_bar.js";
-import { disc, haloed, ring } from "./shapes.js";
+import { PlaceNames } from "./place_names.js";
+import { haloed } from "./shapes.js";
 import { inkOn } from "./theme.js";
 
 const MOST_NAMED = 100; // robots in sight; the names of more cannot be read
-const MOST_PLACES = 300; // names of places in sight
-const MOST_VERTICES = 1500; // in sight; of more, only homes and stops have names
-const NAMED_CELL = 40; // vertices of a grid have their names from this size on [pixels]
-const SIGNED_LANE = 44; // pixels; a shorter lane has no sign of its speed limit
-const FEW_MARKS = 24; // robots up to which homes and stops on a grid are named at any size
 const ROBOT_TYPE = 13; // pixels
-const PLACE_TYPE = 12;
-const MOST_ANCHORS = 24; // vertices of a zone that its name may stand beside
-const LONGEST_MARK = 34; // characters of the name of a home, a stop or a station
-const LONGEST_NAME = 20; // characters; longer ones are cut
 
 /**
  * Names of robots and places, none over another. Robots come first, then homes and stops, then
@@ -25,43 +14,38 @@ const LONGEST_NAME = 20; // characters; longer ones are cut
  */
 export class MapNames {
   #robots = new LabelBoard();
-  #places = new LabelBoard();
-  #marks = new LabelBoard(); // homes and stops
-  #lanes = new LabelBoard();
   #sides; // of each robot's name, so that it does not jump
-  #widths = new Map();
-  #marksOf;
-  #spots = null;
+  #widths = new TextWidths();
 
   constructor(plan, motion, viewport, sizes, clock, theme, choice, use) {
-    Object.assign(this, { plan, motion, viewport, sizes, clock, theme, choice, use });
+    Object.assign(this, { plan, motion, viewport, sizes, clock, theme, choice });
     this.#sides = new Int8Array(plan.robots.length);
-    this.#marksOf = new FleetMemo(plan, () => this.#usedPlaces());
+    this.places = new PlaceNames(plan, viewport, sizes, theme, choice, use);
     this.written = []; // what the last frame shows: { name, box } of each label
     this.inks = plan.robots.map((robot) => inkOn(robot.colour));
   }
 
   /** The view or the choice is another one: places find their spots again. */
   refresh() {
-    this.#spots = null;
+    this.places.refresh();
   }
 
   /** Write all names, in pixels of the canvas. */
   paint(context, width, height) {
     this.written = [];
-    this.#spots ??= this.#findSpots(context, width, height);
+    const places = this.places.find(context, width, height);
     this.#robots.clear(width, height);
     const inSight = this.#inSight(width, height);
     const named =
       inSight.length <= MOST_NAMED ? inSight : inSight.filter((index) => this.#isChosen(index));
-    if (!named.length && !this.#spots.length) return;
+    if (!named.length && !places) return;
     for (const index of inSight) this.#robots.takeDisc(...this.#at(index), this.#radius(index));
     const outside = named.filter((index) => !this.#fitsInside(context, index, this.#radius(index)));
     for (const index of outside) this.#beside(context, index, this.#radius(index));
     const outsiders = new Set(outside);
     for (const index of named)
       if (!outsiders.has(index)) this.#inside(context, index, this.#radius(index));
-    this.#writePlaces(context);
+    this.written.push(...this.places.write(context, this.#robots));
   }
 
   #radius(index) {
@@ -91,15 +75,6 @@ export class MapNames {
       : found.sort((one, other) => rank(one) - rank(other) || one - other);
   }
 
-  #width(context, text, font) {
-    const key = `${font} ${text}`;
-    if (!this.#widths.has(key)) {
-      context.font = font;
-      this.#widths.set(key, context.measureText(text).width);
-    }
-    return this.#widths.get(key);
-  }
-
   #insideFont(radius) {
     return this.theme.font(Math.min(Math.round(radius * 0.78), 20), 600);
   }
@@ -107,7 +82,8 @@ export class MapNames {
   #fitsInside(context, index, radius) {
     return (
       radius >= 13 &&
-      this.#width(context, this.plan.robots[index].name, this.#insideFont(radius)) < radius * 1.7
+      this.#widths.of(context, this.plan.robots[index].name, this.#insideFont(radius)) <
+        radius * 1.7
     );
   }
 
@@ -127,7 +103,7 @@ export class MapNames {
       context.fillText(name, x, y + 1);
     }
     context.globalAlpha = 1;
-    const half = this.#width(context, name, context.font) / 2;
+    const half = this.#widths.of(context, name, context.font) / 2;
     this.written.push({ name, box: [x - half, y - radius * 0.4, x + half, y + radius * 0.4] });
   }
 
@@ -138,7 +114,7 @@ export class MapNames {
   #beside(context, index, radius) {
     const name = cut(this.plan.robots[index].name);
     const font = this.theme.font(ROBOT_TYPE, 600);
-    const width = this.#width(context, name, font);
+    const width = this.#widths.of(context, name, font);
     const [x, y] = this.#at(index);
     const away = Math.max(
       this.#isHome(index) ? this.sizes.homeOf(this.plan.robots[index]) : 0,
@@ -151,8 +127,8 @@ export class MapNames {
       const there = boxBeside(x, y, away, width, ROBOT_TYPE + 2, SIDES[side]);
       if (!this.#robots.isFree(...there)) continue;
       const cost =
-        (this.#places.isFree(...there) ? 0 : 3) +
-        (this.#marks.isFree(...there) ? 0 : 2) +
+        (this.places.names.isFree(...there) ? 0 : 3) +
+        (this.places.marks.isFree(...there) ? 0 : 2) +
         (step ? change : 0);
       if (cost < least) [best, least, box] = [side, cost, there];
       if (least <= (step ? change : change - 1)) break;
@@ -204,244 +180,4 @@ export class MapNames {
     haloed(context, name, box[0], (box[1] + box[3]) / 2 + 0.5, ink, this.theme.floor, 3.5);
     this.written.push({ name, box });
   }
-
-  #writePlaces(context) {
-    context.textBaseline = "middle";
-    for (const { name, box, ink, font, halo, isUpright, isRinged } of this.#spots) {
-      if (!this.#robots.isFree(...box)) continue;
-      context.font = font;
-      context.textAlign = "left";
-      if (isRinged) this.#writeInRing(context, name, box);
-      else if (isUpright) {
-        context.save();
-        context.translate((box[0] + box[2]) / 2 + 0.5, box[3]);
-        context.rotate(-Math.PI / 2);
-        haloed(context, name, 0, 0, ink, halo, 3);
-        context.restore();
-      } else haloed(context, name, box[0], (box[1] + box[3]) / 2 + 0.5, ink, halo, 3);
-      this.written.push({ name, box });
-    }
-  }
-
-  #writeInRing(context, text, [left, top, right, bottom]) {
-    const [x, y] = [(left + right) / 2, (top + bottom) / 2];
-    context.fillStyle = this.theme.paper;
-    disc(context, x, y, (right - left) / 2);
-    context.strokeStyle = this.theme.held;
-    context.lineWidth = 1.75;
-    ring(context, x, y, (right - left) / 2 - 1);
-    context.fillStyle = this.theme.ink;
-    context.textAlign = "center";
-    context.fillText(text, x, y + 0.5);
-  }
-
-  /** The names of places in sight and where they stand, the important ones first. */
-  #findSpots(context, width, height) {
-    const { roadmap } = this.plan;
-    const marks = this.#marksOf.value;
-    this.#keepFree(marks, width, height);
-    const isInSight = (vertex) => {
-      const [x, y] = this.#pointOf(vertex);
-      return x >= 0 && x <= width && y >= 0 && y <= height;
-    };
-    const inSight = [...this.#named(marks)].filter(isInSight);
-    const spots = [];
-    for (const vertex of inSight.length > MOST_VERTICES
-      ? inSight.filter((it) => marks.has(it))
-      : inSight) {
-      const mark = marks.get(vertex);
-      const font = this.theme.font(PLACE_TYPE, mark ? 600 : 400);
-      const name = cut(roadmap.label(vertex), mark ? LONGEST_MARK : LONGEST_NAME);
-      const box = this.#spot(vertex, this.#width(context, name, font), mark);
-      if (!box) continue;
-      this.#places.take(...box);
-      spots.push({ name, box, font, ...this.#colours(vertex, Boolean(mark)) });
-      if (spots.length >= MOST_PLACES) break;
-    }
-    this.#nameObstacles(context, spots);
-    this.#nameZones(context, spots);
-    this.#signLimits(context, spots);
-    return spots;
-  }
-
-  /** Beside one of its vertices, or of the ends of its lanes. */
-  #nameZones(context, spots) {
-    const font = this.theme.font(PLACE_TYPE, 600);
-    for (const { name: whole, vertices, edges } of this.plan.roadmap.zones) {
-      const name = cut(whole);
-      const wide = this.#width(context, name, font);
-      const anchors = new Set([...vertices, ...edges.flat()]);
-      const boxes = [...anchors]
-        .slice(0, MOST_ANCHORS)
-        .flatMap((vertex) =>
-          SIDES.map((side) =>
-            boxBeside(...this.#pointOf(vertex), this.sizes.zone / 2, wide, PLACE_TYPE + 2, side),
-          ),
-        );
-      const free = boxes.filter((box) => this.#places.isFree(...box) && this.#marks.isFree(...box));
-      const box = free.find((each) => this.#lanes.isFree(...each)) ?? free[0];
-      if (!box) continue;
-      this.#places.take(...box);
-      spots.push({ name, box, font, ink: this.theme.zone, halo: this.#halo });
-    }
-  }
-
-  /** The speed limit of a lane, in a ring on its middle or beside it. */
-  #signLimits(context, spots) {
-    const { limits, usualLimit, x: xs, y: ys } = this.plan.roadmap;
-    const font = this.theme.font(11, 600);
-    for (const { tail, head, limit } of limits ?? []) {
-      if (limit === usualLimit) continue;
-      if (Math.hypot(xs[head] - xs[tail], ys[head] - ys[tail]) * this.viewport.scale < SIGNED_LANE)
-        continue;
-      const name = decimal(fraction(limit));
-      const radius = Math.max(this.#width(context, name, font) / 2 + 4, 9);
-      const [one, other] = [this.#pointOf(tail), this.#pointOf(head)];
-      const boxes = [0.5, 0.3, 0.7].map((share) => {
-        const [x, y] = [one[0] + (other[0] - one[0]) * share, one[1] + (other[1] - one[1]) * share];
-        return [x - radius, y - radius, x + radius, y + radius];
-      });
-      const box = boxes.find((each) => this.#places.isFree(...each) && this.#marks.isFree(...each));
-      if (!box) continue;
-      this.#places.take(...box);
-      spots.push({ name, box, font, ink: this.theme.ink, halo: this.theme.paper, isRinged: true });
-      if (spots.length >= 2 * MOST_PLACES) break;
-    }
-  }
-
-  get #halo() {
-    return this.plan.roadmap.hasCells ? this.theme.floor : this.theme.paper;
-  }
-
-  /** Along an obstacle or upwards in it, where there is room. */
-  #nameObstacles(context, spots) {
-    const { left, top, scale } = this.viewport;
-    const font = this.theme.font(PLACE_TYPE);
-    for (const it of this.plan.roadmap.obstacles) {
-      const name = cut(it.name);
-      const wide = this.#width(context, name, font) / 2;
-      const isUpright = 2 * wide > it.width * scale && it.height > it.width;
-      const [across, down] = isUpright ? [PLACE_TYPE / 2 + 1, wide] : [wide, PLACE_TYPE / 2 + 1];
-      if (2 * across > it.width * scale || 2 * down > it.height * scale) continue;
-      const x = left + (it.left + it.width / 2) * scale;
-      const boxes = [0.5, 1, 0].map((share) => {
-        const y =
-          top +
-          it.top * scale +
-          Math.min(Math.max(it.height * scale * share, down), it.height * scale - down);
-        return [x - across, y - down, x + across, y + down];
-      });
-      const box = boxes.find((each) => this.#places.isFree(...each) && this.#marks.isFree(...each));
-      if (!box) continue;
-      this.#places.take(...box);
-      spots.push({ name, box, font, ink: this.theme.ink, halo: this.theme.wall, isUpright });
-    }
-  }
-
-  #colours(vertex, isMark) {
-    const {
-      theme,
-      plan: { roadmap },
-    } = this;
-    const heat = this.choice.heat && roadmap.hasCells ? this.use.heat(vertex, theme) : null;
-    if (heat && this.viewport.scale >= NAMED_CELL) return { ink: inkOn(heat), halo: heat };
-    return { ink: isMark ? theme.ink : theme.muted, halo: this.#halo };
-  }
-
-  #pointOf(vertex) {
-    const { left, top, scale } = this.viewport;
-    return [left + this.plan.roadmap.x[vertex] * scale, top + this.plan.roadmap.y[vertex] * scale];
-  }
-
-  /** Marks, and on a roadmap lanes, that names rather do not cover. */
-  #keepFree(marks, width, height) {
-    for (const board of [this.#places, this.#marks, this.#lanes]) board.clear(width, height);
-    this.#places.take(
-      width - LONGEST_BAR - (this.plan.roadmap.usualLimit ? 240 : 40),
-      height - 28,
-      width,
-      height,
-    ); // scale bar
-    for (const [vertex, mark] of marks)
-      this.#marks.takeDisc(...this.#pointOf(vertex), this.#reach(mark));
-    if (this.plan.roadmap.hasCells) return;
-    const { bothWays, oneWay } = this.plan.roadmap.lanes;
-    const half = this.sizes.lane / 2;
-    for (const [tail, head] of [...bothWays, ...oneWay]) {
-      const [[x, y], [toX, toY]] = [this.#pointOf(tail), this.#pointOf(head)];
-      if (
-        Math.max(x, toX) < 0 ||
-        Math.min(x, toX) > width ||
-        Math.max(y, toY) < 0 ||
-        Math.min(y, toY) > height
-      )
-        continue;
-      const pieces = Math.min(Math.ceil(Math.hypot(toX - x, toY - y) / (2 * half)), 300);
-      for (let i = 0; i <= pieces; i++) {
-        this.#lanes.takeDisc(x + ((toX - x) * i) / pieces, y + ((toY - y) * i) / pieces, half);
-      }
-    }
-  }
-
-  /** How far a mark reaches from its vertex. */
-  #reach({ homeOf, isStop }) {
-    if (homeOf) return this.sizes.homeOf(homeOf);
-    return isStop ? this.sizes.stop : this.sizes.sign;
-  }
-
-  /** A box for the name of a place, or null without room; names of homes and stops may cover a lane. */
-  #spot(vertex, wide, mark) {
-    const [x, y] = this.#pointOf(vertex);
-    const high = PLACE_TYPE + 2;
-    const { scale } = this.viewport;
-    const mayCover = mark && (mark.robots.length > 0 || scale >= NAMED_CELL);
-    if (this.plan.roadmap.rows && scale >= NAMED_CELL) {
-      const inset = Math.min(Math.max((scale - 60) * 0.1, 1.5), 7); // beside the corner of a home
-      const [left, top] = [x - scale / 2 + inset, y - scale / 2 + inset];
-      return wide < scale - 2 * inset ? [left, top, left + wide, top + high] : null;
-    }
-    const radius = Math.max(this.sizes.lane / 2, this.sizes.vertex, mark ? this.#reach(mark) : 0);
-    const boxes = SIDES.map((side) => boxBeside(x, y, radius, wide, high, side));
-    const free = boxes.filter((box) => this.#places.isFree(...box) && this.#marks.isFree(...box));
-    return free.find((box) => this.#lanes.isFree(...box)) ?? (mayCover ? (free[0] ?? null) : null);
-  }
-
-  /** The vertices that may have a name, in the order of their importance. */
-  #named(marks) {
-    const { roadmap } = this.plan;
-    const isChosen = (vertex) => marks.get(vertex).robots.some((index) => this.#isChosen(index));
-    if (roadmap.hasCells && this.viewport.scale < NAMED_CELL) {
-      const shown = [...marks.keys()].filter(
-        (vertex) => this.plan.robots.length <= FEW_MARKS || isChosen(vertex),
-      );
-      return new Set([...(this.choice.decision?.vertices ?? []), ...shown]);
-    }
-    const chosenFirst = [...marks.keys()].sort((one, other) => isChosen(other) - isChosen(one));
-    return new Set([...chosenFirst, ...Array(roadmap.size).keys()]);
-  }
-
-  /** The homes and stops, each with its robots, then stations, parking places and chargers. */
-  #usedPlaces() {
-    const places = new Map();
-    const at = (vertex) => {
-      if (!places.has(vertex)) places.set(vertex, { robots: [], homeOf: null, isStop: false });
-      return places.get(vertex);
-    };
-    for (const robot of this.plan.robots) {
-      for (const vertex of [robot.home, ...robot.stages.map((stage) => stage.vertex)]) {
-        const place = at(vertex);
-        place.robots.push(robot.index);
-        if (vertex === robot.home) place.homeOf = robot;
-        else place.isStop = true;
-      }
-    }
-    const { stations, parking, charging } = this.plan.roadmap;
-    for (const vertex of [...stations.keys(), ...parking, ...charging]) at(vertex);
-    return places;
-  }
-}
-
-/** A name, and the beginning of one that is too long. */
-function cut(name, longest = LONGEST_NAME) {
-  return name.length > longest ? `${name.slice(0, longest - 1)}…` : name;
 }

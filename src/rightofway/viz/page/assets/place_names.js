@@ -1,0 +1,284 @@
+import { FleetMemo } from "./fleet_memo.js";
+import { LabelBoard, SIDES, TextWidths, boxBeside, cut } from "./label_board.js";
+import { decimal, fraction } from "./quantities.js";
+import { LONGEST_BAR } from "./scale_bar.js";
+import { disc, haloed, ring } from "./shapes.js";
+import { inkOn } from "./theme.js";
+
+const MOST_PLACES = 300; // names of places in sight
+const MOST_VERTICES = 1500; // in sight; of more, only homes and stops have names
+const NAMED_CELL = 40; // vertices of a grid have their names from this size on [pixels]
+const SIGNED_LANE = 44; // pixels; a shorter lane has no sign of its speed limit
+const FEW_MARKS = 24; // robots up to which homes and stops on a grid are named at any size
+const PLACE_TYPE = 12; // pixels
+const MOST_ANCHORS = 24; // vertices of a zone that its name may stand beside
+const LONGEST_MARK = 34; // characters of the name of a home, a stop or a station
+
+/**
+ * Names of vertices, obstacles and zones, and signs of speed limits, none over another: homes and
+ * stops first. Each keeps its spot until `refresh`.
+ */
+export class PlaceNames {
+  names = new LabelBoard();
+  marks = new LabelBoard(); // homes and stops
+  #lanes = new LabelBoard();
+  #widths = new TextWidths();
+  #marksOf;
+  #spots = null;
+
+  constructor(plan, viewport, sizes, theme, choice, use) {
+    Object.assign(this, { plan, viewport, sizes, theme, choice, use });
+    this.#marksOf = new FleetMemo(plan, () => this.#usedPlaces());
+  }
+
+  refresh() {
+    this.#spots = null;
+  }
+
+  /** Find the spots on a canvas of a given size; return how many there are. */
+  find(context, width, height) {
+    this.#spots ??= this.#findSpots(context, width, height);
+    return this.#spots.length;
+  }
+
+  /** Write the names that no robot covers; return them with their boxes. */
+  write(context, robots) {
+    const written = [];
+    context.textBaseline = "middle";
+    for (const { name, box, ink, font, halo, isUpright, isRinged } of this.#spots) {
+      if (!robots.isFree(...box)) continue;
+      context.font = font;
+      context.textAlign = "left";
+      if (isRinged) this.#writeInRing(context, name, box);
+      else if (isUpright) {
+        context.save();
+        context.translate((box[0] + box[2]) / 2 + 0.5, box[3]);
+        context.rotate(-Math.PI / 2);
+        haloed(context, name, 0, 0, ink, halo, 3);
+        context.restore();
+      } else haloed(context, name, box[0], (box[1] + box[3]) / 2 + 0.5, ink, halo, 3);
+      written.push({ name, box });
+    }
+    return written;
+  }
+
+  #writeInRing(context, text, [left, top, right, bottom]) {
+    const [x, y] = [(left + right) / 2, (top + bottom) / 2];
+    context.fillStyle = this.theme.paper;
+    disc(context, x, y, (right - left) / 2);
+    context.strokeStyle = this.theme.held;
+    context.lineWidth = 1.75;
+    ring(context, x, y, (right - left) / 2 - 1);
+    context.fillStyle = this.theme.ink;
+    context.textAlign = "center";
+    context.fillText(text, x, y + 0.5);
+  }
+
+  /** The names of places in sight and where they stand, the important ones first. */
+  #findSpots(context, width, height) {
+    const { roadmap } = this.plan;
+    const marks = this.#marksOf.value;
+    this.#keepFree(marks, width, height);
+    const isInSight = (vertex) => {
+      const [x, y] = this.#pointOf(vertex);
+      return x >= 0 && x <= width && y >= 0 && y <= height;
+    };
+    const inSight = [...this.#named(marks)].filter(isInSight);
+    const spots = [];
+    for (const vertex of inSight.length > MOST_VERTICES
+      ? inSight.filter((it) => marks.has(it))
+      : inSight) {
+      const mark = marks.get(vertex);
+      const font = this.theme.font(PLACE_TYPE, mark ? 600 : 400);
+      const name = cut(roadmap.label(vertex), ...(mark ? [LONGEST_MARK] : []));
+      const box = this.#spot(vertex, this.#widths.of(context, name, font), mark);
+      if (!box) continue;
+      this.names.take(...box);
+      spots.push({ name, box, font, ...this.#colours(vertex, Boolean(mark)) });
+      if (spots.length >= MOST_PLACES) break;
+    }
+    this.#nameObstacles(context, spots);
+    this.#nameZones(context, spots);
+    this.#signLimits(context, spots);
+    return spots;
+  }
+
+  /** Beside one of its vertices, or of the ends of its lanes. */
+  #nameZones(context, spots) {
+    const font = this.theme.font(PLACE_TYPE, 600);
+    for (const { name: whole, vertices, edges } of this.plan.roadmap.zones) {
+      const name = cut(whole);
+      const wide = this.#widths.of(context, name, font);
+      const anchors = new Set([...vertices, ...edges.flat()]);
+      const boxes = [...anchors]
+        .slice(0, MOST_ANCHORS)
+        .flatMap((vertex) =>
+          SIDES.map((side) =>
+            boxBeside(...this.#pointOf(vertex), this.sizes.zone / 2, wide, PLACE_TYPE + 2, side),
+          ),
+        );
+      const free = boxes.filter((box) => this.names.isFree(...box) && this.marks.isFree(...box));
+      const box = free.find((each) => this.#lanes.isFree(...each)) ?? free[0];
+      if (!box) continue;
+      this.names.take(...box);
+      spots.push({ name, box, font, ink: this.theme.zone, halo: this.#halo });
+    }
+  }
+
+  /** The speed limit of a lane, in a ring on its middle or beside it. */
+  #signLimits(context, spots) {
+    const { limits, usualLimit, x: xs, y: ys } = this.plan.roadmap;
+    const font = this.theme.font(11, 600);
+    for (const { tail, head, limit } of limits ?? []) {
+      if (limit === usualLimit) continue;
+      if (Math.hypot(xs[head] - xs[tail], ys[head] - ys[tail]) * this.viewport.scale < SIGNED_LANE)
+        continue;
+      const name = decimal(fraction(limit));
+      const radius = Math.max(this.#widths.of(context, name, font) / 2 + 4, 9);
+      const [one, other] = [this.#pointOf(tail), this.#pointOf(head)];
+      const boxes = [0.5, 0.3, 0.7].map((share) => {
+        const [x, y] = [one[0] + (other[0] - one[0]) * share, one[1] + (other[1] - one[1]) * share];
+        return [x - radius, y - radius, x + radius, y + radius];
+      });
+      const box = boxes.find((each) => this.names.isFree(...each) && this.marks.isFree(...each));
+      if (!box) continue;
+      this.names.take(...box);
+      spots.push({ name, box, font, ink: this.theme.ink, halo: this.theme.paper, isRinged: true });
+      if (spots.length >= 2 * MOST_PLACES) break;
+    }
+  }
+
+  get #halo() {
+    return this.plan.roadmap.hasCells ? this.theme.floor : this.theme.paper;
+  }
+
+  /** Along an obstacle or upwards in it, where there is room. */
+  #nameObstacles(context, spots) {
+    const { left, top, scale } = this.viewport;
+    const font = this.theme.font(PLACE_TYPE);
+    for (const it of this.plan.roadmap.obstacles) {
+      const name = cut(it.name);
+      const wide = this.#widths.of(context, name, font) / 2;
+      const isUpright = 2 * wide > it.width * scale && it.height > it.width;
+      const [across, down] = isUpright ? [PLACE_TYPE / 2 + 1, wide] : [wide, PLACE_TYPE / 2 + 1];
+      if (2 * across > it.width * scale || 2 * down > it.height * scale) continue;
+      const x = left + (it.left + it.width / 2) * scale;
+      const boxes = [0.5, 1, 0].map((share) => {
+        const y =
+          top +
+          it.top * scale +
+          Math.min(Math.max(it.height * scale * share, down), it.height * scale - down);
+        return [x - across, y - down, x + across, y + down];
+      });
+      const box = boxes.find((each) => this.names.isFree(...each) && this.marks.isFree(...each));
+      if (!box) continue;
+      this.names.take(...box);
+      spots.push({ name, box, font, ink: this.theme.ink, halo: this.theme.wall, isUpright });
+    }
+  }
+
+  #colours(vertex, isMark) {
+    const {
+      theme,
+      plan: { roadmap },
+    } = this;
+    const heat = this.choice.heat && roadmap.hasCells ? this.use.heat(vertex, theme) : null;
+    if (heat && this.viewport.scale >= NAMED_CELL) return { ink: inkOn(heat), halo: heat };
+    return { ink: isMark ? theme.ink : theme.muted, halo: this.#halo };
+  }
+
+  #pointOf(vertex) {
+    const { left, top, scale } = this.viewport;
+    return [left + this.plan.roadmap.x[vertex] * scale, top + this.plan.roadmap.y[vertex] * scale];
+  }
+
+  /** Marks, and on a roadmap lanes, that names rather do not cover. */
+  #keepFree(marks, width, height) {
+    for (const board of [this.names, this.marks, this.#lanes]) board.clear(width, height);
+    this.names.take(
+      width - LONGEST_BAR - (this.plan.roadmap.usualLimit ? 240 : 40),
+      height - 28,
+      width,
+      height,
+    ); // scale bar
+    for (const [vertex, mark] of marks)
+      this.marks.takeDisc(...this.#pointOf(vertex), this.#reach(mark));
+    if (this.plan.roadmap.hasCells) return;
+    const { bothWays, oneWay } = this.plan.roadmap.lanes;
+    const half = this.sizes.lane / 2;
+    for (const [tail, head] of [...bothWays, ...oneWay]) {
+      const [[x, y], [toX, toY]] = [this.#pointOf(tail), this.#pointOf(head)];
+      if (
+        Math.max(x, toX) < 0 ||
+        Math.min(x, toX) > width ||
+        Math.max(y, toY) < 0 ||
+        Math.min(y, toY) > height
+      )
+        continue;
+      const pieces = Math.min(Math.ceil(Math.hypot(toX - x, toY - y) / (2 * half)), 300);
+      for (let i = 0; i <= pieces; i++) {
+        this.#lanes.takeDisc(x + ((toX - x) * i) / pieces, y + ((toY - y) * i) / pieces, half);
+      }
+    }
+  }
+
+  /** How far a mark reaches from its vertex. */
+  #reach({ homeOf, isStop }) {
+    if (homeOf) return this.sizes.homeOf(homeOf);
+    return isStop ? this.sizes.stop : this.sizes.sign;
+  }
+
+  /** A box for the name of a place, or null without room; names of homes and stops may cover a lane. */
+  #spot(vertex, wide, mark) {
+    const [x, y] = this.#pointOf(vertex);
+    const high = PLACE_TYPE + 2;
+    const { scale } = this.viewport;
+    const mayCover = mark && (mark.robots.length > 0 || scale >= NAMED_CELL);
+    if (this.plan.roadmap.rows && scale >= NAMED_CELL) {
+      const inset = Math.min(Math.max((scale - 60) * 0.1, 1.5), 7); // beside the corner of a home
+      const [left, top] = [x - scale / 2 + inset, y - scale / 2 + inset];
+      return wide < scale - 2 * inset ? [left, top, left + wide, top + high] : null;
+    }
+    const radius = Math.max(this.sizes.lane / 2, this.sizes.vertex, mark ? this.#reach(mark) : 0);
+    const boxes = SIDES.map((side) => boxBeside(x, y, radius, wide, high, side));
+    const free = boxes.filter((box) => this.names.isFree(...box) && this.marks.isFree(...box));
+    return free.find((box) => this.#lanes.isFree(...box)) ?? (mayCover ? (free[0] ?? null) : null);
+  }
+
+  /** The vertices that may have a name, in the order of their importance. */
+  #named(marks) {
+    const { roadmap } = this.plan;
+    const isChosen = (vertex) =>
+      marks
+        .get(vertex)
+        .robots.some((index) => this.choice.robotIndex >= 0 && this.choice.standsOut(index));
+    if (roadmap.hasCells && this.viewport.scale < NAMED_CELL) {
+      const shown = [...marks.keys()].filter(
+        (vertex) => this.plan.robots.length <= FEW_MARKS || isChosen(vertex),
+      );
+      return new Set([...(this.choice.decision?.vertices ?? []), ...shown]);
+    }
+    const chosenFirst = [...marks.keys()].sort((one, other) => isChosen(other) - isChosen(one));
+    return new Set([...chosenFirst, ...Array(roadmap.size).keys()]);
+  }
+
+  /** The homes and stops, each with its robots, then stations, parking places and chargers. */
+  #usedPlaces() {
+    const places = new Map();
+    const at = (vertex) => {
+      if (!places.has(vertex)) places.set(vertex, { robots: [], homeOf: null, isStop: false });
+      return places.get(vertex);
+    };
+    for (const robot of this.plan.robots) {
+      for (const vertex of [robot.home, ...robot.stages.map((stage) => stage.vertex)]) {
+        const place = at(vertex);
+        place.robots.push(robot.index);
+        if (vertex === robot.home) place.homeOf = robot;
+        else place.isStop = true;
+      }
+    }
+    const { stations, parking, charging } = this.plan.roadmap;
+    for (const vertex of [...stations.keys(), ...parking, ...charging]) at(vertex);
+    return places;
+  }
+}
