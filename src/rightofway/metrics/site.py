@@ -193,9 +193,9 @@ def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
     vertices = _counted(inspection.vertices, "vertex", "vertices")
     edges = _counted(inspection.edges, "directed edge")
     places = _counted(inspection.places, "place")
-    width, height = _extent(site.roadmap)
-    extent = f"{decimal(width)} x {site.units.written_length(height)}"
-    found = [f"{vertices}, {edges}{one_way}, {extent}; {places}."]
+    across, down = extent(site.roadmap)
+    width, height = decimal(across), site.units.written_length(down)
+    found = [f"{vertices}, {edges}{one_way}, {width} x {height}; {places}."]
     if len(inspection.parts) == 1:
         found.append("All vertices reach each other.")
     else:
@@ -210,8 +210,14 @@ def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:
-    """Return how wide and high a roadmap is; cells reach beyond their middles [length unit]."""
+def extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:
+    """Return how wide and high a roadmap is; cells reach beyond their middles [length unit].
+
+    Parameters
+    ----------
+    roadmap
+        The roadmap.
+    """
     if roadmap.grid is not None:
         grid = roadmap.grid
         return grid.columns * grid.cell_size, grid.rows * grid.cell_size

@@ -16,7 +16,7 @@ from rightofway.io.faults import checked
 from rightofway.studio.errors import StudioError
 from rightofway.studio.guard import Access, Guard, error_body
 from rightofway.studio.messages import as_error
-from rightofway.studio.routes import documents, pages, planning
+from rightofway.studio.routes import documents, glances, pages, planning
 from rightofway.studio.routes.models import kind_of
 from rightofway.studio.session import Studio
 
@@ -62,7 +62,7 @@ def create_app(studio: Studio, access: Access, *, has_page: bool = True) -> Fast
         lifespan=life,
     )
     app.state.studio = studio
-    for router in (pages.about, documents.router, planning.router):
+    for router in (pages.about, documents.router, glances.router, planning.router):
         app.include_router(router, prefix=API)
     if has_page:
         app.include_router(pages.router)

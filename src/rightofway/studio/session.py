@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import tempfile
 from pathlib import Path
@@ -26,6 +27,9 @@ DESK_LIMIT = 60.0
 
 PLAYED = 40_000_000
 """Payloads of plans that are kept in memory, because many browsers watch the same ones [bytes]."""
+
+GLANCED = 20_000_000
+"""Glances at files that are kept in memory [bytes]."""
 
 
 class Studio:
@@ -55,6 +59,8 @@ class Studio:
         self.desk = Crew(*place, size=DESK, queue=DESK_QUEUE)
         self.planners = Crew(*place, size=planners, queue=planners)
         self.played = SharedAnswers(PLAYED)
+        self.glanced = SharedAnswers(GLANCED)
+        self.glancing = asyncio.Semaphore(1)  # so that a list of files delays no other request
         self.runs = Runs(self.store, self.planners, self.desk)
 
     async def start(self) -> None:

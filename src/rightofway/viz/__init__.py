@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rightofway.viz.page.payload import payload_of
     from rightofway.viz.page.widget import bundle_of
     from rightofway.viz.raster.picture import Film, png_of, write_gif, write_png
+    from rightofway.viz.raster.preview import preview_of
 
 _MODULES = {
     "page.background": ("Background",),
@@ -25,6 +26,7 @@ _MODULES = {
     "page.payload": ("payload_of",),
     "page.widget": ("bundle_of",),
     "raster.picture": ("Film", "png_of", "write_gif", "write_png"),
+    "raster.preview": ("preview_of",),
     "notebook": ("scenario_html",),
 }
 
@@ -37,6 +39,7 @@ __all__ = [
     "page_of",
     "payload_of",
     "png_of",
+    "preview_of",
     "scenario_html",
     "site_data",
     "write_gif",

@@ -9,7 +9,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from rightofway.studio.tasks import asking, dealing, documents, editing, planning, views
+from rightofway.studio.tasks import (
+    asking,
+    dealing,
+    documents,
+    editing,
+    glancing,
+    planning,
+    views,
+)
 
 Task = Callable[..., tuple[Any, ...]]
 
@@ -17,6 +25,8 @@ TASKS: dict[str, Task] = {
     "open": documents.opened,
     "validate": documents.validated,
     "inspect": documents.inspected,
+    "glance": glancing.glanced,
+    "example": glancing.example,
     "survey": editing.surveyed,
     "inline": editing.inlined,
     "write": documents.written,

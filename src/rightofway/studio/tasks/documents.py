@@ -53,7 +53,7 @@ def opened(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None) -
         return (_with_faults(file),)
     if isinstance(found, Plan):
         return ({"kind": "plan", "figures": figures(found)}, plan_text(found).encode())
-    return ({**_of_loaded("scenario", found), "document": _raw(file)},)
+    return ({**_of_loaded("scenario", found), "document": raw_document(file)},)
 
 
 def _of_loaded(kind: str, loaded: Loaded) -> dict[str, Any]:
@@ -70,7 +70,8 @@ def _with_faults(file: Path) -> dict[str, Any]:
     raise AssertionError("a file with faults is refused")
 
 
-def _raw(file: Path) -> Any:
+def raw_document(file: Path) -> Any:
+    """Return what stands in a YAML or JSON file, as plain data."""
     with document_of(file) as document:
         return plain(document)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, InputFault
-from rightofway.io import dump_scenario
+from rightofway.io import Loaded, dump_scenario
 from rightofway.io.faults import checked
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.sites import sites_of
@@ -36,20 +36,15 @@ def surveyed(
     A robot of the site has the `index` that it has in the document. The site is null where the map
     itself has faults.
     """
-    faults: Sequence[InputFault] = ()
-    kept, notes = list(_robots(document)), tuple[str, ...]()
+    notes = tuple[str, ...]()
     site, closures = None, list[dict[str, Any]]()
-    try:
-        loaded = loaded_of(document, folder)
-    except InputError as error:
-        faults = error.faults
-        loaded, kept = _without(document, folder, faults)
+    loaded, kept, faults = readable(document, folder)
     if loaded is not None:
         scenario, notes = loaded.scenario, loaded.notes
         ((_, site),) = sites_of(scenario, notes).sites
         closures = [closure_data(closure, scenario) for closure in scenario.closures]
     else:
-        site = _map_alone(document, folder)
+        site = drawn_map(document, folder)
     answer: dict[str, Any] = {
         "ok": not faults,
         "faults": [fault_data(each) for each in faults],
@@ -73,12 +68,27 @@ def surveyed(
     return (None, compact_json(answer).encode())
 
 
+def readable(
+    document: dict[str, Any], folder: str
+) -> tuple[Loaded | None, list[int], Sequence[InputFault]]:
+    """Return the scenario of a document, which robots it has, and the faults of the document.
+
+    It is without what has faults, and None where the map has some.
+    """
+    try:
+        return loaded_of(document, folder), list(_robots(document)), ()
+    except InputError as error:
+        return *_without(document, folder, error.faults), error.faults
+
+
 def _robots(document: dict[str, Any]) -> range:
     robots = document.get("robots")
     return range(len(robots) if isinstance(robots, list) else 0)
 
 
-def _without(document: dict[str, Any], folder: str, faults: Sequence[InputFault]) -> Any:
+def _without(
+    document: dict[str, Any], folder: str, faults: Sequence[InputFault]
+) -> tuple[Loaded | None, list[int]]:
     """Return the scenario without what has faults, and which robots it has; or None, and none."""
     wrong = {int(found[1]) for each in faults if (found := ROBOT.match(each.place))}
     kept = [index for index in _robots(document) if index not in wrong]
@@ -94,7 +104,7 @@ def _without(document: dict[str, Any], folder: str, faults: Sequence[InputFault]
         return None, []
 
 
-def _map_alone(document: dict[str, Any], folder: str) -> Site | None:
+def drawn_map(document: dict[str, Any], folder: str) -> Site | None:
     """Return the map of a document whose robots cannot be read; None if it cannot either."""
     from rightofway.io.scenario.shape import MapDocument, UnitsDocument
 

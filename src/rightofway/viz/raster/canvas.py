@@ -1,4 +1,4 @@
-"""What is drawn and with what: a plan prepared for drawing, and a pen over an image of Pillow."""
+"""What is drawn and with what: a site or a plan prepared for drawing, and a pen over an image."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from rightofway.model import Plan
+from rightofway.model import Plan, Roadmap
 from rightofway.viz.motion import end_of, trips_of
 from rightofway.viz.palette import Theme, mix, robot_colours
 from rightofway.viz.placement import plane_of
@@ -27,26 +27,33 @@ CORNER = 0.16
 """Radius of a square's round corners, as a share of its side."""
 
 
-class Scene:
+class Ground:
+    """A roadmap prepared for drawing."""
+
+    def __init__(self, roadmap: Roadmap, theme: Theme) -> None:
+        self.roadmap, self.theme = roadmap, theme
+        self.plane = plane_of(roadmap)
+        self.points: list[Point] = [(x, y) for x, y in self.plane.points.tolist()]
+        tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+        self.edges = list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
+        self.ground = theme.floor if roadmap.has_cells else theme.paper
+
+    def faint(self, colour: str, share: float) -> str:
+        """Return a colour as it looks when it covers only a share of the ground."""
+        return mix(self.ground, colour, share)
+
+
+class Scene(Ground):
     """A plan prepared for drawing; from its tick `end` on nothing happens any more."""
 
     def __init__(self, plan: Plan, theme: Theme) -> None:
-        self.plan, self.theme = plan, theme
-        self.roadmap = plan.scenario.roadmap
+        super().__init__(plan.scenario.roadmap, theme)
+        self.plan = plan
         self.trips = trips_of(plan)
         self.colours = robot_colours(len(self.trips))
         self.end = max(end_of(self.trips), 1)
         self.verdict = verdict_on(plan)
         self.faulty = sorted({robot for fault in self.verdict.faults for robot in fault.robots})
-        self.plane = plane_of(self.roadmap)
-        self.points: list[Point] = [(x, y) for x, y in self.plane.points.tolist()]
-        tails = np.repeat(np.arange(self.roadmap.n_vertices), np.diff(self.roadmap.indptr))
-        self.edges = list(zip(tails.tolist(), self.roadmap.heads.tolist(), strict=True))
-        self.ground = theme.floor if self.roadmap.has_cells else theme.paper
-
-    def faint(self, colour: str, share: float) -> str:
-        """Return a colour as it looks when it covers only a share of the ground."""
-        return mix(self.ground, colour, share)
 
 
 class Pen:

@@ -16,9 +16,9 @@ from rightofway.model import Grid
 from rightofway.viz.motion import Activity, Moment
 from rightofway.viz.page.background import Background, place_of, unreadable
 from rightofway.viz.palette import ink_on
-from rightofway.viz.raster.canvas import Pen, Point, Scene
+from rightofway.viz.raster.canvas import Ground, Pen, Point, Scene
 from rightofway.viz.raster.names import Label, Names
-from rightofway.viz.raster.sizes import MOST_ROUTES, Sizes
+from rightofway.viz.raster.sizes import MOST_ROUTES, LaneSizes, Sizes
 
 ARROW_GAP = 56
 """Between two arrow heads of a lane, about [pixels]."""
@@ -38,6 +38,16 @@ DIAL = {"point": 1.38, "size": 0.62}
 
 def draw_ground(pen: Pen, scene: Scene, sizes: Sizes, *, routes: bool) -> None:
     """Draw what does not move, with the routes of all robots if wanted."""
+    draw_roadmap(pen, scene, sizes)
+    for robot in range(len(scene.trips)) if routes else ():
+        _route(pen, scene, sizes, robot)
+    for robot in range(len(scene.trips)):
+        _home(pen, scene, sizes, robot)
+    _stops(pen, scene, sizes)
+
+
+def draw_roadmap(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
+    """Draw cells or lanes, and the picture of the site."""
     if scene.roadmap.grid is not None:
         _grid(pen, scene, scene.roadmap.grid)
         _picture(pen, scene)
@@ -47,14 +57,9 @@ def draw_ground(pen: Pen, scene: Scene, sizes: Sizes, *, routes: bool) -> None:
     else:
         _picture(pen, scene)
         _network(pen, scene, sizes)
-    for robot in range(len(scene.trips)) if routes else ():
-        _route(pen, scene, sizes, robot)
-    for robot in range(len(scene.trips)):
-        _home(pen, scene, sizes, robot)
-    _stops(pen, scene, sizes)
 
 
-def _picture(pen: Pen, scene: Scene) -> None:
+def _picture(pen: Pen, scene: Ground) -> None:
     """Draw the picture of the site; over cells, as these have no gaps."""
     if scene.roadmap.drawing.picture is None:
         return
@@ -68,7 +73,7 @@ def _picture(pen: Pen, scene: Scene) -> None:
         raise unreadable(background.picture) from None
 
 
-def _grid(pen: Pen, scene: Scene, grid: Grid) -> None:
+def _grid(pen: Pen, scene: Ground, grid: Grid) -> None:
     lines, theme, hair = grid.lines(), scene.theme, pen.hairline
     right, bottom = len(lines[0]) - 0.5, len(lines) - 0.5
     pen.box((-0.5, -0.5), (right, bottom), theme.floor)
@@ -84,7 +89,7 @@ def _grid(pen: Pen, scene: Scene, grid: Grid) -> None:
     pen.line(border, theme.wall, hair)
 
 
-def _squares(pen: Pen, scene: Scene, halves: NDArray[np.float64]) -> None:
+def _squares(pen: Pen, scene: Ground, halves: NDArray[np.float64]) -> None:
     """Draw the cells of a quadtree; half their sides are given."""
     corner = (scene.plane.width - 0.5, scene.plane.height - 0.5)
     pen.box((-0.5, -0.5), corner, scene.theme.wall)
@@ -94,7 +99,7 @@ def _squares(pen: Pen, scene: Scene, halves: NDArray[np.float64]) -> None:
         pen.box((x - inner, y - inner), (x + inner, y + inner), scene.theme.floor)
 
 
-def _network(pen: Pen, scene: Scene, sizes: Sizes) -> None:
+def _network(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
     """Draw lanes: broad where both ways are driven, narrower with arrow heads for one way."""
     theme, edges = scene.theme, set(scene.edges)
     _zones(pen, scene, sizes)
@@ -112,7 +117,7 @@ def _network(pen: Pen, scene: Scene, sizes: Sizes) -> None:
         pen.disc(point, (sizes.vertex - 1.25) * pen.hairline, theme.paper)
 
 
-def _zones(pen: Pen, scene: Scene, sizes: Sizes) -> None:
+def _zones(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
     """Draw the members of each zone as a band."""
     colour, width = scene.faint(scene.theme.zone, 0.35), sizes.zone * pen.hairline
     for zone in scene.roadmap.zones:
@@ -122,7 +127,7 @@ def _zones(pen: Pen, scene: Scene, sizes: Sizes) -> None:
             pen.disc(scene.points[vertex], width / 2, colour)
 
 
-def _arrows(pen: Pen, scene: Scene, sizes: Sizes, tail: Point, head: Point) -> None:
+def _arrows(pen: Pen, scene: Ground, sizes: LaneSizes, tail: Point, head: Point) -> None:
     (x, y), right, down = tail, head[0] - tail[0], head[1] - tail[1]
     size = min(max(sizes.lane * 0.32, 3), 5)
     length = math.hypot(right, down) * pen.scale

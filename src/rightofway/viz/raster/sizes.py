@@ -24,8 +24,35 @@ MOST_ROUTES = 5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Sizes:
-    """Sizes in a picture [pixels].
+class LaneSizes:
+    """Sizes of a roadmap in a picture [pixels].
+
+    Attributes
+    ----------
+    lane
+        Width of a lane that is driven both ways.
+    vertex
+        Radius of a vertex.
+    zone
+        Width of the band of a zone.
+    """
+
+    lane: float
+    vertex: float
+    zone: float
+
+    @classmethod
+    def at(cls, scale: float, *, is_grid: bool) -> LaneSizes:
+        """Return the sizes at a scale [pixels for a unit]."""
+        lane = min(max(scale * 0.42, 7), max(scale * 0.8, 1.5), 18)
+        return cls(
+            lane=lane, vertex=min(lane * 0.45, 5.5), zone=scale if is_grid else lane * 1.5 + 8
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sizes(LaneSizes):
+    """Sizes of robots and all else in a picture [pixels].
 
     Attributes
     ----------
@@ -35,12 +62,6 @@ class Sizes:
         Half the side of the frame of each robot's home.
     stop
         Half the width of a stop's diamond.
-    lane
-        Width of a lane that is driven both ways.
-    vertex
-        Radius of a vertex of a roadmap.
-    zone
-        Width of the band of a zone.
     route, apart
         Width of a route, and how far two routes on one way are apart.
     """
@@ -48,9 +69,6 @@ class Sizes:
     robots: tuple[float, ...]
     homes: tuple[float, ...]
     stop: float
-    lane: float
-    vertex: float
-    zone: float
     route: float
     apart: float
 
@@ -73,16 +91,16 @@ def sizes_of(scene: Scene, scale: float) -> Sizes:
         in_cell if radius and is_grid else max(in_cell, robot + 1.5)
         for radius, robot in zip(radii, robots, strict=True)
     )
-    lane = min(max(scale * 0.42, 7), max(scale * 0.8, 1.5), 18)
+    lanes = LaneSizes.at(scale, is_grid=is_grid)
     route = min(max(scale * 0.04, 1.5), 4)
-    beside = (scale * 0.45 if is_grid else lane * 0.6) / min(len(scene.trips), MOST_ROUTES)
+    beside = (scale * 0.45 if is_grid else lanes.lane * 0.6) / min(len(scene.trips), MOST_ROUTES)
     return Sizes(
         robots=robots,
         homes=homes,
         stop=max(min(max(robots) * 0.75, 17), 3),
-        lane=lane,
-        vertex=min(lane * 0.45, 5.5),
-        zone=scale if is_grid else lane * 1.5 + 8,
+        lane=lanes.lane,
+        vertex=lanes.vertex,
+        zone=lanes.zone,
         route=route,
         apart=min(route + 1, beside),
     )

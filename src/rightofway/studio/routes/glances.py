@@ -1,0 +1,83 @@
+"""What a list of files shows of each, and the examples of the package."""
+
+from __future__ import annotations
+
+import base64
+import json
+from typing import Annotated, Any, Literal
+
+from fastapi import APIRouter, Path, Query, Response
+
+from rightofway.cli.examples import example_names, examples_folder, first_sentence
+from rightofway.studio.errors import Refused
+from rightofway.studio.routes.models import InStudio
+from rightofway.studio.session import Studio
+
+router = APIRouter()
+
+Source = Literal["files", "drafts", "examples"]
+Named = Annotated[str, Path(description="path of a file, name of a draft or of an example")]
+
+
+def scenario_examples() -> dict[str, str]:
+    """Return the examples to begin with: their names, and what they show, in a sentence."""
+    names = [name for name in example_names() if "/" not in name]
+    files = {name: examples_folder() / f"{name}.yaml" for name in names}
+    return {name: first_sentence(file) for name, file in files.items() if file.is_file()}
+
+
+@router.get("/examples", tags=["files"])
+def list_examples() -> dict[str, Any]:
+    """List the examples of the package."""
+    found = scenario_examples()
+    return {"examples": [{"name": name, "sentence": text} for name, text in found.items()]}
+
+
+@router.get("/examples/{name}", tags=["files"])
+async def example(studio: InStudio, name: Named) -> dict[str, Any]:
+    """Return an example as a document that names no other file."""
+    result, _ = await studio.ask("example", name=_known(name))
+    return {"kind": "scenario", **result}
+
+
+@router.get("/glances/{source}/{name:path}", tags=["files"], response_class=Response)
+async def glance(
+    studio: InStudio,
+    source: Source,
+    name: Named,
+    dark: Annotated[bool, Query(description="whether the picture is for a dark page")] = False,
+) -> Response:
+    """Return what a file, draft or example is: kind, robots, extent, and a picture of its map.
+
+    The answer is kept until the file changes.
+    """
+    arguments, revision = _asked(studio, source, name)
+
+    async def make() -> bytes:
+        async with studio.glancing:
+            about, blobs = await studio.ask("glance", dark=dark, **arguments)
+        picture = "data:image/png;base64," + base64.b64encode(blobs[0]).decode()
+        return json.dumps({**about, "picture": picture}).encode()
+
+    content = await studio.glanced.get((source, name, revision, dark), make)
+    return Response(content, media_type="application/json")
+
+
+def _asked(studio: Studio, source: Source, name: str) -> tuple[dict[str, Any], object]:
+    """Return the arguments of the task, and what changes with what is looked at."""
+    if source == "files":
+        stat = studio.workspace.existing(name).stat()
+        return {"path": name}, (stat.st_mtime_ns, stat.st_size)
+    if source == "drafts":
+        found = studio.store.draft(name)
+        if found is None:
+            raise Refused(f"there is no draft {name!r} (see the list of drafts)", 404)
+        return {"document": found["document"]}, found["saved"]
+    return {"path": str(examples_folder() / f"{_known(name)}.yaml")}, None
+
+
+def _known(name: str) -> str:
+    known = scenario_examples()
+    if name not in known:
+        raise Refused(f"there is no example {name!r} (there are {', '.join(known)})", 404)
+    return name

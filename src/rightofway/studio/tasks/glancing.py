@@ -1,0 +1,76 @@
+"""A glance at a document, for lists: what it is, how large, and a small picture of its map."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from rightofway.cli.examples import examples_folder
+from rightofway.errors import InputError
+from rightofway.io import dump_scenario, is_layout, load_either, load_with_notes
+from rightofway.io.scenario.reader import read_scenario
+from rightofway.io.sites import Choice, Sites, read_sites, sites_of
+from rightofway.metrics.site import extent
+from rightofway.model import Plan, decimal
+from rightofway.studio.messages import Blobs, Emit
+from rightofway.studio.tasks.documents import Result, plain, raw_document
+from rightofway.studio.tasks.editing import drawn_map, readable
+from rightofway.viz import preview_of
+from rightofway.viz.palette import DARK, LIGHT
+
+
+def glanced(
+    _emit: Emit, _blobs: Blobs, *, path: str = "", document: Any = None, dark: bool = False
+) -> Result:
+    """Return what is at a path of the folder, or in a document; its picture is a blob.
+
+    A scenario with faults is looked at without what has faults.
+    """
+    kind, found = _file(Path(path)) if document is None else ("scenario", _document(document, "."))
+    site = max((site for _, site in found.sites), key=lambda each: each.roadmap.n_edges)
+    about = {
+        "kind": kind,
+        "what": found.what,
+        "robots": len(site.robots) if kind != "layout" else None,
+        "extent": [decimal(each) for each in extent(site.roadmap)],
+        "unit": site.units.length,
+    }
+    return (about, preview_of(site, theme=DARK if dark else LIGHT))
+
+
+def _file(file: Path) -> tuple[str, Sites]:
+    if is_layout(file):
+        return "layout", read_sites(file, Choice())
+    try:
+        found = load_either(file)
+    except InputError:
+        if file.suffix.lower() not in {".yaml", ".yml", ".json"}:
+            raise
+        document = raw_document(file)
+        if not isinstance(document, dict) or "map" not in document:
+            raise
+        return "scenario", _document(document, str(file.parent))
+    if isinstance(found, Plan):
+        return "plan", sites_of(found.scenario, ())
+    return "scenario", sites_of(found.scenario, found.notes)
+
+
+def _document(document: dict[str, Any], folder: str) -> Sites:
+    loaded, _, faults = readable(document, folder)
+    if loaded is not None:
+        return sites_of(loaded.scenario, loaded.notes)
+    site = drawn_map(document, folder)
+    if site is None:
+        raise InputError(faults)
+    return Sites(what="", notes=(), sites=(("", site),))
+
+
+def example(_emit: Emit, _blobs: Blobs, *, name: str) -> Result:
+    """Return an example of the package as a document that names no other file."""
+    file = examples_folder() / f"{name}.yaml"
+    document = raw_document(file)
+    try:
+        read_scenario(document, None)
+    except InputError:
+        document = plain(dump_scenario(load_with_notes(file).scenario))
+    return ({"document": document},)
