@@ -14,7 +14,7 @@ from PIL import Image
 
 from rightofway.model import Grid
 from rightofway.viz.motion import Activity, Moment
-from rightofway.viz.page.background import Background, place_of, unreadable
+from rightofway.viz.page.background import background_of, place_of, unreadable
 from rightofway.viz.palette import ink_on
 from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.names import Label, Names
@@ -56,9 +56,9 @@ def draw_ground(pen: Pen, scene: Scene, sizes: Sizes, *, routes: bool) -> None:
 
 def _picture(pen: Pen, scene: Scene) -> None:
     """Draw the picture of the site; over cells, as these have no gaps."""
-    if scene.roadmap.drawing.picture is None:
+    background = background_of(scene.roadmap)
+    if background is None:
         return
-    background = Background.of(scene.roadmap.drawing.picture)
     try:
         with Image.open(background.picture) as picture:
             place = place_of(scene.roadmap, background, *picture.size)
