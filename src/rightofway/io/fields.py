@@ -107,6 +107,13 @@ def _not_negative(value: object) -> Fraction:
     return number
 
 
+def _share(value: object) -> Fraction:
+    number = _not_negative(value)
+    if number > 1:
+        raise ValueError(f"{shown(value)} is above 1 (give a share from 0 to 1)")
+    return number
+
+
 def _number_schema(**bounds: int) -> Schema:
     pattern = PATTERN.replace("[+-]?", "[+]?" if bounds else "[+-]?", 1)
     return {"anyOf": [{"type": "number", **bounds}, {"type": "string", "pattern": f"^{pattern}$"}]}
@@ -118,6 +125,7 @@ _POSITIVE = _number_schema(exclusiveMinimum=0)
 
 Positive = Annotated[Fraction, Kind(positive, _POSITIVE)]
 NotNegative = Annotated[Fraction, Kind(_not_negative, _NOT_NEGATIVE)]
+Share = Annotated[Fraction, Kind(_share, _number_schema(minimum=0, maximum=1))]
 Angle = Annotated[Fraction, Kind(exact, _ANY)]
 TickLength = Annotated[Fraction, Kind(partial(exact, digits=COORDINATE_DIGITS), _ANY)]
 Count = Annotated[int, Field(ge=1)]

@@ -100,7 +100,7 @@ def load_plan(
     if foreign is not None:
         return foreign
     with document_of(path, text) as document:
-        return plan_of(document)
+        return plan_of(document, pictures=path.parent)
 
 
 def load_either(
@@ -136,7 +136,9 @@ def load_either(
     with document_of(path, text) as document:
         kind = document.get("format") if isinstance(document, dict) else None
         is_plan = isinstance(kind, str) and kind.startswith("rightofway-plan/")
-        return plan_of(document) if is_plan else read_scenario(document, path.parent)
+        if is_plan:
+            return plan_of(document, pictures=path.parent)
+        return read_scenario(document, path.parent)
 
 
 def _classic(path: Path, count: int | None) -> Loaded:

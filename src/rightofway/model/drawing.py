@@ -5,7 +5,7 @@ No plan depends on it, and roadmaps that differ in it alone are equal.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -22,23 +22,35 @@ class Picture:
     file
         The file, in a format that Pillow reads.
     pixel
-        Side of a pixel [length unit], above 0.
+        Side of a pixel [length unit], above 0; None where the picture is as wide as the map.
     corner
         The upper left corner of the picture in the site's frame [length unit].
+    origin
+        Its lower left corner, instead of the upper one; without both, that of the map.
     yaw
         Angle by which the picture is turned about that corner, from the site's x to its y [rad].
+    opacity
+        From 0 to 1; None for what a page takes by itself.
+    name
+        The file as a scenario names it; empty for the picture of a layout, which a plan file does
+        not name.
     """
 
     file: Path
-    pixel: Fraction
-    corner: Point
+    pixel: Fraction | None = None
+    corner: Point | None = None
+    origin: Point | None = None
     yaw: Fraction = Fraction(0)
+    opacity: Fraction | None = None
+    name: str = ""
 
     def scaled(self, metre: Fraction) -> Picture:
         """Return a picture in metres in another unit; ``metre`` is a metre in it."""
-        x, y = self.corner
-        corner = x * metre, y * metre
-        return Picture(file=self.file, pixel=self.pixel * metre, corner=corner, yaw=self.yaw)
+        return replace(
+            self,
+            pixel=self.pixel and self.pixel * metre,
+            corner=self.corner and (self.corner[0] * metre, self.corner[1] * metre),
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,6 +66,9 @@ class Drawing:
     curves
         Tail and head of each edge that is one curve, with the points between them in the site's
         frame [length unit].
+    controls
+        Tail and head of each edge that the scenario draws as a Bézier curve, with its control
+        points between the ends in the site's frame [length unit].
     picture
         The picture that lies below the map.
     """
@@ -62,4 +77,5 @@ class Drawing:
     parking: tuple[VertexId, ...] = ()
     charging: tuple[VertexId, ...] = ()
     curves: tuple[tuple[VertexId, VertexId, tuple[Point, ...]], ...] = ()
+    controls: tuple[tuple[VertexId, VertexId, tuple[Point, ...]], ...] = ()
     picture: Picture | None = None

@@ -19,6 +19,9 @@ from rightofway.model.geometry import (
     straight_length,
 )
 
+STRAIGHT = 2
+"""Points of a straight way: both ends."""
+
 PIECE = re.compile("(.+)/[1-9][0-9]*")
 """The name of a vertex between two pieces of a lane."""
 
@@ -91,7 +94,7 @@ def split_lanes(
                 *curves.get((edge.tail, edge.head), ()),
                 positions[edge.head],
             ]
-            lengths = _lengths(points, longest[lane])
+            lengths = lengths_along(points) if len(points) > STRAIGHT else [longest[lane]]
             inside, parts = _cuts(points, lengths, spacing)
             names = [f"{edge.tail}-{edge.head}/{k}" for k in range(1, len(inside) + 1)]
             for name, point in zip(names, inside, strict=True):
@@ -130,13 +133,16 @@ def _lane(edge: Edge, curves: Mapping[tuple[str, str], tuple[Point, ...]]) -> La
     return frozenset(ends) if there == back[::-1] else ends
 
 
-def _lengths(points: Sequence[Point], length: Fraction) -> list[Fraction]:
-    """Return the lengths of the parts of a way; of a straight one, the length that is given.
+def lengths_along(points: Sequence[Point]) -> list[Fraction]:
+    """Return the lengths of the straight parts of a curve, each rounded up [length unit].
 
-    Parts of a curve that differ by rounding only get one length, so that a tick need not be short.
+    Parts that differ by rounding only get one length, so that a tick need not be short.
+
+    Parameters
+    ----------
+    points
+        Both ends of each part, in order [length unit].
     """
-    if len(points) == 2:  # noqa: PLR2004 - both ends
-        return [length]
     parts = [straight_length(squared_distance(*ends)) for ends in pairwise(points)]
     longest = max(parts)
     return [longest] * len(parts) if longest - min(parts) <= 2 * COARSE else parts

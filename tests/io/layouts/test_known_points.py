@@ -306,5 +306,7 @@ def test_a_building_names_its_picture_or_says_that_it_is_missing(tmp_path: Path)
     assert two is not None
     assert (one.pixel, one.corner, one.yaw) == (Fraction(1, 20), at(0, 0), Fraction(0))
     # its pixel (50, 10) lies on (0, 0); two to the right in L1 are one down in L2
+    assert two.pixel is not None
+    assert two.corner is not None
     assert (float(two.pixel), float(two.yaw)) == pytest.approx((0.1, pi / 2))
     assert [float(it) for it in two.corner] == pytest.approx([-1.0, -5.0])

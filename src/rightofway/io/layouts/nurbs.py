@@ -1,4 +1,4 @@
-"""Trajectories of LIF and VDA 5050: NURBS curves, cut into straight pieces.
+"""Curves cut into straight pieces: NURBS, as trajectories of LIF and VDA 5050 are, and Béziers.
 
 References
 ----------
@@ -85,11 +85,16 @@ class Nurbs:
         knots = self.knots[0] + self.knots[-1] - self.knots[::-1]
         return replace(self, knots=knots, points=self.points[::-1], weights=self.weights[::-1])
 
-    def pieces(self) -> Points:
-        """Return the ends of straight pieces that stay within the chord error; shape (m, 2).
+    def pieces(self, chord_error: float = CHORD_ERROR) -> Points:
+        """Return the ends of straight pieces that stay within a chord error; shape (m, 2).
 
         Between corners, which are knots as often as the degree, pieces are equally long. A curve
         and the same curve driven back have the same ends.
+
+        Parameters
+        ----------
+        chord_error
+            How far the pieces may be from the curve, above 0 [m].
 
         Raises
         ------
@@ -97,14 +102,38 @@ class Nurbs:
             If that takes too many pieces.
         """
         if tuple(self.points[0]) > tuple(self.points[-1]):
-            return self.reversed().pieces()[::-1]
+            return self.reversed().pieces(chord_error)[::-1]
         inside = self.knots[self.degree : len(self.points) + 1]
         values, times = np.unique(inside, return_counts=True)
         ends = (values == inside[0]) | (values == inside[-1]) | (times >= self.degree)
         found = [self.at(inside[:1])]
         for begin, end in pairwise(values[ends].tolist()):
-            found.append(_cut(self.at(np.linspace(begin, end, SAMPLES)))[1:])
+            found.append(_cut(self.at(np.linspace(begin, end, SAMPLES)), chord_error)[1:])
         return np.concatenate(found)
+
+    def cut(self, count: int) -> Points:
+        """Return the ends of some pieces that are equally long along the curve.
+
+        Parameters
+        ----------
+        count
+            How many pieces, 1 or more.
+        """
+        first, last = self.knots[self.degree], self.knots[len(self.points)]
+        samples = self.at(np.linspace(first, last, max(SAMPLES, 20 * count)))
+        return _ends(samples, _along(samples), count)[1]
+
+
+def bezier(points: Points) -> Nurbs:
+    """Return a Bézier curve as a NURBS of one part.
+
+    Parameters
+    ----------
+    points
+        Its ends and the control points between them; float64, shape (n, 2).
+    """
+    knots = np.repeat([0.0, 1.0], len(points))
+    return Nurbs(degree=len(points) - 1, knots=knots, points=points, weights=np.ones(len(points)))
 
 
 def _share(top: Points, bottom: NDArray[np.float64]) -> Points:
@@ -113,16 +142,29 @@ def _share(top: Points, bottom: NDArray[np.float64]) -> Points:
     return np.where(bottom > 0, top / safe, 0.0)
 
 
-def _cut(samples: Points) -> Points:
+def _cut(samples: Points, chord_error: float) -> Points:
     """Return ends of the fewest pieces of equal length that are near to all samples."""
-    along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(samples, axis=0).T))))
+    along = _along(samples)
     for count in range(1, MAX_PIECES + 1):
-        cuts = np.linspace(0.0, along[-1], count + 1)
-        ends = np.column_stack([np.interp(cuts, along, axis) for axis in samples.T])
+        cuts, ends = _ends(samples, along, count)
         piece = np.clip(np.searchsorted(cuts, along, side="right") - 1, 0, count - 1)
-        if _deviation(samples, ends[piece], ends[piece + 1]) <= MARGIN * CHORD_ERROR:
+        if _deviation(samples, ends[piece], ends[piece + 1]) <= MARGIN * chord_error:
             return ends
     raise ValueError(f"the curve needs more than {MAX_PIECES} pieces")
+
+
+def _along(samples: Points) -> NDArray[np.float64]:
+    """Return how far along its samples each point of a curve is."""
+    found: NDArray[np.float64] = np.concatenate(
+        ([0.0], np.cumsum(np.hypot(*np.diff(samples, axis=0).T)))
+    )
+    return found
+
+
+def _ends(samples: Points, along: Points, count: int) -> tuple[Points, Points]:
+    """Return where pieces of equal length end: how far along, and the points."""
+    cuts = np.linspace(0.0, along[-1], count + 1)
+    return cuts, np.column_stack([np.interp(cuts, along, axis) for axis in samples.T])
 
 
 def _deviation(points: Points, begin: Points, end: Points) -> float:

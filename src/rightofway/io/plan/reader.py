@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rightofway.errors import InputError, nearest, shown
@@ -39,7 +40,7 @@ D = TypeVar("D", bound="BaseModel")
 T = TypeVar("T")
 
 
-def plan_of(document: Any, source: str = "") -> Plan:
+def plan_of(document: Any, source: str = "", pictures: Path | None = None) -> Plan:
     """Return the plan of a document.
 
     Parameters
@@ -48,6 +49,8 @@ def plan_of(document: Any, source: str = "") -> Plan:
         Plain data, as a plan file would hold.
     source
         The name of the document in messages.
+    pictures
+        The directory of the picture that its map was drawn over.
 
     Raises
     ------
@@ -60,7 +63,7 @@ def plan_of(document: Any, source: str = "") -> Plan:
         document = checked_format(document, PLAN_FORMAT)
         faults = Faults()
         frame = faults.attempt("", checked, PlanFrame, document)
-        loaded = faults.part(document, "scenario", read_scenario, None)
+        loaded = faults.part(document, "scenario", read_scenario, None, pictures)
         names = _Names.of(loaded.scenario) if loaded else None
         run = faults.part(document, "planner", _run, names)
         tracks = faults.part(document, "robots", _tracks, names)

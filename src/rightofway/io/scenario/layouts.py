@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 from rightofway.errors import InputError
 from rightofway.io.faults import under
 from rightofway.io.layouts import read_layout
-from rightofway.io.scenario.loaded_map import LoadedMap, joined_note
-from rightofway.model import Units, decimal, roadmap_of_grid
+from rightofway.io.scenario.loaded_map import LoadedMap, curve_note, joined_note
+from rightofway.model import Units, roadmap_of_grid
 from rightofway.model.drawing import Drawing
-from rightofway.model.layout import Layout, LevelRoadmap, roadmap_of_level
+from rightofway.model.layout import Layout, roadmap_of_level
 from rightofway.model.occupancy import CellMap, Occupancy
 from rightofway.model.quadtree import MAX_SMALLEST, roadmap_of_squares
 
@@ -58,7 +58,7 @@ def laid_out(
         )
         roadmap = made.roadmap
         stations = {name: roadmap.name(at) for name, at in roadmap.drawing.stations}
-        notes = (*found.notes, *made.notes, *_of_curves(made, units))
+        notes = (*found.notes, *made.notes, *curve_note(made.curves, made.chord_error, units))
         return LoadedMap(
             roadmap=roadmap,
             units=units,
@@ -68,15 +68,6 @@ def laid_out(
         )
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
     return _cut(document, found, units, metres, radius())
-
-
-def _of_curves(made: LevelRoadmap, units: Units) -> Iterator[str]:
-    if made.curves:
-        curves = f"{made.curves} curves are" if made.curves > 1 else "1 curve is"
-        error, twice = (f"{decimal(each * made.chord_error, 6)} {units.length}" for each in (1, 2))
-        near = f", which leave the curve by at most {error}: the clearance grows by {twice}"
-        near = near if made.chord_error else ""
-        yield f"{curves} cut into straight pieces for robots with a size{near}"
 
 
 def _cut(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
@@ -70,3 +70,16 @@ def joined_note(what: str, roadmap: Roadmap, cells: int, units: Units) -> str:
     if most > least:
         span = f"of {decimal(least)} to {units.written_length(most)}"
     return f"{what} cut into {len(roadmap.sides)} squares {span}, from {cells} free cells"
+
+
+def curve_note(curves: int, chord_error: Fraction, units: Units) -> Iterator[str]:
+    """Yield a sentence on the curves that are cut into straight pieces, if there are any."""
+    if curves:
+        what = f"{curves} curves are" if curves > 1 else "1 curve is"
+        error, twice = (
+            f"{decimal(each * chord_error, 6)} {units.length or ''}".rstrip() for each in (1, 2)
+        )
+        near = f", which leave the curve by at most {error}: the clearance grows by {twice}"
+        yield (
+            f"{what} cut into straight pieces for robots with a size{near if chord_error else ''}"
+        )

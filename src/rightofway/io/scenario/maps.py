@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults, under
 from rightofway.io.movingai import load_map
+from rightofway.io.scenario.curves import LaneCurve, lane_curve, spaced
 from rightofway.io.scenario.layouts import laid_out
-from rightofway.io.scenario.loaded_map import LoadedMap, joined_note
+from rightofway.io.scenario.loaded_map import LoadedMap, curve_note, joined_note
 from rightofway.model import (
     Edge,
     Floor,
@@ -67,7 +68,7 @@ def map_of(
         return laid_out(document, file_beside(base, document.layout), units, radius, types)
     if document.roadmap is not None:
         with under("roadmap"):
-            return _drawn(document.roadmap, document)
+            return _drawn(document.roadmap, document, units, has_sizes=radius() > 0)
     if document.floor is not None:
         if document.cell_size == "adaptive":
             return _joined_floor(document, speeds, radius(), units)
@@ -192,24 +193,38 @@ def _floor(document: FloorDocument, on: MapDocument) -> Floor:
     )
 
 
-def _drawn(document: RoadmapDocument, on: MapDocument) -> LoadedMap:
-    """Make a roadmap of its vertices and edges, or report every edge that is wrong."""
+def _drawn(
+    document: RoadmapDocument, on: MapDocument, units: Units, *, has_sizes: bool
+) -> LoadedMap:
+    """Make a roadmap of its vertices and edges, or report every edge that is wrong.
+
+    Robots with a size drive along the straight pieces of a curve.
+    """
     faults, edges, first = Faults(), list[Edge](), dict[tuple[str, str], int]()
+    curves = dict[tuple[str, str], LaneCurve]()
     positions = {name: vertex.at for name, vertex in document.vertices.items()}
     lengths = list[Fraction | None]()
     squares = {
         index: squared_distance(positions[edge.tail], positions[edge.head])
         for index, edge in enumerate(document.edges)
-        if edge.length is None and edge.tail in positions and edge.head in positions
+        if edge.length is None
+        and edge.curve is None
+        and edge.tail in positions
+        and edge.head in positions
     }
     step = rounding_step(squares.values())
     for index, edge in enumerate(document.edges):
         place, square = f"edges[{index}]", squares.get(index)
-        length = faults.attempt(place, _length, edge, positions, square, step)
+        found = faults.attempt(place, _length, edge, positions, square, step)
+        length, curve = found or (None, None)
         lengths.append(length)
         if length is None:
             continue
         there, back = (edge.tail, edge.head), (edge.head, edge.tail)
+        if curve:
+            curves[there] = curve
+        if curve and edge.both_ways:
+            curves[back] = curve.reversed()
         for tail, head in (there, back) if edge.both_ways else (there,):
             earlier = first.setdefault((tail, head), index)
             if earlier != index:
@@ -232,10 +247,11 @@ def _drawn(document: RoadmapDocument, on: MapDocument) -> LoadedMap:
         for zone in document.zones
     ]
     split = SplitLanes(positions, edges, {})
-    if on.spacing is not None:
-        if document.sides is not None:
-            raise InputError.at("sides", "cells are not split by spacing (take one of them out)")
-        split = split_lanes(positions, edges, on.spacing)
+    if on.spacing is not None and document.sides is not None:
+        raise InputError.at("sides", "cells are not split by spacing (take one of them out)")
+    is_cut = bool(curves) and has_sizes
+    if on.spacing is not None or is_cut:
+        split = split_lanes(positions, edges, on.spacing, _shapes(curves, positions, on, has_sizes))
     left, low = on.origin if on.origin and on.yaw else (Fraction(0), Fraction(0))
     drawn = {name: (float(x - left), float(y - low)) for name, (x, y) in split.positions.items()}
     frame = Frame(x=left, y=low, y_up=on.y_up, yaw=on.yaw or Fraction(0))
@@ -253,11 +269,43 @@ def _drawn(document: RoadmapDocument, on: MapDocument) -> LoadedMap:
         barred={name: it.barred for name, it in document.vertices.items() if it.barred},
         surcharges={name: it.surcharge for name, it in document.vertices.items() if it.surcharge},
     )
+    drawing = replace(_places(document, roadmap), **_bends(curves, roadmap))
+    error = max(each.error for each in curves.values()) if is_cut else Fraction(0)
     return LoadedMap(
-        roadmap=replace(roadmap, drawing=_places(document, roadmap)),
+        roadmap=replace(roadmap, drawing=drawing),
         stations=document.stations,
         rounding=note if rounded else None,
+        chord_error=error,
+        notes=tuple(curve_note(len({*map(frozenset, curves)}), error, units)) if is_cut else (),
     )
+
+
+def _shapes(
+    curves: Mapping[tuple[str, str], LaneCurve],
+    positions: Mapping[str, Point],
+    on: MapDocument,
+    has_sizes: bool,
+) -> dict[tuple[str, str], tuple[Point, ...]]:
+    """Return the points at which curves are cut; for robots without a size by spacing alone."""
+    if has_sizes or on.spacing is None:
+        return {ends: curve.points for ends, curve in curves.items()}
+    return {
+        (tail, head): spaced(curve, positions[tail], positions[head], on.spacing)
+        for (tail, head), curve in curves.items()
+    }
+
+
+def _bends(curves: Mapping[tuple[str, str], LaneCurve], roadmap: Roadmap) -> dict[str, Any]:
+    """Return the points and the control points of the curves that are one edge each."""
+    whole = [
+        (roadmap.vertex(tail), roadmap.vertex(head), curve)
+        for (tail, head), curve in curves.items()
+        if roadmap.edge(roadmap.vertex(tail), roadmap.vertex(head)) is not None
+    ]
+    return {
+        "curves": tuple((tail, head, curve.points) for tail, head, curve in whole),
+        "controls": tuple((tail, head, curve.controls) for tail, head, curve in whole),
+    }
 
 
 def _places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:
@@ -291,8 +339,8 @@ def _places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:
 
 def _length(
     edge: EdgeDocument, positions: Mapping[str, Point], square: Fraction | None, step: Fraction
-) -> Fraction:
-    """Return the length of an edge after checking its ends."""
+) -> tuple[Fraction, LaneCurve | None]:
+    """Return the length of an edge after checking its ends, and its curve."""
     faults = Faults()
     for place, name in (("from", edge.tail), ("to", edge.head)):
         if name not in positions:
@@ -302,4 +350,8 @@ def _length(
     if edge.tail == edge.head:
         faults.note("", f"leads from {edge.tail!r} to itself (take it out)")
     faults.stop()
-    return edge.length or straight_length(square or Fraction(0), step)
+    if edge.curve is None:
+        return edge.length or straight_length(square or Fraction(0), step), None
+    with under("curve"):
+        curve = lane_curve(positions[edge.tail], edge.curve, positions[edge.head])
+    return edge.length or curve.length, curve

@@ -28,6 +28,7 @@ from rightofway.io.scenario.fleet import (
 )
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.maps import map_of
+from rightofway.io.scenario.picture import with_picture
 from rightofway.model import Roadmap, Rules, Scenario, Units
 from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
@@ -83,8 +84,11 @@ def scenario_of(document: dict[str, Any], base: Path | None = None, source: str 
         return read_scenario(document, base).scenario
 
 
-def read_scenario(document: Any, base: Path | None) -> Loaded:
-    """Return the scenario of a document with notes; the work behind `load` and `scenario_of`."""
+def read_scenario(document: Any, base: Path | None, pictures: Path | None = None) -> Loaded:
+    """Return the scenario of a document with notes; the work behind `load` and `scenario_of`.
+
+    The picture below its map is in ``pictures``, by default in ``base``, where other files are.
+    """
     from rightofway.io.scenario.shape import (
         MapDocument,
         RulesDocument,
@@ -106,14 +110,16 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
         return Units(**checked(UnitsDocument, data).given("length", "time"))
 
     def loaded_map_of(data: Any) -> LoadedMap | None:
+        drawn = checked(MapDocument, data)
         found = map_of(
-            checked(MapDocument, data),
+            drawn,
             speeds,
             base,
             units,
             lambda: largest_radius(robots),
             types=lambda: types_of(robots),
         )
+        found = found and with_picture(found, drawn.picture, pictures or base)
         return found if found is None or found.units.length else replace(found, units=units)
 
     document = checked_format(document, SCENARIO_FORMAT)
@@ -121,7 +127,7 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     if isinstance(given, dict) and "table" in given:
         table = robots_in_table(given, base)
         with table.naming_cells():
-            return read_scenario({**document, "robots": table.part}, base)
+            return read_scenario({**document, "robots": table.part}, base, pictures)
     faults = Faults()
     faults.attempt("", checked, ScenarioFrame, document)
     rules = faults.part(document, "rules", rules_of) or Rules()

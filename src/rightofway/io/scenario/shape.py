@@ -23,6 +23,7 @@ from rightofway.io.fields import (
     Positive,
     Rectangle,
     RobotSize,
+    Share,
     Size,
     Turning,
     Words,
@@ -74,7 +75,14 @@ class EdgeDocument(Document):
     tail: Name = Field(alias="from", description="the name of the vertex it begins at")
     head: Name = Field(alias="to", description="the name of the vertex it leads to")
     length: Positive = optional(
-        "its length [length unit]; by default the straight distance, rounded up to 1/1000"
+        "its length [length unit]; by default the straight distance, or that along its curve,"
+        " rounded up to 1/1000"
+    )
+    curve: list[Position] = optional(
+        "control points of a Bézier curve from one end to the other: one or two [x, y]"
+        " [length unit]; straight by default",
+        min_length=1,
+        max_length=2,
     )
     both_ways: bool = Field(default=True, description="true or false: can it be driven back?")
     max_speed: Positive = optional("its speed limit [length unit per time unit]; none by default")
@@ -143,6 +151,18 @@ class ZoneDocument(Document):
     def _read_pairs(cls, data: Any) -> Any:
         pairs = isinstance(data, list) and all(isinstance(one, list) for one in data)
         return [tuple(one) for one in data] if pairs else data
+
+
+class PictureDocument(Document):
+    """A picture that the map is drawn over; no plan depends on it."""
+
+    file: Name = Field(description="a PNG, JPEG or PGM file, relative to the scenario's own")
+    scale: Positive = optional("length of a pixel [length unit]; by default as wide as the map")
+    origin: Position = optional(
+        "[x, y] of its lower left corner on the site [length unit]; by default that of the map"
+    )
+    yaw: Angle = optional("angle by which it is turned about that corner, from x to y [rad]")
+    opacity: Share = optional("how strong it is, from 0 to 1; 0.6 by default")
 
 
 class RoadmapDocument(Document):
@@ -228,6 +248,7 @@ class MapDocument(Document):
         default=[], description="names of blocked cells of a grid or file: a list of rectangles"
     )
     spacing: Positive = optional("split longer edges of a roadmap into pieces [length unit]")
+    picture: PictureDocument = optional("{file, scale, origin, opacity}: a picture below the map")
 
     @model_validator(mode="after")
     def _check_one_map(self) -> Self:

@@ -10,7 +10,8 @@ from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.text import json_text
-from rightofway.model import Roadmap, Robot, Rules, Scenario, Turn, Units
+from rightofway.model import Roadmap, Robot, Rules, Scenario, Turn, Units, VertexId
+from rightofway.model.drawing import Picture
 from rightofway.model.values import written
 
 
@@ -121,6 +122,26 @@ def _units(units: Units) -> dict[str, Any]:
 
 
 def _map(roadmap: Roadmap) -> dict[str, Any]:
+    return {**_shape(roadmap), **_picture(roadmap.drawing.picture)}
+
+
+def _picture(picture: Picture | None) -> dict[str, Any]:
+    """Return the picture below a map, if a scenario has named it."""
+    if picture is None or not picture.name:
+        return {}
+    found: dict[str, Any] = {"file": picture.name}
+    if picture.pixel is not None:
+        found["scale"] = written(picture.pixel)
+    if picture.origin is not None:
+        found["origin"] = [written(part) for part in picture.origin]
+    if picture.yaw:
+        found["yaw"] = written(picture.yaw)
+    if picture.opacity is not None:
+        found["opacity"] = written(picture.opacity)
+    return {"picture": found}
+
+
+def _shape(roadmap: Roadmap) -> dict[str, Any]:
     grid, frame = roadmap.grid, roadmap.frame
     y = {"y": "up"} if frame.y_up else {}
     yaw = {"yaw": written(frame.yaw)} if frame.yaw else {}
@@ -147,6 +168,10 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
     vertices: dict[str, Any] = {name(vertex): position for vertex, position in enumerate(positions)}
     for vertex, types in roadmap.barred_vertices.items():
         vertices[name(vertex)] = {"at": positions[vertex], "barred": sorted(types)}
+    curves = {
+        (tail, head): {"curve": [[written(part) for part in point] for point in points]}
+        for tail, head, points in roadmap.drawing.controls
+    }
     edges = [
         {
             "from": name(tail),
@@ -154,6 +179,7 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
             "length": written(roadmap.lengths[roadmap.length_class[edge]]),
             "both_ways": False,
             **_of_class(roadmap, int(roadmap.length_class[edge])),
+            **curves.get((VertexId(tail), VertexId(int(roadmap.heads[edge]))), {}),
         }
         for tail in range(roadmap.n_vertices)
         for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1]))

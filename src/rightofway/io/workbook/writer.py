@@ -277,6 +277,8 @@ def _cell(value: Any) -> Any:
     """Return a value of a document as a cell holds it."""
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, dict):
+        return json.dumps(value, ensure_ascii=False)
     if isinstance(value, list | tuple) and all(isinstance(item, str) for item in value):
         return json.dumps(value, ensure_ascii=False)  # a name may look like a number
     return f"[{', '.join(map(str, value))}]" if isinstance(value, list | tuple) else value

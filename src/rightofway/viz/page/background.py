@@ -67,14 +67,29 @@ class Background:
 
     @classmethod
     def of(cls, picture: Picture) -> Background:
-        """Return the picture of a layout where the layout says that it lies."""
-        x, y = picture.corner
+        """Return the picture of a map where its scenario or layout says that it lies."""
+        origin, corner = picture.origin, picture.corner
         return cls(
             picture=picture.file,
-            scale=float(picture.pixel),
-            corner=(float(x), float(y)),
+            scale=None if picture.pixel is None else float(picture.pixel),
+            origin=origin and (float(origin[0]), float(origin[1])),
+            corner=corner and (float(corner[0]), float(corner[1])),
             yaw=float(picture.yaw),
+            opacity=OPACITY if picture.opacity is None else float(picture.opacity),
         )
+
+
+def background_of(roadmap: Roadmap) -> Background | None:
+    """Return the picture that a roadmap is drawn over; None where a scenario's is missing.
+
+    Parameters
+    ----------
+    roadmap
+        The roadmap.
+    """
+    picture = roadmap.drawing.picture
+    is_missing = picture is None or (picture.name and not picture.file.is_file())
+    return None if is_missing or picture is None else Background.of(picture)
 
 
 def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rightofway.model import Grid, Point, Roadmap
 from rightofway.model.resources import close_pairs
-from rightofway.viz.page.background import Background, background_data
+from rightofway.viz.page.background import Background, background_data, background_of
 from rightofway.viz.placement import Plane, plane_of
 
 DECIMALS = {"grid": 3, "network": 6}
@@ -82,8 +82,7 @@ def map_data(
         "close": _close(roadmap, room) if room and grid is None else {},
     }
     found |= {key: value for key, value in marks.items() if value}
-    if background is None and drawing.picture is not None:
-        background = Background.of(drawing.picture)
+    background = background or background_of(roadmap)
     return found | ({"background": background_data(roadmap, background)} if background else {})
 
 

@@ -14,7 +14,7 @@ from PIL import Image
 
 from rightofway.model import Grid
 from rightofway.viz.motion import Activity, Moment
-from rightofway.viz.page.background import Background, place_of, unreadable
+from rightofway.viz.page.background import background_of, place_of, unreadable
 from rightofway.viz.palette import ink_on
 from rightofway.viz.raster.canvas import Ground, Pen, Point, Scene
 from rightofway.viz.raster.names import Label, Names
@@ -61,9 +61,9 @@ def draw_roadmap(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
 
 def _picture(pen: Pen, scene: Ground) -> None:
     """Draw the picture of the site; over cells, as these have no gaps."""
-    if scene.roadmap.drawing.picture is None:
+    background = background_of(scene.roadmap)
+    if background is None:
         return
-    background = Background.of(scene.roadmap.drawing.picture)
     try:
         with Image.open(background.picture) as picture:
             place = place_of(scene.roadmap, background, *picture.size)

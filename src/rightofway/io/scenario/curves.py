@@ -1,0 +1,107 @@
+"""Lanes that a scenario draws as Bézier curves: their length, and the straight pieces of them.
+
+Robots are points on a curve that is one edge; its length is the curve's own. Robots with a size
+need shapes that they can be near to, so their curves are cut into straight pieces.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import groupby
+from math import ceil
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.errors import InputError
+from rightofway.io.layouts.draft import MICRO
+from rightofway.io.layouts.nurbs import bezier
+from rightofway.model import Point
+from rightofway.model.spacing import lengths_along
+
+ERROR = Fraction(1, 2000)
+"""How far the pieces may be from their curve, in parts of the way along its control points."""
+
+
+class LaneCurve(NamedTuple):
+    """A curve between two vertices.
+
+    Attributes
+    ----------
+    controls
+        Its control points between the ends [length unit].
+    points
+        The ends of its straight pieces, without those of the curve [length unit].
+    length
+        How long the pieces are together, each rounded up [length unit].
+    error
+        How far at most the pieces are from the curve [length unit].
+    """
+
+    controls: tuple[Point, ...]
+    points: tuple[Point, ...]
+    length: Fraction
+    error: Fraction
+
+    def reversed(self) -> LaneCurve:
+        """Return the curve driven back."""
+        return self._replace(controls=self.controls[::-1], points=self.points[::-1])
+
+
+def lane_curve(tail: Point, controls: Sequence[Point], head: Point) -> LaneCurve:
+    """Return the Bézier curve between two points.
+
+    Parameters
+    ----------
+    tail, head
+        Its ends [length unit].
+    controls
+        One or two points that pull it to their side [length unit].
+
+    Raises
+    ------
+    InputError
+        If the curve cannot be cut into pieces.
+    """
+    whole = _floats([tail, *controls, head])
+    way = float(np.hypot(*np.diff(whole, axis=0).T).sum())
+    error = Fraction(ceil(way * float(ERROR) * MICRO), MICRO)
+    try:
+        ends = bezier(whole).pieces(float(error))
+    except ValueError as fault:
+        raise InputError.at("", f"{fault} (move its control points nearer to its ends)") from None
+    points = [at for at, _ in groupby([tail, *_exact(ends[1:-1]), head])]
+    return LaneCurve(
+        controls=tuple(controls),
+        points=tuple(points[1:-1]),
+        length=sum(lengths_along(points), Fraction(0)),
+        error=error,
+    )
+
+
+def spaced(curve: LaneCurve, tail: Point, head: Point, spacing: Fraction) -> tuple[Point, ...]:
+    """Return points on a curve, as far apart along it as equal pieces of at most a spacing are.
+
+    Parameters
+    ----------
+    curve
+        The curve.
+    tail, head
+        Its ends [length unit].
+    spacing
+        The longest piece [length unit], above 0.
+    """
+    whole = bezier(_floats([tail, *curve.controls, head]))
+    return tuple(_exact(whole.cut(ceil(curve.length / spacing))[1:-1]))
+
+
+def _floats(points: Sequence[Point]) -> NDArray[np.float64]:
+    return np.array([[float(x), float(y)] for x, y in points])
+
+
+def _exact(points: NDArray[np.float64]) -> list[Point]:
+    """Return points to a millionth of a length unit."""
+    return [(Fraction(round(x * MICRO), MICRO), Fraction(round(y * MICRO), MICRO))
+            for x, y in points.tolist()]  # fmt: skip

@@ -1,0 +1,95 @@
+"""The picture that a scenario's map is drawn over, looked at before anything draws it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rightofway.errors import InputError, shown
+from rightofway.io.faults import under
+from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.model.drawing import Picture
+
+if TYPE_CHECKING:
+    from rightofway.io.scenario.shape import PictureDocument
+
+KINDS = ("PNG", "JPEG", "WEBP", "BMP", "PPM", "GIF", "TIFF")
+"""What pictures may be; PGM is a kind of PPM."""
+
+MOST_PIXELS = 50_000_000
+"""Pixels of the largest picture that is read; a floor plan of 7000 x 7000."""
+
+
+def with_picture(
+    loaded: LoadedMap, document: PictureDocument | None, base: Path | None
+) -> LoadedMap:
+    """Return a map with the picture that it is drawn over; a note where the file is missing.
+
+    Parameters
+    ----------
+    loaded
+        The map.
+    document, base
+        As for `picture_of`; without a document, the map stays as it is.
+    """
+    if document is None:
+        return loaded
+    with under("picture"):
+        picture, is_there = picture_of(document, base)
+    note = f"there is no picture {shown(document.file)}; the map is shown without it"
+    return replace(
+        loaded,
+        roadmap=replace(loaded.roadmap, drawing=replace(loaded.roadmap.drawing, picture=picture)),
+        notes=loaded.notes if is_there else (*loaded.notes, note),
+    )
+
+
+def picture_of(document: PictureDocument, base: Path | None) -> tuple[Picture, bool]:
+    """Return a picture, and whether its file is there; no plan depends on it.
+
+    Parameters
+    ----------
+    document
+        What the scenario says of it.
+    base
+        The directory that its name is relative to; None for a scenario in no file, whose picture
+        is known by name only.
+
+    Raises
+    ------
+    InputError
+        If the file is no picture, or too large.
+    """
+    file = Path(document.file) if base is None else base / document.file
+    picture = Picture(
+        file=file,
+        pixel=document.scale,
+        origin=document.origin,
+        yaw=document.yaw or Fraction(0),
+        opacity=document.opacity,
+        name=document.file,
+    )
+    return picture, _is_there(file, document.file)
+
+
+def _is_there(file: Path, name: str) -> bool:
+    """Return whether a picture is there; its first bytes say how large it is."""
+    from PIL import Image
+
+    try:
+        with Image.open(file, formats=KINDS) as image:
+            columns, rows = image.size
+    except FileNotFoundError:
+        return False
+    except Image.DecompressionBombError:
+        columns = rows = MOST_PIXELS  # more than Pillow would read
+    except (OSError, ValueError, SyntaxError) as error:
+        reason = f" ({error.strerror})" if isinstance(error, OSError) and error.strerror else ""
+        message = f"{shown(name)} is no picture that can be read{reason} (give a PNG or JPEG file)"
+        raise InputError.at("file", message) from None
+    if columns * rows > MOST_PIXELS:
+        message = f"{shown(name)} has more than {MOST_PIXELS} pixels (save it smaller)"
+        raise InputError.at("file", message)
+    return True
