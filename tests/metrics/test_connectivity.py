@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -101,6 +102,17 @@ def test_distances_are_whole_multiples_of_one_length() -> None:
     edges = [Edge(tail="A", head="B", length=Fraction(1, 2)), Edge(tail="B", head="C", length=1)]  # type: ignore[arg-type]
     made = ways_of(roadmap_of_edges({"A": (0, 0), "B": (0.5, 0), "C": (1.5, 0)}, edges))
     assert distances_from(made, 0) == ([0, 1, 2], {0: 0, 1: 1, 2: 3})
+
+
+@given(DIGRAPHS)
+def test_levels_give_the_order_and_the_load_that_a_queue_gives(
+    given: tuple[int, set[tuple[int, int]]],
+) -> None:
+    made = drawn(*given)
+    queued = replace(made, even=0)
+    assert distances_from(made, 0) == distances_from(queued, 0)
+    trips = {0: {goal: 1.0 for goal in distances_from(made, 0)[1] if goal}}
+    assert route_load(made, trips) == route_load(queued, trips)
 
 
 def test_equally_short_routes_share_the_load() -> None:

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from rightofway.metrics import Finding, Site, inspect
 from rightofway.model import (
@@ -268,3 +270,23 @@ def test_errors_come_before_warnings_and_notes() -> None:
 def test_a_large_site_without_places_says_how_it_was_sampled() -> None:
     result = inspect(Site(roadmap=roadmap_of_grid(["." * 20] * 20)))
     assert result.sampled == (16, 400)
+
+
+ROOM = roadmap_of_grid(["...", "...", "..."])
+HOMES = st.permutations(range(9))
+
+
+@given(HOMES, HOMES, st.sampled_from(["0", "2/5"]), st.sampled_from(["0", "2/5"]))
+def test_sites_of_one_gist_have_the_same_findings(
+    one: list[int], other: list[int], thin: str, wide: str
+) -> None:
+    """One fleet at two speeds, and a fleet with other homes, stops or radii."""
+
+    def site(places: list[int], radius: str, speed: str) -> Site:
+        fleet = [robot(f"R{k}", places[k], places[k + 3], radius, speed=speed) for k in range(3)]
+        return Site(roadmap=ROOM, robots=fleet)
+
+    first, faster, second = site(one, thin, "1"), site(one, thin, "2"), site(other, wide, "1")
+    assert first.gist == faster.gist
+    assert inspect(first) == inspect(faster)
+    assert (first.gist == second.gist) == (one[:6] == other[:6] and thin == wide)

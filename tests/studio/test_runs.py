@@ -40,7 +40,20 @@ def test_a_plan_is_made_kept_and_played(client: httpx.Client) -> None:
     assert payload["title"] == "door"
     assert payload["metrics"]["flowtime"] == run["figures"]["flowtime"]
     page = client.get(f"/runs/{run['number']}/page")
+    assert page.text.startswith("<!doctype html>")
     assert "sandbox allow-scripts" in page.headers["content-security-policy"]
+
+
+@pytest.mark.parametrize("part", ["payload", "losses", "page"])
+def test_what_is_large_travels_compressed_to_whoever_takes_it(
+    client: httpx.Client, part: str
+) -> None:
+    address = f"/runs/{planned(client)['number']}/{part}"
+    packed = client.get(address, headers={"accept-encoding": "gzip"})
+    assert packed.headers["content-encoding"] == "gzip"
+    plain = client.get(address, headers={"accept-encoding": "identity"})
+    assert "content-encoding" not in plain.headers
+    assert plain.text == packed.text
 
 
 def test_events_tell_the_flowtime_as_it_falls_and_end_with_the_run(client: httpx.Client) -> None:

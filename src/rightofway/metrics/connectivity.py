@@ -31,11 +31,14 @@ class Ways:
         Heads of the edges that leave each vertex; tails of those that enter it.
     steps
         Length of each edge of `along`, as a whole multiple of one length.
+    even
+        The length of all edges in these multiples; 0 where they differ.
     """
 
     along: list[list[int]]
     against: list[list[int]]
     steps: list[list[int]]
+    even: int = 0
 
     def beside(self, vertex: int) -> set[int]:
         """Return the vertices that an edge joins to a vertex, in either direction."""
@@ -63,6 +66,7 @@ def ways_of(roadmap: Roadmap) -> Ways:
         along=[heads[begin:end] for begin, end in spans],
         against=against,
         steps=[lengths[begin:end] for begin, end in spans],
+        even=steps[0] if len({*steps}) == 1 else 0,
     )
 
 
@@ -282,6 +286,8 @@ def distances_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
     source
         Where the ways begin.
     """
+    if ways.even:
+        return _levels_from(ways, source)
     distance, order, settled = {source: 0}, list[int](), set[int]()
     queue = [(0, source)]
     while queue:
@@ -296,6 +302,31 @@ def distances_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
                 distance[head] = further
                 heappush(queue, (further, head))
     return order, distance
+
+
+def _levels_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
+    """Return what `distances_from` does, where all edges have one length: level after level."""
+    distance, order, level, gone = {source: 0}, list[int](), [source], 0
+    while level:
+        order += level
+        gone += ways.even
+        heads = {head for vertex in level for head in ways.along[vertex]}
+        level = sorted(head for head in heads if head not in distance)
+        distance.update(dict.fromkeys(level, gone))
+    return order, distance
+
+
+def _before(ways: Ways, vertex: int, distance: Mapping[int, int]) -> list[int]:
+    """Return the vertices from which shortest ways enter a vertex."""
+    at, tails = distance[vertex], ways.against[vertex]
+    if ways.even:
+        return [tail for tail in tails if distance.get(tail) == at - ways.even]
+    return [
+        tail
+        for tail in tails
+        if tail in distance
+        and distance[tail] + ways.steps[tail][ways.along[tail].index(vertex)] == at
+    ]
 
 
 def route_load(ways: Ways, trips: Mapping[int, Mapping[int, float]]) -> dict[int, float]:
@@ -327,13 +358,7 @@ def route_load(ways: Ways, trips: Mapping[int, Mapping[int, float]]) -> dict[int
             if not passing and not ending:
                 continue
             load[vertex] += passing
-            before = [
-                tail
-                for tail in ways.against[vertex]
-                if tail in distance
-                and distance[tail] + ways.steps[tail][ways.along[tail].index(vertex)]
-                == distance[vertex]
-            ]
+            before = _before(ways, vertex, distance)
             for tail in before:
                 own[tail] += (passing + ending) / len(before)
     return dict(load)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -151,6 +151,14 @@ class Site:
         for robot in self.robots:
             found.update(pairwise(trip_of(robot, self.rules)))
         return Counter({ends: count for ends, count in found.items() if ends[0] != ends[1]})
+
+    @property
+    def gist(self) -> Hashable:
+        """All that findings depend on: two sites with the same gist have the same findings."""
+        robots = [(robot.name, robot.radius, *trip_of(robot, self.rules)) for robot in self.robots]
+        named = (*self.stations.items(), None, *self.parking.items())
+        rules = self.rules.walls, self.rules.clearance
+        return (self.roadmap, self.units, named, tuple(robots), rules)
 
     @property
     def radii(self) -> tuple[Fraction, Fraction]:

@@ -9,7 +9,6 @@ import os
 import signal
 import sys
 import tempfile
-from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import count
@@ -161,7 +160,7 @@ class Crew:
         self._folder = folder
         self._scratch = scratch
         self._queue = queue
-        self._free: deque[Worker] = deque()
+        self._free: list[Worker] = []
         self._all: set[Worker] = set()
         self._slots = asyncio.Semaphore(size)
         self._waiting = 0
@@ -228,7 +227,7 @@ class Crew:
 
     async def _one(self) -> Worker:
         while self._free:
-            worker = self._free.popleft()
+            worker = self._free.pop()  # the latest one: it has kept what it read
             if worker.is_alive:
                 return worker
             await self._gone(worker)

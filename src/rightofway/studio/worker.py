@@ -55,6 +55,7 @@ class Worker:
 
     def run(self) -> None:
         """Do what is ordered, for ever."""
+        from rightofway.io.plan import shape  # noqa: F401 (before the first plan asks for it)
         from rightofway.studio.tasks import TASKS
 
         threading.Thread(target=self._listen, daemon=True).start()

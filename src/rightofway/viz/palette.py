@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
+from functools import lru_cache
 
 GOLDEN_ANGLE = 137.50776
 """Degrees; turning by it, hues stay apart however many there are."""
@@ -96,6 +97,7 @@ DARK = Theme(
 )  # fmt: skip
 
 
+@lru_cache(maxsize=8)
 def robot_colours(count: int) -> tuple[str, ...]:
     """Return a colour for each robot; a robot's colour does not depend on how many there are."""
     return tuple(

@@ -9,7 +9,7 @@ from itertools import count as count_from
 from pathlib import PurePosixPath
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Query, Response
+from fastapi import APIRouter, Body, Query, Request, Response
 
 from rightofway.errors import InputError
 from rightofway.studio.errors import Busy, Refused
@@ -22,6 +22,7 @@ from rightofway.studio.routes.models import (
     Save,
     Survey,
     ToText,
+    unzipped,
 )
 from rightofway.studio.runs import Run, Runs
 from rightofway.studio.session import Studio, checked_json
@@ -141,11 +142,11 @@ async def inspect(studio: InStudio, placed: Placed) -> dict[str, Any]:
 
 
 @router.post("/survey", tags=["documents"], response_class=Response)
-async def survey(studio: InStudio, survey: Survey) -> Response:
+async def survey(studio: InStudio, request: Request, survey: Survey) -> Response:
     """Return what an editor shows at each change: faults, notes, map, robots, findings."""
     arguments = survey.model_dump() | {"folder": studio.place(survey.folder)}
     _, blobs = await studio.ask("survey", **arguments)
-    return Response(blobs[0], media_type="application/json")
+    return unzipped(request, blobs[0])
 
 
 @router.post("/inline", tags=["documents"])

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gzip
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from fastapi import Depends, Path, Request
+from fastapi import Depends, Path, Request, Response
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
 from rightofway.studio.session import Studio
@@ -23,6 +25,34 @@ Document = Annotated[dict[str, Any], Field(description="a scenario, as in a YAML
 Folder = Annotated[str, Field("", description="folder of the document, for files that it names")]
 Name = Annotated[str, Field(max_length=200, description="a name of at most 200 characters")]
 MAX_SECONDS = 3600
+GZIP = b"\x1f\x8b"
+"""What compressed bytes begin with."""
+
+
+def unzipped(
+    request: Request,
+    content: bytes,
+    media: str = "application/json",
+    headers: Mapping[str, str] | None = None,
+) -> Response:
+    """Return an answer that a worker has compressed; whole to a client that cannot take it so.
+
+    Parameters
+    ----------
+    request
+        What is answered.
+    content
+        Compressed or not.
+    media, headers
+        As for any answer.
+    """
+    more = {**(headers or {}), "vary": "accept-encoding"}
+    if content.startswith(GZIP):
+        if "gzip" in request.headers.get("accept-encoding", ""):
+            more["content-encoding"] = "gzip"
+        else:
+            content = gzip.decompress(content)
+    return Response(content, media_type=media, headers=more)
 
 
 class Model(BaseModel):

@@ -9,7 +9,7 @@ from collections.abc import AsyncGenerator, AsyncIterator
 from contextlib import aclosing
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Query, Response
+from fastapi import APIRouter, Body, Query, Request, Response
 from fastapi.responses import StreamingResponse
 
 from rightofway.io import FOREIGN_FORMATS
@@ -26,6 +26,7 @@ from rightofway.studio.routes.models import (
     NewSimulation,
     Rename,
     RunNumber,
+    unzipped,
 )
 from rightofway.studio.runs import Run, Runs
 from rightofway.studio.session import Studio, checked_json
@@ -193,6 +194,7 @@ def _line(event: Event | None) -> str:
 @router.get("/runs/{number}/payload", tags=["plans"], response_class=Response)
 async def run_payload(
     studio: InStudio,
+    request: Request,
     number: RunNumber,
     other: Annotated[int | None, Query(description="run to show beside it")] = None,
 ) -> Response:
@@ -202,19 +204,20 @@ async def run_payload(
         content = await studio.runs.blob(number, "payload")
     else:
         content = await _played(studio, "payload", run, other)
-    return Response(content, media_type="application/json")
+    return unzipped(request, content)
 
 
 @router.get("/runs/{number}/page", tags=["plans"], response_class=Response)
 async def run_page(
     studio: InStudio,
+    request: Request,
     number: RunNumber,
     other: Annotated[int | None, Query(description="run to show beside it")] = None,
 ) -> Response:
     """Return the page that plays the plan, as `rightofway show --page` writes it."""
     content = await _played(studio, "page", studio.runs.get(number), other)
     headers = {"content-security-policy": ALONE}
-    return Response(content, media_type="text/html; charset=utf-8", headers=headers)
+    return unzipped(request, content, "text/html; charset=utf-8", headers)
 
 
 async def _played(studio: Studio, task: str, run: Run, other: int | None) -> bytes:
@@ -313,14 +316,17 @@ async def compare(
     return {"runs": run, **result}
 
 
-@router.get("/runs/{number}/losses", tags=["questions"])
+@router.get("/runs/{number}/losses", tags=["questions"], response_class=Response)
 async def run_losses(
-    studio: InStudio, number: RunNumber, robot: Annotated[str | None, Query(max_length=200)] = None
-) -> dict[str, Any]:
+    studio: InStudio,
+    request: Request,
+    number: RunNumber,
+    robot: Annotated[str | None, Query(max_length=200)] = None,
+) -> Response:
     """Tell why robots lose time: each wait in a sentence, with the decision behind it."""
     plan = await studio.runs.blob(number, "plan")
-    result, _ = await studio.ask("losses", plan, robot=robot)
-    return dict(result)
+    _, blobs = await studio.ask("losses", plan, robot=robot)
+    return unzipped(request, blobs[0])
 
 
 @router.post("/runs/{number}/flip", tags=["questions"])

@@ -12,9 +12,10 @@ from rightofway.io import plan_text
 from rightofway.metrics import lost_time
 from rightofway.model import Decision, Loss, Plan, Tick
 from rightofway.planners.flip import flipped
-from rightofway.studio.messages import Blobs, Emit
+from rightofway.studio.messages import Blobs, Emit, zipped
 from rightofway.studio.tasks.documents import figures
 from rightofway.studio.tasks.views import read
+from rightofway.viz.page.document import compact_json
 
 Result = tuple[Any, ...]
 
@@ -30,7 +31,7 @@ def losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
         if wanted in {None, one.robot}
         for loss in one.losses
     ]
-    return ({"losses": found},)
+    return (None, zipped(compact_json({"losses": found})))
 
 
 def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections import OrderedDict
+from collections.abc import Hashable, Sequence
 from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
@@ -14,9 +15,9 @@ from rightofway.io import Loaded, dump_scenario
 from rightofway.io.faults import checked
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.sites import sites_of
-from rightofway.metrics import Site, inspect, sentences
+from rightofway.metrics import Inspection, Site, inspect, sentences
 from rightofway.model import Units
-from rightofway.studio.messages import Blobs, Emit, fault_data
+from rightofway.studio.messages import Blobs, Emit, fault_data, zipped
 from rightofway.studio.tasks.documents import loaded_of, plain
 from rightofway.viz import site_data
 from rightofway.viz.page.document import compact_json
@@ -26,6 +27,11 @@ from rightofway.viz.palette import robot_colours
 Result = tuple[Any, ...]
 
 ROBOT = re.compile(r"robots\[(\d+)\]")
+
+KEPT = 8
+"""Sites whose findings a worker keeps: a change of a speed or of a work time changes none."""
+
+_findings: OrderedDict[Hashable, Inspection] = OrderedDict()
 
 
 def surveyed(
@@ -60,12 +66,23 @@ def surveyed(
             robot |= {"index": index, "colour": colours[index]}
         answer["site"] = {**drawn, "closures": closures}
     if site is not None and inspects:
-        found = inspect(site)
+        found = _inspected(site)
         answer |= {
             "findings": [{**asdict(each), "sentence": str(each)} for each in found.findings],
             "sentences": list(sentences(site, found)),
         }
-    return (None, compact_json(answer).encode())
+    return (None, zipped(compact_json(answer)))
+
+
+def _inspected(site: Site) -> Inspection:
+    """Inspect a site; the findings of the latest ones are kept."""
+    gist = site.gist
+    if gist not in _findings:
+        _findings[gist] = inspect(site)
+    _findings.move_to_end(gist)
+    if len(_findings) > KEPT:
+        _findings.popitem(last=False)
+    return _findings[gist]
 
 
 def readable(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from rightofway.errors import InputError
 from rightofway.io import FOREIGN_FORMATS, foreign_text, plan_of, write_plan
 from rightofway.io.text import parse_json
 from rightofway.model import Plan
-from rightofway.studio.messages import Blobs, Emit
+from rightofway.studio.messages import Blobs, Emit, zipped
 from rightofway.studio.tasks.documents import figures
 from rightofway.viz import page_of, write_gif, write_page, write_png
 from rightofway.viz.page.document import compact_json
@@ -31,8 +32,9 @@ WRITERS: dict[str, Callable[[Plan, Path], object]] = {
 """For each ending of an export, what writes it."""
 
 
+@lru_cache(maxsize=2)
 def read(blob: bytes) -> Plan:
-    """Return the plan of a blob.
+    """Return the plan of a blob; the latest ones are kept, because several requests ask for each.
 
     Parameters
     ----------
@@ -46,13 +48,13 @@ def payload(_emit: Emit, blobs: Blobs, *, title: str, other: str = "") -> Result
     """Return what the viewer plays: one plan, or two side by side."""
     both = (read(blobs[1]), other) if len(blobs) > 1 else None
     played = payload_of(read(blobs[0]), title=title, other=both)
-    return (None, compact_json(played).encode())
+    return (None, zipped(compact_json(played)))
 
 
 def page(_emit: Emit, blobs: Blobs, *, title: str, other: str = "") -> Result:
     """Return the page that plays a plan, or two."""
     both = (read(blobs[1]), other) if len(blobs) > 1 else None
-    return (None, page_of(read(blobs[0]), title=title, other=both).encode())
+    return (None, zipped(page_of(read(blobs[0]), title=title, other=both)))
 
 
 def exported(_emit: Emit, blobs: Blobs, *, form: str) -> Result:
