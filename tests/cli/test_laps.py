@@ -174,6 +174,21 @@ def test_what_would_help_is_exact_for_programs(cli: Cli, slower: Path) -> None:
     assert group["sensitivity"][0]["ten_per_cent"] == str(Fraction(30) - Fraction(24, 11))
 
 
+def test_the_period_is_written_as_a_function_of_each_parameter(cli: Cli, slower: Path) -> None:
+    [group] = json.loads(cli("laps", slower, "--json").out)["groups"]
+    found = group["curves"]
+    assert found["exact"]
+    by_name = {(one["kind"], one["robot"]): one for one in found["curves"]}
+    # R2's own lap: 8 cells, and 2 turns that take as long as a cell each.
+    slow, fast = by_name["speed", "R2"]["pieces"]
+    assert (slow["from"], slow["fixed"], slow["slope"]) == ("1/12", 0, 10)
+    # At half a cell per unit of time that is 20, as long as the lap of R1.
+    assert (slow["to"], fast["from"], fast["to"]) == ("1/2", "1/2", "4/3")
+    pieces = found["circuits"][slow["circuit"]]["pieces"]
+    assert {piece["robot"] for piece in pieces} == {"R2"}
+    assert by_name["headway", None]["value"] == 0
+
+
 def test_a_part_that_is_no_number_is_refused(cli: Cli, slower: Path) -> None:
     ended = cli("laps", slower, "--rule", "timetable", "--least-fairness", "half")
     assert ended.code == 2

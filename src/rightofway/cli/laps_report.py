@@ -13,14 +13,19 @@ from typing import Any
 
 from rightofway.cli.terminal import COLUMNS, counted, further, measures, short, wrapped
 from rightofway.cyclic import (
+    Bottleneck,
     Comparison,
     CyclicResult,
     GroupResult,
     LapWait,
     ParameterEffect,
+    bottleneck_along,
     in_words,
+    parameter_curves,
     parameter_effects,
+    visits_along,
 )
+from rightofway.errors import GaveUp
 from rightofway.model import Quantities, Scenario, Tick, decimal
 from rightofway.model.values import written
 
@@ -44,6 +49,12 @@ MAX_VISITS = 1_000_000
 
 MAX_VISITS_OF_SENSITIVITY = 200_000
 """Visits of a period whose sensitivity is computed; each parameter takes a search."""
+
+MAX_STEPS = 2_000
+"""Visits of a circuit that --json lists for curves; a longer one has no pieces there."""
+
+BY_VISIT = ("conflicts", "first_lap", "bottleneck", "sensitivity", "curves")
+"""Keys of --json that are computed visit by visit."""
 
 Sites = dict[tuple[int, int | None, int, int], list[Tick]]
 """Waits by vertex, the other robot's vertex, waiting and awaited robot: their times [ticks]."""
@@ -102,22 +113,15 @@ def _group_data(scenario: Scenario, group: GroupResult) -> dict[str, Any]:
         "waiting_share": dict(zip(names, shares, strict=True)),
     }
     if _is_long(group):
-        data |= dict.fromkeys(("conflicts", "first_lap", "bottleneck", "sensitivity"))
+        data |= dict.fromkeys(BY_VISIT)
     else:
         bottleneck = group.bottleneck()
         data |= {
             "conflicts": waits_data(group.waits(), "offset"),
             "first_lap": waits_data(group.first_waits(), "time"),
-            "bottleneck": [
-                {
-                    "kind": piece.kind,
-                    "robot": robots[piece.robot].name,
-                    "vertices": [place(vertex) for vertex in piece.places],
-                    "for": written(time(piece.ticks)),
-                }
-                for piece in (bottleneck.pieces if bottleneck else ())
-            ],
+            "bottleneck": _pieces_data(scenario, bottleneck),
             "sensitivity": _sensitivity_data(scenario, group),
+            "curves": _curves_data(scenario, group),
         }
     if group.comparison is not None:
         hour = _hour(scenario) / clock.tick
@@ -158,6 +162,66 @@ def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, 
         }
         for one in parameter_effects(scenario, graph)
     ]
+
+
+def _pieces_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
+    place, clock = scenario.roadmap.name, scenario.problem.clock
+    return [
+        {
+            "kind": piece.kind,
+            "robot": scenario.robots[piece.robot].name,
+            "vertices": [place(vertex) for vertex in piece.places],
+            "for": written(clock.time(piece.ticks)),
+        }
+        for piece in (bottleneck.pieces if bottleneck else ())
+    ]
+
+
+def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | None:
+    """Return the period as a function of each parameter, and the circuits that decide it.
+
+    The period is ``fixed + slope * value``; of a speed ``fixed + slope / value``.
+    """
+    graph, pattern = group.graph(), group.pattern
+    if graph is None or pattern is None or len(graph) > MAX_VISITS_OF_SENSITIVITY:
+        return None
+    data: dict[str, Any] = {"exact": scenario.problem.clock.exact, "why": ""}
+    try:
+        found = parameter_curves(scenario, graph)
+    except GaveUp as error:
+        return data | {"why": str(error), "curves": [], "circuits": []}
+    circuits: dict[tuple[int, ...], int] = {}
+    curves = [
+        {
+            "kind": curve.kind,
+            "robot": None if curve.robot is None else scenario.robots[curve.robot].name,
+            "stop": curve.stop,
+            "value": written(curve.value),
+            "pieces": [
+                {
+                    "from": written(piece.start),
+                    "to": written(piece.until),
+                    "fixed": written(piece.fixed),
+                    "slope": written(piece.slope),
+                    "circuit": circuits.setdefault(tuple(piece.arcs.tolist()), len(circuits)),
+                }
+                for piece in curve.pieces
+            ],
+        }
+        for curve in found
+    ]
+    listed = []
+    for arcs in circuits:
+        if len(arcs) > MAX_STEPS:
+            listed.append(
+                {"periods": int(graph.arcs.height[list(arcs)].sum()), "pieces": [], "visits": []}
+            )
+            continue
+        bottleneck = bottleneck_along(graph, arcs)
+        visits = [list(visit) for visit in visits_along(group, pattern, graph, arcs)]
+        pieces = _pieces_data(scenario, bottleneck)
+        listed.append({"periods": bottleneck.periods, "pieces": pieces, "visits": visits})
+    return data | {"curves": curves, "circuits": listed}
 
 
 def laps_report(run: CyclicResult, quantities: Quantities) -> str:

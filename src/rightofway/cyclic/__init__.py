@@ -1,6 +1,13 @@
 """Repeated laps: simulated under a lap rule, or scheduled by a timetable chosen in advance."""
 
-from rightofway.cyclic.bottleneck import Bottleneck, Piece, bottleneck_of, in_words
+from rightofway.cyclic.bottleneck import (
+    Bottleneck,
+    Piece,
+    bottleneck_along,
+    bottleneck_of,
+    in_words,
+)
+from rightofway.cyclic.parameter_curves import CurvePiece, ParameterCurve, parameter_curves
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import Comparison, CyclicResult, GroupResult, LapWait
 from rightofway.cyclic.route import ROUTES, CyclicRoute, GroupContext, cyclic_routes
@@ -8,7 +15,7 @@ from rightofway.cyclic.rules import RULES, TIMETABLE
 from rightofway.cyclic.run import run_laps
 from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects
 from rightofway.cyclic.timetable_search import best_timetable
-from rightofway.cyclic.to_plan import excerpt, plan_of
+from rightofway.cyclic.to_plan import excerpt, plan_of, visits_along
 
 __all__ = [
     "ROUTES",
@@ -16,20 +23,25 @@ __all__ = [
     "TIMETABLE",
     "Bottleneck",
     "Comparison",
+    "CurvePiece",
     "CyclicResult",
     "CyclicRoute",
     "GroupContext",
     "GroupResult",
     "LapWait",
+    "ParameterCurve",
     "ParameterEffect",
     "Pattern",
     "Piece",
     "best_timetable",
+    "bottleneck_along",
     "bottleneck_of",
     "cyclic_routes",
     "excerpt",
     "in_words",
+    "parameter_curves",
     "parameter_effects",
     "plan_of",
     "run_laps",
+    "visits_along",
 ]

@@ -78,11 +78,24 @@ def bottleneck_of(graph: TimedEventGraph, *, time_limit: float | None = None) ->
     GaveUp
         If time ran out.
     """
-    found = graph.critical_circuit(time_limit=time_limit)
-    arcs = _from_the_longest_run(graph, found.arcs.tolist())
+    return bottleneck_along(graph, graph.critical_circuit(time_limit=time_limit).arcs.tolist())
+
+
+def bottleneck_along(graph: TimedEventGraph, circuit: Sequence[int]) -> Bottleneck:
+    """Return a circuit in pieces; its cycle time is less than that of the graph if not critical.
+
+    Parameters
+    ----------
+    graph
+        Laps and orders.
+    circuit
+        The numbers of its arcs, in order.
+    """
+    arcs = _from_the_longest_run(graph, list(circuit))
+    periods = int(graph.arcs.height[arcs].sum())
     return Bottleneck(
-        cycle_time=found.cycle_time,
-        periods=int(graph.arcs.height[found.arcs].sum()),
+        cycle_time=Fraction(int(graph.arcs.length[arcs].sum()), periods),
+        periods=periods,
         pieces=tuple(_joined(_pieces(graph, arcs))),
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from math import ceil
@@ -14,6 +14,7 @@ from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.errors import GaveUp
 from rightofway.model import Plan, PlannerRun, SteadyState, Track
+from rightofway.precedence import TimedEventGraph
 
 
 def plan_of(result: CyclicResult, laps: int | None = None) -> Plan:
@@ -191,9 +192,26 @@ def _critical_visits(group: GroupResult, pattern: Pattern) -> tuple[tuple[int, i
     circuit = graph.critical_circuit()
     if circuit.cycle_time != pattern.period:
         return ()
-    found = []
-    for visit in graph.arcs.tail[circuit.arcs].tolist():
-        robot = int(graph.robot[visit])
-        index = pattern.visits(robot).start + visit - int(graph.first[robot])
-        found.append((group.robots[robot], index))
-    return tuple(found)
+    return visits_along(group, pattern, graph, circuit.arcs.tolist())
+
+
+def visits_along(
+    group: GroupResult, pattern: Pattern, graph: TimedEventGraph, circuit: Sequence[int]
+) -> tuple[tuple[int, int], ...]:
+    """Return the visits of a circuit: robot, and index of the visit in each plan of the result.
+
+    Parameters
+    ----------
+    group, pattern, graph
+        A group that repeats, its pattern and its graph.
+    circuit
+        Numbers of arcs of the graph, in order.
+    """
+    visits = graph.arcs.tail[list(circuit)].tolist()
+    firsts = [
+        pattern.visits(robot).start - int(graph.first[robot]) for robot in range(len(group.robots))
+    ]
+    return tuple(
+        (group.robots[robot], firsts[robot] + visit)
+        for robot, visit in zip(graph.robot[visits].tolist(), visits, strict=True)
+    )

@@ -17,6 +17,7 @@ from rightofway.precedence.graph import (
     graph_of,
     graph_on,
 )
+from rightofway.precedence.period_curve import Growth, PeriodPiece, period_curve
 from rightofway.precedence.segments import Segment, SegmentOfSizes, crossing, shared_segment
 from rightofway.precedence.sensitivity import (
     Sensitivity,
@@ -41,7 +42,9 @@ __all__ = [
     "DelayModel",
     "DelaySample",
     "Execution",
+    "Growth",
     "Meeting",
+    "PeriodPiece",
     "PrecedenceGraph",
     "RunBatch",
     "Segment",
@@ -54,6 +57,7 @@ __all__ = [
     "graph_of",
     "graph_on",
     "order_of",
+    "period_curve",
     "rights_in",
     "sensitivity",
     "shared_segment",

@@ -1,0 +1,256 @@
+"""The period as a function of each speed, each work time and the headway, in the same order.
+
+`sensitivity` has the effect of a small change; here is the whole function, exact, in pieces, each
+with the circuit that is critical there. In the same order, a work time and the headway add to arcs.
+A speed divides: driving and, where a robot turns in a cell's crossing time, turning take the time
+that they take now times ``speed now / speed``; an edge with a speed limit takes its length divided
+by the limit at least. So the period is ``fixed + slope * value``, or ``fixed + slope / speed``.
+
+Where the clock is not exact (`Clock.exact`), drives are rounded up to ticks as they are now.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.cyclic.sensitivity import stages_at
+from rightofway.model import Robot, Scenario
+from rightofway.model.problem import turning_time
+from rightofway.precedence import Growth, TimedEventGraph, period_curve
+
+MOST_VISITS = 100_000
+"""Visits of a period times parameters that are examined; each takes a few searches of the graph."""
+
+RANGE = 4
+"""A speed is examined from a quarter to four times its value."""
+
+Kind = Literal["speed", "work", "headway"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class CurvePiece:
+    """The period for some values of a parameter: one circuit is critical for all of them.
+
+    Attributes
+    ----------
+    start, until
+        The least and the largest value.
+    fixed, slope
+        Of ``fixed + slope * value``, and for a speed of ``fixed + slope / value``; ``fixed`` in
+        time units.
+    arcs
+        The critical circuit: arcs of the graph in order.
+    """
+
+    start: Fraction
+    until: Fraction
+    fixed: Fraction
+    slope: Fraction
+    arcs: NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ParameterCurve:
+    """The period as a function of one parameter, all others and the order being as they are.
+
+    Attributes
+    ----------
+    kind
+        ``speed`` of a robot, ``work`` at one stop, or ``headway`` of all robots.
+    robot, stop
+        Their numbers in the scenario; None where there is none.
+    value
+        The value of the scenario [time unit; of a speed: length unit per time unit].
+    pieces
+        Each begins where the one before ends. A time is examined from 0 (a headway where rotations
+        are forbidden: from one tick) up to the period or four times its value, whichever is longer.
+        A headway has one piece that is a point where robots would wait for each other for ever
+        with any longer one.
+    """
+
+    kind: Kind
+    robot: int | None
+    stop: int | None
+    value: Fraction
+    pieces: tuple[CurvePiece, ...]
+
+    def period(self, value: Fraction) -> Fraction:
+        """Return the period for a value [time unit]."""
+        piece = next(each for each in self.pieces if value <= each.until)
+        return piece.fixed + piece.slope * (1 / value if self.kind == "speed" else value)
+
+
+def parameter_curves(
+    scenario: Scenario,
+    graph: TimedEventGraph,
+    *,
+    most_visits: int = MOST_VISITS,
+    time_limit: float | None = None,
+) -> tuple[ParameterCurve, ...]:
+    """Return the curves of the parameters of a group.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    graph
+        The laps and orders of the group.
+    most_visits
+        Parameters are examined as long as their number times the visits of the graph is at most
+        this: first the robots on the critical circuit, then the headway, then the other robots.
+    time_limit
+        For each search [s].
+
+    Raises
+    ------
+    GaveUp
+        If time ran out, or numbers become too large for the native core.
+    """
+    found: list[ParameterCurve] = []
+    for curve in _curves(scenario, graph, time_limit):
+        found.append(curve)
+        if (len(found) + 1) * len(graph) > most_visits:
+            break
+    return tuple(found)
+
+
+def _curves(
+    scenario: Scenario, graph: TimedEventGraph, time_limit: float | None
+) -> Iterator[ParameterCurve]:
+    circuit = graph.critical_circuit(time_limit=time_limit).arcs
+    critical = dict.fromkeys(graph.robot[graph.arcs.head[circuit]].tolist())
+    for place in critical:
+        yield from _of_robot(scenario, graph, place, time_limit)
+    if len(graph.timetable.robots) > 1:
+        is_right, least = graph.arcs.first >= 0, 0 if scenario.rules.rotations else 1
+        pieces = _of_time(scenario, graph, is_right, graph.headway, time_limit, least=least)
+        value = scenario.rules.headway
+        yield ParameterCurve(kind="headway", robot=None, stop=None, value=value, pieces=pieces)
+    for place in range(len(graph.timetable.robots)):
+        if place not in critical:
+            yield from _of_robot(scenario, graph, place, time_limit)
+
+
+def _of_robot(
+    scenario: Scenario, graph: TimedEventGraph, place: int, time_limit: float | None
+) -> Iterator[ParameterCurve]:
+    """Yield the curves of the speed of a robot and of its work at each stop."""
+    number = graph.timetable.robots[place]
+    robot, arcs = scenario.robots[number], graph.arcs
+    at = stages_at(graph.timetable.laps[place], scenario.problem.itineraries[number])
+    growth, tick = _of_speed(scenario, graph, place, robot), scenario.problem.clock.tick
+    ends = Fraction(1, RANGE), Fraction(RANGE)
+    yield ParameterCurve(
+        kind="speed",
+        robot=number,
+        stop=None,
+        value=robot.speed,
+        pieces=tuple(
+            CurvePiece(
+                start=robot.speed / piece.until,
+                until=robot.speed / piece.start,
+                fixed=piece.fixed * tick,
+                slope=piece.slope * tick * robot.speed,
+                arcs=piece.arcs,
+            )
+            for piece in reversed(period_curve(graph, growth, *ends, time_limit=time_limit))
+        ),
+    )
+    dwells = (arcs.first < 0) & (graph.robot[arcs.tail] == place)
+    for visit, stages in enumerate(at):
+        for stop, stage in stages:
+            if stop < len(robot.stops):
+                works = dwells & (graph.index[arcs.tail] == visit)
+                yield ParameterCurve(
+                    kind="work",
+                    robot=number,
+                    stop=stop,
+                    value=robot.stops[stop].work,
+                    pieces=_of_time(scenario, graph, works, stage.work, time_limit),
+                )
+
+
+def _of_time(
+    scenario: Scenario,
+    graph: TimedEventGraph,
+    mask: NDArray[np.bool_],
+    ticks: int,
+    time_limit: float | None,
+    *,
+    least: int = 0,
+) -> tuple[CurvePiece, ...]:
+    """Return the pieces of a time that is once in each arc of a mask."""
+    once = mask.astype(np.int64)
+    growth = Growth(of=np.arange(len(mask)), fixed=graph.arcs.length - once * ticks, slope=once)
+    tick = scenario.problem.clock.tick
+    most = Fraction(max(int(graph.timetable.period), RANGE * ticks))
+    return tuple(
+        CurvePiece(
+            start=piece.start * tick,
+            until=piece.until * tick,
+            fixed=piece.fixed * tick,
+            slope=piece.slope,
+            arcs=piece.arcs,
+        )
+        for piece in period_curve(graph, growth, Fraction(least), most, time_limit=time_limit)
+    )
+
+
+def _of_speed(scenario: Scenario, graph: TimedEventGraph, place: int, robot: Robot) -> Growth:
+    """Return the arcs as functions of ``speed now / speed``.
+
+    Notes
+    -----
+    A drive along an edge with a speed limit has two entries: at the robot's speed, and at the limit.
+    """
+    arcs, is_right = graph.arcs, graph.arcs.first >= 0
+    drives = (graph.robot[arcs.head] == place) & (~is_right | graph.books_ahead)
+    drive = np.where(drives, graph.drive[arcs.head], 0)
+    turns = _turns_by_speed(scenario, graph, place, robot)
+    of, fixed = np.arange(len(arcs)), arcs.length - drive - turns
+    limits = scenario.roadmap.speed_limits
+    if not any(limits):
+        return Growth(of=of, fixed=fixed, slope=drive + turns)
+    # Of what a drive takes now: at the robot's own speed, and at the limit.
+    shares = [
+        (min(limit / robot.speed, Fraction(1)), min(robot.speed / limit, Fraction(1)))
+        if limit
+        else (Fraction(1), Fraction(0))
+        for limit in limits
+    ]
+    parts = math.lcm(*(share.denominator for pair in shares for share in pair))
+    at_own, at_limit = np.array([[int(share * parts) for share in pair] for pair in shares]).T
+    before = np.empty(len(graph), np.int64)
+    before[graph.after] = np.arange(len(graph))
+    edges = scenario.roadmap.edges(graph.vertex[before[arcs.head]], graph.vertex[arcs.head])
+    classes = scenario.roadmap.length_class[edges]
+    limited = np.flatnonzero(drives & (at_limit[classes] > 0))
+    slow = drive[limited] * at_limit[classes[limited]]
+    return Growth(
+        of=np.concatenate((of, limited)),
+        fixed=np.concatenate((fixed * parts, fixed[limited] * parts + slow)),
+        slope=np.concatenate((drive * at_own[classes] + turns * parts, turns[limited] * parts)),
+        parts=parts,
+    )
+
+
+def _turns_by_speed(
+    scenario: Scenario, graph: TimedEventGraph, place: int, robot: Robot
+) -> NDArray[np.int64]:
+    """Return the turning in each arc that a faster robot makes faster: by the cell [ticks]."""
+    arcs, rules = graph.arcs, (scenario.roadmap, scenario.rules)
+    faster = replace(robot, speed=2 * robot.speed)
+    if turning_time(rules[0], robot, rules[1]) == turning_time(rules[0], faster, rules[1]):
+        return np.zeros(len(arcs), np.int64)
+    itinerary = scenario.problem.itineraries[graph.timetable.robots[place]]
+    at = stages_at(graph.timetable.laps[place], itinerary)
+    turn = np.array([sum(stage.turn for _, stage in stages) for stages in at], np.int64)
+    dwells = (arcs.first < 0) & (graph.robot[arcs.tail] == place)
+    return np.where(dwells, turn[np.where(dwells, graph.index[arcs.tail], 0)], 0)

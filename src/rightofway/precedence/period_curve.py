@@ -1,0 +1,149 @@
+"""The period as a function of one parameter: exact pieces, breakpoints, and the circuit of each.
+
+In a chosen order each arc is as long as a constant plus a multiple of the parameter: a work time, a
+headway, the time for a length unit. So is the mean of each circuit, and the period, the largest of
+them, is a convex function of straight pieces: the upper envelope of lines. It is found from its
+ends: where the lines of two critical circuits cross, either nothing is above them, and this is a
+breakpoint, or the critical circuit there is a line between them (Eisner and Severance).
+
+References
+----------
+Eisner & Severance, "Mathematical techniques for efficient record segmentation in large shared
+databases", *Journal of the ACM* 23(4), 1976.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.errors import GaveUp
+from rightofway.precedence.timed_event_graph import Arcs, TimedEventGraph, circuit_of
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Growth:
+    """How long arcs are for a parameter ``x``: ``(fixed + slope * x) / parts`` [ticks].
+
+    Attributes
+    ----------
+    of
+        The arc of the graph that each entry is about; where there are several entries, the arc is
+        as long as the longest; int64, shape (N,).
+    fixed, slope
+        At least 0; int64, shape (N,).
+    parts
+        What both are divided by.
+    """
+
+    of: NDArray[np.int64]
+    fixed: NDArray[np.int64]
+    slope: NDArray[np.int64]
+    parts: int = 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PeriodPiece:
+    """The period between two breakpoints: ``fixed + slope * x`` [ticks].
+
+    Attributes
+    ----------
+    start, until
+        The least and the largest parameter of the piece.
+    fixed, slope
+        Mean constant and mean multiple of the critical circuit; exact.
+    arcs
+        The critical circuit: arcs of the graph in order; int64.
+    """
+
+    start: Fraction
+    until: Fraction
+    fixed: Fraction
+    slope: Fraction
+    arcs: NDArray[np.int64]
+
+    def at(self, x: Fraction) -> Fraction:
+        """Return the mean of the circuit for a parameter [ticks]."""
+        return self.fixed + self.slope * x
+
+
+def period_curve(
+    graph: TimedEventGraph,
+    growth: Growth,
+    start: Fraction,
+    until: Fraction,
+    *,
+    time_limit: float | None = None,
+) -> tuple[PeriodPiece, ...]:
+    """Return the period for each parameter of a range as pieces from left to right.
+
+    Parameters
+    ----------
+    graph
+        Laps and orders; they are kept for every parameter.
+    growth
+        How long arcs are.
+    start, until
+        The range, from at least 0.
+    time_limit
+        For each search [s].
+
+    Returns
+    -------
+    tuple of PeriodPiece
+        Each begins where the one before ends, and rises more. A single piece that is a point, at
+        ``start``, if robots would wait for each other for ever with any larger parameter: where
+        three or more of them hand places round in a circle, and the parameter is the headway.
+
+    Raises
+    ------
+    GaveUp
+        If time ran out, or numbers become too large for the native core.
+    """
+    arcs = graph.arcs.chosen(growth.of.astype(np.int32))
+
+    def line_at(x: Fraction) -> PeriodPiece | None:
+        """Return the line of the critical circuit at ``x``; None for a deadlock."""
+        length = growth.fixed * x.denominator + growth.slope * x.numerator
+        try:
+            found = circuit_of(len(graph), arcs.stretched(length), time_limit)
+        except ValueError as error:
+            raise GaveUp(f"the numbers of this period are too large ({error})") from None
+        return None if found is None else _line(arcs, growth, found.arcs, x, until)
+
+    first, last = line_at(start), line_at(until)
+    assert first is not None, "orders that are live for some parameter are live for less"
+    if last is None:
+        return (replace(first, until=start),)
+    lines, ahead = [first], [last]
+    while ahead:
+        low, high = lines[-1], ahead[-1]
+        if high.slope <= low.slope:
+            ahead.pop()
+            continue
+        cross = (low.fixed - high.fixed) / (high.slope - low.slope)
+        between = line_at(cross)
+        if between is not None and between.at(cross) > low.at(cross):
+            ahead.append(between)
+        else:
+            lines[-1] = replace(low, until=cross)
+            lines.append(replace(ahead.pop(), start=cross))
+    return tuple(line for line in lines if line.until > line.start or start == until)
+
+
+def _line(
+    arcs: Arcs, growth: Growth, chosen: NDArray[np.int32], start: Fraction, until: Fraction
+) -> PeriodPiece:
+    """Return the mean of a circuit as a function of the parameter."""
+    height = int(arcs.height[chosen].sum()) or 1  # no arcs: no circuit takes any time
+    parts = height * growth.parts
+    return PeriodPiece(
+        start=start,
+        until=until,
+        fixed=Fraction(int(growth.fixed[chosen].sum()), parts),
+        slope=Fraction(int(growth.slope[chosen].sum()), parts),
+        arcs=growth.of[chosen],
+    )

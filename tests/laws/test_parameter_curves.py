@@ -1,0 +1,169 @@
+"""The period as a function of a speed, a work time or the headway is that of the changed scenario.
+
+The slow and obvious way: change the scenario, let it choose its ticks, give the same laps in the
+same order their new durations, and ask for the critical circuit.
+"""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from rightofway.cyclic import GroupResult, ParameterCurve, parameter_curves, run_laps
+from rightofway.cyclic.sensitivity import stages_at
+from rightofway.errors import InputError
+from rightofway.io import scenario_of
+from rightofway.model import Lap, Rules, Scenario, Tick
+from rightofway.model.route import drives_along
+from rightofway.planners import planning_headway
+from rightofway.precedence import BookedRows, TimedEventGraph
+from tests.builders.fleets import random_fleet
+from tests.builders.sizes import repeated
+
+RULES = [Rules(), Rules(headway=Fraction(1)), Rules(occupancy="both"), Rules(turn=Fraction(2))]
+MOST_CURVES = 7
+
+
+def changed(scenario: Scenario, curve: ParameterCurve, value: Fraction) -> Scenario:
+    """Return the scenario with another value of the parameter of a curve."""
+    if curve.robot is None:
+        return replace(scenario, rules=replace(scenario.rules, headway=value))
+    robots = list(scenario.robots)
+    robot = robots[curve.robot]
+    if curve.stop is None:
+        robots[curve.robot] = replace(robot, speed=value)
+    else:
+        stops = list(robot.stops)
+        stops[curve.stop] = replace(stops[curve.stop], work=value)
+        robots[curve.robot] = replace(robot, stops=tuple(stops))
+    return replace(scenario, robots=tuple(robots))
+
+
+def period_by_hand(group: GroupResult, scenario: Scenario) -> Fraction | None:
+    """Return the period of the group's laps in their order in a changed scenario [time unit].
+
+    None if robots wait for each other for ever.
+    """
+    timetable, old = group.timetable, group.context.scenario
+    assert timetable is not None
+    laps = []
+    for number, lap in zip(timetable.robots, timetable.laps, strict=True):
+        itinerary = scenario.problem.itineraries[number]
+        at = stages_at(lap, old.problem.itineraries[number])
+        dwell = [
+            sum(itinerary.stages[k].work + itinerary.stages[k].turn for k, _ in stages)
+            for stages in at
+        ]
+        drive = drives_along(scenario.roadmap, itinerary, [lap.vertices[-1], *lap.vertices])
+        laps.append(
+            Lap(
+                vertices=lap.vertices,
+                dwell=tuple(map(Tick, dwell)),
+                drive=tuple(map(Tick, drive)),
+            )
+        )
+    after = replace(timetable, laps=tuple(laps))
+    rows = BookedRows.of_laps(old, timetable.robots, timetable.laps, timetable.counts)
+    ahead = scenario.rules.books_ahead
+    graph = TimedEventGraph(after, headway=planning_headway(scenario), books_ahead=ahead, rows=rows)
+    found = graph.critical_circuit_if_live()
+    return None if found is None else found.cycle_time * scenario.problem.clock.tick
+
+
+def values_of(curve: ParameterCurve, draw: random.Random) -> set[Fraction]:
+    """Return breakpoints, values between them, and random ones of a curve."""
+    least, most = curve.pieces[0].start, curve.pieces[-1].until
+    ends = {piece.until for piece in curve.pieces} | {curve.value, least}
+    middles = {(one + other) / 2 for one in ends for other in ends}
+    drawn = {curve.value * Fraction(draw.randint(1, 40), 10) for _ in range(3)}
+    found = sorted(value for value in ends | middles | drawn if least <= value <= most)
+    return set(draw.sample(found, min(len(found), 6)))
+
+
+def check_curves(scenario: Scenario, draw: random.Random) -> int:
+    """Compare the curves of all groups that repeat; return the number of breakpoints."""
+    breakpoints = 0
+    for group in run_laps(scenario, draw.choice(["first-come", "two-level"]), time_limit=2).groups:
+        graph = group.graph()
+        if graph is None or not scenario.problem.clock.exact:
+            continue
+        curves = parameter_curves(scenario, graph, most_visits=MOST_CURVES * len(graph))
+        assert len(curves) <= MOST_CURVES
+        period = graph.critical_circuit().cycle_time * scenario.problem.clock.tick
+        for curve in curves:
+            breakpoints += len(curve.pieces) - 1
+            assert curve.period(curve.value) == period
+            for one, then in zip(curve.pieces, curve.pieces[1:], strict=False):
+                assert one.until == then.start > one.start
+            if curve.pieces[0].start == curve.pieces[-1].until:
+                # A circle of robots leaves no room for a headway.
+                assert curve.kind == "headway"
+                assert period_by_hand(group, changed(scenario, curve, Fraction(1))) is None
+                continue
+            for value in values_of(curve, draw):
+                other = changed(scenario, curve, value)
+                if other.problem.clock.exact:
+                    assert curve.period(value) == period_by_hand(group, other)
+    return breakpoints
+
+
+@pytest.mark.parametrize("rules", RULES, ids=["one", "headway", "both", "turn"])
+def test_the_curve_is_the_period_of_the_changed_scenario(rules: Rules) -> None:
+    breakpoints = 0
+    for seed in range(14):
+        draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+        scenario = random_fleet(seed, size=4 + seed % 4, robots=2 + seed % 4, rules=rules)
+        try:
+            breakpoints += check_curves(scenario, draw)
+        except InputError:
+            continue  # a robot that works where it lives
+    assert breakpoints > 40
+
+
+def test_sizes_lie_on_the_curve() -> None:
+    breakpoints = 0
+    for seed in range(1, 16, 2):  # those on grids: their ticks are exact
+        draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+        breakpoints += check_curves(repeated(seed), draw)
+    assert breakpoints > 10
+
+
+def on_limited_lanes(draw: random.Random) -> Scenario:
+    """Return robots on a lattice of lanes, some of which have a speed limit."""
+    at = {f"v{x}{y}": [2 * x, 3 * y] for x in range(4) for y in range(3)}
+    lanes = [
+        [f"v{x}{y}", f"v{x + right}{y + 1 - right}"]
+        for x in range(4)
+        for y in range(3)
+        for right in (0, 1)
+        if f"v{x + right}{y + 1 - right}" in at
+    ]
+    limits = ["1/2", "3/4", 1, "3/2"]
+    edges = [
+        {"from": one, "to": other, **({"max_speed": draw.choice(limits)} if k % 3 else {})}
+        for k, (one, other) in enumerate(lanes)
+    ]
+    homes, stops = sorted(at)[:3], draw.sample(sorted(at)[3:], 3)
+    robots = [
+        {"name": f"R{k}", "home": home, "target": stop, "work": k, "speed": speed}
+        for k, (home, stop, speed) in enumerate(zip(homes, stops, [1, "1/2", 2], strict=True))
+    ]
+    return scenario_of(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"roadmap": {"vertices": at, "edges": edges}},
+            "robots": robots,
+            "rules": {"occupancy": draw.choice(["one", "both"])},
+        }
+    )
+
+
+def test_speed_limits_bend_the_curve_of_a_speed() -> None:
+    breakpoints = 0
+    for seed in range(12):
+        draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+        breakpoints += check_curves(on_limited_lanes(draw), draw)
+    assert breakpoints > 20
