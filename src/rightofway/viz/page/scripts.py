@@ -1,8 +1,8 @@
 """The scripts of pages: modules as a browser imports them, and in one piece for a single file.
 
 The files under ``assets/`` are ECMAScript modules, one concept each, and under ``assets/texts/`` a
-file of texts for each language; every import is a line of its own at the top. A page that needs no other file has them as classic scripts that share one scope, so
-names are unique among all modules.
+file of texts for each language; every import is a line of its own at the top. A page that needs no
+other file has them as classic scripts that share one scope, so names are unique among all modules.
 """
 
 from __future__ import annotations
