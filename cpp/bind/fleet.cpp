@@ -30,13 +30,19 @@ constexpr auto alone_doc =
 constexpr auto start_doc =
     R"(Take over tracks: where each robot's visits begin, int32[R + 1], their vertices and enters.
 
-ValueError if they are no tracks of these trips, or overlap.)";
+A robot may have none: an empty track. ValueError if the others are no tracks of these trips, or
+overlap.)";
 
 constexpr auto prioritize_doc =
     R"(Give the robots tracks one after another, in this order; return whether all have one now.
 
 Gives up after ``n_searches`` or the time limit; after ``with_net`` seconds instead, once there is
 a plan made in haste. `go_on` may change a False.)";
+
+constexpr auto repair_doc =
+    R"(Give tracks to robots that have none, in this order; return whether all have one now.
+
+Robots that have a track keep it, unless they are in the way: they lose it, and queue again.)";
 
 constexpr auto go_on_doc = R"(Continue `prioritize`; ``n_searches`` counts since its beginning.)";
 
@@ -87,6 +93,13 @@ class FleetSearch {
         return go_on(n_searches, deadline, with_net);
     }
 
+    bool repair(std::span<const RobotId> order, std::int64_t n_searches,
+                const StopCondition& deadline) {
+        Prioritized planner(distances_, plan_);
+        planner.start(order);
+        return planner.run(n_searches, deadline) == SearchEnd::found;
+    }
+
     bool go_on(std::int64_t n_searches, const StopCondition& deadline,
                const StopCondition& with_net) {
         if (!in_turn_ || !in_turn_->run(n_searches, n_threads_ > 1, deadline, with_net)) {
@@ -100,6 +113,9 @@ class FleetSearch {
                std::span<const Tick> enter) {
         clear();
         for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+            if (first_visit[robot] == first_visit[robot + 1]) {
+                continue;
+            }
             const Turns turns = problem_.turns(robot);
             EdgeId before = -1;
             TimedTrack track;
@@ -117,8 +133,7 @@ class FleetSearch {
                                         turns.between(before, edge)});
                 before = edge;
             }
-            const Tick done =
-                track.visits.empty() ? -1 : completion(problem_.itinerary(robot), track.visits);
+            const Tick done = completion(problem_.itinerary(robot), track.visits);
             track.cost = done + plan_.surcharges(track.visits);
             if (done < 0 || !plan_.fits(robot, track)) {
                 clear();
@@ -224,6 +239,15 @@ void bind_fleet(nb::module_& module) {
             },
             array("order"), nb::arg("n_searches"), nb::arg("time_limit").none(),
             nb::arg("with_net").none(), prioritize_doc)
+        .def(
+            "repair",
+            [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,
+               std::optional<double> time_limit) {
+                const Deadline deadline(time_limit);
+                const nb::gil_scoped_release released;
+                return self.repair(view(order), n_searches, deadline);
+            },
+            array("order"), nb::arg("n_searches"), nb::arg("time_limit").none(), repair_doc)
         .def(
             "go_on",
             [](FleetSearch& self, std::int64_t n_searches, std::optional<double> time_limit) {

@@ -43,7 +43,8 @@ constexpr TrackPrices hasty{12, 6, 300'000};
 
 class Prioritized {
   public:
-    // Borrows both. The robots to be planned have no tracks yet.
+    // Borrows both. The robots to be planned have no tracks yet; others may have one, and lose it
+    // if they are in the way.
     Prioritized(SharedDistances& distances, FleetPlan& plan, const TrackPrices& prices = patient);
 
     // Queues robots in this order.

@@ -405,7 +405,7 @@ class FleetSearch:
         """
         Take over tracks: where each robot's visits begin, int32[R + 1], their vertices and enters.
 
-        ValueError if they are no tracks of these trips, or overlap.
+        A robot may have none: an empty track. ValueError if they are no tracks of these trips, or overlap.
         """
 
     def prioritize(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None, with_net: float | None) -> bool:
@@ -414,6 +414,13 @@ class FleetSearch:
 
         Gives up after ``n_searches`` or the time limit; after ``with_net`` seconds instead, once there is
         a plan made in haste. `go_on` may change a False.
+        """
+
+    def repair(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None) -> bool:
+        """
+        Give tracks to robots that have none, in this order; return whether all have one now.
+
+        Robots that have a track keep it, unless they are in the way: they lose it, and queue again.
         """
 
     def go_on(self, n_searches: int, time_limit: float | None) -> bool:

@@ -43,6 +43,7 @@ def solve(
     time_limit: float | None = 10,
     seed: int = 0,
     *,
+    start: Plan | None = None,
     options: PlannerOptions | Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
     on_plan: Callable[[Plan], None] | None = None,
@@ -63,6 +64,11 @@ def solve(
     seed
         For planners that draw at random, from 0 to 2**32 - 1. The same input and seed give the
         same plan.
+    start
+        A plan of this scenario before it was changed: routes and rights of way are kept where they
+        can be, and only the other robots are planned again before the planner goes on from there.
+        ``run.start`` of the new plan says how many robots have kept their routes. If the scenario
+        has not changed, the new plan is at least as good.
     options
         Options of the planner: its own dataclass, like ``LnsOptions(iterations=100)``, or names
         with values.
@@ -87,7 +93,8 @@ def solve(
     Raises
     ------
     InputError
-        For an unknown planner or option, or a value that does not fit.
+        For an unknown planner or option, a value that does not fit, or a start for a planner that
+        cannot start from a plan.
     NoPlanExists
         If it is proven that there is no plan.
     GaveUp
@@ -97,9 +104,11 @@ def solve(
         remedy = "load a file with rightofway.load, or build a fleet with FleetBuilder"
         raise InputError.at("scenario", f"{shown(scenario)} is no scenario ({remedy})")
     spec, limit = find(planner), checked_time_limit(time_limit)
+    if start is not None:
+        _refuse_start(spec, start, "start")
     settled = _settled(spec, options, named, seed)
     task = Task(scenario=scenario, **settled, report=report or _silent, keep_best=keep_best)
-    return _run(spec, task, limit, seconds_per_visit, on_plan)
+    return _run(spec, task, limit, seconds_per_visit, on_plan, old=start)
 
 
 def improve(
@@ -136,18 +145,24 @@ def improve(
     InputError
         If the plan has faults, for a planner that cannot start from one, or an unknown option.
     """
-    if not isinstance(plan, Plan):
-        message = f"{shown(plan)} is no plan (load a file with rightofway.load_plan)"
-        raise InputError.at("plan", message)
-    limit, judged, spec = checked_time_limit(time_limit), check(plan), find(planner)
+    spec = find(planner)
+    _refuse_start(spec, plan, "plan")
+    limit, judged = checked_time_limit(time_limit), check(plan)
     if not judged.ok:
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be improved)")
-    if not spec.improves:
-        able = " or ".join(one.name for one in registered().values() if one.improves)
-        raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
     settled = _settled(spec, options, named, seed)
     task = Task(scenario=plan.scenario, **settled, report=report or _silent, keep_best=keep_best)
     return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit, on_plan)
+
+
+def _refuse_start(spec: PlannerSpec, plan: object, place: str) -> None:
+    """Refuse to start from what is no plan, or a planner that cannot start from one."""
+    if not isinstance(plan, Plan):
+        message = f"{shown(plan)} is no plan (load a file with rightofway.load_plan)"
+        raise InputError.at(place, message)
+    if not spec.improves:
+        able = " or ".join(one.name for one in registered().values() if one.improves)
+        raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
 
 
 def _silent(_: str) -> None:
@@ -177,9 +192,13 @@ def _run(
     time_limit: float | None,
     seconds_per_visit: float,
     on_plan: Callable[[Plan], None] | None,
+    *,
+    old: Plan | None = None,
 ) -> Plan:
+    """Plan and judge; ``old`` is a plan of the scenario before it was changed."""
     # These load the native core: not for help.
     from rightofway.planners.impossible import refuse_closed_ways, refuse_stranded
+    from rightofway.planners.warm_start import kept_of
     from rightofway.search import alone_completions
 
     _refuse_unknown(spec, task.scenario.problem)
@@ -206,7 +225,7 @@ def _run(
             task = replace(task, better=_handing_over(on_plan, spec, task))
         if task.start is not None:
             keep()
-        draft = _drafted(spec, task)
+        draft = _drafted(spec, task) if old is None else _going_on(spec, task, old)
     keep()
     run = PlannerRun(
         name=spec.name,
@@ -218,6 +237,7 @@ def _run(
         decisions=draft.decisions,
         reroutes=draft.reroutes,
         improvement=draft.improvement,
+        start=None if old is None else kept_of(old, task.scenario, draft.tracks),
         alone=tuple(alone.tolist()),
     )
     plan = Plan(scenario=task.scenario, tracks=draft.tracks, run=run)
@@ -276,6 +296,22 @@ def _drafted(spec: PlannerSpec, task: Task) -> Draft:
     if check(Plan(scenario=scenario, tracks=draft.tracks, run=PlannerRun(name=spec.name))).ok:
         return draft
     raise gave_up
+
+
+def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
+    """Return the draft of a planner that starts from an old plan, or from nothing if it must."""
+    from rightofway.planners.warm_start import first_plan
+
+    tracks = first_plan(task, old)
+    if tracks is None:
+        task.report("the old plan does not help: planning from nothing")
+        return _drafted(spec, task)
+    task.has_plan()
+    task.better(lambda: tracks)
+    try:
+        return _drafted(spec, replace(task, start=tracks))
+    except GaveUp:
+        return Draft(tracks=tracks, status="the old plan, changed where it had to be")
 
 
 def _handing_over(

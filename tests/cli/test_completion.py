@@ -41,7 +41,7 @@ def test_commands_are_offered(offered: Offered) -> None:
 def test_planners_are_offered_and_for_improve_those_that_can(offered: Offered) -> None:
     assert {"auto", "two-level", "lns"} <= set(offered("plan", "--planner", ""))
     assert offered("plan", "--planner", "lo") == ["local-search"]
-    assert offered("improve", "--planner", "") == ["local-search", "lns"]
+    assert offered("improve", "--planner", "") == ["auto", "local-search", "lns"]
 
 
 def test_options_are_those_of_the_planner_with_their_values(offered: Offered) -> None:

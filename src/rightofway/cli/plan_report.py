@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from itertools import chain
 from typing import Any
 
@@ -96,6 +96,9 @@ def planning(plan: Plan, quantities: Quantities) -> str:
         tries = "attempt" if made.tries == 1 else "attempts"
         ended = "interrupted: " if made.interrupted else ""
         parts.append(f"{ended}{number}{tries} to improve the first plan {found}")
+    if run.start is not None:
+        kept, fleet = run.start, counted(len(plan.tracks), "robot")
+        parts.append(f"{kept.routes} of {fleet} keep their old route, {kept.tracks} also its times")
     if run.reroutes:
         names = [words.robot(reroute.robot) for reroute in run.reroutes]
         parts.append(f"rerouted: {', '.join(names)}")
@@ -264,6 +267,7 @@ def summary_data(plan: Plan) -> dict[str, Any]:
             "status": run.status,
             "seconds": _rounded(run.seconds),
             "first_plan_seconds": _rounded(run.first_plan_seconds),
+            **({} if run.start is None else {"start": asdict(run.start)}),
         },
         **measures(plan.scenario),
         "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},

@@ -48,6 +48,7 @@ Examples:
   rightofway plan examples/door.yaml --page door.html
   rightofway plan examples/warehouse.yaml -o plan.json --log
   rightofway plan examples/paper/door-5.yaml --planner paper --log --table
+  rightofway plan changed.yaml --start plan.json -o better.json
 """
 
 IMPROVE_EXAMPLES = """\b
@@ -115,6 +116,8 @@ def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[.
 @click.command(cls=ListingCommand, listing=_list_all, epilog=PLAN_EXAMPLES)
 @click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
 @count_option
+@click.option("--start", type=click.Path(), metavar="PLAN", shell_complete=files(*PLANS),
+              help="Start from the PLAN of this SCENARIO before it was changed.")  # fmt: skip
 @_planning_options(DEFAULT)
 def plan(*, scenario: str, count: int | None, **given: Any) -> int:
     """Plan a SCENARIO (YAML, JSON, .xlsx or .scen) and check the plan.
@@ -207,6 +210,7 @@ def _run(
     table: bool,
     in_ticks: bool,
     as_json: bool,
+    start: str | None = None,
 ) -> int:
     """Read, plan, write and report; return the exit code."""
     began = time.monotonic()
@@ -216,7 +220,11 @@ def _run(
     if words and as_json:
         raise click.UsageError(f"{words} is for people, --json for programs: choose one")
     refuse_outputs(source, output, as_json=as_json)
+    if start == source == "-":
+        raise click.UsageError("SCENARIO and --start are both standard input: give one as a file")
     problem = read(source)
+    if start is not None:
+        search = partial(search, start=read_plan(start))
     left = time_limit  # for planning [s]
     if time_limit is not None:
         left = max(time_limit - (time.monotonic() - began), time_limit / 2)

@@ -7,7 +7,16 @@ from rightofway.model.geometry import Frame, Point, rounding_step, squared_dista
 from rightofway.model.grid import roadmap_of_grid
 from rightofway.model.lap import Lap, lap_of, visits_of_laps
 from rightofway.model.lost_time import Loss, LostTime
-from rightofway.model.plan import Decision, Improvement, Plan, PlannerRun, Reroute, RobotPlan, Wait
+from rightofway.model.plan import (
+    Decision,
+    Improvement,
+    Plan,
+    PlannerRun,
+    Reroute,
+    RobotPlan,
+    StartPlan,
+    Wait,
+)
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.quantities import Quantities, Units, decimal
 from rightofway.model.resources import Resources
@@ -61,6 +70,7 @@ __all__ = [
     "Rules",
     "Scenario",
     "Stage",
+    "StartPlan",
     "Stays",
     "SteadyState",
     "Stop",

@@ -104,6 +104,22 @@ class Improvement:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class StartPlan:
+    """How much a plan has kept of the plan of another scenario that it was made from.
+
+    Attributes
+    ----------
+    routes
+        How many robots have the same route.
+    tracks
+        How many of these have it at the same times.
+    """
+
+    routes: int
+    tracks: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PlannerRun:
     """How a plan came about.
 
@@ -124,6 +140,8 @@ class PlannerRun:
         Robots that were rerouted.
     improvement
         What changes of the first plan gained, or None where there were none. Files do not keep it.
+    start
+        What was kept of the plan that it was made from, or None where it was made from nothing.
     alone
         The least completion of each robot without the others [ticks], or None where planning did
         not compute it. Files do not keep it.
@@ -138,6 +156,7 @@ class PlannerRun:
     decisions: tuple[Decision, ...] = ()
     reroutes: tuple[Reroute, ...] = ()
     improvement: Improvement | None = field(default=None, compare=False)
+    start: StartPlan | None = None
     alone: tuple[Tick, ...] | None = field(default=None, repr=False, compare=False)
 
 

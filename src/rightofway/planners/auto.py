@@ -3,7 +3,7 @@
 A small fleet is planned by two-level, whose decisions are explained; a large one by LaCAM and by
 prioritized planning, whichever plan is better. Large neighbourhood search improves the best of
 these. Where it finds nothing better than two-level did, the plan of two-level is returned, with its
-decisions.
+decisions. It starts from a given plan unless the plan of two-level is better.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import replace
 
-from rightofway.errors import GaveUp
+from rightofway.errors import GaveUp, InputError
 from rightofway.model import cost_of
 from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
@@ -33,6 +33,9 @@ def auto(task: Task) -> Draft:
     With ``swaps=leave`` it is `paper`, for points only.
     """
     if task.options["swaps"] == "leave":
+        if task.start is not None:
+            message = "leave cannot start from a plan (choose swaps=resolve)"
+            raise InputError.at("option swaps", message)
         refuse_sizes(task.scenario.problem.resources, "swaps=leave", "choose swaps=resolve")
         refuse_closures(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
         refuse_turn_rates(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
@@ -40,21 +43,31 @@ def auto(task: Task) -> Draft:
     explained = None
     if len(task.scenario.robots) <= FEW:
         options = {"swaps": "resolve", "routes": "clear"}
-        hurried = replace(task, options=options, deadline=task.deadline.sooner(SHARE))
+        hurried = replace(task, options=options, start=None, deadline=task.deadline.sooner(SHARE))
         with suppress(GaveUp):
             explained = two_level(hurried)
             task.has_plan()
             task.better(lambda: explained.tracks)
-    if explained is None:
+    if explained is None or not _is_preferred(task, explained):
         return lns(task)
     resources, first = task.scenario.problem.resources, None
     if resources is None or resources.is_exact:  # else two-level may wait where LNS may not
         first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
     try:
-        better = improved(task, fleet_search(task), first=first)
+        if task.start is None:
+            better = improved(task, fleet_search(task), first=first)
+        else:
+            better = lns(replace(task, start=explained.tracks if first else task.start))
     except GaveUp:
         return explained
     before, after = (cost_of(task.scenario, one.tracks) for one in (explained, better))
     if after < before:
         return better
     return replace(explained, status=better.status, improvement=better.improvement)
+
+
+def _is_preferred(task: Task, explained: Draft) -> bool:
+    """Whether the plan of two-level is better than the plan given, or is that plan."""
+    if task.start is None or explained.tracks == task.start:
+        return True
+    return cost_of(task.scenario, explained.tracks) < cost_of(task.scenario, task.start)

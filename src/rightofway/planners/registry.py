@@ -28,7 +28,7 @@ class PlannerSpec:
     options_type
         Its options.
     improves
-        Whether it can start from a plan and make it better.
+        Whether it can start from a plan and make it better, also from one of another scenario.
     leaves_swaps
         Whether its plans may hold swaps; all other plans keep all rules.
     knows_sizes
@@ -90,6 +90,7 @@ PLANNERS = (
         "rightofway.planners.auto:auto",
         "The default: a plan at once, then better plans until time is up.",
         options.AutoOptions,
+        improves=True,
         knows_sizes=True,
         knows_closures=True,
         knows_types=True,

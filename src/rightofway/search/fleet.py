@@ -104,14 +104,34 @@ class FleetSearch:
         """Continue `prioritize` where it ended; the searches count from its beginning."""
         return self._core.go_on(searches, time_limit)
 
-    def start(self, tracks: Sequence[Track]) -> None:
-        """Take over tracks; a ``ValueError`` refuses those that break the rules."""
-        lengths = [len(track) for track in tracks]
+    def start(self, tracks: Sequence[Track | None]) -> None:
+        """Take over tracks; robots without one are left to `repair`.
+
+        A ``ValueError`` refuses tracks that break the rules.
+        """
+        known = [track for track in tracks if track is not None]
+        lengths = [0 if track is None else len(track) for track in tracks]
         self._core.start(
             np.array([0, *accumulate(lengths)], np.int32),
-            np.concatenate([track.vertices for track in tracks]),
-            np.concatenate([track.enter for track in tracks]),
+            np.concatenate([np.zeros(0, np.int32), *(track.vertices for track in known)]),
+            np.concatenate([np.zeros(0, np.int64), *(track.enter for track in known)]),
         )
+
+    def repair(self, order: Sequence[int], *, searches: int, time_limit: float | None) -> bool:
+        """Give tracks to the robots without one; tell whether all robots have one.
+
+        A robot in the way of another one loses its track and is planned again, at a rising price.
+
+        Parameters
+        ----------
+        order
+            The robots without a track.
+        searches
+            The most searches before it gives up.
+        time_limit
+            When to stop [s].
+        """
+        return self._core.repair(np.array(order, np.int32), searches, time_limit)
 
     def improve(
         self,

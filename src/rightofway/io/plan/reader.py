@@ -21,6 +21,7 @@ from rightofway.model import (
     PlannerRun,
     Reroute,
     Scenario,
+    StartPlan,
     SteadyState,
     Tick,
     Track,
@@ -175,6 +176,7 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
         seconds=None if document.seconds is None else float(document.seconds),
         decisions=tuple(decision for decision in decisions if decision),
         reroutes=tuple(reroutes),
+        start=None if document.start is None else StartPlan(**document.start.model_dump()),
     )
 
 

@@ -43,6 +43,13 @@ class RerouteDocument(Document):
     because: Words = Field(description="a sentence")
 
 
+class StartDocument(Document):
+    """What was kept of the plan, of another scenario, that the plan was made from."""
+
+    routes: int = Field(ge=0, description="how many robots have the same route")
+    tracks: int = Field(ge=0, description="how many of these have it at the same times")
+
+
 class PlannerDocument(Document):
     """How a plan came about."""
 
@@ -53,6 +60,9 @@ class PlannerDocument(Document):
     seconds: NotNegative | None = Field(default=None, description="how long it took, or null")
     decisions: list[DecisionDocument] = Field(default=[], description="a list of decisions")
     reroutes: list[RerouteDocument] = Field(default=[], description="a list of {robot, because}")
+    start: StartDocument | None = Field(
+        default=None, description="{routes, tracks} kept of an old plan, or null"
+    )
 
 
 class TrackDocument(Document):

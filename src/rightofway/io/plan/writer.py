@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -99,6 +100,7 @@ def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str,
             {"robot": scenario.robots[reroute.robot].name, "because": reroute.because}
             for reroute in run.reroutes
         ],
+        **({} if run.start is None else {"start": asdict(run.start)}),
     }
 
 
