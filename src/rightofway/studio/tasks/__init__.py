@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from rightofway.studio.tasks import asking, dealing, documents, editing, planning, views
+from rightofway.studio.tasks import asking, dealing, documents, editing, planning, studies, views
 
 Task = Callable[..., tuple[Any, ...]]
 
@@ -23,8 +23,10 @@ TASKS: dict[str, Task] = {
     "deal": dealing.dealt,
     "plan": planning.plan,
     "improve": planning.improve,
-    "laps": planning.laps,
-    "simulate": planning.simulate,
+    "laps": studies.laps,
+    "laps_if": studies.laps_if,
+    "simulate": studies.simulate,
+    "replay": studies.replayed,
     "choices": planning.choices,
     "payload": views.payload,
     "page": views.page,
