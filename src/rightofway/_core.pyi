@@ -405,7 +405,8 @@ class FleetSearch:
         """
         Take over tracks: where each robot's visits begin, int32[R + 1], their vertices and enters.
 
-        A robot may have none: an empty track. ValueError if they are no tracks of these trips, or overlap.
+        A robot may have none: an empty track. ValueError if the others are no tracks of these trips, or
+        overlap.
         """
 
     def prioritize(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None, with_net: float | None) -> bool:

@@ -208,7 +208,7 @@ def _of_speed(scenario: Scenario, graph: TimedEventGraph, place: int, robot: Rob
 
     Notes
     -----
-    A drive along an edge with a speed limit has two entries: at the robot's speed and at the limit.
+    A drive along an edge with a speed limit has two entries: at its own speed, and at the limit.
     """
     arcs, is_right = graph.arcs, graph.arcs.first >= 0
     drives = (graph.robot[arcs.head] == place) & (~is_right | graph.books_ahead)
