@@ -126,15 +126,20 @@ def test_the_page_speaks_german_to_a_german_browser_and_english_on_request(
         context.close()
 
 
-def test_both_languages_have_the_same_texts(studio: StudioPage) -> None:
-    shape = """(async () => {
-      const { setLanguage } = await import('/assets/words.js');
-      const module = await import('/assets/words.js');
+@pytest.mark.parametrize("folder_of_texts", ["/assets/words", "/assets/viewer/texts"])
+def test_both_languages_have_the_same_texts_of_the_same_values(
+    studio: StudioPage, folder_of_texts: str
+) -> None:
+    shape = """(async (folder) => {
+      const values = (text) => text.toString().match(/^\\(?([^)=]*)/)[1].split(/,\\s*/);
       const shape = (texts) => (typeof texts === 'object'
-        ? Object.entries(texts).map(([key, value]) => [key, shape(value)]) : typeof texts);
-      return ['en', 'de'].map((code) => { setLanguage(code); return shape(module.words); });
-    })()"""
-    english, german = studio.ask(shape)
+        ? Object.entries(texts).map(([key, value]) => [key, shape(value)]).sort()
+        : typeof texts === 'function' ? values(texts) : typeof texts);
+      const modules = ['en', 'de'].map((code) => import(`${folder}/${code}.js`));
+      const [{ ENGLISH }, { GERMAN }] = await Promise.all(modules);
+      return [shape(ENGLISH), shape(GERMAN)];
+    })"""
+    english, german = studio.ask(f"{shape}('{folder_of_texts}')")
     assert english == german
 
 

@@ -2,7 +2,7 @@
 
 import { html } from "./vendor/htm-preact.js";
 import { Icon } from "./icons.js";
-import { LANGUAGES, language, setLanguage, words } from "./words.js";
+import { LANGUAGES, language, words } from "./words.js";
 
 export function Header({ studio }) {
   const { store, isStarting } = studio;
@@ -23,10 +23,7 @@ export function Header({ studio }) {
         </div>`
       }
       <div class="actions last">
-        <select aria-label=${words.language} value=${language} onChange=${(event) => {
-          setLanguage(event.target.value);
-          studio.tell("change");
-        }}>${LANGUAGES.map(([code, name]) => html`<option value=${code}>${name}</option>`)}</select>
+        <select aria-label=${words.language} value=${language} onChange=${(event) => studio.speak(event.target.value)}>${LANGUAGES.map(([code, name]) => html`<option value=${code}>${name}</option>`)}</select>
         ${
           !isStarting &&
           html`<button type="button" aria-label=${words.keys} title=${`${words.keys} (?)`} onClick=${() => studio.help(true)}><${Icon} name="help" /></button>

@@ -15,7 +15,7 @@ import { Words } from "./viewer/words.js";
 import { words as texts } from "./words.js";
 
 const LEGENDS = `<div class="legends">
-<div id="heat-legend" class="heat-legend" hidden><span></span><span id="heat-scale" class="scale"></span></div>
+<div id="heat-legend" class="heat-legend" hidden><span data-text="timeHeld" data-title="timeHeldAtLength"></span><span id="heat-scale" class="scale"></span></div>
 <div id="bottleneck-legend" class="lit-legend" hidden><span class="lit"></span><span class="name"></span></div></div>
 <div id="hover" class="hover" aria-live="off" hidden></div>`;
 
@@ -44,6 +44,7 @@ export class Stage extends Observable {
    */
   show(raw, { keeps = false } = {}) {
     const { clock: before, view: old, isPlan: wasPlan } = this;
+    this.raw = raw;
     const chosen = this.choice?.robot?.name;
     const plan = raw.metrics ? new Plan(raw) : new Site(raw);
     const clock = new Clock(plan);

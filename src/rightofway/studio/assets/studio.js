@@ -7,7 +7,7 @@ import { Editor } from "./draw/editor.js";
 import { RunStore } from "./runs/run_store.js";
 import { Stage } from "./stage.js";
 import { Observable } from "./viewer/observable.js";
-import { words } from "./words.js";
+import { setLanguage, words } from "./words.js";
 
 export const TABS = ["map", "robots", "plan"];
 
@@ -149,6 +149,13 @@ export class Studio extends Observable {
       await this.store.save();
       await this.list();
     });
+  }
+
+  /** Speak another language; the map is written anew. */
+  speak(code) {
+    setLanguage(code);
+    if (this.stage.raw) this.stage.show(this.stage.raw, { keeps: true });
+    this.tell("change");
   }
 
   help(isShown) {

@@ -1,25 +1,38 @@
-/** The texts of the studio in the language that was chosen; what the library says stays as it says it.
+/**
+ * The texts of the studio in the language that was chosen; what the viewer says, too, is the viewer's.
+ *
+ * A language is a file in `words/` with the same keys, and a line here, beside the viewer's own.
+ */
 
-A language is a file in `words/` with the same keys, and a line here. */
-
+import * as viewer from "./viewer/language.js";
 import { GERMAN } from "./words/de.js";
 import { ENGLISH } from "./words/en.js";
 
 const TEXTS = { en: ENGLISH, de: GERMAN };
 
-export const LANGUAGES = [
-  ["en", "English"],
-  ["de", "Deutsch"],
-];
+export const LANGUAGES = Object.entries(viewer.LANGUAGES).map(([code, { name }]) => [code, name]);
+
+/** Terms that the viewer has, too: they are written once. */
+function shared({ markup, ...texts }) {
+  const { flowtime, makespan, gap, planner, robot, copied, noFindings, faults } = texts;
+  const { map, time, language, keys, close, zoomIn, zoomOut, fit } = markup;
+  return {
+    ...{ map, time, language, keys, close, zoomIn, zoomOut, fit },
+    ...{ flowtime, makespan, gap, planner, robot, copied },
+    bound: texts.lowerBound,
+    faultCount: faults,
+    nothingFound: noFindings,
+  };
+}
 
 /** The language of the page: the one that was chosen, or the browser's, or English. */
 export let language = "en";
-export let words = TEXTS.en;
+export let words = {};
 
 export function setLanguage(code) {
-  language = TEXTS[code] ? code : "en";
-  words = TEXTS[language];
-  document.documentElement.lang = language;
+  viewer.setLanguage(code);
+  language = viewer.language;
+  words = { ...shared(viewer.texts), ...viewer.completed(TEXTS[language] ?? {}, ENGLISH) };
   localStorage.setItem("language", language);
 }
 

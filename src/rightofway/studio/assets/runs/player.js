@@ -3,25 +3,25 @@
 import { Bottleneck } from "../viewer/bottleneck.js";
 import { Card } from "../viewer/card.js";
 import { Diagram } from "../viewer/diagram.js";
+import { writeMarkup } from "../viewer/language.js";
 import { States } from "../viewer/states.js";
 import { Transport } from "../viewer/transport.js";
 import { Use } from "../viewer/use.js";
-import { words } from "../words.js";
 
 const icon = (path) => `<svg viewBox="0 0 20 20" aria-hidden="true">${path}</svg>`;
 
-const BELOW = `<ul id="states" class="states"></ul><div class="tools" role="toolbar">
-<button type="button" id="bottleneck" aria-pressed="true" hidden>${icon('<path d="M5.5 2.500V6L9 10l-3.500 4v3.500M14.500 2.500V6L11 10l3.500 4v3.500M4.500 2.500h11M4.500 17.500h11"/>')}</button>
-<button type="button" id="space" aria-pressed="false">${icon('<circle cx="6.5" cy="10" r="2.5"/><circle cx="6.5" cy="10" r="5" stroke-dasharray="2 2"/><path d="M11.5 10h6M15 7.5l2.5 2.5-2.5 2.5"/>')}</button>
-<button type="button" id="heat" aria-pressed="false">${icon('<path d="M10 2.5c.6 3-3.800 4.800-3.800 8.600A4 4 0 0 0 10 15.500a4 4 0 0 0 3.800-4.400c0-1.700-.9-2.900-1.500-3.600-.2 1.200-.7 1.800-1.300 2.100.3-2.600-.2-5-1-7.100zM6 17.500h8"/>')}</button></div>`;
+const BELOW = `<ul id="states" class="states" data-label="states"></ul><div class="tools" role="toolbar" data-label="mapView">
+<button type="button" id="bottleneck" data-label="bottleneck" data-title="bottleneckAtLength" aria-pressed="true" hidden>${icon('<path d="M5.5 2.500V6L9 10l-3.500 4v3.500M14.500 2.500V6L11 10l3.500 4v3.500M4.500 2.500h11M4.500 17.500h11"/>')}</button>
+<button type="button" id="space" data-label="space" data-title="spaceAtLength" aria-pressed="false">${icon('<circle cx="6.5" cy="10" r="2.5"/><circle cx="6.5" cy="10" r="5" stroke-dasharray="2 2"/><path d="M11.5 10h6M15 7.5l2.5 2.5-2.5 2.5"/>')}</button>
+<button type="button" id="heat" data-label="heat" data-title="heatAtLength" aria-pressed="false">${icon('<path d="M10 2.5c.6 3-3.800 4.800-3.800 8.600A4 4 0 0 0 10 15.500a4 4 0 0 0 3.800-4.400c0-1.700-.9-2.900-1.500-3.600-.2 1.200-.7 1.800-1.300 2.100.3-2.600-.2-5-1-7.100zM6 17.500h8"/>')}</button></div>`;
 
 const TIME = `<h2 id="diagram-title"></h2><div class="bar"><div class="caption">
-<output id="readout" class="readout" for="slider"></output><label class="speed"><span></span> <select id="speed"></select></label></div>
+<output id="readout" class="readout" for="slider"></output><label class="speed"><span data-text="speed"></span> <select id="speed"></select></label></div>
 <div class="transport"><div class="buttons">
-<button type="button" id="back">${icon('<path d="M13.5 5 8 10l5.5 5M5.5 5v10"/>')}</button>
-<button type="button" id="play" class="play">${icon('<path class="play-sign" d="M6.5 4v12l10-6z"/><path class="pause-sign" d="M5.5 4h3v12h-3zM11.5 4h3v12h-3z"/>')}</button>
-<button type="button" id="forth">${icon('<path d="M6.5 5 12 10l-5.5 5M14.5 5v10"/>')}</button></div>
-<input type="range" id="slider" min="0" step="any" value="0"></div></div>
+<button type="button" id="back" data-label="back" data-title="back" data-key="←">${icon('<path d="M13.5 5 8 10l5.5 5M5.5 5v10"/>')}</button>
+<button type="button" id="play" class="play" data-label="play" data-title="playKey">${icon('<path class="play-sign" d="M6.5 4v12l10-6z"/><path class="pause-sign" d="M5.5 4h3v12h-3zM11.5 4h3v12h-3z"/>')}</button>
+<button type="button" id="forth" data-label="forth" data-title="forth" data-key="→">${icon('<path d="M6.5 5 12 10l-5.5 5M14.5 5v10"/>')}</button></div>
+<input type="range" id="slider" min="0" step="any" value="0" data-label="time"></div></div>
 <div class="diagram"><canvas id="diagram" role="img"></canvas><div id="needle" class="needle" aria-hidden="true"></div></div>`;
 
 export class Player {
@@ -29,17 +29,9 @@ export class Player {
     Object.assign(this, { plan, clock, choice, motion, words: said, theme, below, time, card });
     below.innerHTML = BELOW;
     time.innerHTML = TIME;
-    for (const [id, text] of Object.entries(words.player)) this.#name(id, text);
-    time.querySelector(".speed span").textContent = words.speedOfTime;
-    document.querySelector("#heat-legend span").textContent = words.timeHeld;
+    writeMarkup();
     this.use = new Use(plan);
     this.bottleneck = new Bottleneck(plan, clock, choice, theme, said);
-  }
-
-  #name(id, text) {
-    const found = this.below.querySelector(`#${id}`) ?? this.time.querySelector(`#${id}`);
-    found.setAttribute("aria-label", text);
-    found.title = text;
   }
 
   /** Begin to show, beside the view of the map. */

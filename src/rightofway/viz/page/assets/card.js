@@ -1,5 +1,5 @@
 import { element, facts, goTo, link, swatch } from "./dom.js";
-import { texts } from "./language.js";
+import { texts, withKey } from "./language.js";
 import { BROKEN, WAIT } from "./phases.js";
 import { joined } from "./words.js";
 
@@ -39,7 +39,7 @@ export class Card {
   }
 
   #header(...title) {
-    const said = { ariaLabel: texts.chooseNothing, title: texts.chooseNothingKey };
+    const said = { ariaLabel: texts.chooseNothing, title: withKey(texts.chooseNothing, "Esc") };
     const close = element("button", { type: "button", className: "quiet", ...said }, "✕");
     close.addEventListener("click", () => this.choice.chooseNothing());
     return element("header", {}, ...title, close);

@@ -1,7 +1,14 @@
 import { nearest } from "./arrays.js";
 import { element } from "./dom.js";
 import { connectFind, matches } from "./find.js";
-import { askedLanguage, offerLanguages, setLanguage, texts, writeMarkup } from "./language.js";
+import {
+  askedLanguage,
+  offerLanguages,
+  setLanguage,
+  texts,
+  withKey,
+  writeMarkup,
+} from "./language.js";
 import { MapView } from "./map_view.js";
 import { Site } from "./site.js";
 import { Theme } from "./theme.js";
@@ -125,7 +132,7 @@ class InspectPage {
         type: "button",
         className: "quiet",
         ariaLabel: texts.chooseNothing,
-        title: texts.chooseNothingKey,
+        title: withKey(texts.chooseNothing, "Esc"),
       },
       "✕",
     );

@@ -35,17 +35,25 @@ export function completed(own, other) {
   return { ...own, ...Object.fromEntries(both) };
 }
 
-/** Write the texts of the markup: what stands in an element, its title, and its name for screen readers. */
+/**
+ * Write the texts of the markup: `data-text` is what stands in an element, `data-label` its name for
+ * screen readers, `data-title` and `data-hint` what it does, with the key that does it, too.
+ */
 export function writeMarkup() {
   const { markup } = texts;
-  for (const each of document.querySelectorAll("[data-text]"))
-    each.textContent = markup[each.dataset.text];
-  for (const each of document.querySelectorAll("[data-title]"))
-    each.title = markup[each.dataset.title];
-  for (const each of document.querySelectorAll("[data-label]"))
-    each.setAttribute("aria-label", markup[each.dataset.label]);
-  for (const each of document.querySelectorAll("[data-hint]"))
-    each.placeholder = markup[each.dataset.hint];
+  const each = (kind, write) => {
+    for (const found of document.querySelectorAll(`[data-${kind}]`))
+      write(found, markup[found.dataset[kind]], found.dataset.key);
+  };
+  each("text", (found, text) => (found.textContent = text));
+  each("label", (found, text) => found.setAttribute("aria-label", text));
+  each("title", (found, text, key) => (found.title = withKey(text, key)));
+  each("hint", (found, text, key) => (found.placeholder = withKey(text, key)));
+}
+
+/** "Zoom in (+)". */
+export function withKey(text, key) {
+  return key ? `${text} (${key})` : text;
 }
 
 /** Fill the choice of a language; another one opens the page anew, at the same moment. */

@@ -1,4 +1,4 @@
-import { texts } from "./language.js";
+import { texts, withKey } from "./language.js";
 
 /** The button that plays one period for ever. */
 export class Loop {
@@ -32,7 +32,7 @@ export class Loop {
   #show() {
     if (!this.plan.steady) return;
     this.button.disabled = !this.#window;
-    this.button.title = this.#window ? texts.loopKey : texts.noLoop;
+    this.button.title = this.#window ? withKey(texts.loopAtLength, "L") : texts.noLoop;
     this.button.setAttribute("aria-pressed", Boolean(this.clock.loop));
   }
 }

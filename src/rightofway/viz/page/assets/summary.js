@@ -1,6 +1,7 @@
 import { element, facts, link } from "./dom.js";
 import { texts } from "./language.js";
 import { DONE, WAIT } from "./phases.js";
+import { upperFirst } from "./words.js";
 
 /** The head of the page: what the plan achieves, in plain words and few figures; how it was made, on request. */
 export class Summary {
@@ -212,10 +213,10 @@ export class Summary {
     if (this.plan.faultCount) return origin; // its times are worth nothing
     return [
       ...origin,
-      [texts.flowtime, this.words.time(flowtime)],
-      [texts.lowerBound, this.words.time(lowerBound)],
+      [upperFirst(texts.flowtime), this.words.time(flowtime)],
+      [upperFirst(texts.lowerBound), this.words.time(lowerBound)],
       [texts.gap, gap],
-      [texts.makespan, this.words.time(makespan)],
+      [upperFirst(texts.makespan), this.words.time(makespan)],
       [
         texts.timeLost,
         [this.#timeLost(this.plan.planned)]
