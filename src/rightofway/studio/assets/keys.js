@@ -16,16 +16,21 @@ export const TOOL_KEYS = {
   robot: "a",
 };
 
-const TOOL_OF = Object.fromEntries(Object.entries(TOOL_KEYS).map(([tool, key]) => [key, tool]));
+const TOOL_OF = Object.fromEntries(
+  Object.entries(TOOL_KEYS).map(([tool, key]) => [key, tool]),
+);
 
 export function listenToKeys(studio) {
   const { store, editor, stage } = studio;
   const withControl = {
     z: (event) => (event.shiftKey ? store.redo() : store.undo()),
     y: () => store.redo(),
-    s: () => studio.save(),
+    s: () => studio.shelf.save(),
     d: () => editor.tools.get("select").duplicate(),
-    a: () => editor.select(editor.hits.inside([-Infinity, -Infinity, Infinity, Infinity])),
+    a: () =>
+      editor.select(
+        editor.hits.inside([-Infinity, -Infinity, Infinity, Infinity]),
+      ),
     Enter: () => studio.plan(),
   };
   const plain = {
@@ -47,16 +52,24 @@ export function listenToKeys(studio) {
     document.addEventListener(name, ({ target }) => (atFocus = target.value));
   document.addEventListener("keydown", (event) => {
     if (studio.isStarting || event.defaultPrevented) return;
-    if (event.key !== "?" && document.querySelector("dialog[open]")) return; // its keys are its own
+    if (document.querySelector("dialog[open]")) return; // its keys are its own
     const isWriting = event.target.matches(
       "input:not([type=range]), select, textarea, [contenteditable]",
     );
     const isControl = event.ctrlKey || event.metaKey;
-    const isUndo = "zy".includes(event.key.toLowerCase()) && event.target.value === atFocus; // nothing in the field to undo
-    if (isControl && isWriting && !["s", "Enter"].includes(event.key) && !isUndo) return;
+    const isUndo =
+      "zy".includes(event.key.toLowerCase()) && event.target.value === atFocus; // nothing in the field to undo
+    if (
+      isControl &&
+      isWriting &&
+      !["s", "Enter"].includes(event.key) &&
+      !isUndo
+    )
+      return;
     if (!isControl && (isWriting || event.altKey)) return;
     const isPressing =
-      event.target.matches("button, a, summary") && [" ", "Enter"].includes(event.key);
+      event.target.matches("button, a, summary") &&
+      [" ", "Enter"].includes(event.key);
     const action = isControl
       ? withControl[event.key.length > 1 ? event.key : event.key.toLowerCase()]
       : isPressing
@@ -70,6 +83,8 @@ export function listenToKeys(studio) {
     action(event);
   });
 
-  const forTab = (key) => (TABS[key - 1] ? () => studio.showTab(TABS[key - 1]) : null);
-  const forTool = (key) => (TOOL_OF[key] && editor.isOn ? () => editor.take(TOOL_OF[key]) : null);
+  const forTab = (key) =>
+    TABS[key - 1] ? () => studio.showTab(TABS[key - 1]) : null;
+  const forTool = (key) =>
+    TOOL_OF[key] && editor.isOn ? () => editor.take(TOOL_OF[key]) : null;
 }
