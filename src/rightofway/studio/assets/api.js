@@ -12,8 +12,7 @@ export class Refusal extends Error {
 
 /** Send a request and return what JSON the answer is. */
 export async function request(method, path, body) {
-  const headers =
-    body === undefined ? {} : { "content-type": "application/json" };
+  const headers = body === undefined ? {} : { "content-type": "application/json" };
   const answer = await fetch(ROOT + path, {
     method,
     headers,
@@ -30,19 +29,15 @@ export const put = (path, body) => request("PUT", path, body);
 export const remove = (path) => request("DELETE", path);
 
 /** A path of a file in an address: its names, not its slashes, are escaped. */
-export const inAddress = (path) =>
-  path.split("/").map(encodeURIComponent).join("/");
+export const inAddress = (path) => path.split("/").map(encodeURIComponent).join("/");
 
 /** Put a file into the folder under a path. */
 export async function upload(file, path, { replace = false } = {}) {
-  const answer = await fetch(
-    `${ROOT}/files/${inAddress(path)}?replace=${replace}`,
-    {
-      method: "PUT",
-      headers: { "content-type": "application/octet-stream" },
-      body: file,
-    },
-  );
+  const answer = await fetch(`${ROOT}/files/${inAddress(path)}?replace=${replace}`, {
+    method: "PUT",
+    headers: { "content-type": "application/octet-stream" },
+    body: file,
+  });
   const data = await answer.json();
   if (!answer.ok) throw new Refusal(data.error);
   return data;
@@ -51,10 +46,7 @@ export async function upload(file, path, { replace = false } = {}) {
 /** Whether a file has the content that stands under a path of the folder. */
 export async function sameAs(file, path) {
   const answer = await fetch(`${ROOT}/files/${inAddress(path)}`);
-  const [one, other] = await Promise.all([
-    file.arrayBuffer(),
-    answer.arrayBuffer(),
-  ]);
+  const [one, other] = await Promise.all([file.arrayBuffer(), answer.arrayBuffer()]);
   if (one.byteLength !== other.byteLength) return false;
   const [bytes, others] = [new Uint8Array(one), new Uint8Array(other)];
   return bytes.every((byte, at) => byte === others[at]);
@@ -84,21 +76,16 @@ export function listen(number, hearers) {
 function connect() {
   stream = new EventSource(address("/events"));
   for (const name of EVENTS)
-    stream.addEventListener(name, (event) =>
-      tell(name, JSON.parse(event.data)),
-    );
+    stream.addEventListener(name, (event) => tell(name, JSON.parse(event.data)));
   stream.addEventListener("runs", (event) =>
     JSON.parse(event.data).runs.forEach((run) => tell("run", run)),
   );
-  stream.addEventListener("deleted", (event) =>
-    forget(JSON.parse(event.data).number),
-  );
+  stream.addEventListener("deleted", (event) => forget(JSON.parse(event.data).number));
 }
 
 function tell(name, data) {
   for (const hearers of heard.get(data.number) ?? []) hearers[name]?.(data);
-  if (name === "run" && !["queued", "running"].includes(data.state))
-    forget(data.number);
+  if (name === "run" && !["queued", "running"].includes(data.state)) forget(data.number);
 }
 
 /** Hear no more of a run, or one of its hearers no more; who hears of none holds no connection. */

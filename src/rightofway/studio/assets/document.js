@@ -53,10 +53,7 @@ export class ScenarioStore extends Observable {
     this.#past = [];
     this.#future = [];
     this.#saved = revision ? document : null;
-    this.#draft =
-      draft ||
-      path ||
-      `new ${new Date().toISOString().slice(0, 19).replace("T", " ")}`;
+    this.#draft = draft || path || `new ${new Date().toISOString().slice(0, 19).replace("T", " ")}`;
     this.tell("document");
     this.tell("open");
     this.#work.survey.ask();
@@ -136,11 +133,8 @@ export class ScenarioStore extends Observable {
   }
 
   get faults() {
-    const isEmpty =
-      Array.isArray(this.document?.robots) && !this.document.robots.length;
-    return this.survey.faults.filter(
-      ({ place }) => !(isEmpty && place === "robots"),
-    );
+    const isEmpty = Array.isArray(this.document?.robots) && !this.document.robots.length;
+    return this.survey.faults.filter(({ place }) => !(isEmpty && place === "robots"));
   }
 
   /** Resolves when the library has looked at the present document. */
@@ -204,8 +198,7 @@ export class ScenarioStore extends Observable {
 }
 
 /** How many vertices a map has, at most. */
-const sizeOf = ({ rows, names }) =>
-  rows ? rows.length * rows[0].length : names.length;
+const sizeOf = ({ rows, names }) => (rows ? rows.length * rows[0].length : names.length);
 
 /** Work on what is the latest: while one round goes on, any number of requests make one more. */
 class Latest {

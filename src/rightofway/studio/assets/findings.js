@@ -64,22 +64,16 @@ const Sign = ({ severity }) =>
 function show(studio, names) {
   const { plan, view } = studio.stage;
   const { roadmap } = plan;
-  const vertices = names
-    .map((name) => roadmap.vertexNamed(name))
-    .filter((vertex) => vertex >= 0);
+  const vertices = names.map((name) => roadmap.vertexNamed(name)).filter((vertex) => vertex >= 0);
   studio.light(names);
   if (vertices.length)
-    view.viewport.showAll(
-      vertices.map((vertex) => [roadmap.x[vertex], roadmap.y[vertex]]),
-    );
+    view.viewport.showAll(vertices.map((vertex) => [roadmap.x[vertex], roadmap.y[vertex]]));
 }
 
 /** What the reader notes, and how large the map is: for those who want to know. */
 export function AboutMap({ studio }) {
   const { notes, store } = studio;
-  const all = [
-    ...new Set([...store.survey.sentences, ...notes, ...store.survey.notes]),
-  ];
+  const all = [...new Set([...store.survey.sentences, ...notes, ...store.survey.notes])];
   if (!all.length) return null;
   return html`<details class="notes">
     <summary>${words.notes}</summary>

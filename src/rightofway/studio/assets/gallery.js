@@ -16,9 +16,7 @@ function glance(source, name, revision) {
   const path = `/glances/${source}/${inAddress(name)}?dark=${isDark}`;
   const key = `${path} ${revision}`;
   if (!glances.has(key)) {
-    last = last
-      .then(() => get(path))
-      .catch(({ message }) => ({ trouble: message }));
+    last = last.then(() => get(path)).catch(({ message }) => ({ trouble: message }));
     glances.set(key, last);
   }
   return glances.get(key);
@@ -28,17 +26,15 @@ function glance(source, name, revision) {
 export function Gallery({ documents, open, remove }) {
   const [most, setMost] = useState(FIRST);
   return html` <ul class="gallery">
-      ${documents
-        .slice(0, most)
-        .map(
-          (each) =>
-            html`<${Card}
+      ${documents.slice(0, most).map(
+        (each) =>
+          html`<${Card}
               key=${`${each.source} ${each.name}`}
               document=${each}
               open=${open}
               remove=${remove}
             />`,
-        )}
+      )}
     </ul>
     ${
       documents.length > most &&
@@ -95,9 +91,7 @@ function Card({ document, open, remove }) {
 function aboutOf({ kind, robots, extent: [width, height], unit }, hasRoom) {
   const size = unit && hasRoom ? `${width} × ${height} ${unit}` : "";
   const what = kind === "layout" ? words.mapAlone : words.robotCount(robots);
-  return [kind === "plan" ? words.planOf(what) : what, size]
-    .filter(Boolean)
-    .join(" · ");
+  return [kind === "plan" ? words.planOf(what) : what, size].filter(Boolean).join(" · ");
 }
 
 /** When something was, as a person says it: "5 minutes ago". */

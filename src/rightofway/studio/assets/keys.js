@@ -16,9 +16,7 @@ export const TOOL_KEYS = {
   robot: "a",
 };
 
-const TOOL_OF = Object.fromEntries(
-  Object.entries(TOOL_KEYS).map(([tool, key]) => [key, tool]),
-);
+const TOOL_OF = Object.fromEntries(Object.entries(TOOL_KEYS).map(([tool, key]) => [key, tool]));
 
 export function listenToKeys(studio) {
   const { store, editor, stage } = studio;
@@ -27,10 +25,7 @@ export function listenToKeys(studio) {
     y: () => store.redo(),
     s: () => studio.shelf.save(),
     d: () => editor.tools.get("select").duplicate(),
-    a: () =>
-      editor.select(
-        editor.hits.inside([-Infinity, -Infinity, Infinity, Infinity]),
-      ),
+    a: () => editor.select(editor.hits.inside([-Infinity, -Infinity, Infinity, Infinity])),
     Enter: () => studio.plan(),
   };
   const plain = {
@@ -57,19 +52,11 @@ export function listenToKeys(studio) {
       "input:not([type=range]), select, textarea, [contenteditable]",
     );
     const isControl = event.ctrlKey || event.metaKey;
-    const isUndo =
-      "zy".includes(event.key.toLowerCase()) && event.target.value === atFocus; // nothing in the field to undo
-    if (
-      isControl &&
-      isWriting &&
-      !["s", "Enter"].includes(event.key) &&
-      !isUndo
-    )
-      return;
+    const isUndo = "zy".includes(event.key.toLowerCase()) && event.target.value === atFocus; // nothing in the field to undo
+    if (isControl && isWriting && !["s", "Enter"].includes(event.key) && !isUndo) return;
     if (!isControl && (isWriting || event.altKey)) return;
     const isPressing =
-      event.target.matches("button, a, summary") &&
-      [" ", "Enter"].includes(event.key);
+      event.target.matches("button, a, summary") && [" ", "Enter"].includes(event.key);
     const action = isControl
       ? withControl[event.key.length > 1 ? event.key : event.key.toLowerCase()]
       : isPressing
@@ -83,8 +70,6 @@ export function listenToKeys(studio) {
     action(event);
   });
 
-  const forTab = (key) =>
-    TABS[key - 1] ? () => studio.showTab(TABS[key - 1]) : null;
-  const forTool = (key) =>
-    TOOL_OF[key] && editor.isOn ? () => editor.take(TOOL_OF[key]) : null;
+  const forTab = (key) => (TABS[key - 1] ? () => studio.showTab(TABS[key - 1]) : null);
+  const forTool = (key) => (TOOL_OF[key] && editor.isOn ? () => editor.take(TOOL_OF[key]) : null);
 }

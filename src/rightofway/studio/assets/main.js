@@ -1,13 +1,6 @@
 /** The page: a head, tools at the left, the map in the middle, what is said about it at the right. */
 
-import {
-  html,
-  render,
-  useEffect,
-  useReducer,
-  useRef,
-  useState,
-} from "./vendor/htm-preact.js";
+import { html, render, useEffect, useReducer, useRef, useState } from "./vendor/htm-preact.js";
 import { Header } from "./header.js";
 import { Help } from "./help.js";
 import { listenToKeys } from "./keys.js";
@@ -27,12 +20,7 @@ const PANELS = { map: MapPanel, robots: RobotPanel, plan: PlanPanel };
 function App() {
   const [studio, setStudio] = useState(null);
   const [, refresh] = useReducer((count) => count + 1, 0);
-  const [holder, below, time, card] = [
-    useRef(null),
-    useRef(null),
-    useRef(null),
-    useRef(null),
-  ];
+  const [holder, below, time, card] = [useRef(null), useRef(null), useRef(null), useRef(null)];
   useEffect(() => {
     const made = new Studio({
       holder: holder.current,
@@ -94,8 +82,7 @@ function Tabs({ studio }) {
   const counts = {
     map:
       store.faults.length +
-        store.survey.findings.filter(({ severity }) => severity !== "note")
-          .length || "",
+        store.survey.findings.filter(({ severity }) => severity !== "note").length || "",
     robots: Array.isArray(robots) ? robots.length : "",
     plan: runs.runs.length || "",
   };
@@ -105,8 +92,7 @@ function Tabs({ studio }) {
   };
   const key = (event) => {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    if (step)
-      go(TABS[(TABS.indexOf(studio.tab) + step + TABS.length) % TABS.length]);
+    if (step) go(TABS[(TABS.indexOf(studio.tab) + step + TABS.length) % TABS.length]);
   };
   return html` <div class="tabs" role="tablist" onKeyDown=${key}>
     ${TABS.map(
@@ -140,9 +126,7 @@ function listenToDrops(studio) {
   document.addEventListener("drop", (event) => {
     event.preventDefault();
     if (event.dataTransfer.files.length)
-      studio.attempt(async () =>
-        studio.shelf.take(await droppedFiles(event.dataTransfer)),
-      );
+      studio.attempt(async () => studio.shelf.take(await droppedFiles(event.dataTransfer)));
   });
 }
 

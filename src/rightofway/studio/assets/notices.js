@@ -27,9 +27,7 @@ export class Notices extends Observable {
       const [was, is] = [countsOf(store.before), countsOf(store.document)];
       const gone = Object.keys(is).filter((kind) => is[kind] < was[kind]);
       if (!gone.length || isErasing()) return this.end();
-      const parts = gone.map((kind) =>
-        words.counted[kind](was[kind] - is[kind]),
-      );
+      const parts = gone.map((kind) => words.counted[kind](was[kind] - is[kind]));
       this.say(words.deleted(parts.join(", ")), words.undo, () => store.undo());
     });
     for (const event of ["undo", "open"]) store.on(event, () => this.end());

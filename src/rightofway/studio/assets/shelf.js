@@ -37,9 +37,7 @@ export class Shelf {
     this.waiting = "";
     if (found.run) {
       studio.runs.add(found.run);
-      const { document, folder } = await get(
-        `/runs/${found.run.number}/document`,
-      );
+      const { document, folder } = await get(`/runs/${found.run.number}/document`);
       studio.open({ document, folder, path: "" });
       await studio.runs.show(found.run.number);
       studio.showTab("plan");
@@ -66,9 +64,7 @@ export class Shelf {
     return this.studio.attempt(async () => {
       const { document } = await get(`/drafts/${inAddress(name)}`);
       const isFile = this.files.some(({ path }) => path === name);
-      const folder = name.includes("/")
-        ? name.slice(0, name.lastIndexOf("/"))
-        : "";
+      const folder = name.includes("/") ? name.slice(0, name.lastIndexOf("/")) : "";
       this.studio.open({
         document,
         folder,
@@ -97,8 +93,7 @@ export class Shelf {
     return this.studio.attempt(async () => {
       const given = [...files].slice(0, MOST_DROPPED);
       const others = [];
-      for (const file of given)
-        if (!(await this.#put(file, replace))) others.push(file);
+      for (const file of given) if (!(await this.#put(file, replace))) others.push(file);
       await this.list();
       if (others.length) {
         const names = others.map(({ name }) => name).join(", ");
@@ -113,8 +108,7 @@ export class Shelf {
   }
 
   async #openTaken(first, given) {
-    const path =
-      this.waiting && PICTURES.test(first.name) ? this.waiting : pathOf(first);
+    const path = this.waiting && PICTURES.test(first.name) ? this.waiting : pathOf(first);
     if (given.length > 1 && given.some((file) => pathOf(file).includes("/"))) {
       await this.studio.toStart(); // a folder: all of it is listed there
       return;
@@ -152,10 +146,7 @@ export class Shelf {
   save() {
     return this.studio.attempt(async () => {
       const { store } = this.studio;
-      if (!store.path)
-        store.rename(
-          await this.#freeName(this.studio.suggested || words.newName),
-        );
+      if (!store.path) store.rename(await this.#freeName(this.studio.suggested || words.newName));
       await store.save();
       await this.list();
       this.studio.notices.say(words.savedAs(store.path));
@@ -177,9 +168,7 @@ const pathOf = (file) => file.path ?? (file.webkitRelativePath || file.name);
 
 /** The files of a drop, also those in folders that were dropped: `File`s with a `path`. */
 export async function droppedFiles({ items, files }) {
-  const entries = [...items]
-    .map((item) => item.webkitGetAsEntry?.())
-    .filter(Boolean);
+  const entries = [...items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
   if (!entries.some(({ isDirectory }) => isDirectory)) return [...files];
   const found = [];
   const visit = async (entry) => {
@@ -191,8 +180,7 @@ export async function droppedFiles({ items, files }) {
       return;
     }
     const reader = entry.createReader();
-    const read = () =>
-      new Promise((done, fail) => reader.readEntries(done, fail));
+    const read = () => new Promise((done, fail) => reader.readEntries(done, fail));
     for (let part = await read(); part.length; part = await read())
       for (const each of part) await visit(each);
   };
@@ -200,5 +188,4 @@ export async function droppedFiles({ items, files }) {
   return found;
 }
 
-const OPENED =
-  /\.(ya?ml|json|xls[xm]|xml|graphml|geojson|csv|map|scen|txt|png|pgm|jpe?g|bmp)$/i;
+const OPENED = /\.(ya?ml|json|xls[xm]|xml|graphml|geojson|csv|map|scen|txt|png|pgm|jpe?g|bmp)$/i;

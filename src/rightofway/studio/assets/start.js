@@ -9,9 +9,7 @@ const UNITS = { length: "m", time: "s" };
 
 /** An empty floor. */
 export function newFloor({ width, height, cell, isAdaptive }) {
-  const cells = isAdaptive
-    ? { cell_size: "adaptive", smallest: cell }
-    : { cell_size: cell };
+  const cells = isAdaptive ? { cell_size: "adaptive", smallest: cell } : { cell_size: cell };
   return {
     format: FORMAT,
     map: { floor: { size: [width, height], obstacles: [] }, ...cells },
@@ -137,8 +135,7 @@ function NewFloor({ studio }) {
   });
   const button = useRef(null);
   useEffect(() => {
-    if (document.activeElement === document.body)
-      button.current.focus({ preventScroll: true });
+    if (document.activeElement === document.body) button.current.focus({ preventScroll: true });
   }, []);
   const number = (key, text, least, hint = "") =>
     html` <label title=${hint}

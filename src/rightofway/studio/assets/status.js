@@ -35,9 +35,7 @@ function PlanHint({ studio }) {
   if (stage.choice?.robot || !losses) return words.watching;
   const waits = losses.filter((loss) => loss.for);
   if (!waits.length) return losses.length ? words.watching : words.noWaitNext;
-  const longest = waits.reduce((one, other) =>
-    other.ticks > one.ticks ? other : one,
-  );
+  const longest = waits.reduce((one, other) => (other.ticks > one.ticks ? other : one));
   return html`${longest.sentence}
     <button
       type="button"

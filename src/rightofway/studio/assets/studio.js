@@ -55,11 +55,7 @@ export class Studio extends Observable {
   /** Find out what there is; open the file that the studio was started with. */
   begin() {
     return this.attempt(async () => {
-      const [about] = await Promise.all([
-        get("/"),
-        this.runs.load(),
-        this.shelf.list(),
-      ]);
+      const [about] = await Promise.all([get("/"), this.runs.load(), this.shelf.list()]);
       this.about = about;
       if (about.file) await this.shelf.open(about.file);
       this.tell("change");
@@ -148,8 +144,7 @@ export class Studio extends Observable {
   /** Why nothing can be planned yet; empty if it can. */
   get notReady() {
     const { document, faults, survey } = this.store;
-    if (Array.isArray(document?.robots) && !document.robots.length)
-      return words.needsRobots;
+    if (Array.isArray(document?.robots) && !document.robots.length) return words.needsRobots;
     return survey.ok ? "" : words.needsMending(faults.length);
   }
 
@@ -205,9 +200,7 @@ export class Studio extends Observable {
   light(names) {
     const { plan, choice } = this.stage;
     choice?.light(
-      names
-        .map((name) => plan.roadmap.vertexNamed(name))
-        .filter((vertex) => vertex >= 0),
+      names.map((name) => plan.roadmap.vertexNamed(name)).filter((vertex) => vertex >= 0),
     );
   }
 
@@ -259,8 +252,7 @@ export class Studio extends Observable {
     stage.show(runs.payload, { keeps: Boolean(stage.view) });
     if (this.#isPlaying) {
       stage.clock.seek(0);
-      if (!matchMedia("(prefers-reduced-motion: reduce)").matches)
-        stage.clock.play();
+      if (!matchMedia("(prefers-reduced-motion: reduce)").matches) stage.clock.play();
     }
     this.#isPlaying = false;
     this.tell("change");

@@ -85,13 +85,9 @@ function Size({ studio }) {
       }
       ${
         map.cell_size === "adaptive"
-          ? number(words.smallest, map.smallest ?? "", (smallest) =>
-              setMap({ smallest }),
-            )
+          ? number(words.smallest, map.smallest ?? "", (smallest) => setMap({ smallest }))
           : !map.roadmap &&
-            number(words.cellSize, map.cell_size ?? 1, (size) =>
-              setMap({ cell_size: size }),
-            )
+            number(words.cellSize, map.cell_size ?? 1, (size) => setMap({ cell_size: size }))
       }
       ${(map.roadmap || map.layout) && !map.cell_size && number(words.spacing, map.spacing ?? "", (spacing) => setMap({ spacing }))}
       <label
@@ -112,8 +108,8 @@ function Selected({ studio }) {
   const { store, editor } = studio;
   const { selection } = editor;
   if (!selection.size) return null;
-  const [vertices, lanes, obstacles] = ["vertex", "lane", "obstacle"].map(
-    (kind) => selection.of(kind),
+  const [vertices, lanes, obstacles] = ["vertex", "lane", "obstacle"].map((kind) =>
+    selection.of(kind),
   );
   const known = store.document.map.floor?.obstacles ?? [];
   const [obstacle] = obstacles;

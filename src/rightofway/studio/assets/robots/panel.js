@@ -3,14 +3,7 @@
 import { html, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { COLUMNS, columnOf } from "./columns.js";
-import {
-  addRobots,
-  changeRobots,
-  removeRobots,
-  robotsOf,
-  sortRobots,
-  tableText,
-} from "./fleet.js";
+import { addRobots, changeRobots, removeRobots, robotsOf, sortRobots, tableText } from "./fleet.js";
 import { RandomFleet } from "./random.js";
 
 const MOST_ROWS = 400; // that are written at once; the others on request
@@ -39,24 +32,17 @@ export function RobotPanel({ studio }) {
   const faults = store.faults.filter(({ place }) => place.startsWith("robots"));
   const faultOf = (row, key) =>
     faults
-      .filter(
-        ({ place }) =>
-          place.startsWith(`robots[${row}]`) && columnOf(place) === key,
-      )
+      .filter(({ place }) => place.startsWith(`robots[${row}]`) && columnOf(place) === key)
       .map(({ message }) => message)
       .join(" ");
   const sort = (column) => {
     const isDown = sorted.key === column.key && !sorted.isDown;
     setSorted({ key: column.key, isDown });
-    store.change((document) =>
-      sortRobots(document, column.value ?? column.text, isDown),
-    );
+    store.change((document) => sortRobots(document, column.value ?? column.text, isDown));
   };
   const write = (row, column, text) => {
     if (column.text(robots[row]) === text) return;
-    store.change((document) =>
-      changeRobots(document, [row], (robot) => column.set(robot, text)),
-    );
+    store.change((document) => changeRobots(document, [row], (robot) => column.set(robot, text)));
   };
   const paste = (event, row, at) => {
     const rows = event.clipboardData
@@ -71,17 +57,12 @@ export function RobotPanel({ studio }) {
   const fill = () => {
     const column = COLUMNS[cell.column];
     const text = column.text(robots[cell.row]);
-    const below = robots
-      .map((_, index) => index)
-      .filter((index) => index > cell.row);
-    store.change((document) =>
-      changeRobots(document, below, (robot) => column.set(robot, text)),
-    );
+    const below = robots.map((_, index) => index).filter((index) => index > cell.row);
+    store.change((document) => changeRobots(document, below, (robot) => column.set(robot, text)));
   };
   const select = (row, event) => {
     if (event.target.matches("input")) return;
-    if (event.shiftKey || event.ctrlKey)
-      editor.selection.toggle({ kind: "robot", id: row });
+    if (event.shiftKey || event.ctrlKey) editor.selection.toggle({ kind: "robot", id: row });
     else editor.select([{ kind: "robot", id: row }]);
     editor.changed();
   };
@@ -198,8 +179,7 @@ function pasted(document, rows, row, at) {
   const heads = rows[0].map((text) => text.trim().toLowerCase());
   const keys = heads.map((head) => (head === "target" ? "stops" : head));
   const isHead =
-    keys.filter((key) => COLUMNS.some((column) => column.key === key)).length >
-    rows[0].length / 2;
+    keys.filter((key) => COLUMNS.some((column) => column.key === key)).length > rows[0].length / 2;
   const columns = isHead
     ? keys.map((key) => COLUMNS.find((column) => column.key === key))
     : COLUMNS.slice(at);
@@ -213,10 +193,7 @@ function pasted(document, rows, row, at) {
         )
       : document;
   const written = (robot, texts) =>
-    texts.reduce(
-      (done, text, i) => (columns[i] ? columns[i].set(done, text) : done),
-      robot,
-    );
+    texts.reduce((done, text, i) => (columns[i] ? columns[i].set(done, text) : done), robot);
   return changeRobots(
     next,
     lines.map((_, i) => row + i),
@@ -226,9 +203,7 @@ function pasted(document, rows, row, at) {
 
 /** Enter and the arrow keys go up and down in a column, as in a spreadsheet. */
 function moveInTable(event) {
-  const step = { Enter: event.shiftKey ? -1 : 1, ArrowDown: 1, ArrowUp: -1 }[
-    event.key
-  ];
+  const step = { Enter: event.shiftKey ? -1 : 1, ArrowDown: 1, ArrowUp: -1 }[event.key];
   if (!step || !event.target.matches("input")) return;
   event.preventDefault();
   const [cell, row] = [event.target.closest("td"), event.target.closest("tr")];

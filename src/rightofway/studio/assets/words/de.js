@@ -16,8 +16,7 @@ export const GERMAN = {
   saved: "Gesichert",
   savedAs: (name) => `Gesichert als ${name}.`,
   keptAsDraft: "Entwurf",
-  draftHint:
-    "Jede Änderung bleibt als Entwurf erhalten. Sichern schreibt eine Datei.",
+  draftHint: "Jede Änderung bleibt als Entwurf erhalten. Sichern schreibt eine Datei.",
   fileName: "Name der Datei",
   unnamed: "Ohne Namen",
   replace: "Ersetzen",
@@ -26,8 +25,7 @@ export const GERMAN = {
   deleted: (what) => `Gelöscht: ${what}.`,
   counted: {
     robots: (count) => `${count} Roboter`,
-    obstacles: (count) =>
-      count === 1 ? "1 Wand oder Block" : `${count} Wände und Blöcke`,
+    obstacles: (count) => (count === 1 ? "1 Wand oder Block" : `${count} Wände und Blöcke`),
     vertices: (count) => `${count} Knoten`,
     lanes: (count) => (count === 1 ? "1 Weg" : `${count} Wege`),
   },
@@ -42,8 +40,7 @@ export const GERMAN = {
   width: "Breite",
   height: "Höhe",
   cellSize: "Zellengröße",
-  cellHint:
-    "Eine Zelle fasst einen Roboter zur selben Zeit: etwa so breit wie ein Roboter.",
+  cellHint: "Eine Zelle fasst einen Roboter zur selben Zeit: etwa so breit wie ein Roboter.",
   smallest: "Kleinste Zelle",
   adaptive: "Größere Zellen im Freien",
   create: "Boden anlegen",
@@ -64,8 +61,7 @@ export const GERMAN = {
     floor: "Werkstatt in Metern",
     warehouse: "Lager, fünfzig Roboter",
   },
-  moreFiles: (count) =>
-    count === 1 ? "Noch 1 Datei zeigen" : `Noch ${count} Dateien zeigen`,
+  moreFiles: (count) => (count === 1 ? "Noch 1 Datei zeigen" : `Noch ${count} Dateien zeigen`),
   notRead: "lässt sich nicht öffnen",
   mapAlone: "Karte",
   robotCount: (count) => `${count} Roboter`,
@@ -79,10 +75,7 @@ export const GERMAN = {
     line: ["Wand", "Von einem Ende der Wand zum anderen ziehen."],
     brush: ["Pinsel", "Über die Zellen ziehen, die gesperrt sind."],
     box: ["Block", "Ein Rechteck ziehen, das gesperrt ist."],
-    door: [
-      "Tür",
-      "Auf eine Wand drücken öffnet eine Lücke; Ziehen eine breitere.",
-    ],
+    door: ["Tür", "Auf eine Wand drücken öffnet eine Lücke; Ziehen eine breitere."],
     erase: ["Radieren", "Über das ziehen, was wieder frei sein soll."],
     vertex: [
       "Knoten",
@@ -92,14 +85,8 @@ export const GERMAN = {
       "Weg",
       "Von Knoten zu Knoten drücken; den letzten noch einmal zum Beenden. Mit Umschalt Einbahn.",
     ],
-    mark: [
-      "Station",
-      "Einen Knoten drücken macht ihn zur Station; mit Umschalt zum Parkplatz.",
-    ],
-    robot: [
-      "Roboter setzen",
-      "Den Heimatplatz drücken, dann den Platz, wo der Roboter arbeitet.",
-    ],
+    mark: ["Station", "Einen Knoten drücken macht ihn zur Station; mit Umschalt zum Parkplatz."],
+    robot: ["Roboter setzen", "Den Heimatplatz drücken, dann den Platz, wo der Roboter arbeitet."],
   },
   nextRobots: "Weiter: Roboter setzen",
   nextPlan: "Weiter: planen und zusehen",
@@ -121,15 +108,12 @@ export const GERMAN = {
   distance: "Ihr Abstand",
   apply: "Anwenden",
   pickPoint: (count) =>
-    count > 0
-      ? `Noch ${count} auf dem Bild drücken.`
-      : "Jetzt ihren Abstand angeben.",
+    count > 0 ? `Noch ${count} auf dem Bild drücken.` : "Jetzt ihren Abstand angeben.",
   noVertexHere: "Dort kann kein Roboter stehen.",
   homeTaken: "Dort ist ein anderer Roboter zu Hause.",
   pressStop: "Jetzt den Platz drücken, wo er arbeitet; mit Umschalt mehrere.",
   pressMore: "Den nächsten Platz drücken; ohne Umschalt ist es der letzte.",
-  pressHome:
-    "Den Heimatplatz des nächsten Roboters drücken, oder planen, was da ist.",
+  pressHome: "Den Heimatplatz des nächsten Roboters drücken, oder planen, was da ist.",
   pressLane: "Den nächsten Knoten drücken, oder denselben zum Beenden.",
   robotsElsewhere: "Die Roboter stehen in einer anderen Datei.",
   writeHere: "Hier aufschreiben",
@@ -209,19 +193,16 @@ export const GERMAN = {
   comparison: "Verglichen",
   sideBySide: "Nebeneinander zeigen",
   endComparison: "Vergleich beenden",
-  moreRobots: (count) =>
-    `und ${count} weitere Roboter mit kleinerem Unterschied`,
+  moreRobots: (count) => `und ${count} weitere Roboter mit kleinerem Unterschied`,
   takeBack: "Bearbeiten, wovon geplant wurde",
   otherPrograms: "Für andere Programme",
   copy: "Kopieren",
   copied: "Kopiert",
   copyCommand: "Befehlszeile kopieren",
-  saveFirst:
-    "Der Befehl liest die gesicherte Datei, nicht, was hier gezeichnet ist.",
+  saveFirst: "Der Befehl liest die gesicherte Datei, nicht, was hier gezeichnet ist.",
   whatIf: "Was wäre, wenn",
   whatIfOf: (name) => `Was wäre, wenn ${name} anders wäre`,
-  chooseRobot:
-    "Einen Roboter auf der Karte wählen, um Heim, Tempo oder Arbeit zu ändern.",
+  chooseRobot: "Einen Roboter auf der Karte wählen, um Heim, Tempo oder Arbeit zu ändern.",
   closePlace: "Platz sperren",
   closeTo: "oder den Weg von dort nach",
   closeIt: "Sperren",
@@ -242,8 +223,7 @@ export const GERMAN = {
   waitsOf: (name) => `Warum ${name} wartet`,
   noWaits: "Kein Roboter wartet auf einen anderen.",
   letGoFirst: (name) => `${name} zuerst fahren lassen`,
-  moreWaits: (count) =>
-    `und ${count} weitere; einen Roboter auf der Karte wählen`,
+  moreWaits: (count) => `und ${count} weitere; einen Roboter auf der Karte wählen`,
   exportTitle: "Mitnehmen",
   page: "Seite",
   command: "Befehlszeile",
@@ -274,8 +254,7 @@ export const GERMAN = {
     failed: "gescheitert",
     interrupted: "unterbrochen",
   },
-  watching:
-    "Einen Roboter oder ein Warten drücken zeigt, warum er Zeit verliert.",
+  watching: "Einen Roboter oder ein Warten drücken zeigt, warum er Zeit verliert.",
   speedOfTime: "Tempo",
   timeHeld: "Zeit belegt",
   player: {

@@ -1,7 +1,6 @@
 /** The texts of the studio in English. */
 
-const counted = (count, thing, things = `${thing}s`) =>
-  `${count} ${count === 1 ? thing : things}`;
+const counted = (count, thing, things = `${thing}s`) => `${count} ${count === 1 ? thing : things}`;
 
 export const ENGLISH = {
   map: "Map",
@@ -88,21 +87,14 @@ export const ENGLISH = {
       "Lane",
       "Press from vertex to vertex; press the last one again to end. Shift makes it one-way.",
     ],
-    mark: [
-      "Station",
-      "Press a vertex to make it a station; Shift makes it a parking place.",
-    ],
-    robot: [
-      "Place robots",
-      "Press the home of a robot, then the place where it works.",
-    ],
+    mark: ["Station", "Press a vertex to make it a station; Shift makes it a parking place."],
+    robot: ["Place robots", "Press the home of a robot, then the place where it works."],
   },
   nextRobots: "Next: place robots",
   nextPlan: "Next: plan and watch",
   needsRobots:
     "A plan needs robots: press the home of one on the map, then the place where it works.",
-  needsMending: (count) =>
-    `First mend ${counted(count, "fault")}: see the list.`,
+  needsMending: (count) => `First mend ${counted(count, "fault")}: see the list.`,
   planning: "The best plan so far plays while the search goes on.",
   noWaitNext:
     "No robot waits. Take the plan along at the right, or change something and plan again.",
@@ -203,8 +195,7 @@ export const ENGLISH = {
   copy: "Copy",
   copied: "Copied",
   copyCommand: "Copy the command line",
-  saveFirst:
-    "The command reads the file as it is saved, not what is drawn here.",
+  saveFirst: "The command reads the file as it is saved, not what is drawn here.",
   whatIf: "What if",
   whatIfOf: (name) => `What if ${name} were different`,
   chooseRobot: "Choose a robot on the map to change its home, speed or work.",
@@ -222,8 +213,7 @@ export const ENGLISH = {
   runCount: "Runs",
   simulate: "Simulate",
   playWorst: (run) => `Play the worst run (${run})`,
-  spread: (from, to, planned) =>
-    `Flowtime of the runs: ${from} to ${to}; planned: ${planned}`,
+  spread: (from, to, planned) => `Flowtime of the runs: ${from} to ${to}; planned: ${planned}`,
   waits: "Who waits, and why",
   waitsOf: (name) => `Why ${name} waits`,
   noWaits: "No robot waits for another one.",
