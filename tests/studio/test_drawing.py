@@ -244,7 +244,7 @@ def test_what_is_not_saved_is_there_after_the_page_was_closed(floor: StudioPage)
     drawn = floor.document
     floor.wait_for("studio.store.isKept")
     floor.page.reload()
-    floor.wait_for("Boolean(window.studio?.drafts.length)")
+    floor.wait_for("Boolean(window.studio?.shelf.drafts.length)")
     floor.page.locator("section[aria-labelledby=drafts-title] button").first.click()
     floor.opened()
     assert floor.document == drawn

@@ -31,9 +31,9 @@ export const remove = (path) => request("DELETE", path);
 /** A path of a file in an address: its names, not its slashes, are escaped. */
 export const inAddress = (path) => path.split("/").map(encodeURIComponent).join("/");
 
-/** Put a file into the folder, as it was dropped. */
-export async function upload(file, { replace = false } = {}) {
-  const answer = await fetch(`${ROOT}/files/${inAddress(file.name)}?replace=${replace}`, {
+/** Put a file into the folder under a path. */
+export async function upload(file, path, { replace = false } = {}) {
+  const answer = await fetch(`${ROOT}/files/${inAddress(path)}?replace=${replace}`, {
     method: "PUT",
     headers: { "content-type": "application/octet-stream" },
     body: file,
@@ -41,6 +41,15 @@ export async function upload(file, { replace = false } = {}) {
   const data = await answer.json();
   if (!answer.ok) throw new Refusal(data.error);
   return data;
+}
+
+/** Whether a file has the content that stands under a path of the folder. */
+export async function sameAs(file, path) {
+  const answer = await fetch(`${ROOT}/files/${inAddress(path)}`);
+  const [one, other] = await Promise.all([file.arrayBuffer(), answer.arrayBuffer()]);
+  if (one.byteLength !== other.byteLength) return false;
+  const [bytes, others] = [new Uint8Array(one), new Uint8Array(other)];
+  return bytes.every((byte, at) => byte === others[at]);
 }
 
 /** The address of something that is shown or downloaded as it is. */

@@ -1,7 +1,7 @@
 /** The scenario that is edited: plain data, undo and redo, a draft, and what the library says about it. */
 
 import { Observable } from "./viewer/observable.js";
-import { get, inAddress, post, put, remove } from "./api.js";
+import { inAddress, post, put, remove } from "./api.js";
 
 const MANY = 2000; // vertices from which on findings come after the map
 
@@ -16,7 +16,7 @@ const UNKNOWN = Object.freeze({
 
 /**
  * A document is never changed: an edit makes another one that shares what stays. So undo is a list.
- * Events: `document` when another one is shown, `survey` when the library has looked at it, `findings` when
+ * Events: `document` when another one is shown, then `open`, `edit` or `undo` if it is by these, `survey` when the library has looked at it, `findings` when
  * those of a large map come after that, `trouble`.
  */
 export class ScenarioStore extends Observable {
@@ -41,13 +41,21 @@ export class ScenarioStore extends Observable {
 
   /** Begin with a document; one that is not in a file yet counts as changed. */
   open({ document, folder = "", path = "", revision = "", draft = "" }) {
-    Object.assign(this, { document, folder, path, revision, survey: UNKNOWN, site: null });
+    Object.assign(this, {
+      document,
+      folder,
+      path,
+      revision,
+      survey: UNKNOWN,
+      site: null,
+    });
     this.opened++;
     this.#past = [];
     this.#future = [];
     this.#saved = revision ? document : null;
     this.#draft = draft || path || `new ${new Date().toISOString().slice(0, 19).replace("T", " ")}`;
     this.tell("document");
+    this.tell("open");
     this.#work.survey.ask();
   }
 
@@ -58,6 +66,12 @@ export class ScenarioStore extends Observable {
     this.#past.push(this.document);
     this.#future = [];
     this.#show(next);
+    this.tell("edit");
+  }
+
+  /** The document before the last edit, or null. */
+  get before() {
+    return this.#past.at(-1) ?? null;
   }
 
   get canUndo() {
@@ -76,6 +90,7 @@ export class ScenarioStore extends Observable {
     if (!this.canUndo) return;
     this.#future.push(this.document);
     this.#show(this.#past.pop());
+    this.tell("undo");
   }
 
   redo() {
@@ -87,7 +102,11 @@ export class ScenarioStore extends Observable {
   /** Save under the present path; the draft is not needed any more. */
   async save() {
     const { document, folder, path, revision } = this;
-    const saved = await put(`/documents/${inAddress(path)}`, { document, folder, revision });
+    const saved = await put(`/documents/${inAddress(path)}`, {
+      document,
+      folder,
+      revision,
+    });
     this.revision = saved.revision;
     this.#saved = document;
     await remove(`/drafts/${inAddress(this.#draft)}`).catch(() => {});
@@ -135,7 +154,11 @@ export class ScenarioStore extends Observable {
     try {
       const { findings, sentences } = this.survey;
       const isLarge = !this.site || sizeOf(this.site.map) > MANY; // or not known yet
-      const survey = await post("/survey", { document, folder, inspects: !isLarge });
+      const survey = await post("/survey", {
+        document,
+        folder,
+        inspects: !isLarge,
+      });
       if (opened !== this.opened) return;
       Object.assign(this, {
         survey: isLarge ? { ...survey, findings, sentences } : survey,
@@ -152,9 +175,10 @@ export class ScenarioStore extends Observable {
   /** Find out what will hurt on a large map, which takes longer than to draw it. */
   async #inspect() {
     const { document, folder } = this;
-    const { findings, sentences } = await post("/survey", { document, folder }).catch(
-      () => UNKNOWN,
-    );
+    const { findings, sentences } = await post("/survey", {
+      document,
+      folder,
+    }).catch(() => UNKNOWN);
     if (document !== this.document) return;
     this.survey = { ...this.survey, findings, sentences };
     this.tell("findings");
@@ -162,7 +186,9 @@ export class ScenarioStore extends Observable {
 
   async #keep() {
     try {
-      await put(`/drafts/${inAddress(this.#draft)}`, { document: this.document });
+      await put(`/drafts/${inAddress(this.#draft)}`, {
+        document: this.document,
+      });
       this.isKept = true;
     } catch (trouble) {
       this.trouble = trouble;
@@ -200,6 +226,3 @@ class Latest {
     this.#running = null;
   }
 }
-
-/** What has been drawn and not saved, the latest first. */
-export const drafts = async () => (await get("/drafts")).drafts;

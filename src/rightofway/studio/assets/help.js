@@ -1,19 +1,52 @@
-/** All keys, in a dialog. */
+/** What there is to press, in groups; it leaves the page usable. */
 
 import { html, useEffect, useRef } from "./vendor/htm-preact.js";
 import { TOOL_KEYS } from "./keys.js";
 import { words } from "./words.js";
 
 export function Help({ studio }) {
-  const dialog = useRef(null);
-  useEffect(() => dialog.current.showModal(), []);
-  const rows = [
-    ...Object.entries(TOOL_KEYS).map(([tool, key]) => [key.toUpperCase(), words.tools[tool][0]]),
-    ...words.keyList,
-  ];
-  return html`
-    <dialog class="keys" ref=${dialog} aria-labelledby="keys-title" onClose=${() => studio.help(false)}>
-      <header><h2 id="keys-title">${words.keys}</h2><button type="button" class="quiet" aria-label=${words.close} onClick=${() => dialog.current.close()}>✕</button></header>
-      <dl>${rows.map(([key, text]) => html`<div><dt><kbd>${key}</kbd></dt><dd>${text}</dd></div>`)}</dl>
-    </dialog>`;
+  const pane = useRef(null);
+  useEffect(() => pane.current.showPopover(), []);
+  const tools = studio.editor.fitting.map((tool) => [
+    TOOL_KEYS[tool].toUpperCase(),
+    words.tools[tool][0],
+  ]);
+  const lists = { tools, ...words.keyList };
+  return html` <div
+    popover="auto"
+    class="keys"
+    role="dialog"
+    ref=${pane}
+    aria-labelledby="keys-title"
+    onToggle=${({ newState }) => newState === "closed" && studio.help(false)}
+  >
+    <header>
+      <h2 id="keys-title">${words.keys}</h2>
+      <button
+        type="button"
+        class="quiet"
+        aria-label=${words.close}
+        onClick=${() => pane.current.hidePopover()}
+      >
+        ✕
+      </button>
+    </header>
+    <div class="groups">
+      ${Object.entries(words.keyGroups).map(
+        ([group, title]) =>
+          html` <section>
+            <h3>${title}</h3>
+            <dl>
+              ${lists[group].map(
+                ([key, text]) =>
+                  html`<div>
+                    <dt><kbd>${key}</kbd></dt>
+                    <dd>${text}</dd>
+                  </div>`,
+              )}
+            </dl>
+          </section>`,
+      )}
+    </div>
+  </div>`;
 }

@@ -23,7 +23,7 @@ export function listenToKeys(studio) {
   const withControl = {
     z: (event) => (event.shiftKey ? store.redo() : store.undo()),
     y: () => store.redo(),
-    s: () => studio.save(),
+    s: () => studio.shelf.save(),
     d: () => editor.tools.get("select").duplicate(),
     a: () => editor.select(editor.hits.inside([-Infinity, -Infinity, Infinity, Infinity])),
     Enter: () => studio.plan(),
@@ -47,7 +47,7 @@ export function listenToKeys(studio) {
     document.addEventListener(name, ({ target }) => (atFocus = target.value));
   document.addEventListener("keydown", (event) => {
     if (studio.isStarting || event.defaultPrevented) return;
-    if (event.key !== "?" && document.querySelector("dialog[open]")) return; // its keys are its own
+    if (document.querySelector("dialog[open]")) return; // its keys are its own
     const isWriting = event.target.matches(
       "input:not([type=range]), select, textarea, [contenteditable]",
     );

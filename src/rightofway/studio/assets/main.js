@@ -4,10 +4,12 @@ import { html, render, useEffect, useReducer, useRef, useState } from "./vendor/
 import { Header } from "./header.js";
 import { Help } from "./help.js";
 import { listenToKeys } from "./keys.js";
+import { Notice } from "./notices.js";
 import { MapPanel } from "./draw/panel.js";
 import { PlanPanel } from "./runs/panel.js";
 import { Rail } from "./draw/rail.js";
 import { RobotPanel } from "./robots/panel.js";
+import { droppedFiles } from "./shelf.js";
 import { Start } from "./start.js";
 import { Status } from "./status.js";
 import { Studio, TABS } from "./studio.js";
@@ -35,23 +37,41 @@ function App() {
   }, []);
   const isStarting = !studio || studio.isStarting;
   const tab = studio?.tab ?? "map";
-  return html`
-    ${studio && html`<${Header} studio=${studio} />`}
+  return html` ${studio && html`<${Header} studio=${studio} />`}
     <main hidden=${isStarting}>
-    ${studio && !isStarting && html`<${Rail} studio=${studio} />`}
-    <section class="map" aria-label=${words.map}><div class="holder" ref=${holder}></div></section>
-    <div class="below" ref=${below} hidden=${!studio?.stage.isPlan}></div>
-    <section class="time" aria-label=${words.time} ref=${time} hidden=${!studio?.stage.isPlan}></section>
-    ${studio && !isStarting && html`<${Status} studio=${studio} />`}
+      ${studio && !isStarting && html`<${Rail} studio=${studio} />`}
+      <section class="map" aria-label=${words.map}>
+        <div class="holder" ref=${holder}></div>
+      </section>
+      <div class="below" ref=${below} hidden=${!studio?.stage.isPlan}></div>
+      <section
+        class="time"
+        aria-label=${words.time}
+        ref=${time}
+        hidden=${!studio?.stage.isPlan}
+      ></section>
+      ${studio && !isStarting && html`<${Status} studio=${studio} />`}
     </main>
     <aside class="side" aria-label=${words.side} hidden=${isStarting}>
       ${studio && html`<${Tabs} studio=${studio} />`}
-      <section id="card" class="card" aria-live="polite" ref=${card} hidden></section>
-      <div class="panel" role="tabpanel" id="panel" aria-labelledby=${`tab-${tab}`}>
+      <section
+        id="card"
+        class="card"
+        aria-live="polite"
+        ref=${card}
+        hidden
+      ></section>
+      <div
+        class="panel"
+        role="tabpanel"
+        id="panel"
+        aria-labelledby=${`tab-${tab}`}
+      >
         ${studio && !isStarting && html`<${PANELS[tab]} studio=${studio} />`}
       </div>
     </aside>
     ${studio && isStarting && html`<${Start} studio=${studio} />`}
+    ${studio && html`<${Notice} notices=${studio.notices} />`}
     ${studio?.isHelping && html`<${Help} studio=${studio} />`}`;
 }
 
@@ -74,13 +94,22 @@ function Tabs({ studio }) {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (step) go(TABS[(TABS.indexOf(studio.tab) + step + TABS.length) % TABS.length]);
   };
-  return html`
-    <div class="tabs" role="tablist" onKeyDown=${key}>${TABS.map(
-      (tab) => html`
-      <button type="button" role="tab" id=${`tab-${tab}`} aria-controls="panel" aria-selected=${String(studio.tab === tab)}
-        tabIndex=${studio.tab === tab ? 0 : -1} onClick=${() => studio.showTab(tab)}>${words.tabs[tab]} <b>${counts[tab]}</b></button>`,
+  return html` <div class="tabs" role="tablist" onKeyDown=${key}>
+    ${TABS.map(
+      (tab) =>
+        html` <button
+          type="button"
+          role="tab"
+          id=${`tab-${tab}`}
+          aria-controls="panel"
+          aria-selected=${String(studio.tab === tab)}
+          tabindex=${studio.tab === tab ? 0 : -1}
+          onClick=${() => studio.showTab(tab)}
+        >
+          ${words.tabs[tab]} <b>${counts[tab]}</b>
+        </button>`,
     )}
-    </div>`;
+  </div>`;
 }
 
 /** Files can be dropped anywhere. */
@@ -96,7 +125,8 @@ function listenToDrops(studio) {
     );
   document.addEventListener("drop", (event) => {
     event.preventDefault();
-    if (event.dataTransfer.files.length) studio.take(event.dataTransfer.files);
+    if (event.dataTransfer.files.length)
+      studio.attempt(async () => studio.shelf.take(await droppedFiles(event.dataTransfer)));
   });
 }
 

@@ -1,4 +1,4 @@
-/** A line below the map: what the tool does next; and how the plan has changed by the last change. */
+/** A line below the map: the one thing to do next; and how the plan has changed by the last change. */
 
 import { html } from "./vendor/htm-preact.js";
 import { Change } from "./runs/change.js";
@@ -6,16 +6,42 @@ import { words } from "./words.js";
 
 export function Status({ studio }) {
   const { editor, store, complaints } = studio;
+  return html` <div class="status">
+    ${
+      complaints.length
+        ? html`<span class="wrong" role="alert"
+            >${complaints.map(({ named, place, message }) => html`${named || place ? html`<b>${named || place}</b>: ` : ""}${message} `)}</span
+          >`
+        : html`<span role="status"
+            >${editor.isOn ? html`<${ToolHint} editor=${editor} />` : html`<${PlanHint} studio=${studio} />`}</span
+          >`
+    }
+    ${studio.isLive && studio.tab !== "plan" && html`<${Change} studio=${studio} />`}
+    ${store.faults.length > 0 && html`<button type="button" class="link wrong" onClick=${() => studio.showFaults()}>${words.faultCount(store.faults.length)}</button>`}
+  </div>`;
+}
+
+function ToolHint({ editor }) {
   const name = [...editor.tools].find(([, tool]) => tool === editor.tool)[0];
-  const hint = editor.isOn ? editor.message || words.tools[name][1] : words.watching;
-  return html`
-    <div class="status">
-      ${
-        complaints.length
-          ? html`<span class="wrong" role="alert">${complaints.map(({ named, place, message }) => html`${named || place ? html`<b>${named || place}</b>: ` : ""}${message} `)}</span>`
-          : html`<span role="status">${editor.isOn && html`<b>${words.tools[name][0]}</b> `}${hint}</span>`
-      }
-      ${studio.isLive && studio.tab !== "plan" && html`<${Change} studio=${studio} />`}
-      ${store.faults.length > 0 && html`<button type="button" class="link wrong" onClick=${() => studio.showFaults()}>${words.faultCount(store.faults.length)}</button>`}
-    </div>`;
+  return html`<b>${words.tools[name][0]}</b>
+    ${editor.message || words.tools[name][1]}`;
+}
+
+/** The longest wait of the plan, one press away from its reason. */
+function PlanHint({ studio }) {
+  const { runs, stage } = studio;
+  const { running, losses } = runs;
+  if (running) return words.planning;
+  if (stage.choice?.robot || !losses) return words.watching;
+  const waits = losses.filter((loss) => loss.for);
+  if (!waits.length) return losses.length ? words.watching : words.noWaitNext;
+  const longest = waits.reduce((one, other) => (other.ticks > one.ticks ? other : one));
+  return html`${longest.sentence}
+    <button
+      type="button"
+      class="link"
+      onClick=${() => studio.watchLoss(longest)}
+    >
+      ${words.seeWhy}
+    </button>`;
 }

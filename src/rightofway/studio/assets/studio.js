@@ -1,10 +1,12 @@
 /** The studio as a whole: which document, which tab, what the server has refused. */
 
-import { address, get, inAddress, post, upload } from "./api.js";
-import { ScenarioStore, drafts } from "./document.js";
+import { address, get } from "./api.js";
+import { ScenarioStore } from "./document.js";
 import { Backdrop } from "./draw/backdrop.js";
 import { Editor } from "./draw/editor.js";
+import { Notices } from "./notices.js";
 import { RunStore } from "./runs/run_store.js";
+import { Shelf } from "./shelf.js";
 import { Stage } from "./stage.js";
 import { Observable } from "./viewer/observable.js";
 import { setLanguage, words } from "./words.js";
@@ -16,8 +18,6 @@ export class Studio extends Observable {
   tab = "map";
   isStarting = true;
   isLive = false;
-  files = [];
-  drafts = [];
   notes = [];
   complaints = []; // what the server has refused: { place, named, message }
   settings = { planner: "", options: {}, time_limit: 5, seed: 0 };
@@ -31,11 +31,15 @@ export class Studio extends Observable {
     this.stage = new Stage(elements);
     this.editor = new Editor(this.store, this.stage);
     this.backdrop = new Backdrop(this.store, this.stage);
+    this.shelf = new Shelf(this);
+    this.notices = new Notices();
+    this.notices.watch(this.store, () => this.editor.tool.frees);
     for (const [source, ...events] of [
       [this.store, "document", "survey", "findings"],
       [this.runs, "runs"],
       [this.editor, "editor"],
       [this.stage, "choice"],
+      [this.notices, "notice"],
     ]) {
       for (const event of events) source.on(event, () => this.tell("change"));
     }
@@ -51,17 +55,11 @@ export class Studio extends Observable {
   /** Find out what there is; open the file that the studio was started with. */
   begin() {
     return this.attempt(async () => {
-      const [about] = await Promise.all([get("/"), this.runs.load(), this.list()]);
+      const [about] = await Promise.all([get("/"), this.runs.load(), this.shelf.list()]);
       this.about = about;
-      if (about.file) await this.openFile(about.file);
+      if (about.file) await this.shelf.open(about.file);
       this.tell("change");
     });
-  }
-
-  async list() {
-    const [{ files }, kept] = await Promise.all([get("/files"), drafts()]);
-    Object.assign(this, { files, drafts: kept });
-    this.tell("change");
   }
 
   /** Do something that the server may refuse, and show why. */
@@ -80,75 +78,22 @@ export class Studio extends Observable {
     this.tell("change");
   }
 
-  /** Open a file: a plan is played, a layout becomes the map of a new scenario. */
-  async openFile(path) {
-    const found = await get(`/documents/${inAddress(path)}`);
-    if (found.run) {
-      this.runs.add(found.run);
-      const { document, folder } = await get(`/runs/${found.run.number}/document`);
-      this.open({ document, folder, path: "" });
-      await this.runs.show(found.run.number);
-      this.showTab("plan");
-      return;
-    }
-    const isNew = found.kind === "layout";
-    const name = isNew ? path.replace(/(\.[a-z]+)+$/i, "") + ".scenario.yaml" : path;
-    this.open({ ...found, path: name, revision: isNew ? "" : found.revision });
-  }
-
   /** Show a document, from the start. */
   open(found) {
-    Object.assign(this, { isStarting: false, notes: found.notes ?? [], isFresh: true, tab: "map" });
+    const { notes = [], suggested = "", tool = "select" } = found;
+    Object.assign(this, {
+      isStarting: false,
+      notes,
+      suggested,
+      isFresh: true,
+      tab: "map",
+    });
     this.runs.hide();
     this.store.open(found);
     this.editor.select([]);
     this.editor.isOn = true;
-    this.editor.take(found.tool ?? "select");
+    this.editor.take(tool);
     this.tell("change");
-  }
-
-  openDraft(name) {
-    return this.attempt(async () => {
-      const { document } = await get(`/drafts/${inAddress(name)}`);
-      const isFile = this.files.some(({ path }) => path === name);
-      const folder = name.includes("/") ? name.slice(0, name.lastIndexOf("/")) : "";
-      this.open({
-        document,
-        folder,
-        path: /^new /.test(name) ? "" : name,
-        revision: isFile ? null : "",
-        draft: name,
-      });
-    });
-  }
-
-  /** Take in files that were dropped or chosen, and open the first that can be. */
-  take(files) {
-    return this.attempt(async () => {
-      const given = [...files];
-      for (const file of given) await upload(file, { replace: true });
-      await this.list();
-      const pictures = /\.(png|pgm|jpe?g|bmp)$/i;
-      const first = given.find(({ name }) => !pictures.test(name)) ?? given[0];
-      await this.openFile(first.name);
-    });
-  }
-
-  /** Put map and robots into the document that are in other files, so that they can be changed. */
-  inline() {
-    return this.attempt(async () => {
-      const { document, folder } = this.store;
-      const { document: whole } = await post("/inline", { document, folder });
-      this.store.change((now) => (now === document ? whole : now));
-    });
-  }
-
-  save() {
-    return this.attempt(async () => {
-      if (!this.store.path) this.store.rename(`${words.newName}.yaml`);
-      await this.store.save();
-      await this.list();
-    });
   }
 
   /** Speak another language; the map is written anew. */
@@ -166,7 +111,7 @@ export class Studio extends Observable {
   toStart() {
     return this.attempt(async () => {
       this.isStarting = true;
-      await this.list();
+      await this.shelf.list();
     });
   }
 
@@ -203,8 +148,21 @@ export class Studio extends Observable {
     this.tell("change");
   }
 
-  /** Plan what is drawn, and watch it. */
+  /** Why nothing can be planned yet; empty if it can. */
+  get notReady() {
+    const { document, faults, survey } = this.store;
+    if (Array.isArray(document?.robots) && !document.robots.length) return words.needsRobots;
+    return survey.ok ? "" : words.needsMending(faults.length);
+  }
+
+  /** Plan what is drawn, and watch it; or lead to what keeps it from being planned. */
   plan() {
+    if (this.notReady) {
+      this.notices.say(this.notReady);
+      if (this.store.faults.length) this.showFaults();
+      else this.showTab("robots");
+      return null;
+    }
     return this.attempt(async () => {
       this.runs.beside = null;
       this.#isPlaying = true;
@@ -251,6 +209,14 @@ export class Studio extends Observable {
     choice?.light(
       names.map((name) => plan.roadmap.vertexNamed(name)).filter((vertex) => vertex >= 0),
     );
+  }
+
+  /** Show the moment at which a robot begins to lose time, and why. */
+  watchLoss({ robot, tick }) {
+    const { clock, choice, plan } = this.stage;
+    clock.pause();
+    clock.seek(tick);
+    choice.chooseRobot(plan.robots.findIndex(({ name }) => name === robot));
   }
 
   #search() {

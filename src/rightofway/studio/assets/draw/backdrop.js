@@ -25,7 +25,7 @@ export class Backdrop {
 
   /** Take a picture, put it into the folder, and show it in the middle of what is seen. */
   async take(file) {
-    const { path } = await upload(file, { replace: true });
+    const { path } = await upload(file, file.name, { replace: true });
     this.image = await createImageBitmap(file);
     const { viewport, roadmap } = this.stage.view;
     const { clientWidth, clientHeight } = this.stage.canvas;

@@ -15,7 +15,19 @@ export function RobotPanel({ studio }) {
   const [shown, setShown] = useState(MOST_ROWS);
   const [cell, setCell] = useState(null); // the one that was written last: { row, column }
   if (!robots) {
-    return html`<div class="scroll"><div class="aside"><p>${words.robotsElsewhere}</p><button type="button" class="framed" disabled=${!store.survey.ok} onClick=${() => studio.inline()}>${words.writeHere}</button></div></div>`;
+    return html`<div class="scroll">
+      <div class="aside">
+        <p>${words.robotsElsewhere}</p>
+        <button
+          type="button"
+          class="framed"
+          disabled=${!store.survey.ok}
+          onClick=${() => studio.shelf.inline()}
+        >
+          ${words.writeHere}
+        </button>
+      </div>
+    </div>`;
   }
   const faults = store.faults.filter(({ place }) => place.startsWith("robots"));
   const faultOf = (row, key) =>
@@ -54,43 +66,109 @@ export function RobotPanel({ studio }) {
     else editor.select([{ kind: "robot", id: row }]);
     editor.changed();
   };
-  return html`
-    <div class="scroll">
+  return html` <div class="scroll">
       <div class="buttons">
-        <button type="button" class="framed" onClick=${() => editor.take("robot")}>${words.placeRobot}</button>
-        <button type="button" class="framed" disabled=${cell === null || !["work", "speed", "radius", "turn", "laps"].includes(COLUMNS[cell.column].key)} onClick=${fill}>${words.fillDown}</button>
-        <button type="button" class="framed" disabled=${!robots.length} onClick=${() => navigator.clipboard.writeText(tableText(robots, COLUMNS))}>${words.copyTable}</button>
+        <button
+          type="button"
+          class="framed"
+          onClick=${() => editor.take("robot")}
+        >
+          ${words.placeRobot}
+        </button>
+        <button
+          type="button"
+          class="framed"
+          disabled=${cell === null || !["work", "speed", "radius", "turn", "laps"].includes(COLUMNS[cell.column].key)}
+          onClick=${fill}
+        >
+          ${words.fillDown}
+        </button>
+        <button
+          type="button"
+          class="framed"
+          disabled=${!robots.length}
+          onClick=${() => navigator.clipboard.writeText(tableText(robots, COLUMNS))}
+        >
+          ${words.copyTable}
+        </button>
       </div>
       ${faults.length > 0 && html`<p class="wrong" role="alert">${faults[0].named || faults[0].place}: ${faults[0].message}</p>`}
       ${
         robots.length > 0
-          ? html`
-        <div class="sheet"><table class="robots">
-          <thead><tr>${COLUMNS.map(
-            (
-              column,
-            ) => html`<th scope="col" aria-sort=${sorted.key === column.key ? (sorted.isDown ? "descending" : "ascending") : "none"}>
-            <button type="button" title=${words.columns[column.key][1]} onClick=${() => sort(column)}>${words.columns[column.key][0]}</button></th>`,
-          )}<th><span class="unseen">${words.remove}</span></th></tr></thead>
-          <tbody onKeyDown=${moveInTable}>${robots.slice(0, shown).map(
-            (robot, row) => html`
-            <tr key=${row} aria-selected=${String(editor.selection.has({ kind: "robot", id: row }))} onClick=${(event) => select(row, event)}>
-              ${COLUMNS.map((column, at) => {
-                const fault = faultOf(row, column.key);
-                return html`<td class=${column.key}><input value=${column.text(robot)} aria-label=${`${words.columns[column.key][0]}, ${robot.name}`} aria-invalid=${String(Boolean(fault))} title=${fault}
-                  placeholder=${words.columns[column.key][2] ?? ""} spellcheck="false" onFocus=${() => {
-                    setCell({ row, column: at });
-                    editor.select([{ kind: "robot", id: row }]);
-                  }} onChange=${(event) => write(row, column, event.target.value)} onPaste=${(event) => paste(event, row, at)} /></td>`;
-              })}
-              <td><button type="button" class="quiet" aria-label=${`${words.remove} ${robot.name}`} onClick=${() => store.change((document) => removeRobots(document, [row]))}>✕</button></td>
-            </tr>`,
-          )}</tbody>
-        </table></div>
-        ${robots.length > shown && html`<button type="button" class="framed" onClick=${() => setShown(shown + MOST_ROWS)}>${words.moreRows(robots.length - shown)}</button>`}`
+          ? html` <div class="sheet">
+                <table class="robots">
+                  <thead>
+                    <tr>
+                      ${COLUMNS.map(
+                        (column) =>
+                          html`<th
+                            scope="col"
+                            aria-sort=${sorted.key === column.key ? (sorted.isDown ? "descending" : "ascending") : "none"}
+                          >
+                            <button
+                              type="button"
+                              title=${words.columns[column.key][1]}
+                              onClick=${() => sort(column)}
+                            >
+                              ${words.columns[column.key][0]}
+                            </button>
+                          </th>`,
+                      )}
+                      <th><span class="unseen">${words.remove}</span></th>
+                    </tr>
+                  </thead>
+                  <tbody onKeyDown=${moveInTable}>
+                    ${robots.slice(0, shown).map(
+                      (robot, row) =>
+                        html` <tr
+                          key=${row}
+                          aria-selected=${String(editor.selection.has({ kind: "robot", id: row }))}
+                          onClick=${(event) => select(row, event)}
+                        >
+                          ${COLUMNS.map((column, at) => {
+                            const fault = faultOf(row, column.key);
+                            return html`<td class=${column.key}>
+                              <input
+                                value=${column.text(robot)}
+                                aria-label=${`${words.columns[column.key][0]}, ${robot.name}`}
+                                aria-invalid=${String(Boolean(fault))}
+                                title=${fault}
+                                placeholder=${words.columns[column.key][2] ?? ""}
+                                spellcheck="false"
+                                onFocus=${() => {
+                                  setCell({ row, column: at });
+                                  editor.select([{ kind: "robot", id: row }]);
+                                }}
+                                onChange=${(event) => write(row, column, event.target.value)}
+                                onPaste=${(event) => paste(event, row, at)}
+                              />
+                            </td>`;
+                          })}
+                          <td>
+                            <button
+                              type="button"
+                              class="quiet"
+                              aria-label=${`${words.remove} ${robot.name}`}
+                              onClick=${() => store.change((document) => removeRobots(document, [row]))}
+                            >
+                              ✕
+                            </button>
+                          </td>
+                        </tr>`,
+                    )}
+                  </tbody>
+                </table>
+              </div>
+              ${robots.length > shown && html`<button type="button" class="framed" onClick=${() => setShown(shown + MOST_ROWS)}>${words.moreRows(robots.length - shown)}</button>`}`
           : html`<p class="hint">${words.noRobots}</p>`
       }
-      <label class="wide paste">${words.pasteTable}<textarea rows="1" aria-label=${words.pasteTable} onPaste=${(event) => paste(event, robots.length, 0)}></textarea></label>
+      <label class="wide paste"
+        >${words.pasteTable}<textarea
+          rows="1"
+          aria-label=${words.pasteTable}
+          onPaste=${(event) => paste(event, robots.length, 0)}
+        ></textarea>
+      </label>
       <${RandomFleet} studio=${studio} />
     </div>
     ${robots.length > 0 && html`<div class="next"><button type="button" class="framed strong" disabled=${!store.survey.ok} onClick=${() => studio.plan()}>${words.nextPlan}</button></div>`}`;

@@ -1,0 +1,84 @@
+/** Faults and findings of the map that is drawn, in the library's words; each lights its places. */
+
+import { html, useState } from "./vendor/htm-preact.js";
+import { words } from "./words.js";
+
+const FIRST = 3; // findings, the worst first; the others on request
+
+export function Findings({ studio }) {
+  const { store } = studio;
+  const [isWhole, setWhole] = useState(false);
+  const { findings } = store.survey;
+  const shown = isWhole ? findings : findings.slice(0, FIRST);
+  return html` <section>
+    <h2 id="faults-title">${words.findings}</h2>
+    ${
+      store.faults.length > 0 &&
+      html`<ul class="findings" role="alert">
+        ${store.faults.map(
+          (fault) =>
+            html` <li>
+              <button type="button" onClick=${() => studio.goTo(fault.place)}>
+                <${Sign} severity="error" /><span
+                  ><b>${fault.named || fault.place}</b> ${fault.message}</span
+                >
+              </button>
+            </li>`,
+        )}
+      </ul>`
+    }
+    ${
+      shown.length > 0 &&
+      html`<ul class="findings" onMouseLeave=${() => studio.light([])}>
+        ${shown.map(
+          (finding) =>
+            html` <li>
+              <button
+                type="button"
+                onMouseEnter=${() => studio.light(finding.vertices)}
+                onFocus=${() => studio.light(finding.vertices)}
+                onClick=${() => show(studio, finding.vertices)}
+              >
+                <${Sign} severity=${finding.severity} /><span
+                  >${finding.fact}<br /><small>${finding.remedy}</small></span
+                >
+              </button>
+            </li>`,
+        )}
+      </ul>`
+    }
+    ${findings.length > shown.length && html`<button type="button" class="link" onClick=${() => setWhole(true)}>${words.moreFindings(findings.length - shown.length)}</button>`}
+    ${!store.faults.length && !findings.length && html`<p class="hint">${words.nothingFound}</p>`}
+  </section>`;
+}
+
+const Sign = ({ severity }) =>
+  html`<span
+    class=${`severity ${severity}`}
+    role="img"
+    aria-label=${words.severities[severity]}
+    >${{ error: "✕", warning: "!", note: "i" }[severity]}</span
+  >`;
+
+/** Light vertices by their names, and bring them into sight. */
+function show(studio, names) {
+  const { plan, view } = studio.stage;
+  const { roadmap } = plan;
+  const vertices = names.map((name) => roadmap.vertexNamed(name)).filter((vertex) => vertex >= 0);
+  studio.light(names);
+  if (vertices.length)
+    view.viewport.showAll(vertices.map((vertex) => [roadmap.x[vertex], roadmap.y[vertex]]));
+}
+
+/** What the reader notes, and how large the map is: for those who want to know. */
+export function AboutMap({ studio }) {
+  const { notes, store } = studio;
+  const all = [...new Set([...store.survey.sentences, ...notes, ...store.survey.notes])];
+  if (!all.length) return null;
+  return html`<details class="notes">
+    <summary>${words.notes}</summary>
+    <ul>
+      ${all.map((note) => html`<li>${note}</li>`)}
+    </ul>
+  </details>`;
+}

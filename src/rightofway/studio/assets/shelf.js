@@ -1,0 +1,191 @@
+/** Files, drafts and examples: what there is, opened, dropped, saved. */
+
+import { get, inAddress, post, put, remove, sameAs, upload } from "./api.js";
+import { words } from "./words.js";
+
+const PICTURES = /\.(png|pgm|jpe?g|bmp)$/i;
+const MOST_DROPPED = 200; // files of a folder that is dropped
+
+export class Shelf {
+  files = [];
+  drafts = [];
+  examples = [];
+  waiting = ""; // a file that cannot be opened before its picture is there
+
+  constructor(studio) {
+    this.studio = studio;
+  }
+
+  async list() {
+    const [{ files }, { drafts }, { examples }] = await Promise.all([
+      get("/files"),
+      get("/drafts"),
+      get("/examples"),
+    ]);
+    Object.assign(this, { files, drafts, examples });
+    this.studio.tell("change");
+  }
+
+  /** Open a file: a plan is played, a layout becomes the map of a new scenario. */
+  open(path) {
+    return this.studio.attempt(() => this.#open(path));
+  }
+
+  async #open(path) {
+    const { studio } = this;
+    const found = await get(`/documents/${inAddress(path)}`);
+    this.waiting = "";
+    if (found.run) {
+      studio.runs.add(found.run);
+      const { document, folder } = await get(`/runs/${found.run.number}/document`);
+      studio.open({ document, folder, path: "" });
+      await studio.runs.show(found.run.number);
+      studio.showTab("plan");
+      return;
+    }
+    const isNew = found.kind === "layout";
+    const stem = path.replace(/(\.[a-z]+)+$/i, "");
+    const name = isNew ? await this.#freeName(`${stem}.scenario`) : path;
+    studio.open({
+      ...found,
+      path: name,
+      revision: isNew ? "" : found.revision,
+    });
+  }
+
+  openExample(name) {
+    return this.studio.attempt(async () => {
+      const { document } = await get(`/examples/${inAddress(name)}`);
+      this.studio.open({ document, suggested: name });
+    });
+  }
+
+  openDraft(name) {
+    return this.studio.attempt(async () => {
+      const { document } = await get(`/drafts/${inAddress(name)}`);
+      const isFile = this.files.some(({ path }) => path === name);
+      const folder = name.includes("/") ? name.slice(0, name.lastIndexOf("/")) : "";
+      this.studio.open({
+        document,
+        folder,
+        path: /^new /.test(name) ? "" : name,
+        revision: isFile ? null : "",
+        draft: name,
+      });
+    });
+  }
+
+  removeDraft(name) {
+    return this.studio.attempt(async () => {
+      const address = `/drafts/${inAddress(name)}`;
+      const { document } = await get(address);
+      await remove(address);
+      await this.list();
+      this.studio.notices.say(words.draftRemoved, words.undo, async () => {
+        await put(address, { document });
+        await this.list();
+      });
+    });
+  }
+
+  /** Take in files that were dropped or chosen, each with its path, and open the first that can be. */
+  take(files, { replace = false } = {}) {
+    return this.studio.attempt(async () => {
+      const given = [...files].slice(0, MOST_DROPPED);
+      const others = [];
+      for (const file of given) if (!(await this.#put(file, replace))) others.push(file);
+      await this.list();
+      if (others.length) {
+        const names = others.map(({ name }) => name).join(", ");
+        this.studio.notices.say(words.otherContent(names), words.replace, () =>
+          this.take(given, { replace: true }),
+        );
+        return;
+      }
+      const first = given.find(({ name }) => !PICTURES.test(name)) ?? given[0];
+      await this.#openTaken(first, given);
+    });
+  }
+
+  async #openTaken(first, given) {
+    const path = this.waiting && PICTURES.test(first.name) ? this.waiting : pathOf(first);
+    if (given.length > 1 && given.some((file) => pathOf(file).includes("/"))) {
+      await this.studio.toStart(); // a folder: all of it is listed there
+      return;
+    }
+    try {
+      await this.#open(path);
+    } catch (refusal) {
+      const isAlone = refusal.faults?.some(({ place }) => place === "image");
+      this.waiting = isAlone ? path : "";
+      throw refusal;
+    }
+  }
+
+  /** Put a file into the folder; false where a file of that name has another content. */
+  async #put(file, replace) {
+    const path = pathOf(file);
+    try {
+      await upload(file, path, { replace });
+    } catch (refusal) {
+      if (refusal.status !== 412) throw refusal;
+      return sameAs(file, path);
+    }
+    return true;
+  }
+
+  /** Put map and robots into the document that are in other files, so that they can be changed. */
+  inline() {
+    return this.studio.attempt(async () => {
+      const { document, folder } = this.studio.store;
+      const { document: whole } = await post("/inline", { document, folder });
+      this.studio.store.change((now) => (now === document ? whole : now));
+    });
+  }
+
+  save() {
+    return this.studio.attempt(async () => {
+      const { store } = this.studio;
+      if (!store.path) store.rename(await this.#freeName(this.studio.suggested || words.newName));
+      await store.save();
+      await this.list();
+      this.studio.notices.say(words.savedAs(store.path));
+    });
+  }
+
+  /** A name that no file has: floor.yaml, floor2.yaml, ... */
+  async #freeName(stem) {
+    await this.list();
+    const taken = new Set(this.files.map(({ path }) => path));
+    let [name, number] = [`${stem}.yaml`, 2];
+    while (taken.has(name)) name = `${stem}${number++}.yaml`;
+    return name;
+  }
+}
+
+/** Where a file goes: those of a folder that was dropped keep their folder. */
+const pathOf = (file) => file.path ?? (file.webkitRelativePath || file.name);
+
+/** The files of a drop, also those in folders that were dropped: `File`s with a `path`. */
+export async function droppedFiles({ items, files }) {
+  const entries = [...items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
+  if (!entries.some(({ isDirectory }) => isDirectory)) return [...files];
+  const found = [];
+  const visit = async (entry) => {
+    if (found.length >= MOST_DROPPED || entry.name.startsWith(".")) return;
+    if (entry.isFile) {
+      const file = await new Promise((done, fail) => entry.file(done, fail));
+      if (OPENED.test(file.name))
+        found.push(Object.assign(file, { path: entry.fullPath.slice(1) }));
+      return;
+    }
+    const reader = entry.createReader();
+    const read = () => new Promise((done, fail) => reader.readEntries(done, fail));
+    for (let part = await read(); part.length; part = await read())
+      for (const each of part) await visit(each);
+  };
+  for (const entry of entries) await visit(entry);
+  return found;
+}
+
+const OPENED = /\.(ya?ml|json|xls[xm]|xml|graphml|geojson|csv|map|scen|txt|png|pgm|jpe?g|bmp)$/i;
