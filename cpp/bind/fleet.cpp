@@ -39,6 +39,11 @@ constexpr auto prioritize_doc =
 Gives up after ``n_searches`` or the time limit; after ``with_net`` seconds instead, once there is
 a plan made in haste. `go_on` may change a False.)";
 
+constexpr auto restore_doc =
+    R"(Give robots these tracks, as for `start`, where they fit and cost no more; return how many do.
+
+Every robot has a track; `improve` starts afresh.)";
+
 constexpr auto repair_doc =
     R"(Give tracks to robots that have none, in this order; return whether all have one now.
 
@@ -58,6 +63,12 @@ constexpr auto retime_doc =
     R"(Have all robots as early as the order of visits at every vertex allows; `improve` starts afresh.)";
 
 using TrackArrays = std::tuple<ArrayOut<std::int32_t>, ArrayOut<VertexId>, ArrayOut<Tick>>;
+
+struct GivenTracks {
+    std::span<const std::int32_t> first_visit;
+    std::span<const VertexId> vertices;
+    std::span<const Tick> enter;
+};
 
 class FleetSearch {
   public:
@@ -109,38 +120,47 @@ class FleetSearch {
         return true;
     }
 
-    void start(std::span<const std::int32_t> first_visit, std::span<const VertexId> vertices,
-               std::span<const Tick> enter) {
+    void start(const GivenTracks& given) {
         clear();
         for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
-            if (first_visit[robot] == first_visit[robot + 1]) {
+            if (given.first_visit[robot] == given.first_visit[robot + 1]) {
                 continue;
             }
-            const Turns turns = problem_.turns(robot);
-            EdgeId before = -1;
-            TimedTrack track;
-            for (auto k = static_cast<std::size_t>(first_visit[robot]);
-                 k < static_cast<std::size_t>(first_visit[robot + 1]); ++k) {
-                if (track.visits.empty()) {
-                    track.visits.push_back({enter[k], vertices[k], 0});
-                    continue;
-                }
-                const EdgeId edge = problem_.graph().edge(vertices[k - 1], vertices[k]);
-                if (edge < 0) {
-                    reject_entry("vertices", k, vertices[k], "is not next to the one before");
-                }
-                track.visits.push_back({enter[k], vertices[k], problem_.drive(robot, edge),
-                                        turns.between(before, edge)});
-                before = edge;
-            }
-            const Tick done = completion(problem_.itinerary(robot), track.visits);
-            track.cost = done + plan_.surcharges(track.visits);
-            if (done < 0 || !plan_.fits(robot, track)) {
+            TimedTrack track = track_of(robot, given);
+            if (track.cost < 0 || !plan_.fits(robot, track)) {
                 clear();
                 reject("robot", robot, "has a track that breaks the rules");
             }
             plan_.exchange(robot, track);
         }
+    }
+
+    std::int64_t restore(const GivenTracks& given) {
+        std::int64_t n_restored = 0;
+        std::vector<bool> is_other(static_cast<std::size_t>(problem_.n_robots()), true);
+        for (bool has_changed = true; has_changed;) {  // one robot may make room for another
+            has_changed = false;
+            for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+                if (!is_other[static_cast<std::size_t>(robot)]) {
+                    continue;
+                }
+                TimedTrack track = track_of(robot, given);
+                if (track.cost < 0 || track.cost > plan_.track(robot).cost) {
+                    continue;
+                }
+                TimedTrack now;
+                plan_.exchange(robot, now);
+                const bool is_free = plan_.fits(robot, track);
+                plan_.exchange(robot, is_free ? track : now);
+                if (is_free) {
+                    is_other[static_cast<std::size_t>(robot)] = false;
+                    has_changed = true;
+                    ++n_restored;
+                }
+            }
+        }
+        improvement_.reset();
+        return n_restored;
     }
 
     std::int64_t improve(std::int64_t n_tasks, std::int64_t patience, const StopCondition& deadline,
@@ -173,6 +193,31 @@ class FleetSearch {
     std::int64_t n_expanded() const { return improvement_ ? improvement_->n_expanded() : 0; }
 
   private:
+    // Its cost is below 0 if it misses a stage.
+    TimedTrack track_of(RobotId robot, const GivenTracks& given) const {
+        const Turns turns = problem_.turns(robot);
+        EdgeId before = -1;
+        TimedTrack track;
+        for (auto k = static_cast<std::size_t>(given.first_visit[robot]);
+             k < static_cast<std::size_t>(given.first_visit[robot + 1]); ++k) {
+            if (track.visits.empty()) {
+                track.visits.push_back({given.enter[k], given.vertices[k], 0});
+                continue;
+            }
+            const VertexId tail = given.vertices[k - 1];
+            const EdgeId edge = problem_.graph().edge(tail, given.vertices[k]);
+            if (edge < 0) {
+                reject_entry("vertices", k, given.vertices[k], "is not next to the one before");
+            }
+            track.visits.push_back({given.enter[k], given.vertices[k], problem_.drive(robot, edge),
+                                    turns.between(before, edge)});
+            before = edge;
+        }
+        const Tick done = completion(problem_.itinerary(robot), track.visits);
+        track.cost = done < 0 ? done : done + plan_.surcharges(track.visits);
+        return track;
+    }
+
     void clear() {
         in_turn_.reset();
         improvement_.reset();
@@ -225,9 +270,17 @@ void bind_fleet(nb::module_& module) {
             [](FleetSearch& self, const ArrayIn<std::int32_t>& first_visit,
                const ArrayIn<VertexId>& vertices, const ArrayIn<Tick>& enter) {
                 const nb::gil_scoped_release released;
-                self.start(view(first_visit), view(vertices), view(enter));
+                self.start({view(first_visit), view(vertices), view(enter)});
             },
             array("first_visit"), array("vertices"), array("enter"), start_doc)
+        .def(
+            "restore",
+            [](FleetSearch& self, const ArrayIn<std::int32_t>& first_visit,
+               const ArrayIn<VertexId>& vertices, const ArrayIn<Tick>& enter) {
+                const nb::gil_scoped_release released;
+                return self.restore({view(first_visit), view(vertices), view(enter)});
+            },
+            array("first_visit"), array("vertices"), array("enter"), restore_doc)
         .def(
             "prioritize",
             [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,

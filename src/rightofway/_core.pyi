@@ -409,6 +409,13 @@ class FleetSearch:
         overlap.
         """
 
+    def restore(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
+        """
+        Give robots these tracks, as for `start`, where they fit and cost no more; return how many do.
+
+        Every robot has a track; `improve` starts afresh.
+        """
+
     def prioritize(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None, with_net: float | None) -> bool:
         """
         Give the robots tracks one after another, in this order; return whether all have one now.

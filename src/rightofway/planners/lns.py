@@ -155,6 +155,8 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         if not task.keep_best:
             raise
         ended = "interrupted: "
+    if task.start is not None:
+        search.restore(spaced)
     found = _retimed(task, search) if search.cost < before else search.tracks()
     measured = partial(cost_of, task.scenario)
     cost = measured(found)

@@ -109,13 +109,14 @@ class FleetSearch:
 
         A ``ValueError`` refuses tracks that break the rules.
         """
-        known = [track for track in tracks if track is not None]
-        lengths = [0 if track is None else len(track) for track in tracks]
-        self._core.start(
-            np.array([0, *accumulate(lengths)], np.int32),
-            np.concatenate([np.zeros(0, np.int32), *(track.vertices for track in known)]),
-            np.concatenate([np.zeros(0, np.int64), *(track.enter for track in known)]),
-        )
+        self._core.start(*_arrays(tracks))
+
+    def restore(self, tracks: Sequence[Track]) -> int:
+        """Give robots these tracks where that costs nothing; return how many have theirs.
+
+        Large neighbourhood search takes other tracks that are no better. This takes them back.
+        """
+        return self._core.restore(*_arrays(tracks))
 
     def repair(self, order: Sequence[int], *, searches: int, time_limit: float | None) -> bool:
         """Give tracks to the robots without one; tell whether all robots have one.
@@ -166,6 +167,19 @@ class FleetSearch:
     def tracks(self) -> tuple[Track, ...]:
         """Return the tracks."""
         return tuple(tracks_of(*self._core.tracks()))
+
+
+def _arrays(
+    tracks: Sequence[Track | None],
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int64]]:
+    """Return where each robot's visits begin, their vertices, and when they begin."""
+    known = [track for track in tracks if track is not None]
+    lengths = [0 if track is None else len(track) for track in tracks]
+    return (
+        np.array([0, *accumulate(lengths)], np.int32),
+        np.concatenate([np.zeros(0, np.int32), *(track.vertices for track in known)]),
+        np.concatenate([np.zeros(0, np.int64), *(track.enter for track in known)]),
+    )
 
 
 def _cores() -> int:

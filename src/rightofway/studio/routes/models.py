@@ -134,6 +134,7 @@ class NewPlan(Search):
     source: str = Field("", max_length=500, description="file that the document is from, if any")
     name: Name = ""
     based_on: int | None = Field(None, description="run that it is a change of, if any")
+    start: int | None = Field(None, description="run whose plan it starts from, if any")
 
 
 class NewImprovement(Search):

@@ -97,6 +97,8 @@ async def create_run(studio: InStudio, new: Annotated[NewRun, Body()]) -> dict[s
     match new:
         case NewPlan():
             request = new.settings()
+            if new.start is not None:
+                request["start"] = new.start
             run = Run(kind="plan", source=new.source, based_on=new.based_on, request=request)
         case NewImprovement():
             run = Run(kind="improve", based_on=new.based_on, request=new.settings())
@@ -110,12 +112,15 @@ async def create_run(studio: InStudio, new: Annotated[NewRun, Body()]) -> dict[s
     if isinstance(new, NewPlan | NewImprovement):
         default = DEFAULT if isinstance(new, NewPlan) else IMPROVER
         find(new.planner or default).settle(new.options)
+    arguments: dict[str, Any] = {}
+    given_by = new.start if isinstance(new, NewPlan) else None
     if isinstance(new, NewPlan | NewLaps):
         arguments = {"document": new.document, "folder": studio.place(new.folder)}
         checked_json(arguments)
-        return Runs.data(await studio.runs.submit(run, arguments))
-    given = await studio.runs.blob(new.based_on, "plan")
-    return Runs.data(await studio.runs.submit(run, {}, {"given": given}))
+    else:
+        given_by = new.based_on
+    blobs = {} if given_by is None else {"given": await studio.runs.blob(given_by, "plan")}
+    return Runs.data(await studio.runs.submit(run, arguments, blobs))
 
 
 @router.get("/runs/{number}", tags=["runs"])
@@ -306,12 +311,15 @@ def command_of(run: Run) -> str:
     request, words = run.request, ["rightofway", run.kind]
     if run.kind in {"opened", "flip"}:
         raise Refused(f"run {run.number} was not made by a command (export its plan)", 404)
-    words.append(run.source or ("plan.json" if run.based_on else "scenario.yaml"))
+    unnamed = "scenario.yaml" if run.kind in {"plan", "laps"} else "plan.json"
+    words.append(run.source or unnamed)
     if run.kind in {"plan", "improve"}:
         default = DEFAULT if run.kind == "plan" else IMPROVER
         words += ["--planner", request.get("planner", default)]
         for name, value in request["options"].items():
             words += ["--option", f"{name}={value}"]
+    if "start" in request:
+        words += ["--start", f"run-{request['start']}.json"]
     for key in ("rule", "routes", "runs", "run", "seed"):
         if request.get(key) not in {None, "typical", "worst"}:
             words += [f"--{key}", str(request[key])]

@@ -61,10 +61,19 @@ class Progress:
         return round(time.monotonic() - self._began, 3)
 
 
-def plan(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: Any) -> Result:
-    """Plan a document."""
+def plan(
+    emit: Emit,
+    blobs: Blobs,
+    *,
+    document: Any,
+    folder: str,
+    start: int | None = None,
+    **settings: Any,
+) -> Result:
+    """Plan a document; ``start`` is the run whose plan, a blob, it starts from."""
     scenario = loaded_of(document, folder).scenario
-    return _searched(emit, lambda progress: solve(scenario, **settings, **progress))
+    old = None if start is None else plan_of(parse_json(blobs[0].decode()))
+    return _searched(emit, lambda progress: solve(scenario, start=old, **settings, **progress))
 
 
 def improve(emit: Emit, blobs: Blobs, **settings: Any) -> Result:

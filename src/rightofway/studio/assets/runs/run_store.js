@@ -84,13 +84,19 @@ export class RunStore extends Observable {
     return this.begin({ kind: "plan", document, folder, source: path, ...settings }, document);
   }
 
-  /** Plan at once what has just been changed; an earlier such run gives way. */
+  /**
+   * Plan at once what has just been changed, from the plan that is shown where the planner can start
+   * from one; an earlier such run gives way.
+   */
   async replan(given, settings) {
     const before = this.find(this.#live);
     const isSecond = before && !isOver(before);
     if (isSecond) await post(`/runs/${before.number}/cancel`).catch(() => {});
     const base = isSecond ? before.based_on : this.shown;
-    this.#live = await this.plan(given, { ...settings, time_limit: 1, based_on: base });
+    const { has_plan, kind } = this.find(base) ?? {};
+    const { improves } = this.planners.planners.find(({ name }) => name === settings.planner) ?? {};
+    const start = has_plan && improves && kind !== "laps" ? { start: base } : {};
+    this.#live = await this.plan(given, { ...settings, ...start, time_limit: 1, based_on: base });
     this.beside = base;
   }
 
