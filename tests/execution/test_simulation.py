@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rightofway
+from rightofway.execution import Outcome, replay
 from rightofway.model import Plan, PlannerRun, Rules, Track
 from rightofway.model.units import Clock
 from tests.builders.fleets import grid_fleet, random_fleet
@@ -70,6 +71,46 @@ def test_a_run_shown_is_the_run_counted() -> None:
             assert ends == outcome.completion[run].tolist()
     with pytest.raises(IndexError, match="run 5 is not among the 5 runs"):
         outcome.trace(5)
+
+
+def test_a_run_is_replayed_without_the_others() -> None:
+    plan = rightofway.solve(random_fleet(2, robots=6), "two-level")
+    for switch in (False, True):
+        outcome = rightofway.simulate(plan, "chance:0.1x9", runs=5, seed=3, switch=switch)
+        again = replay(plan, "chance:0.1x9", 4, 3, switch=switch)
+        ends = [int(track.enter[-1]) for track in again.tracks]
+        assert ends == outcome.completion[4].tolist()
+
+
+@pytest.mark.parametrize("switch", [False, True])
+def test_an_interrupt_may_keep_the_runs_that_were_made(
+    switch: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plan = rightofway.solve(random_fleet(2, robots=6), "two-level")
+    monkeypatch.setattr("rightofway.execution.simulation.CHUNK", 1)
+    whole = rightofway.simulate(plan, "chance:0.1x9", runs=3, switch=switch)
+
+    def interrupt(sentence: str) -> None:
+        if sentence.startswith("3 "):
+            raise KeyboardInterrupt
+
+    def asked(*, keep_runs: bool) -> Outcome:
+        return rightofway.simulate(
+            plan, "chance:0.1x9", 90, switch=switch, keep_runs=keep_runs, report=interrupt
+        )
+
+    assert asked(keep_runs=True).as_dict() == whole.as_dict()
+    with pytest.raises(KeyboardInterrupt):
+        asked(keep_runs=False)
+
+
+def test_runs_are_ranked_from_the_best_to_the_worst() -> None:
+    plan = rightofway.solve(random_fleet(2, robots=6), "two-level")
+    outcome = rightofway.simulate(plan, runs=9)
+    order = outcome.ranked().tolist()
+    assert sorted(order) == list(range(9))
+    assert np.diff(outcome.completion.sum(axis=1)[order]).min() >= 0
+    assert (order[4], order[-1]) == (outcome.typical(), outcome.worst())
 
 
 def test_switching_and_replanning_gain_when_one_robot_stops() -> None:

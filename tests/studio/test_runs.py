@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -163,6 +164,12 @@ def test_plans_are_improved_and_executed(client: httpx.Client) -> None:
     assert "right of way  no collisions, no deadlocks" in report["text"]
     assert report["spread"]["from"] <= report["spread"]["to"]
     assert "floor" in client.get(f"/runs/{done['number']}/payload").json()
+    ranks = report["ranks"]
+    assert (sorted(ranks["run"]), ranks["run"][-1]) == (list(range(20)), report["worst"])
+    replayed = {"replay": report["worst"]}
+    assert client.get(f"/runs/{done['number']}/payload", params=replayed).json()["floor"]
+    refused = client.get(f"/runs/{done['number']}/payload", params={"replay": 20})
+    assert refused.json()["error"]["message"].endswith("has no run 20 to play (it made 20)")
     body = {"kind": "simulate", "based_on": number, "runs": 20, "run": "worst"}
     worst = over(client, client.post("/runs", json=body).json()["number"])
     played = client.get(f"/runs/{worst['number']}/report").json()["played"]
@@ -180,6 +187,29 @@ def test_laps_have_a_period(client: httpx.Client) -> None:
     assert report["groups"][0]["period"]
     assert "period" in report["text"]
     assert client.get(f"/runs/{run['number']}/payload").json()["steady"]
+
+
+def test_laps_in_a_new_order_are_asked_for_another_value(client: httpx.Client) -> None:
+    started = client.post("/runs", json={"kind": "laps", "document": DOOR})
+    number = over(client, started.json()["number"])["number"]
+    report = client.get(f"/runs/{number}/report").json()
+    same = {"kind": "speed", "robot": "R1", "value": 1}
+    found = client.post(f"/runs/{number}/laps", json=same).json()
+    assert found["groups"][0]["period"] == report["groups"][0]["period"]
+    assert found["throughput_per_hour"] == report["throughput_per_hour"]
+    slower = {"kind": "work", "robot": "R1", "stop": 0, "value": "701/7"}
+    then = client.post(f"/runs/{number}/laps", json=slower).json()
+    assert Fraction(then["groups"][0]["period"]) > 100
+    for wrong, why in (
+        ({"kind": "speed", "robot": "R9", "value": 1}, "'R9' is no robot of this scenario"),
+        ({"kind": "work", "robot": "R1", "stop": 4, "value": 1}, "R1 has no stop 4"),
+        ({"kind": "headway", "value": "soon"}, "'soon' is not a number"),
+        ({"kind": "speed", "robot": "R1", "value": 0}, "0 is not positive"),
+        ({"kind": "headway", "value": -1}, "is negative"),
+    ):
+        refused = client.post(f"/runs/{number}/laps", json=wrong)
+        assert refused.status_code == 422
+        assert why in refused.json()["error"]["message"]
 
 
 def test_a_wait_is_explained_and_its_right_of_way_flipped(client: httpx.Client) -> None:

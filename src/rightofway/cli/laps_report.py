@@ -60,14 +60,22 @@ Sites = dict[tuple[int, int | None, int, int], list[Tick]]
 """Waits by vertex, the other robot's vertex, waiting and awaited robot: their times [ticks]."""
 
 
-def laps_data(run: CyclicResult) -> dict[str, Any]:
-    """Return a result for programs: plain data, exact times [time unit]."""
+def laps_data(run: CyclicResult, *, by_visit: bool = True) -> dict[str, Any]:
+    """Return a result for programs: plain data, exact times [time unit].
+
+    Parameters
+    ----------
+    run
+        The result.
+    by_visit
+        Whether waits, bottlenecks and curves are wanted, which take longest.
+    """
     return {
         "rule": run.rule,
         "routes": run.routes,
         **measures(run.scenario),
         "throughput_per_hour": written(_hour(run.scenario) * run.throughput()),
-        "groups": [_group_data(run.scenario, group) for group in run.groups],
+        "groups": [_group_data(run.scenario, group, by_visit=by_visit) for group in run.groups],
     }
 
 
@@ -76,7 +84,7 @@ def _hour(scenario: Scenario) -> Fraction:
     return HOUR / (scenario.units.seconds or Fraction(1))
 
 
-def _group_data(scenario: Scenario, group: GroupResult) -> dict[str, Any]:
+def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> dict[str, Any]:
     robots, place, clock = scenario.robots, scenario.roadmap.name, scenario.problem.clock
     names, pattern, measured, time = _names(scenario, group), group.pattern, None, clock.time
     means = [None if mean is None else written(mean * clock.tick) for mean in group.mean_laps()]
@@ -112,7 +120,7 @@ def _group_data(scenario: Scenario, group: GroupResult) -> dict[str, Any]:
         "measured": measured,
         "waiting_share": dict(zip(names, shares, strict=True)),
     }
-    if _is_long(group):
+    if _is_long(group) or not by_visit:
         data |= dict.fromkeys(BY_VISIT)
     else:
         bottleneck = group.bottleneck()

@@ -1,7 +1,7 @@
 """Execution of a plan with delays: collisions by the clock, none by right of way."""
 
 from rightofway.execution.delays import CAUSES, DEFAULT, Cause, Delay, delay_model_of, read_delays
-from rightofway.execution.simulation import simulate
+from rightofway.execution.simulation import replay, simulate
 from rightofway.execution.statistics import (
     Collisions,
     Lateness,
@@ -26,5 +26,6 @@ __all__ = [
     "Source",
     "delay_model_of",
     "read_delays",
+    "replay",
     "simulate",
 ]

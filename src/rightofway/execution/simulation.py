@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.check import check
 from rightofway.errors import InputError, kernel_limits
-from rightofway.execution.delays import DEFAULT, delay_model_of, read_delays
+from rightofway.execution.delays import DEFAULT, Delay, delay_model_of, read_delays
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import Collisions, Lateness, Outcome, PolicyGain, joined
 from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
@@ -31,6 +32,7 @@ def simulate(
     switch: bool = False,
     replan: bool = False,
     time_limit: float | None = None,
+    keep_runs: bool = False,
     report: Callable[[str], None] = lambda _: None,
 ) -> Outcome:
     """Execute a plan many times with delays: by right of way, and by the clock for comparison.
@@ -54,6 +56,8 @@ def simulate(
         behind and this lowers the expected flowtime, and after a breakdown.
     time_limit
         After this time, no run and no replanning begins [s]; at least one run is made.
+    keep_runs
+        Whether an interrupt (Ctrl-C) ends the simulation with the runs that were made, if any.
     report
         Receives sentences on progress.
 
@@ -87,37 +91,24 @@ def simulate(
         remedy = f"simulate without {'replanning' if replan else 'switching'}"
         refuse_closures(plan.scenario.problem, what, remedy)
     deadline = Deadline.after(time_limit)
-    causes = read_delays(delays, plan.scenario)
-    adg = ActionDependencyGraph(plan.scenario, plan.tracks, delay_model_of(causes, plan.scenario))
+    causes, adg = _delayed(plan, delays)
     policy = ExecutionPolicy(switch=switch, replan=replan)
-    batches: list[RunBatch] = []
-    kept: list[NDArray[np.int64]] = []
-    switches = replans = cut_off = deadlocks = 0
+    made: list[_Runs] = []
     traces: dict[int, ExecutionTrace] = {}
-    chunk = 1 if any(policy) else max(CHUNK // len(adg.vertex), 1)
-    for first in range(0, runs, chunk):
-        batch = adg.runs(seed, first, min(chunk, runs - first))
-        if any(policy):
-            monitor = ExecutionMonitor(adg, policy, seed, first, deadline)
-            if deadline.seconds_left() == 0:  # replanning may have been cut short
-                if first:
-                    break
-                traces[first] = monitor.trace()
-            kept.append(batch.completion)
-            batch = monitor.batch(batch)
-            switches += monitor.switches
-            replans += monitor.replans
-            cut_off += len(monitor.cut_off - monitor.lost)
-            deadlocks += bool(monitor.adg.deadlocked())
-        batches.append(batch)
-        report(f"{min(first + chunk, runs)} of {runs} runs")
-        if deadline.seconds_left() == 0:
-            break
+    try:
+        for some in _execute(adg, policy, runs=runs, seed=seed, deadline=deadline, traces=traces):
+            made.append(some)
+            report(f"{sum(len(each.batch.completion) for each in made)} of {runs} runs")
+    except KeyboardInterrupt:
+        if not (keep_runs and made):
+            raise
 
     def trace(run: int) -> ExecutionTrace:
         return traces.get(run) or ExecutionMonitor(adg, policy, seed, run, Deadline()).trace()
 
-    every = joined(batches)
+    every = joined([each.batch for each in made])
+    kept = [each.kept for each in made if each.kept is not None]
+    cut_off = sum(each.cut_off for each in made)
     is_broken, unfinished = every.is_broken.astype(bool), every.completion == NEVER
     stuck = np.isin(np.arange(len(plan.tracks)), adg.deadlocked())
     return Outcome(
@@ -127,15 +118,101 @@ def simulate(
         delays=tuple(cause.text for cause in causes),
         by_right_of_way=Collisions.of(every.by_right_of_way),
         by_clock=Collisions.of(every.by_clock),
-        deadlocks=len(every.completion) if stuck.any() else deadlocks,
+        deadlocks=len(every.completion) if stuck.any() else sum(each.deadlocks for each in made),
         broken=int(is_broken.sum()),
         stranded=int((unfinished & ~is_broken & ~stuck).sum()) - cut_off,
         caught=int(every.is_caught.sum()),
         cut_off=cut_off,
-        switches=switches,
-        replans=replans,
+        switches=sum(each.switches for each in made),
+        replans=sum(each.replans for each in made),
         gain=PolicyGain.of(np.concatenate(kept), every.completion) if kept else None,
         lateness=Lateness.of(adg, every),
         completion=np.where(unfinished, -1, every.completion),
         _trace=trace,
     )
+
+
+def replay(
+    plan: Plan,
+    delays: str | Iterable[str] = DEFAULT,
+    run: int = 0,
+    seed: int = 0,
+    *,
+    switch: bool = False,
+    replan: bool = False,
+) -> ExecutionTrace:
+    """Execute one run of a simulation, without the others.
+
+    Parameters
+    ----------
+    plan, delays, seed, switch, replan
+        As for `simulate`.
+    run
+        The number of the run, from 0.
+
+    Raises
+    ------
+    InputError
+        If the delays cannot be read.
+    """
+    _, adg = _delayed(plan, delays)
+    policy = ExecutionPolicy(switch=switch, replan=replan)
+    return ExecutionMonitor(adg, policy, seed, run, Deadline()).trace()
+
+
+def _delayed(
+    plan: Plan, delays: str | Iterable[str]
+) -> tuple[tuple[Delay, ...], ActionDependencyGraph]:
+    """Return the causes of delay, and the plan as it is executed with them."""
+    causes = read_delays(delays, plan.scenario)
+    model = delay_model_of(causes, plan.scenario)
+    return causes, ActionDependencyGraph(plan.scenario, plan.tracks, model)
+
+
+def _execute(
+    adg: ActionDependencyGraph,
+    policy: ExecutionPolicy,
+    *,
+    runs: int,
+    seed: int,
+    deadline: Deadline,
+    traces: dict[int, ExecutionTrace],
+) -> Iterator[_Runs]:
+    """Yield runs, at least one; keep the trace of a first one that the deadline cut short."""
+    chunk = 1 if any(policy) else max(CHUNK // len(adg.vertex), 1)
+    for first in range(0, runs, chunk):
+        batch = adg.runs(seed, first, min(chunk, runs - first))
+        if any(policy):
+            monitor = ExecutionMonitor(adg, policy, seed, first, deadline)
+            if deadline.seconds_left() == 0:  # replanning may have been cut short
+                if first:
+                    return
+                traces[first] = monitor.trace()
+            yield _Runs.watched(monitor, batch)
+        else:
+            yield _Runs(batch)
+        if deadline.seconds_left() == 0:
+            return
+
+
+class _Runs(NamedTuple):
+    """Some runs, and what was changed in them during execution."""
+
+    batch: RunBatch
+    kept: NDArray[np.int64] | None = None  # the completion times without changes
+    switches: int = 0
+    replans: int = 0
+    cut_off: int = 0
+    deadlocks: int = 0
+
+    @classmethod
+    def watched(cls, monitor: ExecutionMonitor, batch: RunBatch) -> _Runs:
+        """Return one run with changes; ``batch`` is the same run without."""
+        return cls(
+            batch=monitor.batch(batch),
+            kept=batch.completion,
+            switches=monitor.switches,
+            replans=monitor.replans,
+            cut_off=len(monitor.cut_off - monitor.lost),
+            deadlocks=bool(monitor.adg.deadlocked()),
+        )

@@ -302,13 +302,14 @@ class Outcome:
 
     def typical(self) -> int:
         """Return the median run, ordered by the number of robots that complete, then flowtime."""
-        return int(self._from_best()[(self.runs - 1) // 2])
+        return int(self.ranked()[(self.runs - 1) // 2])
 
     def worst(self) -> int:
         """Return the last run in the same order."""
-        return int(self._from_best()[-1])
+        return int(self.ranked()[-1])
 
-    def _from_best(self) -> NDArray[np.intp]:
+    def ranked(self) -> NDArray[np.intp]:
+        """Return the runs from the best to the worst: by robots that complete, then flowtime."""
         never = (self.completion < 0).sum(axis=1)
         flowtime = np.where(self.completion < 0, 0, self.completion).sum(axis=1)
         return np.lexsort((flowtime, never))

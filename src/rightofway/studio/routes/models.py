@@ -189,6 +189,16 @@ NewRun = Annotated[
 ]
 
 
+class OtherLaps(Model):
+    """Another value of a speed, a work time or the headway of laps."""
+
+    kind: Literal["speed", "work", "headway"]
+    robot: str | None = Field(None, description="name of the robot; null for the headway")
+    stop: int | None = Field(None, ge=0, description="stop of a work time, from 0")
+    value: str | int | float = Field(description="a number, perhaps a fraction such as 7/2")
+    time_limit: float = Field(2, gt=0, le=30, description="seconds, up to 30")
+
+
 class Rename(Model):
     """A name for a run."""
 

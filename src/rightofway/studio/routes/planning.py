@@ -24,6 +24,7 @@ from rightofway.studio.routes.models import (
     NewPlan,
     NewRun,
     NewSimulation,
+    OtherLaps,
     Rename,
     RunNumber,
     unzipped,
@@ -197,14 +198,30 @@ async def run_payload(
     request: Request,
     number: RunNumber,
     other: Annotated[int | None, Query(description="run to show beside it")] = None,
+    replay: Annotated[
+        int | None, Query(ge=0, description="run of a simulation to play, from 0")
+    ] = None,
 ) -> Response:
     """Return what the viewer plays: the plan, or the plan so far, perhaps beside another one."""
     run = studio.runs.get(number)
-    if run.has_payload and other is None:
+    if replay is not None:
+        content = await _replayed(studio, run, replay)
+    elif run.has_payload and other is None:
         content = await studio.runs.blob(number, "payload")
     else:
         content = await _played(studio, "payload", run, other)
     return unzipped(request, content)
+
+
+async def _replayed(studio: Studio, run: Run, replay: int) -> bytes:
+    """Return what the viewer plays of one run of a simulation."""
+    most = run.request.get("runs", 0)
+    if replay >= most:
+        raise Refused(f"run {run.number} has no run {replay} to play (it made {most})", 404)
+    plan = await studio.runs.blob(run.number, "plan")
+    asked = {key: run.request[key] for key in ("delays", "seed", "switch", "replan")}
+    _, blobs = await studio.ask("replay", plan, run=replay, **asked)
+    return blobs[0]
 
 
 @router.get("/runs/{number}/page", tags=["plans"], response_class=Response)
@@ -327,6 +344,18 @@ async def run_losses(
     plan = await studio.runs.blob(number, "plan")
     _, blobs = await studio.ask("losses", plan, robot=robot)
     return unzipped(request, blobs[0])
+
+
+@router.post("/runs/{number}/laps", tags=["questions"])
+async def other_laps(studio: InStudio, number: RunNumber, asked: OtherLaps) -> dict[str, Any]:
+    """Let robots repeat their trips in a new order, with another speed, work time or headway."""
+    run = studio.runs.get(number)
+    if run.kind != "laps":
+        raise Refused(f"run {number} has no laps (queue a run of the kind laps)", 404)
+    arguments = json.loads(await studio.runs.blob(number, "arguments"))
+    settings = {**run.request, **arguments, **asked.model_dump(), "value": str(asked.value)}
+    result, _ = await studio.ask("laps_if", **settings)
+    return dict(result)
 
 
 @router.post("/runs/{number}/flip", tags=["questions"])

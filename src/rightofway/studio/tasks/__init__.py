@@ -16,6 +16,7 @@ from rightofway.studio.tasks import (
     editing,
     glancing,
     planning,
+    studies,
     views,
 )
 
@@ -33,8 +34,10 @@ TASKS: dict[str, Task] = {
     "deal": dealing.dealt,
     "plan": planning.plan,
     "improve": planning.improve,
-    "laps": planning.laps,
-    "simulate": planning.simulate,
+    "laps": studies.laps,
+    "laps_if": studies.laps_if,
+    "simulate": studies.simulate,
+    "replay": studies.replayed,
     "choices": planning.choices,
     "payload": views.payload,
     "page": views.page,

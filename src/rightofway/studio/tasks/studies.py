@@ -1,0 +1,232 @@
+"""Studies of a fleet: how it repeats in laps, and what becomes of a plan with delays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rightofway.cli.laps_report import laps_data, laps_report
+from rightofway.cli.simulate import report as simulation_report
+from rightofway.cli.terminal import measures
+from rightofway.errors import GaveUp, InputError
+from rightofway.io import plan_of, plan_text
+from rightofway.io.text import parse_json
+from rightofway.model import Scenario
+from rightofway.model.values import exact
+from rightofway.studio.messages import Blobs, Emit
+from rightofway.studio.tasks.documents import figures, loaded_of
+from rightofway.studio.tasks.planning import Progress
+from rightofway.viz.page.document import compact_json
+from rightofway.viz.page.payload import payload_of
+
+if TYPE_CHECKING:
+    from rightofway.cyclic import CyclicResult
+    from rightofway.execution import Outcome
+
+Result = tuple[Any, ...]
+
+CLASSES = 24
+"""In which the flowtimes of runs are counted."""
+
+RANKS = 1000
+"""Runs that the report lists from the best to the worst; of more, evenly spaced ones."""
+
+
+def _repeated(
+    scenario: Scenario,
+    emit: Emit,
+    *,
+    rule: str = "first-come",
+    routes: str | None = None,
+    least_fairness: str = "0",
+    time_limit: float | None = None,
+    seed: int = 0,
+) -> CyclicResult:
+    """Let robots repeat their trips, under a rule or by a timetable."""
+    from rightofway.cyclic import TIMETABLE, best_timetable, run_laps
+
+    report = Progress(emit).report
+    if rule == TIMETABLE:
+        return best_timetable(
+            scenario,
+            least_fairness=Fraction(least_fairness),
+            time_limit=time_limit,
+            seed=seed,
+            report=report,
+        )
+    ways = routes or "clear"
+    return run_laps(scenario, rule, routes=ways, time_limit=time_limit, report=report)
+
+
+def laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: Any) -> Result:
+    """Let robots repeat their trips.
+
+    The report is that of `rightofway laps --json`, with the one for people as ``text``.
+    """
+    from rightofway.cyclic import excerpt
+    from rightofway.cyclic import plan_of as whole_laps
+    from rightofway.model.steady_state import within
+
+    scenario = loaded_of(document, folder).scenario
+    run = _repeated(scenario, emit, **settings)
+    shown, steady = excerpt(run)
+    payload = compact_json(payload_of(shown, steady=steady)).encode()
+    text = laps_report(run, scenario.quantities)
+    result: dict[str, Any] = {"report": {**laps_data(run), "text": text}, "has_payload": True}
+    try:
+        whole = whole_laps(run)
+    except GaveUp as reason:  # a robot that is home for ever blocks others: only laps are shown
+        return ({**result, "status": str(reason)}, payload)
+    whole = replace(whole, steady=within(steady, list(map(len, whole.tracks))))
+    return ({**result, "figures": figures(whole)}, payload, plan_text(whole).encode())
+
+
+def laps_if(
+    emit: Emit,
+    _blobs: Blobs,
+    *,
+    document: Any,
+    folder: str,
+    kind: str,
+    robot: str | None,
+    stop: int | None,
+    value: str,
+    **settings: Any,
+) -> Result:
+    """Let robots repeat their trips with another speed, work time or headway, in a new order.
+
+    The answer has the groups of `rightofway laps --json`, without what is computed visit by visit.
+    The map stays as it is, also where the cells of a floor depend on the speeds.
+    """
+    scenario = loaded_of(document, folder).scenario
+    try:
+        wanted = exact(value)
+    except ValueError as error:
+        raise InputError.at("value", str(error)) from None
+    run = _repeated(_changed(scenario, kind, robot, stop, wanted), emit, **settings)
+    found = laps_data(run, by_visit=False)
+    return ({key: found[key] for key in ("groups", "throughput_per_hour")},)
+
+
+def _changed(
+    scenario: Scenario, kind: str, robot: str | None, stop: int | None, value: Fraction
+) -> Scenario:
+    """Return a scenario with one value of a robot or the headway changed."""
+    if kind == "headway":
+        return replace(scenario, rules=replace(scenario.rules, headway=value))
+    robots = list(scenario.robots)
+    index = next((k for k, each in enumerate(robots) if each.name == robot), None)
+    if index is None:
+        raise InputError.at("robot", f"{robot!r} is no robot of this scenario")
+    stops = list(robots[index].stops)
+    if kind == "speed":
+        robots[index] = replace(robots[index], speed=value)
+    elif stop is not None and stop < len(stops):
+        stops[stop] = replace(stops[stop], work=value)
+        robots[index] = replace(robots[index], stops=tuple(stops))
+    else:
+        raise InputError.at("stop", f"{robot} has no stop {stop} (0 is the first)")
+    return replace(scenario, robots=tuple(robots))
+
+
+def simulate(
+    emit: Emit,
+    blobs: Blobs,
+    *,
+    delays: Sequence[str] = (),
+    runs: int = 1000,
+    run: int | str = "typical",
+    **settings: Any,
+) -> Result:
+    """Execute a plan with delays; a stop keeps the runs that were made.
+
+    The report is that of `rightofway simulate --json`. Beside it are the one for people as
+    ``text``, the flowtime of each run in classes of equal width as ``spread``, runs from the best
+    to the worst as ``ranks``, and the number of the run with the largest flowtime as ``worst``.
+    """
+    from rightofway.execution import DEFAULT
+    from rightofway.execution import simulate as execute
+
+    given, report = plan_of(parse_json(blobs[0].decode())), Progress(emit).report
+    causes = list(delays) or [DEFAULT]
+    outcome = execute(given, causes, runs, keep_runs=True, report=report, **settings)
+    named = {"typical": outcome.typical, "worst": outcome.worst}
+    played = named[run]() if isinstance(run, str) else run
+    if not played < outcome.runs:
+        message = f"{played} is not among the {outcome.runs} runs (0 is the first)"
+        raise InputError.at("run", message)
+    payload = compact_json(payload_of(outcome.plan, actual=outcome.trace(played))).encode()
+    data = {
+        **measures(given.scenario),
+        **outcome.as_dict(),
+        "played": played,
+        "text": simulation_report(outcome, given.scenario.quantities),
+        "worst": outcome.worst(),
+        "spread": spread_of(outcome),
+        "ranks": ranks_of(outcome),
+    }
+    result = {"report": data, "has_payload": True, "figures": figures(outcome.plan)}
+    return (result, payload, plan_text(outcome.plan).encode())
+
+
+def replayed(
+    _emit: Emit, blobs: Blobs, *, run: int, delays: Sequence[str] = (), seed: int = 0, **policy: Any
+) -> Result:
+    """Return what the viewer plays of one run of a simulation."""
+    from rightofway.execution import DEFAULT, replay
+
+    plan = plan_of(parse_json(blobs[0].decode()))
+    trace = replay(plan, list(delays) or [DEFAULT], run, seed, **policy)
+    return (None, compact_json(payload_of(plan, actual=trace)).encode())
+
+
+def spread_of(outcome: Outcome) -> dict[str, Any] | None:
+    """Return how often the flowtime of a run is in each of some classes; None if none completes.
+
+    Parameters
+    ----------
+    outcome
+        Runs with delays. Those in which a robot never completes are left out.
+    """
+    whole = outcome.completion[(outcome.completion >= 0).all(axis=1)]
+    if not len(whole):
+        return None
+    counts, edges = np.histogram(whole.sum(axis=1), bins=CLASSES)
+    duration = outcome.plan.scenario.quantities.duration
+    return {
+        "counts": counts.tolist(),
+        "planned": outcome.plan.flowtime,
+        "from": float(edges[0]),
+        "to": float(edges[-1]),
+        "text": {
+            "planned": duration(outcome.plan.flowtime),
+            "from": duration(round(edges[0])),
+            "to": duration(round(edges[-1])),
+        },
+    }
+
+
+def ranks_of(outcome: Outcome) -> dict[str, Any]:
+    """Return runs from the best to the worst: the rank, number and flowtime of each [ticks].
+
+    Parameters
+    ----------
+    outcome
+        Runs with delays. The flowtime of a run in which a robot never completes is None.
+    """
+    order = outcome.ranked()
+    ranks = np.unique(np.linspace(0, len(order) - 1, min(len(order), RANKS)).round().astype(int))
+    completion = outcome.completion[order[ranks]]
+    sums = completion.sum(axis=1).tolist()
+    is_whole = (completion >= 0).all(axis=1).tolist()
+    return {
+        "rank": ranks.tolist(),
+        "run": order[ranks].tolist(),
+        "flowtime": [
+            ticks if is_done else None for ticks, is_done in zip(sums, is_whole, strict=True)
+        ],
+    }
