@@ -66,7 +66,8 @@ def preview_of(site: Site, *, theme: Theme = LIGHT) -> bytes:
 
 def _draw_places(pen: Pen, ground: Ground, site: Site) -> None:
     """Draw stations as diamonds and homes as discs; of few robots with a line between them."""
-    radius = min(max(pen.scale * 0.36, 3.5 if len(site.robots) <= MOST_TRIPS else 2.5), 8) * pen.hairline
+    least = 3.5 if len(site.robots) <= MOST_TRIPS else 2.5
+    radius = min(max(pen.scale * 0.36, least), 8) * pen.hairline
     colours = robot_colours(len(site.robots))
     trips = [
         (colour, ground.points[robot.home], [ground.points[stop.at] for stop in robot.stops])
