@@ -40,9 +40,9 @@ Gives up after ``n_searches`` or the time limit; after ``with_net`` seconds inst
 a plan made in haste. `go_on` may change a False.)";
 
 constexpr auto restore_doc =
-    R"(Give robots these tracks, as for `start`, where they fit and cost no more; return how many do.
+    R"(Give robots these tracks, as for `start`, where that costs no more; return how many have theirs.
 
-Every robot has a track; `improve` starts afresh.)";
+Every robot has a track, and the tracks given keep the rules. `improve` starts afresh.)";
 
 constexpr auto repair_doc =
     R"(Give tracks to robots that have none, in this order; return whether all have one now.
@@ -135,28 +135,36 @@ class FleetSearch {
         }
     }
 
+    // The given tracks do not conflict with each other. So a robot can have its track again if all
+    // robots in the way of it have theirs, and those in the way of these, and so on.
     std::int64_t restore(const GivenTracks& given) {
+        const auto n_robots = static_cast<std::size_t>(problem_.n_robots());
+        std::vector<TimedTrack> old;
+        for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+            old.push_back(track_of(robot, given));
+        }
         std::int64_t n_restored = 0;
-        std::vector<bool> is_other(static_cast<std::size_t>(problem_.n_robots()), true);
-        for (bool has_changed = true; has_changed;) {  // one robot may make room for another
+        std::vector<std::uint8_t> is_restored(n_robots, 0);
+        for (bool has_changed = true; has_changed;) {
             has_changed = false;
-            for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
-                if (!is_other[static_cast<std::size_t>(robot)]) {
+            for (RobotId first = 0; first < problem_.n_robots(); ++first) {
+                if (is_restored[static_cast<std::size_t>(first)] != 0) {
                     continue;
                 }
-                TimedTrack track = track_of(robot, given);
-                if (track.cost < 0 || track.cost > plan_.track(robot).cost) {
+                const std::vector<RobotId> group = in_the_way_of_each_other(first, old);
+                Tick gain = 0;
+                for (const RobotId robot : group) {
+                    gain += plan_.track(robot).cost - old[static_cast<std::size_t>(robot)].cost;
+                }
+                if (gain < 0) {
                     continue;
                 }
-                TimedTrack now;
-                plan_.exchange(robot, now);
-                const bool is_free = plan_.fits(robot, track);
-                plan_.exchange(robot, is_free ? track : now);
-                if (is_free) {
-                    is_other[static_cast<std::size_t>(robot)] = false;
-                    has_changed = true;
-                    ++n_restored;
+                for (const RobotId robot : group) {
+                    plan_.exchange(robot, old[static_cast<std::size_t>(robot)]);
+                    is_restored[static_cast<std::size_t>(robot)] = 1;
                 }
+                n_restored += static_cast<std::int64_t>(group.size());
+                has_changed = true;
             }
         }
         improvement_.reset();
@@ -193,6 +201,22 @@ class FleetSearch {
     std::int64_t n_expanded() const { return improvement_ ? improvement_->n_expanded() : 0; }
 
   private:
+    // A robot, and all that have to give way for it to have its track of `old`.
+    std::vector<RobotId> in_the_way_of_each_other(RobotId first,
+                                                  std::span<const TimedTrack> old) const {
+        std::vector<RobotId> group{first};
+        std::vector<RobotId> met;
+        for (std::size_t k = 0; k < group.size(); ++k) {
+            plan_.in_the_way(group[k], old[static_cast<std::size_t>(group[k])], met);
+            for (const RobotId other : met) {
+                if (std::find(group.begin(), group.end(), other) == group.end()) {
+                    group.push_back(other);
+                }
+            }
+        }
+        return group;
+    }
+
     // Its cost is below 0 if it misses a stage.
     TimedTrack track_of(RobotId robot, const GivenTracks& given) const {
         const Turns turns = problem_.turns(robot);

@@ -411,9 +411,9 @@ class FleetSearch:
 
     def restore(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
         """
-        Give robots these tracks, as for `start`, where they fit and cost no more; return how many do.
+        Give robots these tracks, as for `start`, where that costs no more; return how many have theirs.
 
-        Every robot has a track; `improve` starts afresh.
+        Every robot has a track, and the tracks given keep the rules. `improve` starts afresh.
         """
 
     def prioritize(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None, with_net: float | None) -> bool:

@@ -213,7 +213,8 @@ def _run(
         if alone is None:
             raise GaveUp("time ran out while measuring distances (give a longer time limit)")
         refuse_stranded(task.scenario, np.flatnonzero(alone < 0).tolist())
-        refuse_closed_ways(task.scenario, deadline)
+        if old is None:  # else it takes longer than a first plan from the old one
+            refuse_closed_ways(task.scenario, deadline)
         least_visits = _least_visits(task.scenario, alone.tolist())
         task = replace(
             task,
@@ -300,11 +301,13 @@ def _drafted(spec: PlannerSpec, task: Task) -> Draft:
 
 def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
     """Return the draft of a planner that starts from an old plan, or from nothing if it must."""
+    from rightofway.planners.impossible import refuse_closed_ways
     from rightofway.planners.warm_start import first_plan
 
     tracks = first_plan(task, old)
     if tracks is None:
         task.report("the old plan does not help: planning from nothing")
+        refuse_closed_ways(task.scenario, task.deadline)
         return _drafted(spec, task)
     task.has_plan()
     task.better(lambda: tracks)

@@ -155,9 +155,12 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         if not task.keep_best:
             raise
         ended = "interrupted: "
-    if task.start is not None:
-        search.restore(spaced)
-    found = _retimed(task, search) if search.cost < before else search.tracks()
+    if search.cost < before:
+        if task.start is not None:
+            search.restore(spaced)
+        found = _retimed(task, search)
+    else:
+        found = search.tracks() if task.start is None else tuple(spaced)
     measured = partial(cost_of, task.scenario)
     cost = measured(found)
     if cost == bound:

@@ -5,6 +5,7 @@ import { ScenarioStore } from "./document.js";
 import { Backdrop } from "./draw/backdrop.js";
 import { Editor } from "./draw/editor.js";
 import { Notices } from "./notices.js";
+import { FormerRoute } from "./runs/former.js";
 import { RunStore } from "./runs/run_store.js";
 import { Shelf } from "./shelf.js";
 import { Stage } from "./stage.js";
@@ -34,6 +35,7 @@ export class Studio extends Observable {
     this.shelf = new Shelf(this);
     this.notices = new Notices();
     this.notices.watch(this.store, () => this.editor.tool.frees);
+    this.former = new FormerRoute(this.runs, this.stage);
     for (const [source, ...events] of [
       [this.store, "document", "survey", "findings"],
       [this.runs, "runs"],

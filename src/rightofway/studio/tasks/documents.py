@@ -141,7 +141,7 @@ def written(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, name: str
 
 
 def figures(plan: Plan) -> dict[str, Any]:
-    """Return what a plan costs, in ticks and as people read it."""
+    """Return what a plan costs, in ticks and as people read it, and what it kept of an old plan."""
     metrics, duration = measure(plan), plan.scenario.quantities.duration
     costs = {
         "flowtime": metrics.flowtime,
@@ -149,4 +149,7 @@ def figures(plan: Plan) -> dict[str, Any]:
         "lower_bound": metrics.lower_bound,
     }
     text = {key: duration(ticks) for key, ticks in costs.items()}
-    return {**costs, "text": {**text, "gap": f"{metrics.gap:.1%}" if metrics.lower_bound else ""}}
+    text["gap"] = f"{metrics.gap:.1%}" if metrics.lower_bound else ""
+    if plan.run.start is None:
+        return {**costs, "text": text}
+    return {**costs, "text": text, "start": asdict(plan.run.start), "robots": len(plan.tracks)}

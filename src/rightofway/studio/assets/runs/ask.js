@@ -5,6 +5,7 @@ import { placeOfText } from "../draw/places.js";
 import { COLUMNS, columnOf } from "../robots/columns.js";
 import { changeRobots, robotsOf } from "../robots/fleet.js";
 import { words } from "../words.js";
+import { textOfClosure, withClosure, withoutClosure } from "./closures.js";
 
 const ASKED = COLUMNS.filter(({ key }) => ["home", "stops", "work", "speed"].includes(key));
 
@@ -44,37 +45,25 @@ function Close({ studio }) {
   const [to, setTo] = useState("");
   const close = (event) => {
     event.preventDefault();
-    const [one, other] = [at, to].map((text) => text.trim());
-    if (!one) return;
-    const closure = other
-      ? { edge: [placeOfText(one), placeOfText(other)] }
-      : { at: placeOfText(one) };
-    studio.whatIf((document) => ({
-      ...document,
-      closures: [...(document.closures ?? []), closure],
-    }));
+    const places = [at, to].map(placeOfText);
+    if (places[0] === undefined) return;
+    studio.whatIf((document) => withClosure(document, ...places));
     setAt("");
     setTo("");
   };
-  const open = (index) =>
-    studio.whatIf(({ closures, ...rest }) => {
-      const left = closures.filter((_, i) => i !== index);
-      return left.length ? { ...rest, closures: left } : rest;
-    });
-  const text = ({ at: place, edge }) =>
-    (edge ?? [place]).map((end) => (Array.isArray(end) ? end.join(", ") : String(end))).join(" – ");
   return html`
     <form class="close-place" onSubmit=${close}>
-      <label>${words.closePlace}<input id="close-at" value=${at} spellcheck="false" onInput=${({ target }) => setAt(target.value)} /></label>
-      <label>${words.closeTo}<input id="close-to" value=${to} spellcheck="false" onInput=${({ target }) => setTo(target.value)} /></label>
+      <label>${words.closePlace}<input id="close-at" value=${at} placeholder="N3" spellcheck="false" onInput=${({ target }) => setAt(target.value)} /></label>
+      <label>${words.closeTo}<input id="close-to" value=${to} placeholder="–" spellcheck="false" onInput=${({ target }) => setTo(target.value)} /></label>
       <button type="submit" class="framed" disabled=${!at.trim()}>${words.closeIt}</button>
     </form>
     ${store.faultsAt("closures").map(({ named, place, message }) => html`<p class="wrong" role="alert">${named || place}: ${message}</p>`)}
     ${
       store.document.closures?.length > 0 &&
-      html`<ul class="closures">${store.document.closures.map(
-        (closure, index) => html`
-      <li>${words.closed}: ${text(closure)} <button type="button" class="quiet" aria-label=${`${words.openAgain}: ${text(closure)}`} title=${words.openAgain} onClick=${() => open(index)}>✕</button></li>`,
-      )}</ul>`
+      html`<ul class="closures">${store.document.closures.map((closure, index) => {
+        const text = textOfClosure(closure);
+        const open = () => studio.whatIf((document) => withoutClosure(document, index));
+        return html`<li>${words.closed}: ${text} <button type="button" class="quiet" aria-label=${`${words.openAgain}: ${text}`} title=${words.openAgain} onClick=${open}>✕</button></li>`;
+      })}</ul>`
     }`;
 }

@@ -1,9 +1,9 @@
-/** What a plan costs beside another one: both sums, who gains and who loses. */
+/** A plan beside the one before it: what was changed, both sums, who gains and who loses. */
 
 import { html } from "../vendor/htm-preact.js";
 import { Quantities } from "../viewer/quantities.js";
-import { several } from "../viewer/words.js";
 import { words } from "../words.js";
+import { editsBetween } from "./edits.js";
 
 /** Robots whose completion time differs: name and difference [time unit], the largest gain first. */
 export function differences({ robots }) {
@@ -16,20 +16,37 @@ export function differences({ robots }) {
     .sort((one, other) => one.by - other.by);
 }
 
+const MOST = 4; // robots that are named
+
 export function Change({ studio }) {
   const { runs, stage } = studio;
   const { comparison } = runs;
-  if (!comparison) return null;
+  if (!comparison || !stage.isPlan) return null;
   const [before, after] = comparison.plans.map(({ text }) => text.flowtime);
+  const [old, now] = comparison.runs.map((number) => runs.knownDocument(number));
+  const { start, robots } = runs.run?.figures ?? {};
   const found = differences(comparison);
-  const { units } = stage.plan.quantities;
-  const { duration } = {
-    duration: (time) => new Quantities(units, [1, 1]).duration(Math.abs(time)),
-  };
-  const names = (those) =>
-    several(those.map(({ name, by }) => `${name} (${duration(Number(by.toFixed(6)))})`));
-  const [gain, lose] = [found.filter(({ by }) => by < 0), found.filter(({ by }) => by > 0)];
-  return html`<p class="change" role="status">${words.flowtime} <b>${after}</b>${before === after ? ` ${words.asBefore}` : `, ${words.wasBefore(before)}`}
-    ${gain.length > 0 && html`<span class="gain"> ${words.gains(names(gain))}</span>`}
-    ${lose.length > 0 && html`<span class="lose"> ${words.losesTime(names(lose))}</span>`}</p>`;
+  return html`
+    <section class="change" role="status">
+      ${runs.run?.kind === "flip" && html`<p class="edit">${words.goesBefore(runs.run.request)}</p>`}
+      ${old && now && editsBetween(old, now).map((edit) => html`<p class="edit">${edit}</p>`)}
+      <p>${words.flowtime} <b>${after}</b>${before === after ? ` ${words.asBefore}` : `, ${words.wasBefore(before)}`}</p>
+      <${Robots} studio=${studio} className="gain" label=${words.gains} found=${found.filter(({ by }) => by < 0)} />
+      <${Robots} studio=${studio} className="lose" label=${words.losesTime} found=${found.filter(({ by }) => by > 0).reverse()} />
+      ${start && html`<p class="hint">${words.keptRoutes(start.routes, robots)}</p>`}
+      ${studio.former.ways.length > 0 && html`<p class="hint">${words.formerRoute}</p>`}
+    </section>`;
+}
+
+/** Robots that gain or lose, those with the largest difference first; a press shows one on the map. */
+function Robots({ studio: { stage }, className, label, found }) {
+  if (!found.length) return null;
+  const quantities = new Quantities(stage.plan.quantities.units, [1, 1]);
+  const look = (name) =>
+    stage.choice.chooseRobot(stage.plan.robots.findIndex((robot) => robot.name === name));
+  const time = (by) => quantities.duration(Number(Math.abs(by).toFixed(6)));
+  const row = ({ name, by }) =>
+    html`<button type="button" class="link" onClick=${() => look(name)}>${name}</button> ${time(by)}`;
+  const rest = found.length - MOST;
+  return html`<p class=${className}>${label} ${found.slice(0, MOST).map((robot, i) => [i ? ", " : "", row(robot)])}${rest > 0 && `, ${words.andMore(rest)}`}</p>`;
 }

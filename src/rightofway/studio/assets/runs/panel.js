@@ -13,20 +13,24 @@ import { Report, Studies } from "./studies.js";
 import { Waits } from "./waits.js";
 
 export function PlanPanel({ studio }) {
-  const { runs, store } = studio;
+  const { runs, stage, store } = studio;
   const { running, run } = runs;
   const current = running ?? run;
+  const isChosen = stage.isPlan && Boolean(stage.choice.robot);
+  const questions = html`
+      ${runs.losses && html`<${Waits} studio=${studio} />`}
+      ${runs.payload && html`<${Ask} studio=${studio} />`}`;
   return html`
     <div class="scroll">
       <${Settings} studio=${studio} />
       ${current && html`<${Curve} key=${current.number} run=${current} />`}
       ${run && !runs.isOf(store.document) && html`<p class="aside">${words.changedSince} <button type="button" class="framed" onClick=${() => studio.takeBack()}>${words.takeBack}</button></p>`}
       <${Change} studio=${studio} />
+      ${isChosen && questions}
       <${RunList} studio=${studio} />
       <${Report} studio=${studio} />
       <${Comparison} studio=${studio} />
-      ${runs.losses && html`<${Waits} studio=${studio} />`}
-      ${runs.payload && html`<${Ask} studio=${studio} />`}
+      ${!isChosen && questions}
       ${runs.payload && html`<${Exports} studio=${studio} />`}
       <${Studies} studio=${studio} />
     </div>`;

@@ -9,6 +9,7 @@ export const canBeShown = (run) => run.has_plan || run.has_payload;
 const NO_COMMAND = ["flip", "opened"]; // kinds of runs that no command makes
 const NO_CHOICES = { rules: {}, delays: { default: "", examples: {} }, formats: {} };
 const NOTHING_SHOWN = {
+  former: null,
   shown: null,
   payload: null,
   losses: null,
@@ -25,6 +26,7 @@ export class RunStore extends Observable {
   choices = NO_CHOICES;
   shown = null; // number of the run that is shown
   payload = null;
+  former = null; // the run that was shown before it, with its payload
   beside = null; // number of the run that it is compared with
   comparison = null;
   losses = null; // of the plan that is shown, once they are known
@@ -62,6 +64,11 @@ export class RunStore extends Observable {
   isOf(document) {
     const made = this.#documents.get(this.shown);
     return made === undefined || made === document;
+  }
+
+  /** The document that a run of this page was made from, if that is known. */
+  knownDocument(number) {
+    return this.#documents.get(number);
   }
 
   /** The document that a run was made from. */
@@ -113,6 +120,8 @@ export class RunStore extends Observable {
     const turn = ++this.#wanted;
     const payload = await get(`/runs/${number}/payload`);
     if (turn !== this.#wanted) return;
+    if (this.shown !== number && this.payload)
+      this.former = { number: this.shown, payload: this.payload };
     if (this.shown !== number)
       Object.assign(this, { losses: null, comparison: null, report: null, command: "" });
     Object.assign(this, { shown: number, payload });
