@@ -225,16 +225,20 @@ def test_every_fault_of_a_scenario_is_told_with_its_file(cli: Cli) -> None:
     assert lines[1].startswith("bad.yaml:5: robots[1] (R2): home: ")
 
 
-def test_show_puts_two_plans_of_one_scenario_on_one_page(cli: Cli, door: Path) -> None:
-    for name in ("A.json", "B.json"):
+def test_show_puts_plans_on_one_page(cli: Cli, door: Path) -> None:
+    for name in ("A.json", "B.json", "C.json"):
         cli("plan", door, "-o", name)
-    assert cli("show", "A.json", "B.json", "--page", "both.html").code == 0
+    assert cli("show", "A.json", "B.json", "C.json", "--page", "both.html").code == 0
     page = Path("both.html").read_text(encoding="utf-8")
     assert "<title>A.json: 2 robots</title>" in page
-    assert '"other":{"title":"B.json"' in page
+    assert '"others":[{"title":"B.json"' in page
+    assert '{"title":"C.json"' in page
     refused = cli("show", "A.json", "B.json", "-o", "both.png")
     assert refused.code == 2
-    assert "two plans are compared on a page (give --page FILE)" in refused.err
+    assert "plans are compared on a page (give --page FILE)" in refused.err
+    refused = cli("show", "A.json", *["B.json"] * 8, "--page", "many.html")
+    assert refused.code == 2
+    assert "9 plans are too many to compare (give at most 8)" in refused.err
 
 
 def test_show_lays_a_picture_under_the_map_of_the_page(cli: Cli, door: Path) -> None:

@@ -299,6 +299,46 @@ def test_costs_are_compared_in_time_units_where_ticks_differ(client: httpx.Clien
     assert ticks[0] != ticks[1]
 
 
+def test_plans_of_different_scenarios_are_compared_on_one_page(client: httpx.Client) -> None:
+    first, *others = DOOR["robots"]
+    faster = {**DOOR, "robots": [{**first, "speed": 1.5}, *others]}
+    alone = {**DOOR, "robots": [first]}
+    runs = [planned(client, document)["number"] for document in (DOOR, faster, alone)]
+    found = client.get("/compare", params={"run": runs}).json()
+    assert found["titles"] == [f"run {number}" for number in runs]
+    plans = found["comparison"]["plans"]
+    assert [[change["text"] for change in plan["changes"]] for plan in plans] == [
+        [],
+        ["R1: speed 1 → 1.5"],
+        ["R2: removed"],
+    ]
+    assert all(plan["seconds"] > 0 for plan in plans)
+    page = client.get(f"/runs/{runs[0]}/export/html", params={"other": runs[1:]})
+    assert (
+        f'filename="run-{runs[0]}-{runs[1]}-{runs[2]}.html"' in page.headers["content-disposition"]
+    )
+    assert f'"others":[{{"title":"run {runs[1]}"' in page.text
+    payload = client.get(f"/runs/{runs[0]}/payload", params={"other": runs[1:]}).json()
+    assert [other["title"] for other in payload["others"]] == found["titles"][1:]
+    refused = client.get(f"/runs/{runs[0]}/export/png", params={"other": runs[1]})
+    assert refused.status_code == 422
+    too_many = client.get("/compare", params={"run": [runs[0]] * 9})
+    assert too_many.status_code == 422
+
+
+def test_what_changed_since_the_run_before_is_said(client: httpx.Client) -> None:
+    first, *others = DOOR["robots"]
+    faster = {**DOOR, "robots": [{**first, "speed": 2}, *others]}
+    numbers = []
+    for document in (DOOR, faster, faster):
+        numbers.append(planned(client, document, source="changing.yaml")["number"])
+    found = [client.get(f"/runs/{number}/changes").json() for number in numbers]
+    assert found[0] == {"before": None, "changes": []}
+    assert found[1]["before"] == numbers[0]
+    assert [change["text"] for change in found[1]["changes"]] == ["R1: speed 1 → 2"]
+    assert found[2] == {"before": numbers[1], "changes": []}
+
+
 def test_rules_delays_and_formats_are_listed_and_can_be_used(client: httpx.Client) -> None:
     choices = client.get("/choices").json()
     number = planned(client)["number"]

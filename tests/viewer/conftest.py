@@ -36,7 +36,7 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
         no_plan: NoPlanExists | None = None,
         background: Background | None = None,
         title: str = "",
-        other: tuple[Plan, str] | None = None,
+        others: Sequence[tuple[Plan, str]] = (),
         **context: Any,
     ) -> Viewer:
         path = directory / "plan.html"
@@ -48,7 +48,7 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
             no_plan=no_plan,
             background=background,
             title=title,
-            other=other,
+            others=others,
         )
         contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
         viewer = Viewer(contexts[-1].new_page())

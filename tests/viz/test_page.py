@@ -4,6 +4,7 @@ import base64
 import hashlib
 import json
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
+from rightofway.model import Units
 from rightofway.viz import frame_of, page_of, payload_of, png_of, write_page
 from rightofway.viz.page.scripts import scripts_of
 from tests.builders.plans import (
@@ -19,6 +21,7 @@ from tests.builders.plans import (
     counter_steady,
     crowd,
     door,
+    door_shifted,
     hostile,
     loop,
 )
@@ -55,7 +58,7 @@ def test_the_page_carries_the_payload() -> None:
 
 
 def test_a_small_plan_makes_a_small_page() -> None:
-    assert len(page_of(door()).encode()) < 285_000  # of these 40 kB are texts in two languages
+    assert len(page_of(door()).encode()) < 302_000  # of these 40 kB are texts in two languages
 
 
 def test_names_bring_no_element_and_no_attribute_with_them() -> None:
@@ -170,6 +173,17 @@ def test_a_notebook_shows_the_page_in_a_sandbox() -> None:
     assert dict(elements.attributes)["srcdoc"] == page_of(hostile(EVIL))
 
 
-def test_a_plan_of_another_scenario_is_not_compared() -> None:
-    with pytest.raises(InputError, match=r"B.json: the plan has other robots and another map"):
-        page_of(door(), other=(loop(), "B.json"))
+def test_plans_of_different_scenarios_have_maps_of_their_own() -> None:
+    payload = payload_of(door(), others=[(door_shifted(1), "B.json"), (loop(), "C.json")])
+    same, different = payload["others"]
+    assert "map" not in same
+    assert different["map"] != payload["map"]
+    assert same["line"] == payload["line"]
+    assert payload["comparison"]["robots"][0] == {"name": "R1", "completion": [20, 22, None]}
+
+
+def test_times_in_a_unit_and_in_none_are_not_compared() -> None:
+    plan = door()
+    timed = replace(plan, scenario=replace(plan.scenario, units=Units(time="s")))
+    with pytest.raises(InputError, match=r"B.json: its times are in s, those of .* in no unit"):
+        page_of(plan, others=[(timed, "B.json")])

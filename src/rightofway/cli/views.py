@@ -105,7 +105,7 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
 @click.command(epilog=SHOW_EXAMPLES, short_help="Show a plan as a page, a picture or a film.")
 @click.argument("plan", type=click.Path(), metavar="PLAN_OR_SCENARIO",
                 shell_complete=files(*SCENARIOS))  # fmt: skip
-@click.argument("other", type=click.Path(), metavar="[OTHER_PLAN]", required=False,
+@click.argument("others", type=click.Path(), nargs=-1, metavar="[OTHER_PLAN]...",
                 shell_complete=files(*PLANS))  # fmt: skip
 @count_option
 @foreign_options
@@ -130,7 +130,7 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
 def show(
     *,
     plan: str,
-    other: str | None,
+    others: tuple[str, ...],
     count: int | None,
     output: str | None,
     page: str | None,
@@ -142,10 +142,12 @@ def show(
 ) -> None:
     """Show a plan as a page that plays it, a picture or a film.
 
-    A scenario is planned first, as by `rightofway plan`. With OTHER_PLAN, another plan of the same
-    scenario, the page shows both side by side, and which robots gain or lose.
+    A scenario is planned first, as by `rightofway plan`. With other plans, up to eight in all, the
+    page shows them side by side: figures, maps, diagrams, and which robots gain or lose. Robots are
+    compared by their names, so the plans may be of different scenarios.
     """
     from rightofway.cli.plan_report import planning
+    from rightofway.metrics import MAX_COMPARED
     from rightofway.model import Scenario
     from rightofway.solve import solve
 
@@ -153,18 +155,22 @@ def show(
         raise click.UsageError("nothing to write (give --page FILE, or -o FILE for a picture)")
     is_picture = Path(output or "").suffix.lower() == ".png"
     _check_picture(is_picture, at, tick, diagram=diagram)
-    if other and output not in (None, "-") and not output.lower().endswith(PAGE_SUFFIXES):
-        raise click.UsageError("two plans are compared on a page (give --page FILE)")
+    if others and output not in (None, "-") and not output.lower().endswith(PAGE_SUFFIXES):
+        raise click.UsageError("plans are compared on a page (give --page FILE)")
+    if len(others) >= MAX_COMPARED:
+        message = f"{len(others) + 1} plans are too many to compare"
+        raise click.UsageError(f"{message} (give at most {MAX_COMPARED})")
     _check_background(background, background_scale, [page, output])
     found = read_either(plan, count)
     if isinstance(found, Scenario):
         with progress(LIMIT) as report:
             found = solve(found, time_limit=LIMIT, report=report)
         say(f"{plan}: {planning(found, found.scenario.quantities)}")
+    first, *titles = _titles([plan, *others])
     extras: dict[str, Any] = {
-        "title": file_title(plan),
+        "title": first,
         "background": _background(background, background_scale, found),
-        "other": (read_plan(other), file_title(other)) if other else None,
+        "others": list(zip(map(read_plan, others), titles, strict=True)),
     }
     if page:
         _write(found, page, extras)
@@ -181,6 +187,12 @@ def show(
         say(f"wrote {output}")
     elif output:
         _write(found, output, extras)
+
+
+def _titles(paths: list[str]) -> list[str]:
+    """Return the names of files; the whole paths where two have one name."""
+    titles = list(map(file_title, paths))
+    return titles if len(set(titles)) == len(titles) else paths
 
 
 def _check_picture(

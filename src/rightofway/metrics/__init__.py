@@ -1,6 +1,7 @@
 """What a plan costs and must cost at least, what robots lose and where, what hurts on a site."""
 
 from rightofway.metrics.alone import alone_completions
+from rightofway.metrics.changes import Change, changes
 from rightofway.metrics.collisions import (
     Collision,
     NamedCollision,
@@ -12,6 +13,7 @@ from rightofway.metrics.collisions import (
     near_misses,
     swaps,
 )
+from rightofway.metrics.comparison import MAX_COMPARED, Comparison, compare
 from rightofway.metrics.events import Event, event_columns, events
 from rightofway.metrics.inspection import inspect
 from rightofway.metrics.lost_time import joined_waits, lost_time
@@ -21,7 +23,10 @@ from rightofway.metrics.waits import waits
 
 __all__ = [
     "HEADINGS",
+    "MAX_COMPARED",
+    "Change",
     "Collision",
+    "Comparison",
     "Event",
     "Finding",
     "Inspection",
@@ -31,7 +36,9 @@ __all__ = [
     "Site",
     "Swap",
     "alone_completions",
+    "changes",
     "collisions",
+    "compare",
     "event_columns",
     "events",
     "free_running",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import shlex
-from collections.abc import AsyncGenerator, AsyncIterator
+from collections.abc import AsyncGenerator, AsyncIterator, Sequence
 from contextlib import aclosing
 from typing import Annotated, Any
 
@@ -13,6 +13,7 @@ from fastapi import APIRouter, Body, Query, Request, Response
 from fastapi.responses import StreamingResponse
 
 from rightofway.io import FOREIGN_FORMATS
+from rightofway.metrics import MAX_COMPARED
 from rightofway.planners import DEFAULT, IMPROVER, find, registered
 from rightofway.studio.errors import Refused
 from rightofway.studio.events import Event
@@ -44,8 +45,11 @@ EXPORTS = {
 ALONE = "sandbox allow-scripts allow-downloads; frame-ancestors 'self'"
 """Beside the page's own policy: it is an origin of its own, so its scripts cannot use the API."""
 
-MAX_COMPARED = 8
-"""Runs that are compared at once."""
+Others = Annotated[
+    list[int],
+    Query(max_length=MAX_COMPARED - 1, description="runs to show beside it, at most seven"),
+]
+"""Runs beside another one; each is a parameter of its own: `?other=2&other=3`."""
 
 router = APIRouter()
 
@@ -202,16 +206,16 @@ async def run_payload(
     studio: InStudio,
     request: Request,
     number: RunNumber,
-    other: Annotated[int | None, Query(description="run to show beside it")] = None,
+    other: Others = [],  # noqa: B006 (FastAPI copies it)
     replay: Annotated[
         int | None, Query(ge=0, description="run of a simulation to play, from 0")
     ] = None,
 ) -> Response:
-    """Return what the viewer plays: the plan, or the plan so far, perhaps beside another one."""
+    """Return what the viewer plays: the plan, or the plan so far, perhaps beside others."""
     run = studio.runs.get(number)
     if replay is not None:
         content = await _replayed(studio, run, replay)
-    elif run.has_payload and other is None:
+    elif run.has_payload and not other:
         content = await studio.runs.blob(number, "payload")
     else:
         content = await _played(studio, "payload", run, other)
@@ -234,47 +238,79 @@ async def run_page(
     studio: InStudio,
     request: Request,
     number: RunNumber,
-    other: Annotated[int | None, Query(description="run to show beside it")] = None,
+    other: Others = [],  # noqa: B006 (FastAPI copies it)
 ) -> Response:
-    """Return the page that plays the plan, as `rightofway show --page` writes it."""
+    """Return the page of the plan, perhaps beside others, as `rightofway show` writes it."""
     content = await _played(studio, "page", studio.runs.get(number), other)
     headers = {"content-security-policy": ALONE}
     return unzipped(request, content, "text/html; charset=utf-8", headers)
 
 
-async def _played(studio: Studio, task: str, run: Run, other: int | None) -> bytes:
-    """Return the payload or the page of the plan that a run has now, perhaps beside another one."""
-    shown = [run] if other is None else [run, studio.runs.get(other)]
-    titles = dict(zip(("title", "other"), map(title_of, shown), strict=False))
+async def _played(studio: Studio, task: str, run: Run, others: Sequence[int]) -> bytes:
+    """Return the payload or the page of the plan that a run has now, perhaps beside others."""
+    runs = [run, *map(studio.runs.get, others)]
+    shown = shown_of(runs)
 
     async def make() -> bytes:
-        plans = [await studio.runs.blob(each.number, "plan") for each in shown]
-        _, blobs = await studio.ask(task, *plans, **titles)
+        plans = [await studio.runs.blob(each.number, "plan") for each in runs]
+        _, blobs = await studio.ask(task, *plans, shown=shown)
         return blobs[0]
 
-    key = (task, *((each.number, each.revision, title_of(each)) for each in shown))
+    titles = [each["title"] for each in shown]
+    key = (task, *((each.number, each.revision) for each in runs), *titles)
     return await studio.played.get(key, make)
 
 
-def title_of(run: Run) -> str:
-    """Return how a page calls a run."""
-    return run.name or run.source or f"run {run.number}"
+def shown_of(runs: Sequence[Run]) -> list[dict[str, Any]]:
+    """Return what a page says of runs: titles, different for each of several, and seconds."""
+    if len(runs) == 1:
+        titles = [runs[0].name or runs[0].source or f"run {runs[0].number}"]
+    else:
+        titles = [run.name or f"run {run.number}" for run in runs]
+        if len(set(titles)) < len(titles):
+            titles = [f"{run.number} {run.name}".rstrip() for run in runs]
+    return [
+        {"title": title, "seconds": seconds_of(run)}
+        for title, run in zip(titles, runs, strict=True)
+    ]
+
+
+def seconds_of(run: Run) -> float | None:
+    """Return how long a run took; None for what was not planned here."""
+    if run.started is None or run.ended is None or run.ended <= run.started:
+        return None
+    return round(run.ended - run.started, 3)
 
 
 @router.get("/runs/{number}/export/{form}", tags=["plans"], response_class=Response)
-async def export_run(studio: InStudio, number: RunNumber, form: str) -> Response:
-    """Return the plan as a file: json, xlsx, html, png, gif, or a format of another program."""
+async def export_run(
+    studio: InStudio,
+    request: Request,
+    number: RunNumber,
+    form: str,
+    other: Others = [],  # noqa: B006 (FastAPI copies it)
+) -> Response:
+    """Return the plan as a file: json, xlsx, html, png, gif, or a format of another program.
+
+    The page (html) may have other plans beside it.
+    """
     if form not in EXPORTS and form not in FOREIGN_FORMATS:
         known = ", ".join([*EXPORTS, *FOREIGN_FORMATS])
         raise Refused(f"{form[:50]!r} is no format (give one of: {known})", 404)
-    _, blobs = await studio.ask("export", await studio.runs.blob(number, "plan"), form=form)
-    ending = form if form in EXPORTS else "txt"
+    if other and form != "html":
+        raise Refused(f"plans are compared on a page (ask for html, not {form})", 422)
+    if form == "html":
+        content = await _played(studio, "page", studio.runs.get(number), other)
+    else:
+        plan = await studio.runs.blob(number, "plan")
+        content = (await studio.ask("export", plan, form=form))[1][0]
+    ending, numbers = form if form in EXPORTS else "txt", "-".join(map(str, [number, *other]))
     headers = {
-        "content-disposition": f'attachment; filename="run-{number}.{ending}"',
+        "content-disposition": f'attachment; filename="run-{numbers}.{ending}"',
         "content-security-policy": ALONE,
     }
     media = EXPORTS.get(form, "text/plain; charset=utf-8")
-    return Response(blobs[0], media_type=media, headers=headers)
+    return unzipped(request, content, media, headers)
 
 
 @router.get("/runs/{number}/document", tags=["plans"])
@@ -335,10 +371,41 @@ def command_of(run: Run) -> str:
 async def compare(
     studio: InStudio, run: Annotated[list[int], Query(min_length=2, max_length=MAX_COMPARED)]
 ) -> dict[str, Any]:
-    """Compare plans: what each costs, and when each robot completes in each of them."""
+    """Compare plans: what each costs, when each robot completes, what their scenarios change.
+
+    Robots are the same where their names are. ``comparison`` counts all times in one tick.
+    """
+    runs = list(map(studio.runs.get, run))
     plans = await asyncio.gather(*(studio.runs.blob(number, "plan") for number in run))
-    result, _ = await studio.ask("compare", *plans)
+    result, _ = await studio.ask("compare", *plans, shown=shown_of(runs))
     return {"runs": run, **result}
+
+
+@router.get("/runs/{number}/changes", tags=["plans"])
+async def run_changes(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Return in what the scenario of a run differs from that of the run ``before``.
+
+    That is the run that it was made from, or the last one before it of the same file; null without
+    one.
+    """
+    run = studio.runs.get(number)
+    before = _before(studio, run)
+    if before is None or not run.revision:
+        return {"before": None, "changes": []}
+
+    async def make() -> bytes:
+        plans = [await studio.runs.blob(each, "plan") for each in (before.number, number)]
+        result, _ = await studio.ask("changes", *plans)
+        return json.dumps({"before": before.number, **result}).encode()
+
+    return dict(json.loads(await studio.played.get(("changes", before.number, number), make)))
+
+
+def _before(studio: Studio, run: Run) -> Run | None:
+    earlier = [each for each in studio.runs.all() if each.number < run.number and each.revision]
+    made_from = [each for each in earlier if each.number == run.based_on]
+    same_file = [each for each in earlier if each.source == run.source]
+    return next(iter([*made_from, *same_file]), None)
 
 
 @router.get("/runs/{number}/losses", tags=["questions"], response_class=Response)

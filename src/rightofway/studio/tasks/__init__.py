@@ -44,6 +44,7 @@ TASKS: dict[str, Task] = {
     "export": views.exported,
     "summary": views.summary,
     "compare": views.compared,
+    "changes": views.changed,
     "losses": asking.losses,
     "flip": asking.flip,
 }

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 from rightofway.cli.plan_report import summary_data
 from rightofway.errors import InputError
 from rightofway.io import FOREIGN_FORMATS, foreign_text, plan_of, write_plan
+from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.text import parse_json
+from rightofway.metrics import changes, compare
 from rightofway.model import Plan
 from rightofway.studio.messages import Blobs, Emit, zipped
 from rightofway.studio.tasks.documents import figures
@@ -21,6 +24,17 @@ from rightofway.viz.page.payload import payload_of
 from rightofway.viz.table.result import write_result
 
 Result = tuple[Any, ...]
+
+
+class Shown(TypedDict):
+    """What a page says of a plan beside what is in its file."""
+
+    title: str
+    seconds: float | None
+
+
+TIMES = ("flowtime", "makespan")
+"""Costs that are compared in time units."""
 
 WRITERS: dict[str, Callable[[Plan, Path], object]] = {
     "json": write_plan,
@@ -44,17 +58,26 @@ def read(blob: bytes) -> Plan:
     return plan_of(parse_json(blob.decode()))
 
 
-def payload(_emit: Emit, blobs: Blobs, *, title: str, other: str = "") -> Result:
-    """Return what the viewer plays: one plan, or two side by side."""
-    both = (read(blobs[1]), other) if len(blobs) > 1 else None
-    played = payload_of(read(blobs[0]), title=title, other=both)
+def payload(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
+    """Return what the viewer plays: one plan, or several side by side."""
+    plan, *others = _titled(blobs, shown)
+    played = payload_of(plan[0], title=plan[1], others=others)
     return (None, zipped(compact_json(played)))
 
 
-def page(_emit: Emit, blobs: Blobs, *, title: str, other: str = "") -> Result:
-    """Return the page that plays a plan, or two."""
-    both = (read(blobs[1]), other) if len(blobs) > 1 else None
-    return (None, zipped(page_of(read(blobs[0]), title=title, other=both)))
+def page(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
+    """Return the page that plays a plan, or several."""
+    plan, *others = _titled(blobs, shown)
+    return (None, zipped(page_of(plan[0], title=plan[1], others=others)))
+
+
+def _titled(blobs: Blobs, shown: Sequence[Shown]) -> list[tuple[Plan, str]]:
+    """Return plans with their titles, and with the seconds that files do not keep."""
+    plans = list(map(read, blobs))
+    return [
+        (replace(plan, run=replace(plan.run, seconds=each["seconds"])), each["title"])
+        for plan, each in zip(plans, shown, strict=True)
+    ]
 
 
 def exported(_emit: Emit, blobs: Blobs, *, form: str) -> Result:
@@ -76,24 +99,35 @@ def summary(_emit: Emit, blobs: Blobs) -> Result:
     return (summary_data(read(blobs[0])),)
 
 
-def compared(_emit: Emit, blobs: Blobs) -> Result:
+def compared(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
     """Return what plans cost, and each robot's completion time in each of them [time unit].
 
-    Costs in ``time`` are in time units, too: the ticks of two scenarios may differ.
+    Costs in ``time`` are in time units, too: the ticks of two scenarios may differ. ``comparison``
+    is what the page of the plans has: figures, changes of the scenarios, times in one tick.
     """
-    plans = [read(blob) for blob in blobs]
-    times: dict[str, list[float | None]] = {}
-    for place, plan in enumerate(plans):
-        tick = plan.scenario.problem.clock.tick
-        for robot, ticks in zip(plan.scenario.robots, plan.completions, strict=True):
-            row = times.setdefault(robot.name, [None] * len(plans))
-            row[place] = float(ticks * tick)
-    robots = [{"name": name, "completion": row} for name, row in times.items()]
-    costs = [{**figures(plan), "time": _times(plan)} for plan in plans]
-    return ({"plans": costs, "robots": robots},)
+    titled = _titled(blobs, shown)
+    plans, titles = [plan for plan, _ in titled], [title for _, title in titled]
+    found = compare(plans, titles)
+    data = found.as_dict()
+    robots = [
+        {
+            "name": robot["name"],
+            "completion": [
+                None if ticks is None else float(ticks * found.tick)
+                for ticks in robot["completion"]
+            ],
+        }
+        for robot in data["robots"]
+    ]
+    costs = [
+        {**figures(plan), "time": {key: float(each[key] * found.tick) for key in TIMES}}
+        for plan, each in zip(plans, data["plans"], strict=True)
+    ]
+    return ({"plans": costs, "robots": robots, "titles": titles, "comparison": data},)
 
 
-def _times(plan: Plan) -> dict[str, float]:
-    tick = plan.scenario.problem.clock.tick
-    costs = {"flowtime": plan.flowtime, "makespan": plan.makespan}
-    return {key: float(ticks * tick) for key, ticks in costs.items()}
+def changed(_emit: Emit, blobs: Blobs) -> Result:
+    """Return in what the scenario of a plan differs from that of the plan before."""
+    before, after = (read_scenario(parse_json(blob.decode())["scenario"], None) for blob in blobs)
+    found = changes(before.scenario, after.scenario)
+    return ({"changes": [change.as_dict() for change in found]},)

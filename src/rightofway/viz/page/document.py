@@ -38,7 +38,7 @@ def page_of(
     no_plan: NoPlanExists | None = None,
     title: str = "",
     background: Background | None = None,
-    other: tuple[Plan, str] | None = None,
+    others: Sequence[tuple[Plan, str]] = (),
 ) -> str:
     """Return a page that plays a plan, as one HTML document.
 
@@ -57,8 +57,9 @@ def page_of(
         What the page is about, usually the name of the file; its heading begins with it.
     background
         A picture under the map.
-    other
-        Another plan of the same scenario, and its title: the page shows both side by side.
+    others
+        Other plans with their titles: the page shows all side by side. Robots are compared by
+        their names, so scenarios may differ.
 
     Returns
     -------
@@ -68,7 +69,8 @@ def page_of(
     Raises
     ------
     InputError
-        If ``steady`` or ``actual`` are not of this plan, or the background cannot be read.
+        If ``steady`` or ``actual`` are not of this plan, the background cannot be read, or the
+        plans cannot be compared: too many, or times in a unit and in none.
     """
     count = len(plan.scenario.robots)
     robots = f"{count} robot{'s' * (count != 1)}"
@@ -80,7 +82,7 @@ def page_of(
         no_plan=no_plan,
         title=title,
         background=background,
-        other=other,
+        others=others,
     )
     return document_of("template.html", about, payload, "main")
 
@@ -127,13 +129,13 @@ def write_page(
     no_plan: NoPlanExists | None = None,
     title: str = "",
     background: Background | None = None,
-    other: tuple[Plan, str] | None = None,
+    others: Sequence[tuple[Plan, str]] = (),
 ) -> None:
     """Write a page that plays a plan; the file is there whole or not at all.
 
     Parameters
     ----------
-    plan, steady, actual, no_plan, title, background, other
+    plan, steady, actual, no_plan, title, background, others
         As for `page_of`.
     path
         Where, usually ``….html``.
@@ -150,7 +152,7 @@ def write_page(
         no_plan=no_plan,
         title=title,
         background=background,
-        other=other,
+        others=others,
     )
     write_whole(path, page)
 

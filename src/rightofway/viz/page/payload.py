@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rightofway.check import Report
 from rightofway.errors import InputError, NoPlanExists
-from rightofway.metrics import Metrics, joined_waits, lost_time, measure
+from rightofway.metrics import Metrics, compare, joined_waits, lost_time, measure
 from rightofway.model import (
     Decision,
     ExecutionTrace,
@@ -25,7 +25,6 @@ from rightofway.model import (
     LostTime,
     Plan,
     PlannerRun,
-    Roadmap,
     Scenario,
     Stays,
     SteadyState,
@@ -59,19 +58,19 @@ def payload_of(
     no_plan: NoPlanExists | None = None,
     title: str = "",
     background: Background | None = None,
-    other: tuple[Plan, str] | None = None,
+    others: Sequence[tuple[Plan, str]] = (),
 ) -> dict[str, Any]:
     """Return what the page needs, as plain data for JSON.
 
     Parameters
     ----------
-    plan, steady, actual, no_plan, title, background, other
+    plan, steady, actual, no_plan, title, background, others
         As for `page_of`; times in the result are ticks.
 
     Raises
     ------
     InputError
-        If ``steady`` or ``actual`` are not of this plan.
+        If ``steady`` or ``actual`` are not of this plan, or the plans cannot be compared.
     """
     trips, steady = trips_of(plan), steady or plan.steady
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
@@ -84,7 +83,7 @@ def payload_of(
         "headway": scenario.problem.headway,
         "booksAhead": scenario.rules.books_ahead,
         "map": map_data(scenario.roadmap, room=room_of(scenario), background=background),
-        "line": _line(scenario.roadmap, trips, trips_of(other[0]) if other else ()),
+        "line": _line(plan, [other for other, _ in others]),
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [_loss(loss) for one in lost for loss in one.losses],
         "faults": _faults(plan, verdict_on(plan)),
@@ -111,31 +110,37 @@ def payload_of(
     if no_plan is not None:
         payload["noPlan"] = True
         payload["faults"] = _blockages(scenario, no_plan)
-    if other is not None:
-        _refuse_other_scenario(plan, *other)
-        payload["other"] = {**payload_of(other[0], title=other[1]), "map": {}}
+    if others:
+        payload |= _compared(plan, title, others, payload)
     return payload
+
+
+def _compared(
+    plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload: dict[str, Any]
+) -> dict[str, Any]:
+    """Return the other plans, and the comparison: robots of one name have one colour.
+
+    A plan on the same map has none of its own, and shares the line of places.
+    """
+    plans = [plan, *(other for other, _ in others)]
+    comparison = compare(plans, [title, *(name for _, name in others)])
+    colours = dict(zip(comparison.robots, robot_colours(len(comparison.robots)), strict=True))
+    found = []
+    for other, name in others:
+        made = payload_of(other, title=name)
+        for robot in made["robots"]:
+            robot["colour"] = colours[robot["name"]]
+        if other.scenario.roadmap == plan.scenario.roadmap:
+            made["line"] = payload["line"]
+            del made["map"]
+        found.append(made)
+    return {"others": found, "comparison": comparison.as_dict()}
 
 
 def room_of(scenario: Scenario) -> Fraction:
     """Return the distance that the two largest robots need [length unit]; 0 for points."""
     radii = sorted((robot.radius for robot in scenario.robots), reverse=True)[:2]
     return sum(radii) + scenario.rules.clearance if any(radii) else Fraction(0)
-
-
-def _refuse_other_scenario(plan: Plan, other: Plan, title: str) -> None:
-    """Refuse a plan whose robots or places are others."""
-    ours, theirs = plan.scenario, other.scenario
-    reasons = {
-        "other robots": [robot.name for robot in ours.robots]
-        != [robot.name for robot in theirs.robots],
-        "another map": list(map(ours.roadmap.name, range(ours.roadmap.n_vertices)))
-        != list(map(theirs.roadmap.name, range(theirs.roadmap.n_vertices))),
-        "another tick": ours.problem.clock.tick != theirs.problem.clock.tick,
-    }
-    if found := [reason for reason, is_so in reasons.items() if is_so]:
-        what = f"the plan has {' and '.join(found)}"
-        raise InputError.at(title or "other", f"{what} (give two plans of one scenario)")
 
 
 def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
@@ -182,15 +187,17 @@ def _improvement(run: PlannerRun) -> dict[str, Any]:
     return {} if made is None else {"saved": made.saved, "tries": made.tries}
 
 
-def _line(roadmap: Roadmap, trips: Sequence[Trip], others: Sequence[Trip]) -> list[list[float]]:
+def _line(plan: Plan, others: Sequence[Plan]) -> list[list[float]]:
     """Return the places over time of a small fleet: vertex and distance along the line.
 
-    Another plan of the same robots may visit other places, which come after.
+    Other plans on the same map may visit other places, which come after.
     """
-    routes = [[*trip.vertices] for trip in trips]
-    for route, other in zip(routes, others, strict=False):
-        route.extend(other.vertices)
-    places = vertices_in_line(routes, edge_length(roadmap))
+    roadmap, routes = plan.scenario.roadmap, dict[str, list[int]]()
+    for each in (plan, *others):
+        if each.scenario.roadmap == roadmap:
+            for robot, trip in zip(each.scenario.robots, trips_of(each), strict=True):
+                routes.setdefault(robot.name, []).extend(trip.vertices)
+    places = vertices_in_line([*routes.values()], edge_length(roadmap))
     return [[vertex, round(place, DECIMALS)] for vertex, place in places.items()]
 
 

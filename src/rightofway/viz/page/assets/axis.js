@@ -5,12 +5,12 @@ const LABEL_GAP = 72; // pixels between two labelled moments, at least
 
 /** Where a diagram is painted, and where a tick is on it. Slider and diagrams share its ends. */
 export class Area {
-  constructor(width, height, end, above = 0) {
+  constructor(width, height, end, above = 0, below = AXIS_HEIGHT) {
     const style = getComputedStyle(document.documentElement);
     this.left = Number.parseFloat(style.getPropertyValue("--gutter"));
     this.right = width - Number.parseFloat(style.getPropertyValue("--pad"));
     this.top = 8 + above;
-    this.bottom = height - AXIS_HEIGHT;
+    this.bottom = height - below;
     this.end = end;
   }
 
@@ -48,8 +48,8 @@ function labelStep(area, plan) {
   return Math.max(times.map((units) => units * perUnit).find(whole) ?? round.find(whole), 1);
 }
 
-/** Moments along the bottom, with hairlines up through the diagram. */
-export function paintAxis(context, area, plan, theme, words) {
+/** Moments along the bottom, with hairlines up through the diagram; without labels, these alone. */
+export function paintAxis(context, area, plan, theme, words, hasLabels = true) {
   const step = Math.round(labelStep(area, plan));
   const perTick = (area.right - area.left) / area.end;
   context.strokeStyle = theme.line;
@@ -65,6 +65,7 @@ export function paintAxis(context, area, plan, theme, words) {
   }
   line(context, area.left, area.bottom, area.right, area.bottom);
   context.stroke();
+  if (!hasLabels) return;
   context.font = theme.font(11.5);
   context.fillStyle = theme.muted;
   context.textBaseline = "top";

@@ -53,9 +53,10 @@ export class Card {
       ...(robot.planned || this.plan.steady ? [] : this.#sum(robot)),
       facts([
         ...this.#times(robot),
-        ...(this.comparison
-          ? [[texts.inPlan(this.plan.other.title), this.comparison.changeInWords(robot)]]
-          : []),
+        ...(this.comparison?.changesOf(robot) ?? []).map(([title, change]) => [
+          texts.inPlan(title),
+          change,
+        ]),
         [texts.speed, this.plan.quantities.speed(robot.speed)],
         [texts.radius, robot.radius ? this.plan.quantities.length(robot.radius) : ""],
         [texts.home, words.vertex(robot.home)],

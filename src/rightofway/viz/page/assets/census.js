@@ -19,8 +19,7 @@ export class Census {
 
   get title() {
     const what = texts.census(this.plan.robots.length);
-    const { beside, besideName } = this.choice;
-    return beside ? texts.censusBeside(what, besideName) : what;
+    return this.choice.beside ? texts.censusBeside(what) : what;
   }
 
   paint(context, area) {

@@ -1,5 +1,4 @@
 import { shortestWay } from "./corridor.js";
-import { texts } from "./language.js";
 import { Observable } from "./observable.js";
 
 /**
@@ -129,14 +128,9 @@ export class Choice extends Observable {
     return this.mode === "both";
   }
 
-  /** The robots that the diagram draws thin beside those shown: by plan, or in the other plan; or null. */
+  /** The robots that the diagram draws thin beside those shown: by plan; or null. */
   get beside() {
-    return this.ghosts ? this.plan.planned : (this.plan.other?.planned ?? null);
-  }
-
-  /** Where they drive like that. */
-  get besideName() {
-    return this.ghosts ? texts.thePlan : this.plan.other?.title;
+    return this.ghosts ? this.plan.planned : null;
   }
 
   /** Whether a robot is to stand out; all do while none is chosen. */

@@ -119,6 +119,31 @@ export class Clock extends Observable {
   }
 }
 
+/** The clock of another plan: the same moment in ticks of its own, `ratio` of which are one of the other clock. */
+export class Follower extends Observable {
+  constructor(clock, ratio) {
+    super();
+    Object.assign(this, { clock, ratio, loop: null });
+    for (const event of ["tick", "playing"]) clock.on(event, () => this.tell(event));
+  }
+
+  get tick() {
+    return this.clock.tick * this.ratio;
+  }
+
+  get playing() {
+    return this.clock.playing;
+  }
+
+  pause() {
+    this.clock.pause();
+  }
+
+  seek(tick) {
+    this.clock.seek(tick / this.ratio);
+  }
+}
+
 /** All instants at which a robot does something new, in order. */
 function eventsOf(plan) {
   const begins = new Set();

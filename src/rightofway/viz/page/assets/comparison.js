@@ -1,141 +1,226 @@
 import { Bottleneck } from "./bottleneck.js";
 import { Choice } from "./choice.js";
-import { element, swatch } from "./dom.js";
-import { connectFind, matches } from "./find.js";
+import { Follower } from "./clock.js";
+import { Compared } from "./compared.js";
+import { ComparedRobots } from "./compared_robots.js";
+import { ComparedTable } from "./compared_table.js";
+import { Diagram } from "./diagram.js";
+import { element } from "./dom.js";
+import { connectFind } from "./find.js";
 import { texts } from "./language.js";
 import { MapView } from "./map_view.js";
 import { Motion } from "./motion.js";
-import { VirtualList } from "./virtual_list.js";
+import { Use } from "./use.js";
 import { Words } from "./words.js";
 
+const AROUND = 80; // pixels above and below a map: its title, the scale bar
+
 /**
- * Another plan of the scenario beside the first one: a map of its own, the same clock and choice, and
- * what each robot gains or loses.
+ * Other plans beside the first one: each with a map and a diagram of its own, all with one clock and one
+ * choice; what plans cost, and what each robot gains or loses.
  */
 export class Comparison {
-  constructor(plan, other, clock, choice, theme, mapView) {
-    Object.assign(this, {
-      plan,
-      other,
-      clock,
-      choice,
-      words: new Words(other),
-      motion: new Motion(other),
-    });
-    this.otherChoice = new Choice(other);
-    this.#linkChoices();
-    const ghosts = new Motion({ robots: other.planned, roadmap: other.roadmap });
-    const lit = new Bottleneck(other, clock, this.otherChoice, theme, this.words);
-    const canvas = document.getElementById("other-map");
-    canvas.parentElement.hidden = false;
-    this.view = new MapView(canvas, other, theme, {
-      motion: this.motion,
-      ghosts,
-      clock,
-      choice: this.otherChoice,
-      words: this.words,
-      bottleneck: lit,
-    });
-    this.#linkViews(mapView);
+  constructor(plan, clock, choice, theme, mapView, diagram) {
+    Object.assign(this, { plan, clock, choice, theme });
+    const { others, comparison } = plan;
+    this.plans = [plan, ...others];
+    this.compared = new Compared(
+      comparison,
+      this.plans.map(({ title }) => title),
+    );
     document.body.classList.add("compared");
-    for (const [id, shown] of [
-      ["map-title", plan],
-      ["other-title", other],
-    ])
-      this.#title(document.getElementById(id), shown);
-    this.find = document.getElementById("find-compared");
-    this.list = new VirtualList(document.getElementById("compared-list"), {
-      rowHeight: 50,
-      className: "change",
-      none: texts.noRobotNamed,
-      fill: (row, robot) => this.#fill(row, robot),
-      choose: (robot) => choice.chooseRobot(robot.index),
-    });
-    connectFind(this.find, this.list, () => this.#select());
-    choice.on("choice", () => this.list.setChosen(this.plan.planned[choice.robotIndex] ?? null));
-    theme.on("theme", () => (this.view.base.stale = true));
-    this.#select();
+    this.maps = document.querySelector(".maps");
+    document.body.style.setProperty("--plans", this.plans.length);
+    this.#title(document.getElementById("map-title"), plan);
+    this.stack = this.#stack(diagram);
+    this.beside = others.map((other, i) =>
+      this.#beside(other, comparison.scales[i + 1] / comparison.scales[0], diagram),
+    );
+    this.#linkViews([mapView, ...this.beside.map(({ view }) => view)]);
+    this.#linkChoices();
+    this.#listRobots();
+    diagram.hasLabels = false;
+    for (const each of this.diagrams.slice(0, -1)) each.hasLabels = false;
+    theme.on("theme", () => this.repaint());
+  }
+
+  /** The maps of the other plans. */
+  get views() {
+    return this.beside.map(({ view }) => view);
+  }
+
+  /** Their diagrams. */
+  get diagrams() {
+    return this.beside.map(({ diagram }) => diagram);
+  }
+
+  /** As many columns as make the maps largest. */
+  layOut() {
+    const { clientWidth: width, clientHeight: height } = this.maps;
+    const { roadmap } = this.plan;
+    const scale = (columns) =>
+      Math.min(
+        width / columns / roadmap.width,
+        (height / Math.ceil(this.plans.length / columns) - AROUND) / roadmap.height,
+      );
+    const columns = this.plans.map((_, i) => i + 1);
+    const best = columns.reduce((best, each) => (scale(each) > scale(best) ? each : best));
+    this.maps.style.setProperty("--columns", best);
   }
 
   /** Paint a frame. */
   paint() {
-    this.motion.moveTo(this.clock.tick);
-    this.view.paint();
+    for (const { motion, clock, view, diagram } of this.beside) {
+      motion.moveTo(clock.tick);
+      view.paint();
+      diagram.paint();
+    }
+  }
+
+  /** Paint again what does not move. */
+  repaint() {
+    for (const { view, diagram } of this.beside) view.base.stale = diagram.layer.stale = true;
   }
 
   refresh() {
-    this.list.refresh();
+    this.robots.list.refresh();
   }
 
-  /** How much later a robot is there in the other plan [ticks]; below 0 if it is earlier. */
-  change(robot) {
-    return this.other.planned[robot.index].completion - robot.completion;
-  }
-
-  /** The same in words: "6 s earlier". */
-  changeInWords(robot) {
-    const change = this.change(robot);
-    if (!change) return texts.same;
-    const time = this.words.time(Math.abs(change));
-    return change < 0 ? texts.isEarlier(time) : texts.isLater(time);
-  }
-
-  #linkChoices() {
-    const { choice, otherChoice } = this;
-    choice.on("choice", () => otherChoice.chooseRobot(choice.robotIndex));
-    otherChoice.on(
-      "choice",
-      () =>
-        otherChoice.robotIndex !== choice.robotIndex && choice.chooseRobot(otherChoice.robotIndex),
-    );
-    choice.on("heat", () => otherChoice.toggleHeat());
-    choice.on("space", () => {
-      if (otherChoice.space !== choice.space) otherChoice.toggleSpace();
+  /** How a robot of the first plan fares in each other plan: title and "6 s earlier". */
+  changesOf({ name }) {
+    const robot = this.compared.robots.find((each) => each.name === name);
+    return this.beside.map(({ plan }, i) => {
+      const [before, after] = [robot.completion[0], robot.completion[i + 1]];
+      if (after === null) return [plan.title, texts.compared.isMissing];
+      const time = this.compared.time(Math.abs(after - before));
+      if (after === before) return [plan.title, texts.same];
+      return [plan.title, after < before ? texts.isEarlier(time) : texts.isLater(time)];
     });
-    for (const event of ["choice", "heat", "space"])
-      otherChoice.on(event, () => (this.view.base.stale = true));
   }
 
-  /** Both maps show the same part. */
-  #linkViews(mapView) {
-    const follow = (view, other) =>
+  /** Another plan: its map, its diagram, and what they are moved by. */
+  #beside(plan, scale, { axis }) {
+    const { theme } = this;
+    const clock = new Follower(this.clock, 1 / scale);
+    const [choice, motion, words] = [new Choice(plan), new Motion(plan), new Words(plan)];
+    const use = new Use(plan);
+    const bottleneck = new Bottleneck(plan, clock, choice, theme, words);
+    const title = element("h2", { className: "map-title" });
+    const canvas = element("canvas", { tabIndex: 0 });
+    canvas.setAttribute("role", "img");
+    const tip = element("div", { className: "hover", hidden: true });
+    const section = element("section", { className: "map other" }, title, canvas, tip);
+    section.setAttribute("aria-label", texts.compared.mapOf(plan.title));
+    this.maps.append(section);
+    this.#title(title, plan);
+    const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap });
+    const view = new MapView(canvas, plan, theme, {
+      motion,
+      ghosts,
+      clock,
+      choice,
+      words,
+      use,
+      bottleneck,
+    });
+    const diagram = new Diagram(plan, clock, choice, theme, words, use, bottleneck, {
+      canvas: this.#row(plan),
+      axis,
+    });
+    return { plan, clock, choice, motion, words, view, diagram };
+  }
+
+  /** Diagrams below each other: the first plan's is there already, and has the labels of the axis last. */
+  #stack(diagram) {
+    const box = diagram.canvas.parentElement;
+    const stack = element("div", { className: "stack" });
+    box.classList.add("stacked");
+    box.prepend(stack);
+    const figure = element("figure", {}, this.#caption(this.plan), diagram.canvas);
+    stack.append(figure);
+    return stack;
+  }
+
+  #row(plan) {
+    const canvas = element("canvas");
+    canvas.setAttribute("role", "img");
+    this.stack.append(element("figure", {}, this.#caption(plan), canvas));
+    return canvas;
+  }
+
+  #caption({ title }) {
+    return element("figcaption", { className: "name" }, title);
+  }
+
+  /** One choice holds for all plans: by the names of robots. */
+  #linkChoices() {
+    const { choice } = this;
+    const nameOf = ({ robot }) => robot?.name;
+    for (const { plan, choice: other } of this.beside) {
+      const follow = (from, to, robots) => {
+        if (nameOf(from) === nameOf(to)) return;
+        const index = robots.findIndex(({ name }) => name === nameOf(from));
+        if (index !== to.robotIndex) to.chooseRobot(index);
+      };
+      choice.on("choice", () => follow(choice, other, plan.robots));
+      other.on("choice", () => {
+        if (other.robot) follow(other, choice, this.plan.robots);
+        else if (choice.robot && plan.robots.some(({ name }) => name === nameOf(choice)))
+          choice.chooseNothing();
+      });
+      choice.on("heat", () => other.heat !== choice.heat && other.toggleHeat());
+      choice.on("space", () => other.space !== choice.space && other.toggleSpace());
+      for (const event of ["choice", "heat", "space"]) other.on(event, () => this.repaint());
+    }
+  }
+
+  /** Maps of one size show the same part. */
+  #linkViews(views) {
+    const size = ({ roadmap: { width, height, unit } }) => `${width} ${height} ${unit}`;
+    for (const view of views) {
+      const followers = views.filter((other) => other !== view && size(other) === size(view));
       view.viewport.on("view", () => {
         const { left, top, scale, fitted } = view.viewport;
-        Object.assign(other.viewport, { left, top, scale, fitted });
-        view.base.stale = other.base.stale = true;
+        view.base.stale = true;
+        for (const other of followers) {
+          Object.assign(other.viewport, { left, top, scale, fitted });
+          other.base.stale = true;
+        }
         this.clock.tell("tick");
       });
-    follow(mapView, this.view);
-    follow(this.view, mapView);
+    }
   }
 
-  #title(heading, { title, metrics, endsAtHome, faultCount }) {
-    heading.hidden = false;
+  #title(heading, plan) {
+    const { title, metrics, endsAtHome, faultCount } = plan;
+    const words = new Words(plan);
     const outcome = faultCount
       ? element("span", { className: "wrong" }, texts.faults(faultCount))
-      : element("span", {}, texts.allArrived(endsAtHome, this.words.time(metrics.makespan)));
+      : element("span", {}, texts.allArrived(endsAtHome, words.time(metrics.makespan)));
+    heading.hidden = false;
     heading.replaceChildren(element("b", { className: "name" }, title), outcome);
   }
 
-  /** Those that gain most by the other plan first. */
-  #select() {
-    const found = this.plan.planned.filter((robot) => matches(robot.name, this.find.value));
-    this.list.setItems(found.sort((one, another) => this.change(one) - this.change(another)));
+  #listRobots() {
+    const { choice, compared, plans } = this;
+    const colours = new Map(
+      plans.flatMap(({ planned }) => planned.map(({ name, colour }) => [name, colour])),
+    );
+    new ComparedTable(compared, document.getElementById("compared-figures"));
+    this.robots = new ComparedRobots(compared, document.getElementById("compared-robots"), {
+      choose: (name) => this.#choose(name),
+      colourOf: (name) => colours.get(name),
+    });
+    const find = document.getElementById("find-compared");
+    connectFind(find, this.robots.list, () => this.robots.find(find.value));
+    choice.on("choice", () => choice.robot && this.robots.setChosen(choice.robot.name));
   }
 
-  #fill(row, robot) {
-    if (row.filled === robot) return;
-    row.filled = robot;
-    const other = this.other.planned[robot.index];
-    row.replaceChildren(
-      swatch(robot),
-      element("span", { className: "name" }, robot.name),
-      element("span", { className: "late" }, this.changeInWords(robot)),
-      element(
-        "span",
-        { className: "state" },
-        `${this.words.time(robot.completion)} → ${this.words.time(other.completion)}`,
-      ),
-    );
+  /** Choose a robot wherever it is. */
+  #choose(name) {
+    const indexIn = (plan) => plan.robots.findIndex((robot) => robot.name === name);
+    this.choice.chooseRobot(indexIn(this.plan));
+    for (const { plan, choice } of this.beside) choice.chooseRobot(indexIn(plan));
+    this.robots.setChosen(name);
   }
 }

@@ -1,4 +1,4 @@
-import { Area, paintAxis } from "./axis.js";
+import { AXIS_HEIGHT, Area, paintAxis } from "./axis.js";
 import { Layer, fitCanvas } from "./canvas.js";
 import { Census } from "./census.js";
 import { texts } from "./language.js";
@@ -7,13 +7,20 @@ import { pointer } from "./shapes.js";
 import { SpaceTime } from "./space_time.js";
 import { SteadyBand } from "./steady_band.js";
 
-/** The diagram below the slider: of the views on the plan, the one that explains most. */
+const EDGE = 5; // pixels below a diagram that has another one below it
+
+/**
+ * The diagram below the slider: of the views on the plan, the one that explains most. One of several below
+ * each other has a canvas of its own and the `axis` of the first one; the last one has the labels.
+ */
 export class Diagram {
-  constructor(plan, clock, choice, theme, words, use, bottleneck) {
+  constructor(plan, clock, choice, theme, words, use, bottleneck, { canvas, axis } = {}) {
     Object.assign(this, { plan, clock, choice, theme, words });
-    this.canvas = document.getElementById("diagram");
-    this.needle = document.getElementById("needle");
-    this.heading = document.getElementById("diagram-title");
+    this.axis = axis ?? { plan, words };
+    this.hasLabels = true;
+    this.canvas = canvas ?? document.getElementById("diagram");
+    this.needle = canvas ? null : document.getElementById("needle");
+    this.heading = canvas ? null : document.getElementById("diagram-title");
     this.spaceTime = new SpaceTime(plan, theme, words, use, choice, bottleneck);
     this.rows = new RobotRows(plan, theme, choice, bottleneck);
     this.census = new Census(plan, theme, choice);
@@ -38,10 +45,10 @@ export class Diagram {
       context.setTransform(1, 0, 0, 1, 0, 0);
       context.clearRect(0, 0, this.canvas.width, this.canvas.height);
       this.layer.drawOn(context, size);
-      this.heading.textContent = this.heading.title = this.#title;
+      if (this.heading) this.heading.textContent = this.heading.title = this.#title;
       this.canvas.setAttribute("aria-label", this.#title);
     }
-    this.needle.style.transform = `translateX(${this.area.x(this.clock.tick)}px)`;
+    if (this.needle) this.needle.style.transform = `translateX(${this.area.x(this.clock.tick)}px)`;
   }
 
   get #title() {
@@ -51,14 +58,22 @@ export class Diagram {
     return texts.corridorEnds(this.words.vertex(picked[0]));
   }
 
-  #areaOf({ width, height }) {
-    return new Area(width, height, this.plan.end, this.band.height);
+  #areaOf({ width, height }, { end } = this.plan) {
+    return new Area(width, height, end, this.band.height, this.hasLabels ? AXIS_HEIGHT : EDGE);
   }
 
   #paintView(context, width, height) {
     const area = this.#areaOf({ width, height });
+    const { plan, words } = this.axis;
     this.band.paint(context, area);
-    paintAxis(context, area, this.plan, this.theme, this.words);
+    paintAxis(
+      context,
+      this.#areaOf({ width, height }, plan),
+      plan,
+      this.theme,
+      words,
+      this.hasLabels,
+    );
     context.save();
     context.beginPath();
     context.rect(0, 0, area.right + 1, height); // laps go on beyond the end

@@ -55,7 +55,7 @@ const transport = new Transport(plan, clock, words);
 const loop = new Loop(plan, clock, choice);
 const modeSwitch = new ModeSwitch(plan, choice);
 const states = new States(motion, choice);
-const comparison = plan.other && new Comparison(plan, plan.other, clock, choice, theme, mapView);
+const comparison = plan.comparison && new Comparison(plan, clock, choice, theme, mapView, diagram);
 const card = new Card(plan, clock, choice, words, comparison, mapView.space); // before the lists, whose height depends on it
 const robotList = new RobotList(plan, motion, clock, choice, words);
 const decisionList = new DecisionList(plan, clock, choice, words);
@@ -65,7 +65,7 @@ const tabs = new Tabs(
     plan.robots.length,
     decisionList.items.length,
     plan.faultCount || null,
-    plan.other && plan.robots.length,
+    comparison && comparison.plans.length,
   ],
   () => {
     robotList.refresh();
@@ -79,8 +79,8 @@ const summary = new Summary(plan, choice, words, comparison);
 const share = new Share(
   plan,
   clock,
-  [mapView, ...(comparison ? [comparison.view] : [])],
-  diagram,
+  [mapView, ...(comparison?.views ?? [])],
+  [diagram, ...(comparison?.diagrams ?? [])],
   theme,
   words,
   deepLink,
@@ -140,6 +140,10 @@ const frames = {
 
 /** Put the diagram beside the map where the map is much larger so than above the diagram. */
 function layOut() {
+  if (comparison) {
+    comparison.layOut();
+    return;
+  }
   const { width, height } = plan.roadmap;
   const pane = 0.73 * innerWidth;
   const above = Math.min(pane / width, (0.73 * innerHeight - 200) / height);
@@ -151,6 +155,7 @@ function layOut() {
 function repaintAll() {
   mapView.base.stale = true;
   diagram.layer.stale = true;
+  comparison?.repaint();
   frames.ask();
 }
 

@@ -60,31 +60,27 @@ export class Paper {
   }
 
   #comparedTable() {
-    const { plan, words, comparison } = this;
-    const [one, two] = [plan.title, plan.other.title];
+    const { words, comparison } = this;
+    const { compared, plans } = comparison;
     const head = [
       texts.robot,
-      texts.headOf(this.#end, one),
-      texts.headOf(this.#end, two),
-      texts.inPlan(two),
-      texts.headOf(texts.timeLost, one),
-      texts.headOf(texts.timeLost, two),
+      ...plans.map(({ title }) => texts.headOf(this.#end, title)),
+      ...plans.slice(1).map(({ title }) => texts.inPlan(title)),
     ];
+    const found = new Map(compared.robots.map((robot) => [robot.name, robot]));
     return this.#rows(
       head,
-      (robot) => Math.abs(comparison.change(robot)),
+      ({ name }) => compared.largest(found.get(name)),
       texts.differLess,
-      (robot) => {
-        const other = plan.other.planned[robot.index];
-        return [
-          robot.name,
-          words.time(robot.completion),
-          words.time(other.completion),
-          comparison.changeInWords(robot),
-          this.#time(robot.delay),
-          this.#time(other.delay),
-        ];
-      },
+      (robot) => [
+        robot.name,
+        words.time(robot.completion),
+        ...found
+          .get(robot.name)
+          .completion.slice(1)
+          .map((ticks) => (ticks === null ? "" : compared.time(ticks))),
+        ...comparison.changesOf(robot).map(([, change]) => change),
+      ],
     );
   }
 

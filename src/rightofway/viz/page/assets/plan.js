@@ -19,8 +19,9 @@ export class Plan extends Site {
     this.faultCount = raw.faults.count;
     this.faultKinds = raw.faults.kinds; // how many of each kind
     this.noPlan = raw.noPlan ?? false; // all robots stay at home, and the faults say why
-    this.other = raw.other ? new Plan({ ...raw.other, map: raw.map }) : null; // to compare with
-    this.end = Math.max(this.end, this.other?.end ?? 0);
+    this.others = (raw.others ?? []).map((other) => new Plan({ map: raw.map, ...other })); // to compare with
+    this.comparison = raw.comparison ?? null;
+    if (this.comparison) this.#shareEnd();
     this.planner = raw.planner;
     this.decisions = raw.decisions;
     this.reroutes = raw.reroutes;
@@ -30,6 +31,14 @@ export class Plan extends Site {
   /** Whether there is more to see of bookings than places that one robot each stays at. */
   get hasSpace() {
     return this.largestRadius > 0 || this.roadmap.zones.length > 0;
+  }
+
+  /** All plans that are compared end together, each in its own ticks. */
+  #shareEnd() {
+    const { scales } = this.comparison;
+    const plans = [this, ...this.others];
+    const last = Math.max(...plans.map(({ end }, i) => end * scales[i]));
+    plans.forEach((plan, i) => (plan.end = last / scales[i]));
   }
 
   /** When a visit begins to book its vertex, and when it stops. */

@@ -15,10 +15,9 @@ export class RobotRows {
   }
 
   get title() {
-    const { mode, beside, besideName } = this.choice;
-    const other = beside ? texts.rows.grey(besideName, !this.#hasGhosts) : "";
-    if (mode !== "plan") return texts.rows.floor + other;
-    return beside ? texts.rows.beside(this.plan.title) + other : texts.rows.title;
+    const { mode, beside } = this.choice;
+    const planned = beside ? texts.rows.grey(!this.#hasGhosts) : "";
+    return mode === "plan" ? texts.rows.title : texts.rows.floor + planned;
   }
 
   paint(context, area) {

@@ -1,4 +1,3 @@
-import { AXIS_HEIGHT } from "./axis.js";
 import { EMBEDDED, element } from "./dom.js";
 import { texts } from "./language.js";
 
@@ -6,8 +5,8 @@ const SAID_FOR = 2000; // how long a button says what it did [ms]
 
 /** Takes the moment elsewhere: as a link, as a picture. */
 export class Share {
-  constructor(plan, clock, maps, diagram, theme, words, deepLink) {
-    Object.assign(this, { plan, clock, maps, diagram, theme, words, deepLink });
+  constructor(plan, clock, maps, diagrams, theme, words, deepLink) {
+    Object.assign(this, { plan, clock, maps, diagrams, theme, words, deepLink });
     const buttons = {
       "copy-link": () => this.copyLink(),
       "save-picture": () => this.savePicture(),
@@ -30,11 +29,11 @@ export class Share {
     }
   }
 
-  /** Download map and diagram of the moment. */
+  /** Download maps and diagrams of the moment. */
   savePicture() {
     this.picture().toBlob((blob) => {
       const address = URL.createObjectURL(blob);
-      const title = this.#title(this.#titles.map((each) => each.replace(/\.[^.]*$/, "")));
+      const title = this.#titles.map((each) => each.replace(/\.[^.]*$/, "")).join(", ");
       element("a", {
         href: address,
         download: `${texts.pictureName(title, this.words.time(this.clock.tick))}.png`,
@@ -44,43 +43,59 @@ export class Share {
   }
 
   get #titles() {
-    return [this.plan.title, this.plan.other?.title].filter(Boolean);
+    return [this.plan, ...this.plan.others].map(({ title }) => title).filter(Boolean);
   }
 
-  #title(titles) {
-    return titles.length > 1 ? texts.twoTitles(...titles) : (titles[0] ?? "");
-  }
-
-  /** Heading, maps and diagram of the moment on one canvas. */
+  /** Heading, maps and diagrams of the moment on one canvas, the maps in columns as on the screen. */
   picture() {
     const { theme, words, clock } = this;
-    const { canvas: diagram } = this.diagram;
+    const diagrams = this.diagrams.map(({ canvas }) => canvas).filter(({ height }) => height);
     const maps = this.maps.map(({ canvas }) => canvas);
     const [map] = maps;
     const ratio = map.width / map.clientWidth;
-    const head = Math.round(48 * ratio);
-    const isBeside = diagram.getBoundingClientRect().left >= map.getBoundingClientRect().right;
-    const across = maps.reduce((sum, canvas) => sum + canvas.width, 0);
-    const [left, top] = isBeside ? [across, head] : [0, head + map.height];
-    const width = isBeside ? across + diagram.width : across;
-    const height = Math.max(head + map.height, top + diagram.height);
-    const made = element("canvas", { width, height });
+    const leftOf = (canvas) => Math.round(canvas.getBoundingClientRect().left);
+    const columns = new Set(maps.map(leftOf)).size;
+    const [head, caption] = [48, maps.length > 1 ? 24 : 0].map((pixels) =>
+      Math.round(pixels * ratio),
+    );
+    const [across, line] = [columns * map.width, map.height + caption];
+    const down = Math.ceil(maps.length / columns) * line;
+    const isBeside = diagrams.length && leftOf(diagrams[0]) >= leftOf(map) + map.clientWidth;
+    const [left, top] = isBeside ? [across, head] : [0, head + down];
+    const high = diagrams.reduce((sum, { height }) => sum + height + caption, 0);
+    const width = isBeside ? across + diagrams[0].width : across;
+    const made = element("canvas", { width, height: Math.max(head + down, top + high) });
     const context = made.getContext("2d");
     context.fillStyle = theme.paper;
     context.fillRect(0, 0, made.width, made.height);
-    maps.forEach((canvas, place) => context.drawImage(canvas, place * map.width, head));
-    if (diagram.height) context.drawImage(diagram, left, top);
-    context.scale(ratio, ratio);
     context.fillStyle = theme.ink;
-    context.font = theme.font(16, 600);
-    context.fillText(
-      [this.#title(this.#titles), words.moment(clock.tick)].filter(Boolean).join(": "),
-      28,
-      31,
+    const write = (text, x, y, size) => {
+      context.font = theme.font(size * ratio, 600);
+      context.fillText(text, x, y);
+    };
+    const titles = this.#titles;
+    const moment = [maps.length > 2 ? "" : titles.join(", "), words.moment(clock.tick)];
+    write(moment.filter(Boolean).join(": "), 28 * ratio, 31 * ratio, 16);
+    const place = (canvas, index, x, y) => {
+      context.drawImage(canvas, x, y + caption);
+      if (caption) write(titles[index] ?? "", x + 28 * ratio, y + 16 * ratio, 12);
+    };
+    maps.forEach((canvas, index) =>
+      place(
+        canvas,
+        index,
+        (index % columns) * map.width,
+        head + Math.floor(index / columns) * line,
+      ),
     );
-    const x = left / ratio + this.diagram.area.x(clock.tick);
-    if (diagram.height)
-      context.fillRect(x - 0.75, top / ratio, 1.5, diagram.clientHeight - AXIS_HEIGHT);
+    let y = top;
+    diagrams.forEach((canvas, index) => {
+      place(canvas, index, left, y);
+      const x = left + ratio * this.diagrams[0].area.x(clock.tick);
+      const { area } = this.diagrams[index];
+      context.fillRect(x - 0.75 * ratio, y + caption, 1.5 * ratio, ratio * area.bottom);
+      y += canvas.height + caption;
+    });
     return made;
   }
 

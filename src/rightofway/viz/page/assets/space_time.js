@@ -47,15 +47,14 @@ export class SpaceTime {
   }
 
   get #signs() {
-    const { decision, beside, besideName } = this.choice;
-    if (beside) return texts.signs.beside(this.plan.title, besideName);
+    const { decision } = this.choice;
     if (decision) return texts.signs.decision(several(this.#drawn().map(({ name }) => name)));
     return this.#route ? texts.signs.route : texts.signs.fleet;
   }
 
   get #signsOfFloor() {
     const { floor, thin } = texts.signs;
-    return this.choice.ghosts ? `${floor}, ${thin(this.choice.besideName)}` : floor;
+    return this.choice.ghosts ? `${floor}, ${thin}` : floor;
   }
 
   paint(context, area) {
@@ -195,7 +194,7 @@ export class SpaceTime {
     context.globalAlpha = 1;
   }
 
-  /** The plan beside what happened, or another plan; dotted, a way that the rows have at another length. */
+  /** The plan beside what happened; dotted, a way that the rows have at another length. */
   #thin(context, begin, end, from, to, isTrue) {
     context.setLineDash(isTrue ? [] : [2, 4]);
     context.lineWidth = 1.5;

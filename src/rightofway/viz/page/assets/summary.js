@@ -1,7 +1,7 @@
 import { element, facts, link } from "./dom.js";
 import { texts } from "./language.js";
 import { DONE, WAIT } from "./phases.js";
-import { upperFirst } from "./words.js";
+import { several, upperFirst } from "./words.js";
 
 /** The head of the page: what the plan achieves, in plain words and few figures; how it was made, on request. */
 export class Summary {
@@ -9,18 +9,16 @@ export class Summary {
     Object.assign(this, { plan, choice, words, comparison });
     const robots = texts.robots(plan.robots.length);
     const outcome = this.#outcome();
-    if (plan.other) document.title = texts.twoTitles(plan.title, plan.other.title);
+    const titles = [plan, ...plan.others].map(({ title }) => title);
+    if (comparison) document.title = titles.join(", ");
     const rest = plan.title ? [robots, outcome] : [outcome];
     document
       .getElementById("headline")
       .replaceChildren(
-        element("b", { className: "name" }, plan.title || robots),
-        ...(plan.other
-          ? [element("span", {}, "→"), element("b", { className: "name" }, plan.other.title)]
-          : []),
+        ...this.#names(titles, robots),
         ...rest.filter(Boolean).map((part) => element("span", {}, part)),
       );
-    document.body.classList.toggle("faulty", plan.faultCount > 0 || plan.other?.faultCount > 0);
+    document.body.classList.toggle("faulty", this.#faulty.length > 0);
     document
       .getElementById("figures")
       .replaceChildren(
@@ -36,11 +34,19 @@ export class Summary {
     document.getElementById("made").replaceChildren(facts(this.#made()), ...this.#explanation());
   }
 
+  /** The title; "A → B" for two plans, how many there are for more. */
+  #names(titles, robots) {
+    const name = (text) => element("b", { className: "name" }, text);
+    if (titles.length > 2) return [name(texts.compared.plans(titles.length))];
+    const [first, other] = titles;
+    return [name(first || robots), ...(other ? [element("span", {}, "→"), name(other)] : [])];
+  }
+
   /** What figures cannot say: faults, robots that are stuck, what repeats itself. */
   #outcome() {
-    const { faultCount, noPlan, other, happened, steady, robots } = this.plan;
+    const { faultCount, noPlan, happened, steady, robots } = this.plan;
     if (noPlan) return texts.noPlan;
-    if (other) return this.#comparedOutcome();
+    if (this.comparison) return this.#comparedOutcome();
     if (faultCount) return texts.doNotRun(faultCount);
     if (happened) {
       const failed = happened.filter(({ ending }) => ending !== DONE).length;
@@ -51,10 +57,15 @@ export class Summary {
     return steady ? this.#repetition(steady) : "";
   }
 
-  /** Which of two plans has faults. */
+  get #faulty() {
+    return [this.plan, ...this.plan.others].filter(({ faultCount }) => faultCount);
+  }
+
+  /** Which of the plans have faults. */
   #comparedOutcome() {
-    const faulty = [this.plan, this.plan.other].filter(({ faultCount }) => faultCount);
-    return faulty.map(({ title, faultCount }) => texts.doNotRunOther(title, faultCount)).join(", ");
+    return this.#faulty
+      .map(({ title, faultCount }) => texts.doNotRunOther(title, faultCount))
+      .join(", ");
   }
 
   #repetition({ groups, groupOf }) {
@@ -67,14 +78,13 @@ export class Summary {
   get figures() {
     const { noPlan, faultCount, happened, steady } = this.plan;
     if (noPlan) return [];
-    if (this.plan.other?.faultCount) return [];
+    if (this.comparison) return this.#faulty.length ? [] : this.#comparedFigures();
     if (faultCount)
       return Object.entries(this.plan.faultKinds).map(([kind, count]) => [
         texts.faultKinds[kind]?.name ?? kind,
         String(count),
         this.words.remedy({ kind }),
       ]);
-    if (this.comparison) return this.#comparedFigures();
     const figures = happened
       ? this.#floorFigures()
       : steady
@@ -118,25 +128,41 @@ export class Summary {
     return `(${parts.length > 1 ? parts.map(([what, ticks]) => `${what} ${this.words.time(ticks)}`).join(", ") : parts[0][0]})`;
   }
 
-  /** Both plans, and how many robots gain by the other one. */
+  /** What the plans cost, and how many robots gain and lose by the other one; of many, the best. */
   #comparedFigures() {
-    const { plan, words, comparison } = this;
-    const both = (value) => `${words.time(value(plan))} → ${words.time(value(plan.other))}`;
-    const changes = plan.planned.map((robot) => comparison.change(robot));
-    const count = (holds) => String(changes.filter(holds).length);
+    const { compared } = this.comparison;
+    const { endsAtHome } = this.plan;
+    if (compared.plans.length > 2) {
+      return [
+        ["makespan", texts.allAt(endsAtHome), texts.compared.firstAllAtLength],
+        ["flowtime", texts.compared.least, texts.compared.leastAtLength],
+      ]
+        .filter(([key]) => compared.best[key].length)
+        .map(([key, term, title]) => {
+          const names = compared.best[key].map((place) => compared.plans[place].title);
+          return [
+            term,
+            `${compared.time(compared.plans[compared.best[key][0]][key])}, ${several(names)}`,
+            title,
+          ];
+        });
+    }
+    const both = (value) => compared.plans.map((plan) => compared.time(value(plan))).join(" → ");
+    const [earlier, later] = compared.counts(1);
+    const { title } = compared.plans[1];
     return [
       [
-        texts.allAt(plan.endsAtHome),
-        both(({ metrics }) => metrics.makespan),
-        texts.allBothAtLength(plan.endsAtHome),
+        texts.allAt(endsAtHome),
+        both(({ makespan }) => makespan),
+        texts.allBothAtLength(endsAtHome),
       ],
       [
         texts.timeLost,
-        both(({ metrics }) => metrics.flowtime - metrics.lowerBound),
+        both(({ flowtime, lower_bound: bound }) => flowtime - bound),
         texts.timeLostAtLength,
       ],
-      [texts.earlier, count((change) => change < 0), texts.earlierAtLength(plan.other.title)],
-      [texts.later, count((change) => change > 0), texts.laterAtLength(plan.other.title)],
+      [texts.earlier, String(earlier), texts.earlierAtLength(title)],
+      [texts.later, String(later), texts.laterAtLength(title)],
     ];
   }
 

@@ -1,0 +1,223 @@
+"""In what a scenario differs from another one, as a person would say it: ``R2: speed 1 → 2``.
+
+Robots are the same where their names are; places, where their names are or, on maps of cells of
+different sizes, where they lie within a cell of each other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from rightofway.model import Quantities, Roadmap, Robot, Scenario, decimal
+from rightofway.model.closures import Closure
+
+NAMED = 2
+"""Robots with the same change that are named; more are counted."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change:
+    """Something in which a scenario differs from another one.
+
+    Attributes
+    ----------
+    what
+        What has changed: a robot, several robots, ``map``, ``rules``, a place.
+    key
+        What of it: ``speed``, ``home``, ``headway``, ``added``, ``removed``, ``closed``, ``open``;
+        empty for the size of a map.
+    before, after
+        The values as people read them; empty where there is none.
+    """
+
+    what: str
+    key: str
+    before: str = ""
+    after: str = ""
+
+    @property
+    def text(self) -> str:
+        """The change as a line: ``R2: speed 1 m/s → 2 m/s``."""
+        values = f"{self.before} → {self.after}" if self.before or self.after else ""
+        return f"{self.what}: {' '.join(filter(None, (self.key, values)))}"
+
+    def as_dict(self) -> dict[str, str]:
+        """Return the attributes and the text by name."""
+        named = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {**named, "text": self.text}
+
+
+def changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
+    """Return in what a scenario differs from another one.
+
+    Parameters
+    ----------
+    before, after
+        The scenarios.
+
+    Returns
+    -------
+    tuple of Change
+        Robots, in the order of ``after``, those that are removed last; then map, rules, closures.
+        Robots that change in the same way are one entry.
+    """
+    found: dict[tuple[str, str, str], list[str]] = {}
+    was = {robot.name: robot for robot in before.robots}
+    is_same_place = _places(before.roadmap, after.roadmap)
+    for robot in after.robots:
+        old = was.pop(robot.name, None)
+        differing = (
+            [("added", "", "")] if old is None else _robot(before, old, after, robot, is_same_place)
+        )
+        for change in differing:
+            found.setdefault(change, []).append(robot.name)
+    for name in was:
+        found.setdefault(("removed", "", ""), []).append(name)
+    robots = [
+        Change(what=_named(names), key=key, before=old, after=new)
+        for (key, old, new), names in found.items()
+    ]
+    return (*robots, *_map(before, after), *_rules(before, after), *_closures(before, after))
+
+
+def _named(names: list[str]) -> str:
+    return " and ".join(names) if len(names) <= NAMED else f"{len(names)} robots"
+
+
+def _places(before: Roadmap, after: Roadmap) -> Callable[[int, int], bool]:
+    """Return whether a vertex of one map is the place of a vertex of the other one."""
+    one, other = before.grid, after.grid
+    if one is None or other is None or (one.cell_size, one.columns) == (
+        other.cell_size, other.columns
+    ):  # fmt: skip
+        return lambda vertex, now: before.name(vertex) == after.name(now)
+    reach = float(max(one.cell_size, other.cell_size))
+    return lambda vertex, now: bool(
+        np.abs(before.positions[vertex] - after.positions[now]).max() < reach
+    )
+
+
+def _robot(
+    before: Scenario,
+    old: Robot,
+    after: Scenario,
+    new: Robot,
+    is_same_place: Callable[[int, int], bool],
+) -> Iterator[tuple[str, str, str]]:
+    """Yield what of a robot differs: key and both values in words."""
+    was, now = before.roadmap.name, after.roadmap.name
+    if not is_same_place(old.home, new.home):
+        yield "home", was(old.home), now(new.home)
+    stops, then = [stop.at for stop in old.stops], [stop.at for stop in new.stops]
+    if len(stops) != len(then) or not all(map(is_same_place, stops, then)):
+        yield "stops", ", ".join(map(was, stops)), ", ".join(map(now, then))
+    works = [
+        ", ".join(_time(scenario, stop.work) for stop in robot.stops)
+        for scenario, robot in ((before, old), (after, new))
+    ]
+    if works[0] != works[1]:
+        yield "work", works[0], works[1]
+    for key, write in ROBOT.items():
+        values = [write(before, getattr(old, key)), write(after, getattr(new, key))]
+        if values[0] != values[1]:
+            yield key.replace("_", " "), values[0], values[1]
+
+
+def _time(scenario: Scenario, value: Fraction) -> str:
+    """Return a time [time unit] as people read it."""
+    quantities = scenario.quantities
+    text = Quantities(units=quantities.units, tick=Fraction(1)).duration(value)
+    return text.removesuffix(" time units").removesuffix(" time unit")
+
+
+def _value(scenario: Scenario, value: Any) -> str:
+    """Return a value of a rule, or of a robot that may leave it to the rules."""
+    if value is None:
+        return "as the rules say"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, Fraction):
+        return _time(scenario, value)
+    return str(value)
+
+
+def _number(_scenario: Scenario, value: Any) -> str:
+    return "as the rules say" if value is None else decimal(value)
+
+
+ROBOT: dict[str, Callable[[Scenario, Any], str]] = {
+    "speed": lambda scenario, value: scenario.quantities.speed(value),
+    "radius": lambda scenario, value: scenario.quantities.length(value),
+    "turn": _value,
+    "ends": _value,
+    "laps": _number,
+    "type": lambda _scenario, value: value or "none",
+    "turn_rate": _number,
+}
+"""How the values of a robot are written, apart from its places."""
+
+RULES: dict[str, Callable[[Scenario, Any], str]] = {
+    "clearance": lambda scenario, value: scenario.quantities.length(value),
+    "laps": _number,
+    "turn_rate": lambda _scenario, value: "none" if value is None else decimal(value),
+    "turn": lambda scenario, value: "as usual" if value is None else _value(scenario, value),
+}
+"""How the values of rules are written that are no times, yes or no, or words."""
+
+
+def _rules(before: Scenario, after: Scenario) -> Iterator[Change]:
+    for field in fields(before.rules):
+        write = RULES.get(field.name, _value)
+        old = write(before, getattr(before.rules, field.name))
+        new = write(after, getattr(after.rules, field.name))
+        if old != new:
+            yield Change(what="rules", key=field.name.replace("_", " "), before=old, after=new)
+
+
+def _map(before: Scenario, after: Scenario) -> Iterator[Change]:
+    """Yield one change where the maps differ: by their sizes where these say it."""
+    one, other = before.roadmap, after.roadmap
+    if one == other:
+        return
+    sizes = []
+    for roadmap in (one, other):
+        cells, vertices = roadmap.grid is not None, roadmap.n_vertices
+        sizes.append(f"{vertices} free cells" if cells else f"{vertices} vertices")
+    if sizes[0] == sizes[1] and one.grid is None:
+        sizes = [f"{len(roadmap.heads)} edges" for roadmap in (one, other)]
+    if sizes[0] == sizes[1]:
+        yield Change(what="map", key="changed")
+    else:
+        yield Change(what="map", key="", before=sizes[0], after=sizes[1])
+
+
+def _closures(before: Scenario, after: Scenario) -> Iterator[Change]:
+    was, now = _closed(before), _closed(after)
+    for place in now:
+        if place not in was:
+            yield Change(what=place, key="closed")
+        elif was[place] != now[place]:
+            yield Change(what=place, key="closed", before=was[place], after=now[place])
+    for place in was:
+        if place not in now:
+            yield Change(what=place, key="open")
+
+
+def _closed(scenario: Scenario) -> dict[str, str]:
+    """Return where something is closed, and when."""
+
+    def when(closure: Closure) -> str:
+        until = "the end" if closure.until is None else _time(scenario, closure.until)
+        return f"{_time(scenario, closure.from_)} to {until}"
+
+    found: dict[str, str] = {}
+    for closure in scenario.closures:
+        ends = [closure.at] if closure.edge is None else closure.edge
+        place = " to ".join(scenario.roadmap.name(int(end)) for end in ends if end is not None)
+        found[place] = ", ".join(filter(None, (found.get(place), when(closure))))
+    return found

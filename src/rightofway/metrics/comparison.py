@@ -1,0 +1,161 @@
+"""Plans beside each other: what each costs, when each robot completes, what their scenarios change.
+
+Robots are the same where their names are. Times of all plans are counted in one tick, which divides
+the ticks of all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd, lcm
+from typing import Any
+
+from rightofway.errors import InputError
+from rightofway.metrics.changes import Change, changes
+from rightofway.metrics.measure import measure
+from rightofway.model import Plan, Units, decimal
+
+MAX_COMPARED = 8
+"""Plans that are compared at once."""
+
+SMALLER_IS_BETTER = ("flowtime", "makespan", "gap", "seconds")
+"""The figures of which the best ones are marked."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Comparison:
+    """Plans beside each other.
+
+    Attributes
+    ----------
+    plans
+        The plans.
+    tick
+        The tick in which times are counted [time unit of the first plan].
+    scales
+        How many of these ticks a tick of each plan lasts.
+    robots
+        The names of all robots, those of the first plan first.
+    changes
+        In what the scenario of each plan differs from that of the first one.
+    """
+
+    plans: tuple[Plan, ...]
+    tick: Fraction
+    scales: tuple[int, ...]
+    robots: tuple[str, ...]
+    changes: tuple[tuple[Change, ...], ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return figures and completion times as plain data; times in `tick`.
+
+        A robot that a plan does not have completes at None there. ``best`` has the places of the
+        plans with the smallest figures; sums over different robots have no best one.
+        """
+        units, fleets = self.plans[0].scenario.units, [_names(plan) for plan in self.plans]
+        plans = list(map(self._plan, self.plans, self.scales, self.changes))
+        is_one_fleet = all(fleet == fleets[0] for fleet in fleets)
+        return {
+            "tick": [self.tick.numerator, self.tick.denominator],
+            "units": {"length": units.length, "time": units.time},
+            "scales": list(self.scales),
+            "plans": plans,
+            "best": {
+                key: _best(plans, key) if is_one_fleet or key == "seconds" else []
+                for key in SMALLER_IS_BETTER
+            },
+            "robots": [
+                {"name": name, "completion": row}
+                for name, row in zip(self.robots, self._completions(), strict=True)
+            ],
+        }
+
+    @staticmethod
+    def _plan(plan: Plan, scale: int, changed: Sequence[Change]) -> dict[str, Any]:
+        metrics, run, duration = measure(plan), plan.run, plan.scenario.quantities.duration
+        costs = {
+            "flowtime": metrics.flowtime,
+            "makespan": metrics.makespan,
+            "lower_bound": metrics.lower_bound,
+        }
+        gap = metrics.gap if metrics.lower_bound else None
+        return {
+            "planner": run.name,
+            "seed": run.seed,
+            "seconds": None if run.seconds is None else round(run.seconds, 6),
+            **{key: scale * ticks for key, ticks in costs.items()},
+            "gap": gap,
+            "robots": len(plan.scenario.robots),
+            "text": {
+                **{key: duration(ticks) for key, ticks in costs.items()},
+                "gap": "" if gap is None else f"{gap:.1%}",
+                "seconds": "" if run.seconds is None else f"{decimal(run.seconds)} s",
+            },
+            "changes": [change.as_dict() for change in changed],
+        }
+
+    def _completions(self) -> Iterator[list[int | None]]:
+        """Yield the completion of each robot in each plan."""
+        columns = [
+            dict(zip(_names(plan), (scale * int(ticks) for ticks in plan.completions), strict=True))
+            for plan, scale in zip(self.plans, self.scales, strict=True)
+        ]
+        for name in self.robots:
+            yield [column.get(name) for column in columns]
+
+
+def compare(plans: Sequence[Plan], titles: Sequence[str] = ()) -> Comparison:
+    """Put plans beside each other; their scenarios may differ.
+
+    Parameters
+    ----------
+    plans
+        Two or more plans; robots are compared by their names.
+    titles
+        What they are called in errors.
+
+    Raises
+    ------
+    InputError
+        If there are too many, or one counts its times in a unit and another one in none.
+    """
+    if len(plans) > MAX_COMPARED:
+        message = f"{len(plans)} plans are too many to compare (give at most {MAX_COMPARED})"
+        raise InputError.at("", message)
+    first, ticks = plans[0].scenario, []
+    for place, plan in enumerate(plans):
+        tick, units = plan.scenario.problem.clock.tick, plan.scenario.units
+        if (units.seconds is None) != (first.units.seconds is None):
+            message = (
+                f"its times are in {_unit(units)}, those of the first plan in {_unit(first.units)},"
+                " so they cannot be compared (give both scenarios a unit of time, or none)"
+            )
+            raise InputError.at((titles[place] if titles else "") or f"plan {place + 1}", message)
+        ticks.append(tick * (units.seconds or 1) / (first.units.seconds or 1))
+    whole = lcm(*(tick.denominator for tick in ticks))
+    common = Fraction(gcd(*(int(tick * whole) for tick in ticks)), whole)
+    return Comparison(
+        plans=tuple(plans),
+        tick=common,
+        scales=tuple(int(tick / common) for tick in ticks),
+        robots=tuple(dict.fromkeys(name for plan in plans for name in _names(plan))),
+        changes=tuple(changes(first, plan.scenario) for plan in plans),
+    )
+
+
+def _unit(units: Units) -> str:
+    return units.time or "no unit"
+
+
+def _names(plan: Plan) -> tuple[str, ...]:
+    return tuple(robot.name for robot in plan.scenario.robots)
+
+
+def _best(plans: Sequence[dict[str, Any]], key: str) -> list[int]:
+    """Return where a figure is smallest; nowhere if it is the same everywhere."""
+    values = {place: plan[key] for place, plan in enumerate(plans) if plan[key] is not None}
+    least = min(values.values(), default=None)
+    found = [place for place, value in values.items() if value == least]
+    return found if len(found) < len(plans) else []

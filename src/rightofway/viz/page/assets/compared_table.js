@@ -1,0 +1,84 @@
+import { element } from "./dom.js";
+import { texts } from "./language.js";
+
+const MOST_CHANGES = 12; // that are listed of one plan
+const TIMES = ["flowtime", "makespan", "lower_bound"];
+
+/** The figures of plans, a column each, the best of each row marked; a press on a head makes that plan the base. */
+export class ComparedTable {
+  constructor(compared, box) {
+    Object.assign(this, { compared, box });
+    const { plans } = compared;
+    const rows = [
+      this.#row("planner", ({ planner }) => planner),
+      ...TIMES.map((key) => this.#row(key, (figures) => compared.time(figures[key]))),
+      ...["gap", "seconds"].map((key) => this.#row(key, ({ text }) => text[key])),
+      this.#row("seed", ({ seed }) => String(seed)),
+    ];
+    if (new Set(plans.map(({ robots }) => robots)).size > 1)
+      rows.push(this.#row("robots", ({ robots }) => String(robots)));
+    const body = element("tbody", {}, ...rows.filter(Boolean));
+    this.table = element("table", { className: "compared-figures" }, this.#head(), body);
+    box.replaceChildren(this.table, ...this.#changes());
+    compared.on("base", () => this.#mark());
+    this.#mark();
+  }
+
+  #head() {
+    this.heads = this.compared.plans.map(({ title }, place) => {
+      const button = element("button", { type: "button", className: "name" }, title);
+      button.title = texts.compared.compareWith(title);
+      button.addEventListener("click", () => this.compared.setBase(place));
+      return element("th", { scope: "col" }, button);
+    });
+    return element("thead", {}, element("tr", {}, element("td"), ...this.heads));
+  }
+
+  /** A row of one figure; nothing where no plan has it. */
+  #row(key, valueOf) {
+    const values = this.compared.plans.map(valueOf);
+    if (!values.some((value) => value?.length)) return null;
+    const best = this.compared.best[key] ?? [];
+    const cells = values.map((value, place) => {
+      const cell = element("td", {}, ...[value].flat());
+      if (!best.includes(place)) return cell;
+      cell.className = "best";
+      cell.append(element("span", { className: "unseen" }, ` (${texts.compared.isBest})`));
+      return cell;
+    });
+    return element(
+      "tr",
+      {},
+      element("th", { scope: "row" }, texts.compared.figures[key]),
+      ...cells,
+    );
+  }
+
+  /** In what the scenario of a plan differs from that of the first one, where it does. */
+  #changes() {
+    const [first, ...others] = this.compared.plans;
+    return others
+      .filter(({ changes }) => changes.length)
+      .map(({ title, changes }) => {
+        const shown = changes.slice(0, MOST_CHANGES).map(({ text }) => text);
+        const left = changes.length - shown.length;
+        const list = [...shown, ...(left ? [texts.andMore(left)] : [])].map((text) =>
+          element("li", { className: "name" }, text),
+        );
+        const head = element(
+          "h3",
+          { className: "name" },
+          texts.compared.changes(title, first.title),
+        );
+        return element("div", { className: "compared-changes" }, head, element("ul", {}, ...list));
+      });
+  }
+
+  #mark() {
+    this.heads.forEach((head, place) => {
+      const isBase = place === this.compared.base;
+      head.classList.toggle("base", isBase);
+      head.firstChild.setAttribute("aria-pressed", isBase);
+    });
+  }
+}

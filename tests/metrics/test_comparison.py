@@ -1,0 +1,143 @@
+"""Plans beside each other: one tick for all, robots by their names, what changed in words."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from rightofway.errors import InputError
+from rightofway.metrics import changes, compare
+from rightofway.model import Closure, Robot, Scenario, Stop, Units, VertexId, roadmap_of_grid
+from tests.builders.plans import door, door_shifted, loop
+
+
+def stop(at: int, work: int = 0) -> Stop:
+    return Stop(at=VertexId(at), work=Fraction(work))
+
+
+def scenario(rows: tuple[str, ...] = ("....", "...."), **robot: Any) -> Scenario:
+    """Return a scenario of R1, which drives from the first place to the third."""
+    one = Robot(name="R1", home=VertexId(0), stops=(stop(2, 3),), **robot)
+    units = Units(length="m", time="s")
+    return Scenario(roadmap=roadmap_of_grid(rows), robots=(one,), units=units)
+
+
+def test_robots_are_compared_by_their_names_in_one_tick() -> None:
+    """The third plan has ticks of a half, the others of one time unit."""
+    plan, late = door(), door_shifted(1)
+    found = compare([plan, late, loop()]).as_dict()
+    assert found["scales"] == [2, 2, 1]
+    assert found["robots"][:3] == [
+        {"name": "R1", "completion": [20, 22, None]},
+        {"name": "R2", "completion": [18, 18, None]},
+        {"name": "Cart", "completion": [None, None, found["plans"][2]["makespan"]]},
+    ]
+
+
+def test_the_best_figures_are_marked_where_the_robots_are_the_same() -> None:
+    plan, late = door(), door_shifted(1)
+    assert compare([late, plan]).as_dict()["best"]["flowtime"] == [1]
+    assert compare([plan, plan]).as_dict()["best"]["flowtime"] == []  # the same
+    assert compare([late, plan, loop()]).as_dict()["best"]["flowtime"] == []
+
+
+def test_units_of_time_are_converted() -> None:
+    plan = door()
+    seconds, minutes = (
+        replace(plan, scenario=replace(plan.scenario, units=Units(time=unit)))
+        for unit in ("s", "min")
+    )
+    found = compare([seconds, minutes]).as_dict()
+    assert found["scales"] == [1, 60]
+    assert found["robots"][0]["completion"] == [10, 600]
+
+
+def test_a_tick_divides_the_ticks_of_all_plans() -> None:
+    """Ticks of 1/2 and 1/3 of the unit are 3 and 2 ticks of 1/6."""
+    ticks = [Fraction(1, 2), Fraction(1, 3)]
+    plans = []
+    for tick in ticks:
+        fast = replace(door().scenario.robots[0], speed=1 / tick)
+        others = door().scenario.robots[1:]
+        made = replace(door().scenario, robots=(fast, *others))
+        assert made.problem.clock.tick == tick
+        plans.append(replace(door(), scenario=made))
+    found = compare(plans)
+    assert (found.tick, found.scales) == (Fraction(1, 6), (3, 2))
+
+
+def test_times_in_a_unit_and_in_none_are_not_compared() -> None:
+    plan = door()
+    timed = replace(plan, scenario=replace(plan.scenario, units=Units(time="s")))
+    with pytest.raises(InputError, match="plan 2: its times are in s, those of the first plan in"):
+        compare([plan, timed])
+
+
+def test_too_many_plans_are_refused() -> None:
+    with pytest.raises(InputError, match=r"9 plans are too many to compare \(give at most 8\)"):
+        compare([door()] * 9)
+
+
+def test_changes_of_a_robot_are_in_its_units() -> None:
+    faster = scenario(speed=Fraction(3, 2), radius=Fraction(1, 5))
+    found = [change.text for change in changes(scenario(), faster)]
+    assert found[:2] == ["R1: speed 1 m/s → 1.5 m/s", "R1: radius 0 m → 0.2 m"]
+
+
+def test_changes_of_places_and_work_name_them() -> None:
+    before = scenario()
+    moved = replace(before.robots[0], home=VertexId(4), stops=(stop(3, 5),))
+    found = [change.text for change in changes(before, replace(before, robots=(moved,)))]
+    assert found == ["R1: home N0 → N4", "R1: stops N2 → N3", "R1: work 3 s → 5 s"]
+
+
+def test_robots_that_change_in_the_same_way_are_one_entry() -> None:
+    before = scenario()
+    first = before.robots[0]
+    fleet = tuple(replace(first, name=f"R{i}", home=VertexId(i)) for i in range(1, 4))
+    added = changes(before, replace(before, robots=(first, *fleet[1:])))
+    assert [change.text for change in added] == ["R2 and R3: added"]
+    slow = tuple(replace(robot, speed=Fraction(1, 2)) for robot in fleet)
+    found = changes(replace(before, robots=fleet), replace(before, robots=slow))
+    assert [change.text for change in found] == ["3 robots: speed 1 m/s → 0.5 m/s"]
+    gone = changes(replace(before, robots=fleet), replace(before, robots=fleet[:2]))
+    assert [change.text for change in gone] == ["R3: removed"]
+
+
+def test_changes_of_map_rules_and_closures_are_said() -> None:
+    before = scenario()
+    walled = scenario(("....", "...@"))
+    assert [change.text for change in changes(before, walled)] == [
+        "map: 8 free cells → 7 free cells"
+    ]
+    closed = replace(
+        before,
+        closures=(
+            Closure(at=VertexId(1), until=Fraction(4)),
+            Closure(edge=(VertexId(5), VertexId(6))),
+        ),
+    )
+    assert [change.text for change in changes(before, closed)] == [
+        "N1: closed", "N5 to N6: closed",
+    ]  # fmt: skip
+    assert [change.text for change in changes(closed, before)] == ["N1: open", "N5 to N6: open"]
+    later = replace(before, rules=replace(before.rules, headway=Fraction(1), rotations=False))
+    assert [change.text for change in changes(before, later)] == [
+        "rules: headway 0 s → 1 s", "rules: rotations yes → no",
+    ]  # fmt: skip
+
+
+def test_a_finer_grid_of_one_floor_keeps_the_places() -> None:
+    """A cell of 1 m at 0 and four cells of 0.5 m there: their middles are less than 1 m apart."""
+    coarse = Scenario(
+        roadmap=roadmap_of_grid(("..",)),
+        robots=(Robot(name="R", home=VertexId(0), stops=(stop(1),)),),
+    )
+    fine = Scenario(
+        roadmap=roadmap_of_grid(("....", "...."), cell_size=Fraction(1, 2)),
+        robots=(Robot(name="R", home=VertexId(0), stops=(stop(2),)),),
+    )
+    assert [change.what for change in changes(coarse, fine)] == ["map"]
