@@ -130,8 +130,8 @@ export class Studio extends Observable {
     this.showTab("robots");
     this.editor.select([{ kind: "robot", id: Number(robot[1]) }]);
     document
-      .querySelectorAll("table.robots tbody tr")
-      [robot[1]]?.querySelector("[aria-invalid=true], input")
+      .querySelector(`table.robots tr[data-row="${robot[1]}"]`)
+      ?.querySelector("[aria-invalid=true], input")
       ?.focus();
   }
 

@@ -104,6 +104,9 @@ class Deal(Placed):
         [1], min_length=1, max_length=100, description="speeds, which go round"
     )
     work: tuple[int, int] = Field((0, 0), description="least and most work time")
+    between: Literal["anywhere", "stations"] = Field(
+        "anywhere", description="anywhere, or stations: from parking places to stations first"
+    )
 
 
 class Search(Model):

@@ -31,10 +31,13 @@ def dealt(
     seed: int,
     speeds: Sequence[Any],
     work: tuple[int, int],
+    between: str = "anywhere",
 ) -> Result:
     """Return robots with homes and targets in the largest part whose places reach each other.
 
     No two have one home or one target. Speeds go round; work is drawn from the least to the most.
+    Between stations, targets are stations and homes are parking and charging places, as long as
+    there are some; then homes are no stations.
     """
     with under("speeds"):
         rates = [_speed(speed) for speed in speeds]
@@ -46,6 +49,12 @@ def dealt(
         )
         raise InputError.at("robots", message)
     homes, targets = _drawn(part, f"homes {seed}"), _drawn(part, f"targets {seed}")
+    if between == "stations":
+        drawing = roadmap.drawing
+        stations = {int(at) for _, at in drawing.stations}
+        spots = {int(at) for at in (*drawing.parking, *drawing.charging)} - stations
+        targets.sort(key=lambda place: place not in stations)
+        homes.sort(key=lambda place: (place in stations, place not in spots))
     draw = random.Random(f"work {seed}")  # noqa: S311 (no secret depends on it)
     least, most = work
     fleet = []

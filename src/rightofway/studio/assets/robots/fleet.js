@@ -8,7 +8,7 @@ export const robotsOf = ({ robots }) => (Array.isArray(robots) ? robots : null);
 const withRobots = (document, robots) => ({ ...document, robots });
 
 /** A name that no robot has: R1, R2, ... */
-function freeName(robots, prefix = "R") {
+export function freeName(robots, prefix = "R") {
   const taken = new Set(robots.map(({ name }) => name));
   let number = robots.length + 1;
   while (taken.has(`${prefix}${number}`)) number++;

@@ -6,8 +6,10 @@ import { html, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { addRobots, robotsOf } from "./fleet.js";
 
+const FEW = 3;
+
 /** Add robots that the server deals out; homes of robots that are there already are left to them. */
-async function deal({ store, editor }, { count, seed, work, speed }) {
+async function deal({ store, editor }, { count, seed, work, speed, between }) {
   const { document, folder } = store;
   const { roadmap } = editor;
   const taken = new Set(robotsOf(document).map(({ home }) => vertexOf(home, roadmap)));
@@ -18,6 +20,7 @@ async function deal({ store, editor }, { count, seed, work, speed }) {
     seed,
     speeds: [speed],
     work: [work, work],
+    between,
   };
   const place = (name) => placeOf(roadmap.vertexNamed(name), roadmap, document);
   const { robots } = await post("/deal", request);
@@ -33,8 +36,19 @@ async function deal({ store, editor }, { count, seed, work, speed }) {
   store.change((now) => (now === document ? addRobots(now, news) : now));
 }
 
+/** Whether the map says where robots work. */
+const hasStations = ({ editor }) => editor.isReady && editor.roadmap.stations.size > 0;
+
+/** Three robots with one press, for whoever wants to see them drive. */
+export function FewRobots({ studio }) {
+  const count = robotsOf(studio.store.document).length;
+  const between = hasStations(studio) ? "stations" : "anywhere";
+  const few = { count: FEW, seed: count + 1, work: 5, speed: 1, between };
+  return html`<button type="button" class="framed" disabled=${!studio.editor.isReady} onClick=${() => studio.attempt(() => deal(studio, few))}>${words.dealFew(FEW, between)}</button>`;
+}
+
 export function RandomFleet({ studio }) {
-  const [wanted, setWanted] = useState({ count: 5, seed: 1, work: 5, speed: 1 });
+  const [wanted, setWanted] = useState({ count: 5, seed: 1, work: 5, speed: 1, isAnywhere: false });
   const number = (
     key,
     least,
@@ -43,12 +57,15 @@ export function RandomFleet({ studio }) {
     onInput=${({ target }) => setWanted({ ...wanted, [key]: Number(target.value) })} /></label>`;
   const submit = (event) => {
     event.preventDefault();
-    studio.attempt(() => deal(studio, wanted));
+    const { isAnywhere, ...fleet } = wanted;
+    const between = hasStations(studio) && !isAnywhere ? "stations" : "anywhere";
+    studio.attempt(() => deal(studio, { ...fleet, between }));
     setWanted({ ...wanted, seed: wanted.seed + 1 });
   };
   return html`
     <details class="random"><summary>${words.randomFleet}</summary>
       <form class="fields" onSubmit=${submit}>${number("count", 1, 1)}${number("seed", 0, 1)}${number("work", 0, 1)}${number("speed", 0.01, "any")}
+        ${hasStations(studio) && html`<label class="check"><input type="checkbox" checked=${!wanted.isAnywhere} onChange=${({ target }) => setWanted({ ...wanted, isAnywhere: !target.checked })} /> ${words.betweenStations}</label>`}
         <button type="submit" class="framed">${words.deal}</button></form>
     </details>`;
 }

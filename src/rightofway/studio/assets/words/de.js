@@ -145,12 +145,20 @@ export const GERMAN = {
   placeRobot: "Auf die Karte setzen",
   fillDown: "Nach unten füllen",
   copyTable: "Tabelle kopieren",
-  pasteTable: "Zeilen einer Tabelle hier einfügen",
+  sheetHint:
+    "Wie in einer Tabelle: Zeilen einfügen, Umschalt wählt, Strg+D füllt nach unten, die letzte Zeile fügt hinzu.",
+  newRow: "neuer Roboter",
+  findRobot: "Roboter oder Ort finden",
   moreRows: (count) => `${count} weitere zeigen`,
   noRobots:
     "Noch keine Roboter: auf der Karte einen Heimatplatz drücken, dann einen Platz zum Arbeiten.",
   randomFleet: "Zufällige Roboter",
   deal: "Austeilen",
+  dealFew: (count, between) =>
+    between === "stations"
+      ? `${count} zwischen Stationen verteilen`
+      : `${count} zufällig verteilen`,
+  betweenStations: "zwischen Stationen",
   random: {
     count: "Roboter",
     seed: "Startzahl",

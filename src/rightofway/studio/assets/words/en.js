@@ -146,11 +146,17 @@ export const ENGLISH = {
   placeRobot: "Place on the map",
   fillDown: "Fill down",
   copyTable: "Copy table",
-  pasteTable: "Paste rows of a spreadsheet here",
+  sheetHint:
+    "As in a spreadsheet: paste rows, Shift selects, Ctrl+D fills down, the last row adds.",
+  newRow: "new robot",
+  findRobot: "Find a robot or place",
   moreRows: (count) => `Show ${count} more`,
   noRobots: "No robots yet: press a home on the map, then a place to work at.",
   randomFleet: "Robots at random",
   deal: "Deal out",
+  dealFew: (count, between) =>
+    between === "stations" ? `Deal out ${count} between stations` : `Deal out ${count} at random`,
+  betweenStations: "between stations",
   random: { count: "Robots", seed: "Seed", work: "Work", speed: "Speed" },
   planSummary: (planner, seconds) => `${planner}, up to ${seconds} s`,
   plan: "Plan",

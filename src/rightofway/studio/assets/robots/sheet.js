@@ -1,0 +1,190 @@
+/** The robots as a spreadsheet: typed, pasted, filled, sorted with the keyboard; faults stand below their row. */
+
+import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
+import { words } from "../words.js";
+import {
+  blockOf,
+  blockText,
+  cleared,
+  filled,
+  holds,
+  isSingle,
+  pasted,
+  rowsOfText,
+} from "./block.js";
+import { columnOf } from "./columns.js";
+import { freeName, removeRobots, robotsOf, sortRobots } from "./fleet.js";
+
+const MOST_ROWS = 200; // that are written at once; the others on request
+
+/** The table; `columns` are those that are shown, `wanted` is what a robot has to say somewhere. */
+export function Sheet({ studio, columns, wanted }) {
+  const { store, editor } = studio;
+  const robots = robotsOf(store.document);
+  const [sorted, setSorted] = useState({ key: "", isDown: false });
+  const [most, setMost] = useState(MOST_ROWS);
+  const [cells, setCells] = useState(null); // the block: { from, to }
+  const sheet = useRef(null);
+  const block = cells && blockOf(cells.from, cells.to);
+  useEffect(() => setCells(null), [columns.length]);
+
+  const isWanted = (robot) =>
+    !wanted || columns.some(({ text }) => text(robot).toLowerCase().includes(wanted));
+  const rows = robots.map((robot, row) => ({ robot, row })).filter(({ robot }) => isWanted(robot));
+  const colours = new Map(store.site?.robots.map(({ index, colour }) => [index, colour]));
+  const faults = faultsByRow(store.faults);
+
+  const change = (edit) => store.change(edit);
+  const write = (at, text) => {
+    const robot = robots[at.row];
+    if (robot ? columns[at.column].text(robot) === text : !text.trim()) return;
+    change((document) => pasted(document, columns, [[text]], at));
+  };
+  const sort = (column) => {
+    const isDown = sorted.key === column.key && !sorted.isDown;
+    setSorted({ key: column.key, isDown });
+    change((document) => sortRobots(document, column.value ?? column.text, isDown));
+  };
+  const enter = (at) => {
+    setCells({ from: at, to: at });
+    if (robots[at.row]) editor.select([{ kind: "robot", id: at.row }]);
+  };
+  const extend = (at) => cells && setCells({ from: cells.from, to: at });
+  const goTo = ({ row, column }) =>
+    sheet.current.querySelector(`[data-cell="${row} ${column}"]`)?.focus();
+
+  const paste = (event, at) => {
+    const text = event.clipboardData.getData("text");
+    const lines = rowsOfText(text);
+    if (lines.length === 1 && lines[0].length === 1) return;
+    event.preventDefault();
+    change((document) => pasted(document, columns, lines, at));
+  };
+  const copy = (event) => {
+    if (!block || isSingle(block)) return;
+    event.preventDefault();
+    event.clipboardData.setData("text/plain", blockText(robots, columns, block));
+    if (event.type === "cut") change((document) => cleared(document, columns, block));
+  };
+  const fill = (until) => {
+    const whole = { ...block, bottom: Math.max(until, block.bottom) };
+    change((document) => filled(document, columns, whole));
+    setCells({ from: cells.from, to: { row: whole.bottom, column: whole.right } });
+  };
+  const key = (event, at) => {
+    const isMany = block && !isSingle(block);
+    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "d")
+      fill(isMany ? block.bottom : robots.length - 1);
+    else if (isMany && ["Delete", "Backspace"].includes(event.key))
+      change((document) => cleared(document, columns, block));
+    else if (event.key === "Escape") {
+      event.target.value = robots[at.row] ? columns[at.column].text(robots[at.row]) : "";
+      setCells({ from: at, to: at });
+    } else if (event.shiftKey && ARROWS[event.key] && stepFrom(event)) {
+      const [down, right] = ARROWS[event.key];
+      extend({
+        row: clamped(cells.to.row + down, robots.length - 1),
+        column: clamped(cells.to.column + right, columns.length - 1),
+      });
+    } else {
+      const next = stepFrom(event);
+      if (!next) return;
+      const place = rows.findIndex(({ row }) => row === at.row);
+      const shown = [...rows.map(({ row }) => row), robots.length];
+      const row = shown[clamped((place < 0 ? rows.length : place) + next[0], rows.length)];
+      goTo({ row, column: clamped(at.column + next[1], columns.length - 1) });
+    }
+    event.preventDefault();
+    event.stopPropagation();
+  };
+
+  const cell = (robot, row, column, at) => {
+    const place = { row, column: at };
+    const fault = faults.get(row)?.find(({ place: where }) => columnOf(where) === column.key);
+    const [title, , usual = ""] = words.columns[column.key];
+    return html`<td key=${column.key} class=${`${column.key} ${holds(block, row, at) && !isSingle(block) ? "in" : ""}`}>
+      <input value=${robot ? column.text(robot) : ""} data-cell=${`${row} ${at}`} spellcheck="false"
+        aria-label=${robot ? `${title}, ${robot.name}` : `${title}, ${words.newRow}`} aria-invalid=${String(Boolean(fault))} title=${fault?.message ?? ""}
+        placeholder=${robot ? usual : column.key === "name" ? freeName(robots) : ""}
+        onFocus=${() => enter(place)} onChange=${({ target }) => write(place, target.value)}
+        onPointerDown=${(event) => {
+          if (!event.shiftKey) return;
+          event.preventDefault();
+          extend(place);
+        }}
+        onPaste=${(event) => paste(event, place)} onCopy=${copy} onCut=${copy} onKeyDown=${(event) => key(event, place)} />
+      ${robot && block && row === block.bottom && at === block.right && html`<${Handle} fill=${fill} />`}
+    </td>`;
+  };
+  const select = (event, row) => {
+    if (event.target.matches("input, button")) return;
+    if (event.shiftKey || event.ctrlKey) editor.selection.toggle({ kind: "robot", id: row });
+    else editor.select([{ kind: "robot", id: row }]);
+    editor.changed();
+  };
+  return html`
+    <div class="sheet" ref=${sheet}><table class="robots">
+      <thead><tr>${columns.map(
+        (column) => html`
+        <th scope="col" class=${column.key} aria-sort=${sorted.key === column.key ? (sorted.isDown ? "descending" : "ascending") : "none"}>
+          <button type="button" title=${words.columns[column.key][1]} onClick=${() => sort(column)}>${words.columns[column.key][0]}</button></th>`,
+      )}<th class="do"><span class="unseen">${words.remove}</span></th></tr></thead>
+      <tbody>${rows.slice(0, most).map(
+        ({ robot, row }) => html`
+        <tr key=${row} data-row=${row} aria-selected=${String(editor.selection.has({ kind: "robot", id: row }))} onClick=${(event) => select(event, row)} style=${{ "--robot": colours.get(row) ?? "transparent" }}>
+          ${columns.map((column, at) => cell(robot, row, column, at))}
+          <td class="do"><button type="button" class="quiet" tabindex="-1" aria-label=${`${words.remove} ${robot.name}`} title=${words.remove} onClick=${() => change((document) => removeRobots(document, [row]))}>✕</button></td>
+        </tr>
+        ${faults.has(row) && html`<tr key=${`fault ${row}`} class="fault"><td colspan=${columns.length + 1}>${faults.get(row).map(({ message }) => html`<span class="wrong">${message}</span>`)}</td></tr>`}`,
+      )}
+      ${!wanted && html`<tr key="new" class="new">${columns.map((column, at) => cell(null, robots.length, column, at))}<td></td></tr>`}
+      </tbody>
+    </table></div>
+    ${rows.length > most && html`<button type="button" class="framed" onClick=${() => setMost(most + MOST_ROWS)}>${words.moreRows(rows.length - most)}</button>`}`;
+}
+
+const ARROWS = { ArrowDown: [1, 0], ArrowUp: [-1, 0], ArrowRight: [0, 1], ArrowLeft: [0, -1] };
+
+const clamped = (value, most) => Math.min(Math.max(value, 0), most);
+
+/** Where a key leads to: rows and columns; sideways only from the end of what is written. */
+function stepFrom({ key, shiftKey, target }) {
+  if (key === "Enter") return [shiftKey ? -1 : 1, 0];
+  const step = ARROWS[key];
+  if (!step || !step[1]) return step;
+  const { selectionStart, selectionEnd, value } = target;
+  if (selectionStart !== selectionEnd)
+    return selectionEnd - selectionStart === value.length && step;
+  return selectionEnd === (step[1] > 0 ? value.length : 0) && step;
+}
+
+function faultsByRow(faults) {
+  const found = new Map();
+  for (const fault of faults) {
+    const row = /^robots\[(\d+)\]/.exec(fault.place)?.[1];
+    if (row === undefined) continue;
+    if (!found.has(Number(row))) found.set(Number(row), []);
+    found.get(Number(row)).push(fault);
+  }
+  return found;
+}
+
+/** The corner of a block: dragged down, it fills the rows that it passes. */
+function Handle({ fill }) {
+  const drag = (event) => {
+    event.preventDefault();
+    const handle = event.target;
+    handle.setPointerCapture(event.pointerId);
+    const rowAt = ({ clientX, clientY }) =>
+      Number(
+        document.elementFromPoint(clientX, clientY)?.closest("tr[data-row]")?.dataset.row ?? -1,
+      );
+    let row = -1;
+    handle.onpointermove = (move) => (row = Math.max(rowAt(move), -1));
+    handle.onpointerup = () => {
+      handle.onpointermove = handle.onpointerup = null;
+      if (row >= 0) fill(row);
+    };
+  };
+  return html`<span class="handle" title=${words.fillDown} onPointerDown=${drag}></span>`;
+}
