@@ -262,7 +262,9 @@ def _unbarred(itinerary: Itinerary) -> tuple[Tick, ...]:
     return tuple(max(ticks, Tick(1)) for ticks in itinerary.edge_ticks)
 
 
-def refuse_closed_ways(scenario: Scenario, deadline: Deadline) -> None:
+def refuse_closed_ways(
+    scenario: Scenario, deadline: Deadline, robots: Iterable[int] | None = None
+) -> None:
     """Raise if closures leave a robot no track, even if it is alone; distances are known.
 
     Parameters
@@ -271,6 +273,8 @@ def refuse_closed_ways(scenario: Scenario, deadline: Deadline) -> None:
         The problem.
     deadline
         When to stop looking for the closures that block a robot.
+    robots
+        The robots in question; None for all.
 
     Raises
     ------
@@ -282,7 +286,7 @@ def refuse_closed_ways(scenario: Scenario, deadline: Deadline) -> None:
     if scenario.problem.closures is None:
         return
     distances, found = Distances(scenario.roadmap), []
-    for robot in range(len(scenario.robots)):
+    for robot in range(len(scenario.robots)) if robots is None else robots:
         deadline.check("looking for ways around closures")
         if not _has_track_alone(scenario, robot, distances):
             found.append(_closed_in(scenario, robot, distances, deadline))

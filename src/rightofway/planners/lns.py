@@ -155,12 +155,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         if not task.keep_best:
             raise
         ended = "interrupted: "
-    if search.cost < before:
-        if task.start is not None:
-            search.restore(spaced)
-        found = _retimed(task, search)
-    else:
-        found = search.tracks() if task.start is None else tuple(spaced)
+    found = _found(task, search, tuple(spaced), is_better=search.cost < before)
     measured = partial(cost_of, task.scenario)
     cost = measured(found)
     if cost == bound:
@@ -174,6 +169,17 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     saved = measured(first.tracks) - measured(found)
     made = Improvement(saved=Tick(saved), tries=done, interrupted=bool(ended))
     return Draft(tracks=found, status=status, improvement=made)
+
+
+def _found(
+    task: Task, search: FleetSearch, first: tuple[Track, ...], *, is_better: bool
+) -> tuple[Track, ...]:
+    """Return what the search found, with the tracks given wherever these are as good."""
+    if not is_better:
+        return search.tracks() if task.start is None else first
+    if task.start is not None:
+        search.restore(first)
+    return _retimed(task, search)
 
 
 def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:

@@ -25,6 +25,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from itertools import pairwise
 
 import numpy as np
@@ -45,6 +46,7 @@ from rightofway.model import (
     route_along,
     route_of,
 )
+from rightofway.planners.impossible import refuse_closed_ways
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Task, planning_headway
 from rightofway.precedence import graph_on
@@ -81,10 +83,17 @@ def first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
         The changed scenario. Half of its time may be used.
     old
         The old plan, of another scenario. It may have faults.
+
+    Raises
+    ------
+    NoPlanExists
+        If closures leave a robot no way.
     """
     kept = dict(_kept_routes(task.scenario, old))
     changed = [robot for robot, one in kept.items() if one.has_changed]
     unchanged = [robot for robot, one in kept.items() if not one.has_changed]
+    others = [robot for robot in range(len(task.scenario.robots)) if robot not in kept]
+    refuse_closed_ways(task.scenario, task.deadline, others)
     hurried = replace(task, deadline=task.deadline.sooner(SHARE))
     search = fleet_search(hurried)
     found = [_repaired(hurried, search, kept, [*unchanged, *changed])]
@@ -184,7 +193,7 @@ def _kept_routes(scenario: Scenario, old: Plan) -> Iterator[tuple[int, _Kept]]:
         serves_all = len(former.serves) == len(places)
         if not serves_all or min(route.drive) < 0 or is_closed(robot, visited, for_ever=True):
             continue
-        is_as_long = _leasts(route) == [ticks * least for least in _leasts(former)]
+        is_as_long = _lasts_as_long(route, former, ticks)
         is_as_wide = old.scenario.robots[partner].radius == scenario.robots[robot].radius
         is_affected = is_closed(robot, visited) and scenario.closures != old.scenario.closures
         has_changed = is_affected or not (is_as_long and is_as_wide)
@@ -199,8 +208,13 @@ def _route_again(
     return route_along(scenario.roadmap, scenario.problem.itineraries[robot], legs)
 
 
-def _leasts(route: Route) -> list[int]:
-    return [route.least(visit) for visit in range(len(route))]
+def _lasts_as_long(route: Route, former: Route, ticks: Fraction) -> bool:
+    """Return whether all dwells and drives are as before; ``ticks``: of now in one of before."""
+    now, before = (
+        np.array([one.dwell, one.drive], np.int64) * scale
+        for one, scale in ((route, ticks.denominator), (former, ticks.numerator))
+    )
+    return np.array_equal(now, before)
 
 
 def _closed_ways(scenario: Scenario) -> Callable[..., bool]:
