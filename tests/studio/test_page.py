@@ -85,7 +85,7 @@ def test_a_change_is_planned_at_once_and_compared(studio: StudioPage) -> None:
     speed.fill("2")
     speed.press("Enter")
     studio.wait_for("studio.runs.comparison !== null")
-    assert "Gain: R1" in studio.text(".status .change")
+    assert "Earlier: R1" in studio.text(".status .change")
 
 
 def test_a_plan_opens_in_a_page_of_its_own(studio: StudioPage) -> None:

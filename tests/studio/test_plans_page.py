@@ -205,7 +205,7 @@ def test_the_other_robot_goes_first_and_the_difference_is_shown(opened: Opener) 
     )
     assert after[loss["robot"]] <= before[loss["robot"]]
     assert before != after
-    assert ("Gain" in studio.text(".change")) or ("Lose" in studio.text(".change"))
+    assert ("Earlier" in studio.text(".change")) or ("Later" in studio.text(".change"))
 
 
 def test_a_change_of_a_robot_is_planned_at_once(opened: Opener) -> None:

@@ -21,7 +21,7 @@ const MOST = 4; // robots that are named
 export function Change({ studio }) {
   const { runs, stage } = studio;
   const { comparison } = runs;
-  if (!comparison || !stage.isPlan) return null;
+  if (!comparison || !stage.plan) return null;
   const [before, after] = comparison.plans.map(({ text }) => text.flowtime);
   const [old, now] = comparison.runs.map((number) => runs.knownDocument(number));
   const { start, robots } = runs.run?.figures ?? {};

@@ -1,5 +1,5 @@
 import { footOn } from "./map_marks.js";
-import { dot, haloed, line, ring } from "./shapes.js";
+import { disc, dot, haloed, line, ring } from "./shapes.js";
 
 const LEAST_GAP = 2; // pixels between a robot and the ring of the room that it needs, for both to be seen
 
