@@ -49,7 +49,7 @@ export function listenToKeys(studio) {
     if (studio.isStarting || event.defaultPrevented) return;
     if (document.querySelector("dialog[open]")) return; // its keys are its own
     const isWriting = event.target.matches(
-      "input:not([type=range]), select, textarea, [contenteditable]",
+      "input:not(#slider), select, textarea, [contenteditable]",
     );
     const isControl = event.ctrlKey || event.metaKey;
     const isUndo = "zy".includes(event.key.toLowerCase()) && event.target.value === atFocus; // nothing in the field to undo

@@ -87,6 +87,17 @@ export class Stage extends Observable {
     this.repaint();
   }
 
+  /** Light a circle of visits of some robots that repeat themselves; null for the critical one. */
+  lightCircle(names, visits) {
+    const { plan } = this;
+    if (!this.isPlan || !plan.steady) return;
+    const index = plan.planned.findIndex(({ name }) => name === names[0]);
+    const group = plan.steady.groupOf[index];
+    if (!group || (visits === null && group.isCritical)) return;
+    group.light(visits, plan.planned);
+    this.choice.tell("bottleneck");
+  }
+
   #clear() {
     this.below.replaceChildren();
     this.time.replaceChildren();

@@ -139,6 +139,15 @@ export class RunStore extends Observable {
     if (this.beside && this.beside !== number && run.has_plan) await this.compare(this.beside);
   }
 
+  /** Play another run of the simulation that is shown. */
+  async replay(replayed) {
+    const [turn, number] = [++this.#wanted, this.shown];
+    const payload = await get(`/runs/${number}/payload?replay=${replayed}`);
+    if (turn !== this.#wanted) return;
+    Object.assign(this, { payload, replayed });
+    this.tell("payload");
+  }
+
   /** Show no plan any more. */
   hide() {
     this.#wanted++;

@@ -1,7 +1,11 @@
 /** What else a plan can be asked: how it repeats in laps, and what becomes of it with delays. */
 
-import { html, useState } from "../vendor/htm-preact.js";
+import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
+import { Delays } from "./delays.js";
+import { Laps } from "./laps.js";
+
+let isWanted = false; // whether the next report is to be brought into sight: somebody has asked for it
 
 export function Studies({ studio }) {
   const { runs, store } = studio;
@@ -11,8 +15,12 @@ export function Studies({ studio }) {
   const [count, setCount] = useState(1000);
   const { seed, time_limit } = studio.settings;
   const given = delays.trim();
+  const study = (request, document) => {
+    isWanted = true;
+    return studio.study(request, document);
+  };
   const simulate = () =>
-    studio.study({
+    study({
       kind: "simulate",
       based_on: run.kind === "simulate" ? run.based_on : run.number,
       seed: Number(seed),
@@ -25,7 +33,7 @@ export function Studies({ studio }) {
         <form class="fields" onSubmit=${(event) => {
           event.preventDefault();
           const { document, folder, path } = store;
-          studio.study(
+          study(
             {
               kind: "laps",
               document,
@@ -60,34 +68,18 @@ export function Studies({ studio }) {
 /** What the command says of laps or delays, and how flowtimes are spread over the runs. */
 export function Report({ studio }) {
   const { report, run } = studio.runs;
+  const section = useRef(null);
+  useEffect(() => {
+    if (!isWanted || !section.current) return;
+    isWanted = false;
+    section.current.scrollIntoView({ block: "start" });
+  }, [report]);
   if (!report?.text) return null;
-  const playWorst = () => {
-    const { delays, runs, seed } = run.request;
-    studio.study({
-      kind: "simulate",
-      based_on: run.based_on,
-      delays,
-      runs,
-      seed,
-      run: report.worst,
-    });
-  };
   return html`
-    <section aria-labelledby="report-title"><h2 id="report-title">${words.report}</h2>
-      ${report.spread && html`<${Spread} spread=${report.spread} />`}
-      <pre class="report" tabindex="0" aria-labelledby="report-title">${report.text}</pre>
-      ${report.worst !== undefined && report.worst !== report.played && html`<button type="button" class="framed" onClick=${playWorst}>${words.playWorst(report.worst)}</button>`}
+    <section class="study" aria-labelledby="report-title" ref=${section}><h2 id="report-title">${report.groups ? words.lapsResult : words.delaysResult}</h2>
+      ${report.groups && html`<${Laps} studio=${studio} report=${report} />`}
+      ${report.ranks && html`<${Delays} key=${run.number} studio=${studio} report=${report} />`}
+      <details><summary>${words.report}</summary>
+      <pre class="report" tabindex="0" aria-labelledby="report-title">${report.text}</pre></details>
     </section>`;
-}
-
-function Spread({ spread: { counts, planned, from, to, text } }) {
-  const most = Math.max(...counts);
-  const [first, last] = [Math.min(from, planned), Math.max(to, planned, from + 1)];
-  const x = (ticks) => (100 * (ticks - first)) / (last - first);
-  const width = Math.max((x(to) - x(from)) / counts.length, 0.5);
-  return html`
-    <figure class="spread"><svg viewBox="0 0 100 40" role="img" preserveAspectRatio="none" aria-label=${words.spread(text.from, text.to, text.planned)}>
-      ${counts.map((count, i) => html`<rect x=${x(from) + i * width} y=${40 - (38 * count) / most} width=${width * 0.9} height=${(38 * count) / most} />`)}
-      <path d="M${x(planned)} 0V40" /></svg>
-      <figcaption>${words.spread(text.from, text.to, text.planned)}</figcaption></figure>`;
 }

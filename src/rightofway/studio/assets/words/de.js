@@ -213,6 +213,55 @@ export const GERMAN = {
   openAgain: "Wieder öffnen",
   studies: "Runden und Verspätungen",
   report: "Bericht",
+  lapsResult: "Runden",
+  delaysResult: "Verspätungen",
+  period: "Periode",
+  throughput: (isTimed) => (isTimed ? "Runden je Stunde" : "Runden in 3600"),
+  orders: { now: "wie es ist", same: "gleiche Reihenfolge", anew: "neue Reihenfolge" },
+  noPeriod: "Keine Gruppe von Robotern wiederholt sich; der Bericht sagt, warum.",
+  moveSlider: "Ein Regler zeigt, was ein anderer Wert bewirkt.",
+  sameOrder: (period, before) => `In gleicher Reihenfolge ${period} statt ${before}.`,
+  newOrder: (period) => `Mit neuer Reihenfolge ${period}.`,
+  noNewOrder: (why) => `Mit neuer Reihenfolge: ${why}.`,
+  resetValue: "Zurück",
+  takeValue: "Wert übernehmen, Runden wiederholen",
+  setsThePace: (names) => `Was den Takt bestimmt: ${names}`,
+  circleTooLong: "Was den Takt bestimmt, steht im Bericht.",
+  whatHelps: "Was die Periode ändern würde",
+  moreSliders: "Einen Roboter auf der Karte drücken, um seine Regler zu sehen.",
+  rounded: "Fahrzeiten sind auf Ticks aufgerundet, wie sie jetzt sind.",
+  parameters: {
+    headway: "Abstand (Zeit)",
+    speed: (name) => `${name}: Tempo`,
+    work: (name, place) => `${name}: Arbeit an ${place}`,
+  },
+  noRoom: "Für einen Abstand ist kein Raum: Roboter geben Plätze im Kreis weiter.",
+  valueAndPeriod: (value, period) => `${value}: Periode ${period}`,
+  timeUnit: (unit) =>
+    ({ ms: "Millisekunde", s: "Sekunde", min: "Minute", h: "Stunde" })[unit] ?? "Zeiteinheit",
+  free: "Ändert nichts.",
+  freeUpTo: (to, unit, cost) =>
+    `Bis ${to} ändert sich nichts; von da an kostet jede ${unit} ${cost}.`,
+  eachCosts: (unit, cost, to, then) =>
+    `Jede ${unit} kostet ${cost} der Periode${then ? `; ab ${to} ${then}` : ""}.`,
+  fasterGainsNothing: (from) =>
+    from
+      ? `Schneller bringt nichts; unter ${from} wächst die Periode.`
+      : "Das Tempo ändert nichts.",
+  fasterSaves: (saved, flat) =>
+    `10 % schneller: ${saved} weniger${flat ? `; über ${flat} nichts mehr` : ""}.`,
+  moreSteps: (count) => `${count} weitere Schritte zeigen`,
+  steps: {
+    laps: (name, laps) =>
+      `${name} fährt ${laps === 1 ? "eine eigene Runde" : `${laps} eigene Runden`}`,
+    way: (name, from, to, isHome) => `${name} fährt von ${from} ${isHome ? "heim" : `nach ${to}`}`,
+    work: (name, place) => `${name} arbeitet an ${place}`,
+    turn: (name, place) => `${name} wendet an ${place}`,
+    right: (name, place, other) =>
+      other && other !== name
+        ? `${name} fährt in ${place} ein, wenn ${other} es verlassen hat`
+        : `${name} fährt in ${place} ein`,
+  },
   lapsTitle: "Alle Roboter ihre Fahrten wiederholen lassen",
   rule: "Vorfahrt",
   runLaps: "Wiederholen",
@@ -220,7 +269,24 @@ export const GERMAN = {
   delays: "Verspätungen",
   runCount: "Läufe",
   simulate: "Simulieren",
-  playWorst: (run) => `Den schlechtesten Lauf abspielen (${run})`,
+  laterBy: (time) => `${time} später`,
+  inTime: "pünktlich",
+  lateInSum: (median, most, worst) =>
+    `Später als geplant, alle Roboter zusammen: die Hälfte der Läufe höchstens ${median}, 90 % höchstens ${most}, der schlechteste ${worst}.`,
+  plannedSum: (time) => `geplant ${time}`,
+  runByRank: "Ein Lauf, vom besten bis zum schlechtesten",
+  runSays: (run, flowtime, share) =>
+    `Lauf ${run}: Summe der Ankünfte ${flowtime}; ${share} % der Läufe sind besser.`,
+  runNeverEnds: (run) => `Lauf ${run}: Ein Roboter kommt nie an.`,
+  runsNeverEnd: (count, all) => `In ${count} von ${all} Läufen kommt ein Roboter nie an.`,
+  best: "Bester",
+  typical: "Mittlerer",
+  worst: "Schlechtester",
+  heldUp: "In diesem Lauf aufgehalten",
+  nobodyHeldUp: "Niemand wartet länger als geplant.",
+  suffersMost: "Wer am meisten leidet",
+  suffers: (p95, own, behind, waits) =>
+    `${own} aus sich selbst${behind ? `, ${waits} hinter ${behind}` : ""}; in 95 % der Läufe höchstens ${p95}`,
   spread: (from, to, planned) =>
     `Summe der Ankünfte der Läufe: ${from} bis ${to}; geplant: ${planned}`,
   waits: "Wer wartet, und warum",

@@ -207,6 +207,52 @@ export const ENGLISH = {
   openAgain: "Open again",
   studies: "Laps and delays",
   report: "Report",
+  lapsResult: "Laps",
+  delaysResult: "Delays",
+  period: "period",
+  throughput: (isTimed) => (isTimed ? "laps per hour" : "laps in 3600"),
+  orders: { now: "as it is", same: "same order", anew: "new order" },
+  noPeriod: "No group of robots repeats itself; the report says why.",
+  moveSlider: "Move a slider to see what another value does.",
+  sameOrder: (period, before) => `In the same order ${period} instead of ${before}.`,
+  newOrder: (period) => `With a new order ${period}.`,
+  noNewOrder: (why) => `With a new order: ${why}.`,
+  resetValue: "Back",
+  takeValue: "Take the value, repeat the laps",
+  setsThePace: (names) => `What sets the pace: ${names}`,
+  circleTooLong: "What sets the pace is in the report.",
+  whatHelps: "What would change the period",
+  moreSliders: "Press a robot on the map for its sliders.",
+  rounded: "Drives are rounded up to ticks as they are now.",
+  parameters: {
+    headway: "Headway",
+    speed: (name) => `${name}: speed`,
+    work: (name, place) => `${name}: work at ${place}`,
+  },
+  noRoom: "There is no room for a headway: robots hand places round in a circle.",
+  valueAndPeriod: (value, period) => `${value}: period ${period}`,
+  timeUnit: (unit) =>
+    ({ ms: "millisecond", s: "second", min: "minute", h: "hour" })[unit] ?? "time unit",
+  free: "It changes nothing.",
+  freeUpTo: (to, unit, cost) =>
+    `Up to ${to} nothing changes; from there each ${unit} costs ${cost}.`,
+  eachCosts: (unit, cost, to, then) =>
+    `Each ${unit} costs ${cost} of the period${then ? `; from ${to} on ${then}` : ""}.`,
+  fasterGainsNothing: (from) =>
+    from ? `Faster gains nothing; below ${from} the period grows.` : "The speed changes nothing.",
+  fasterSaves: (saved, flat) =>
+    `10 % faster: ${saved} less${flat ? `; above ${flat} nothing more` : ""}.`,
+  moreSteps: (count) => `Show ${counted(count, "more step")}`,
+  steps: {
+    laps: (name, laps) => `${name} makes ${counted(laps, "lap")} of its own`,
+    way: (name, from, to, isHome) => `${name} drives from ${from} ${isHome ? "home" : `to ${to}`}`,
+    work: (name, place) => `${name} works at ${place}`,
+    turn: (name, place) => `${name} turns at ${place}`,
+    right: (name, place, other) =>
+      other && other !== name
+        ? `${name} enters ${place} when ${other} has left`
+        : `${name} enters ${place}`,
+  },
   lapsTitle: "Let all robots repeat their trips",
   rule: "Right of way",
   runLaps: "Repeat",
@@ -214,7 +260,24 @@ export const ENGLISH = {
   delays: "Delays",
   runCount: "Runs",
   simulate: "Simulate",
-  playWorst: (run) => `Play the worst run (${run})`,
+  laterBy: (time) => `${time} later`,
+  inTime: "in time",
+  lateInSum: (median, most, worst) =>
+    `Later than planned, all robots together: half of the runs at most ${median}, 90 % at most ${most}, the worst ${worst}.`,
+  plannedSum: (time) => `planned ${time}`,
+  runByRank: "A run, from the best to the worst",
+  runSays: (run, flowtime, share) =>
+    `Run ${run}: flowtime ${flowtime}; ${share} % of the runs are better.`,
+  runNeverEnds: (run) => `Run ${run}: a robot never arrives.`,
+  runsNeverEnd: (count, all) => `In ${count} of ${all} runs a robot never arrives.`,
+  best: "Best",
+  typical: "Median",
+  worst: "Worst",
+  heldUp: "Held up in this run",
+  nobodyHeldUp: "Nobody waits longer than planned.",
+  suffersMost: "Who suffers most",
+  suffers: (p95, own, behind, waits) =>
+    `${own} of its own${behind ? `, ${waits} behind ${behind}` : ""}; in 95 % of the runs at most ${p95}`,
   spread: (from, to, planned) => `Flowtime of the runs: ${from} to ${to}; planned: ${planned}`,
   waits: "Who waits, and why",
   waitsOf: (name) => `Why ${name} waits`,

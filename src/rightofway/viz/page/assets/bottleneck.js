@@ -134,8 +134,8 @@ export class Bottleneck {
   #show() {
     const { circuit, button, legend } = this;
     button.setAttribute("aria-pressed", this.choice.bottleneck);
-    legend.hidden = !circuit.length;
-    if (!circuit.length) return;
+    legend.hidden = !circuit.length || !this.group.isCritical;
+    if (legend.hidden) return;
     legend.lastElementChild.textContent = this.words.bottleneck(this.group);
     legend.title = this.words.bottleneckAtLength(this.group);
   }

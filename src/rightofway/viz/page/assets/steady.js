@@ -46,7 +46,13 @@ class Group {
   constructor(raw, robots) {
     Object.assign(this, raw);
     this.members = new Set(raw.robots);
-    this.circuit = circuitOf(this, robots);
+    this.light(null, robots);
+  }
+
+  /** Light another circle of visits than the critical one; null for that one. */
+  light(visits, robots) {
+    this.isCritical = visits === null;
+    this.circuit = circuitOf({ critical: visits ?? this.critical, period: this.period }, robots);
     this.turn = Math.ceil((this.circuit.at(-1)?.next ?? 0) / this.period) * this.period; // whole periods, once round at least
   }
 

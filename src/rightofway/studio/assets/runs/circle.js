@@ -1,0 +1,70 @@
+/** A critical circle: what each robot on it does until the next one can go on, with its share of the period. */
+
+import { html, useState } from "../vendor/htm-preact.js";
+import { fraction } from "../viewer/quantities.js";
+import { words } from "../words.js";
+import { number, plus } from "./parameter_curve.js";
+
+const MOST = 10; // steps that are listed at first
+
+export function Circle({ studio, pieces, said, isNow }) {
+  const [isWhole, setWhole] = useState(false);
+  const { stage } = studio;
+  const robotOf = (name) => stage.plan?.robots?.find((robot) => robot.name === name);
+  const steps = counted(pieces, (name) => stage.plan?.roadmap.name(robotOf(name)?.home));
+  const shown = isWhole ? steps : steps.slice(0, MOST);
+  return html`
+    ${
+      isNow &&
+      html`<div class="circle-bar" aria-hidden="true">${steps.map(
+        ({ robot, kind, time }) =>
+          html`<i class=${kind.replaceAll(" ", "-")} style=${`flex-grow: ${number(time)}; background: ${robotOf(robot)?.colour}`}></i>`,
+      )}</div>`
+    }
+    <ol class="circle">${shown.map(
+      (
+        piece,
+        i,
+      ) => html`<li><button type="button" class="watch" onClick=${() => studio.light(piece.vertices)}>
+        <i class="dot" style=${`background: ${robotOf(piece.robot)?.colour}`}></i>
+        <span>${sentence(piece, steps.at(i - 1), robotOf(piece.robot), stage)}</span>
+        ${isNow && piece.time[0] > 0n && html`<small>${said.short(piece.time)}</small>`}</button></li>`,
+    )}</ol>
+    ${steps.length > shown.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreSteps(steps.length - shown.length)}</button>`}`;
+}
+
+/** The steps with their times; whole laps that a robot makes in between are one step. */
+function counted(pieces, homeOf) {
+  const steps = pieces.map((piece) => ({ ...piece, time: fraction(piece.for) }));
+  const found = [];
+  for (let begin = 0; begin < steps.length;) {
+    const { robot } = steps[begin];
+    let end = begin;
+    while (end < steps.length && steps[end].robot === robot) end++;
+    const run = steps.slice(begin, end);
+    const isHome = ({ kind, vertices }) => kind === "way" && vertices.at(-1) === homeOf(robot);
+    const [first, last] = [run.findIndex(isHome) + 1, run.findLastIndex(isHome) + 1];
+    if (first === last) found.push(...run);
+    else {
+      const between = run.slice(first, last);
+      const laps = between.filter(isHome).length;
+      const vertices = [...new Set(between.flatMap((step) => step.vertices))];
+      const time = between.map((step) => step.time).reduce(plus);
+      found.push(...run.slice(0, first), { kind: "laps", robot, vertices, laps, time });
+      found.push(...run.slice(last));
+    }
+    begin = end;
+  }
+  return found;
+}
+
+/** What one step is, in words. */
+function sentence({ kind, robot, vertices, laps }, before, drawn, stage) {
+  const [first, last] = [vertices[0], vertices.at(-1)];
+  const home = drawn && stage.plan.roadmap.name(drawn.home);
+  if (kind === "laps") return words.steps.laps(robot, laps);
+  if (kind === "way") return words.steps.way(robot, first, last, last === home);
+  if (kind === "work")
+    return first === home ? words.steps.turn(robot, first) : words.steps.work(robot, first);
+  return words.steps.right(robot, first, before?.robot);
+}

@@ -1,0 +1,152 @@
+/** What becomes of a plan with delays: how late over all runs, any of them to replay, who suffers, where. */
+
+import { html, useEffect, useState } from "../vendor/htm-preact.js";
+import { fraction, Quantities } from "../viewer/quantities.js";
+import { words } from "../words.js";
+
+const MOST = 6; // robots, and places in a run, that are listed
+const [WIDTH, HEIGHT] = [300, 84];
+
+export function Delays({ studio, report }) {
+  const { runs } = studio;
+  const { rank, run, flowtime } = report.ranks;
+  const begin = Math.max(run.indexOf(report.played), 0);
+  const [at, setAt] = useState(begin); // index into the ranks
+  const quantities = new Quantities(report.units, fraction(report.tick));
+  const ticks = (value) => quantities.duration(Math.round(value));
+  const short = (value) => quantities.short(Math.round(value));
+  const middle = run.length > 1 ? (run.length - 1) >> 1 : 0;
+  const play = (index) => {
+    setAt(index);
+    studio.attempt(() => runs.replay(run[index]));
+  };
+  const says = (index) => {
+    const found = flowtime[index];
+    const share = report.runs > 1 ? Math.round((100 * rank[index]) / (report.runs - 1)) : 0;
+    return found === null
+      ? words.runNeverEnds(run[index])
+      : words.runSays(run[index], ticks(found), share);
+  };
+  const { median, p90, max } = report.lateness.flowtime;
+  const never = report.runs - (report.spread?.counts.reduce((sum, count) => sum + count, 0) ?? 0);
+  return html`
+    ${
+      report.spread &&
+      html`<p class="late">${words.lateInSum(late(ticks, median), late(short, p90), late(short, max))}</p>
+      <${Spread} spread=${report.spread} short=${short} flowtime=${flowtime} at=${at} play=${play} />`
+    }
+    ${never > 0 && html`<p class="wrong">${words.runsNeverEnd(never, report.runs)}</p>`}
+    <label class="ranks" for="rank"><span>${words.runByRank}</span>
+      <input type="range" id="rank" min="0" max=${run.length - 1} step="1" value=${at} aria-valuetext=${says(at)} style=${`--over: ${run.length > 1 ? (100 * at) / (run.length - 1) : 0}%`}
+        onInput=${({ target }) => setAt(Number(target.value))} onChange=${({ target }) => play(Number(target.value))} /></label>
+    <p role="status">${says(at)}</p>
+    <div class="buttons">
+      ${[
+        [words.best, 0],
+        [words.typical, middle],
+        [words.worst, run.length - 1],
+      ].map(
+        ([name, index]) =>
+          html`<button type="button" class="framed" aria-pressed=${String(at === index)} onClick=${() => play(index)}>${name}</button>`,
+      )}
+    </div>
+    <${HeldUp} studio=${studio} />
+    <${Sufferers} studio=${studio} report=${report} ticks=${ticks} short=${short} />`;
+}
+
+/** A lateness, or that there is none. */
+const late = (said, value) => (value > 0 ? said(value) : words.inTime);
+
+/** How many runs have which flowtime; the plan's own is a line, the run that plays is marked; a press plays a run. */
+function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, at, play }) {
+  const most = Math.max(...counts);
+  const span = Math.max(to - from, 1); // a plan that is further away than that stands at the border
+  const [first, last] = [
+    Math.max(Math.min(from, planned), from - span),
+    Math.min(Math.max(to, planned, from + 1), to + span),
+  ];
+  const x = (ticks) => 4 + ((WIDTH - 8) * (ticks - first)) / (last - first);
+  const width = Math.max((x(to) - x(from)) / counts.length, 2);
+  const press = ({ clientX, currentTarget }) => {
+    const { left, width: wide } = currentTarget.getBoundingClientRect();
+    const wanted = (clientX - left) / wide;
+    const far = (found) => (found === null ? Infinity : Math.abs(x(found) / WIDTH - wanted));
+    play(
+      flowtime.reduce((near, found, index) => (far(found) < far(flowtime[near]) ? index : near), 0),
+    );
+  };
+  const chosen = flowtime[at];
+  return html`
+    <figure class="spread"><svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" preserveAspectRatio="none" onClick=${press} aria-label=${words.spread(text.from, text.to, text.planned)}>
+      ${counts.map((count, i) => {
+        const height = count ? Math.max(((HEIGHT - 6) * count) / most, 1.5) : 0;
+        const isChosen =
+          chosen !== null &&
+          i ===
+            Math.min(
+              Math.floor(((chosen - from) / (to - from || 1)) * counts.length),
+              counts.length - 1,
+            );
+        return html`<rect class=${isChosen ? "chosen" : ""} x=${x(from) + i * width} y=${HEIGHT - height} width=${width * 0.88} height=${height} />`;
+      })}
+      <path class=${planned < first || planned > last ? "far" : ""} d="M${x(Math.min(Math.max(planned, first), last))} 0V${HEIGHT}" /></svg>
+      <figcaption><span>${short(from)}</span><span class="planned">${words.plannedSum(short(planned))}</span><span>${short(to)}</span></figcaption></figure>`;
+}
+
+/** Where robots were held up in the run that plays, beyond the plan; each is a press away. */
+function HeldUp({ studio }) {
+  const { stage } = studio;
+  const { plan } = stage;
+  const found = stage.isPlan ? heldUp(plan).slice(0, MOST) : [];
+  useEffect(() => {
+    if (!stage.isPlan) return undefined;
+    const { choice } = stage;
+    choice.light(found.map(({ loss }) => loss.vertex));
+    return () => choice.light([]);
+  }, [plan]);
+  const watch = ({ robot, loss }) => {
+    stage.clock.pause();
+    stage.clock.seek(loss.tick);
+    stage.choice.chooseRobot(robot.index);
+  };
+  return html`
+    <h3>${words.heldUp}</h3>
+    ${
+      found.length
+        ? html`<ul class="held-up">${found.map(
+            (each) => html`<li><button type="button" class="watch" onClick=${() => watch(each)}>
+          <i class="dot" style=${`background: ${each.robot.colour}`}></i><span><b>${each.robot.name}</b> ${stage.words.loss(each.loss, each.robot)}</span></button></li>`,
+          )}</ul>`
+        : html`<p class="hint">${words.nobodyHeldUp}</p>`
+    }`;
+}
+
+/** The waits of the run that plays that the plan did not have, the longest first. */
+export function heldUp(plan) {
+  return (plan.happened ?? [])
+    .flatMap((robot) => robot.losses.map((loss) => ({ robot, loss, by: robot.unplanned(loss) })))
+    .filter(({ by }) => by > 0)
+    .sort((one, other) => other.by - one.by);
+}
+
+/** The robots that are latest on average, and how much of that is waiting for others. */
+function Sufferers({ studio, report, ticks, short }) {
+  const { stage } = studio;
+  const robots = report.lateness.robots
+    .map((robot, index) => ({ ...robot, index }))
+    .filter(({ mean }) => mean > 0)
+    .sort((one, other) => other.mean - one.mean)
+    .slice(0, MOST);
+  if (!robots.length) return null;
+  const most = robots[0].mean;
+  return html`
+    <h3>${words.suffersMost}</h3>
+    <ul class="sufferers">${robots.map(({ name, index, mean, own, p95, waiting }) => {
+      const [behind] = Object.entries(waiting).sort(([, one], [, other]) => other - one);
+      const itself = Math.min(Math.max(own, 0), mean);
+      return html`<li><button type="button" class="watch" onClick=${() => stage.choice.chooseRobot(index)}>
+        <i class="dot" style=${`background: ${stage.plan?.robots?.[index]?.colour}`}></i><b>${name}</b><span class="bar" aria-hidden="true"><i style=${`width: ${(100 * itself) / most}%`}></i><i class="others" style=${`width: ${(100 * (mean - itself)) / most}%`}></i></span>
+        <span>${words.laterBy(ticks(mean))}</span>
+        <small>${words.suffers(short(p95), short(itself), behind && behind[1] >= 0.5 ? behind[0] : "", behind ? short(behind[1]) : "")}</small></button></li>`;
+    })}</ul>`;
+}

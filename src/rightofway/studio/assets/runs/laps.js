@@ -1,0 +1,275 @@
+/** What a fleet that repeats its trips achieves, what sets its pace, and sliders for what would change that. */
+
+import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
+import { post } from "../api.js";
+import { changeRobots, robotsOf, stopsOf, withStops } from "../robots/fleet.js";
+import { decimal, fraction, Quantities } from "../viewer/quantities.js";
+import { several } from "../viewer/words.js";
+import { words } from "../words.js";
+import { Circle } from "./circle.js";
+import {
+  compared,
+  minus,
+  number,
+  over,
+  ParameterCurve,
+  plus,
+  times,
+  written,
+} from "./parameter_curve.js";
+
+const SECONDS = { ms: [1n, 1000n], s: [1n, 1n], min: [60n, 1n], h: [3600n, 1n] };
+const HOUR = [3600n, 1n];
+const MOST_ROBOTS = 4; // of the critical circle that have sliders without being chosen
+const PAUSE = 350; // between two steps of a key after which a value counts as given [ms]
+
+/** The group of robots that is looked at: that of the robot chosen, else the largest one that repeats. */
+function groupOf({ groups }, chosen) {
+  const repeating = groups.filter(({ period }) => period !== null);
+  const most = (one, other) => (other.robots.length > one.robots.length ? other : one);
+  return (
+    repeating.find(({ robots }) => robots.includes(chosen)) ??
+    (repeating.length ? repeating.reduce(most) : null)
+  );
+}
+
+/** Times and speeds in the units of the scenario; the report has exact times, not ticks. */
+class Said {
+  constructor(units) {
+    this.units = units;
+    this.quantities = new Quantities(units, [1, 1]);
+  }
+  time(value) {
+    return this.quantities.duration(asText(value));
+  }
+  /** Where there is little room: a bare number where no unit of time is known. */
+  short(value) {
+    return this.quantities.short(asText(value));
+  }
+  speed(value) {
+    return this.quantities.speed(asText(value));
+  }
+  value({ kind }, value) {
+    return kind === "speed" ? this.speed(value) : this.time(value);
+  }
+  /** Laps in an hour, or in 3600 time units. */
+  throughput(laps, period) {
+    const seconds = times(period, SECONDS[this.units.time] ?? [1n, 1n]);
+    return decimal(over(times([BigInt(laps), 1n], HOUR), seconds), 1);
+  }
+}
+
+const asText = ([top, bottom]) => `${top}/${bottom}`;
+const lapsIn = ({ laps_per_period: laps }) =>
+  Object.values(laps).reduce((sum, count) => sum + count, 0);
+
+export function Laps({ studio, report }) {
+  const chosen = studio.stage.isPlan ? studio.stage.choice.robot?.name : undefined;
+  const group = groupOf(report, chosen);
+  if (!group) return html`<p class="pace">${words.noPeriod}</p>`;
+  return html`<${Pace} key=${`${studio.runs.shown} ${group.robots[0]}`} studio=${studio} report=${report} group=${group} chosen=${chosen} />`;
+}
+
+/** The period, now and with one value changed; the circle that sets it; and the sliders. */
+function Pace({ studio, report, group, chosen }) {
+  const [moved, setMoved] = useState(null); // { curve, position }
+  const [other, setOther] = useState(null); // laps in a new order: { period, laps } or { why }
+  const { runs } = studio;
+  const said = new Said(report.units);
+  const curves = useMade(group, () =>
+    (group.curves?.curves ?? []).map((each) => new ParameterCurve(each)),
+  );
+  const at = fraction(group.period);
+  const value = moved?.curve.at(moved.position);
+  const period = moved ? moved.curve.period(value) : at;
+  const piece = moved?.curve.pieceAt(value);
+  const circle = moved ? group.curves.circuits[piece.circuit] : null;
+  const pieces = circle?.pieces ?? group.bottleneck ?? [];
+  useEffect(() => studio.stage.lightCircle(group.robots, circle?.visits ?? null), [circle]);
+  useEffect(() => () => studio.stage.lightCircle(group.robots, null), []);
+  const asked = useRef(0);
+  const move = (curve, position) => {
+    asked.current++;
+    setOther(null);
+    setMoved(position ? { curve, position } : null);
+  };
+  /** Ask for laps in a new order, once the value has stayed for a moment. */
+  const release = (curve, position) => {
+    const turn = ++asked.current;
+    if (!position) return;
+    setTimeout(async () => {
+      if (turn !== asked.current) return;
+      const { kind, robot, stop } = curve;
+      setOther({ isAsked: true });
+      const found = await post(`/runs/${runs.shown}/laps`, {
+        kind,
+        robot,
+        stop,
+        value: written(curve.at(position)),
+      }).catch(({ message }) => ({ message }));
+      if (turn === asked.current) setOther(answerOf(found, group));
+    }, PAUSE);
+  };
+  const robots = [...new Set(pieces.map(({ robot }) => robot))];
+  const shown = curves.filter(
+    ({ robot }) => robot === null || robot === chosen || leaders(group).includes(robot),
+  );
+  const given = moved && `${nameOf(studio, moved.curve)} ${said.value(moved.curve, value)}`;
+  const hint = !moved ? words.moveSlider : other?.why ? words.noNewOrder(other.why) : given;
+  return html`
+    <div class="pace">
+      <p class="figure"><output>${said.short(period)}</output><span>${words.period}</span></p>
+      <${Table} said=${said} group=${group} at=${at} period=${moved && period} other=${other} />
+      <p class="unseen" role="status">${moved ? `${words.sameOrder(said.time(period), said.time(at))} ${newOrder(said, other)}` : ""}</p>
+      <p class="hint">${hint}</p>
+      <div class="buttons">
+        <button type="button" class="framed" disabled=${!moved} onClick=${() => move(null, 0)}>${words.resetValue}</button>
+        <button type="button" class="framed" disabled=${!moved || !robotsOf(studio.store.document) || !runs.isOf(studio.store.document)} onClick=${() => take(studio, moved.curve, value)}>${words.takeValue}</button>
+      </div>
+    </div>
+    <h3>${robots.length ? words.setsThePace(several(robots)) : words.circleTooLong}</h3>
+    <${Circle} studio=${studio} pieces=${pieces} said=${said} isNow=${!moved} />
+    <h3>${words.whatHelps}</h3>
+    ${shown.map(
+      (
+        curve,
+      ) => html`<${Slider} key=${curve.key} curve=${curve} said=${said} now=${at} studio=${studio}
+        position=${moved?.curve === curve ? moved.position : 0} move=${move} release=${release} />`,
+    )}
+    <p class="hint">${[group.curves?.why, curves.length > shown.length && words.moreSliders, group.curves?.exact === false && words.rounded].filter(Boolean).join(" ")}</p>`;
+}
+
+/** The robots of the circle that have sliders. */
+const leaders = ({ bottleneck }) =>
+  [...new Set((bottleneck ?? []).map(({ robot }) => robot))].slice(0, MOST_ROBOTS);
+
+/** What laps in a new order achieve, of an answer. */
+function answerOf({ groups, message }, { robots }) {
+  if (message) return { why: message };
+  const found = groups.find((each) => each.robots.includes(robots[0]));
+  if (found.period === null) return { why: found.why };
+  return { period: fraction(found.period), laps: lapsIn(found) };
+}
+
+/** In words, what a new order would reach. */
+function newOrder(said, other) {
+  if (!other || other.isAsked) return "";
+  return other.why ? words.noNewOrder(other.why) : words.newOrder(said.time(other.period));
+}
+
+/** Period and laps: as they are, with the value in the same order, and with it in a new order. */
+function Table({ said, group, at, period, other }) {
+  const row = (name, found, laps) => {
+    const isKnown = Array.isArray(found);
+    return html`<tr data-known=${String(isKnown)}><th scope="row">${name}</th>
+      <td>${isKnown ? said.short(found) : found}</td><td>${isKnown ? said.throughput(laps, found) : ""}</td></tr>`;
+  };
+  const waits = other?.isAsked ? "…" : "–";
+  return html`<table class="orders"><thead><tr><td></td><th scope="col">${words.period}</th><th scope="col">${words.throughput(Boolean(said.units.time))}</th></tr></thead>
+    <tbody>${row(words.orders.now, at, lapsIn(group))}${row(words.orders.same, period ?? "–", lapsIn(group))}${row(words.orders.anew, other?.period ?? waits, other?.laps)}</tbody></table>`;
+}
+
+/** Write a value into the scenario, and repeat the laps with it. */
+function take(studio, { kind, robot, stop }, value) {
+  const { store, runs } = studio;
+  const given = written(value);
+  const edit = (one) => {
+    if (kind === "speed") return { ...one, speed: given };
+    const stops = stopsOf(one).map((each, index) =>
+      index === stop ? { ...each, work: given } : each,
+    );
+    return withStops(one, stops);
+  };
+  const request = runs.run.request;
+  store.change((document) => {
+    if (kind === "headway") return { ...document, rules: { ...document.rules, headway: given } };
+    const index = robotsOf(document).findIndex(({ name }) => name === robot);
+    return changeRobots(document, [index], edit);
+  });
+  const { document, folder, path } = store;
+  studio.study({ kind: "laps", document, folder, source: path, ...request }, document);
+}
+
+/** A value that is made once for each of what it is made of. */
+function useMade(of, make) {
+  const kept = useRef({});
+  if (kept.current.of !== of) kept.current = { of, made: make() };
+  return kept.current.made;
+}
+
+/** One parameter: its value, the period for every value, and what the next change costs, in words. */
+function Slider({ curve, said, now, position, move, release, studio }) {
+  const value = curve.at(position);
+  const period = curve.period(value);
+  const id = `curve-${curve.key.replaceAll(/\W/g, "-")}`;
+  const colour = studio.stage.plan.robots?.find(({ name }) => name === curve.robot)?.colour;
+  const name = nameOf(studio, curve);
+  return html`
+    <div class="parameter" data-curve=${curve.key}>
+      <label for=${id}>${colour && html`<i class="dot" style=${`background: ${colour}`}></i>`}${name}</label>
+      <output for=${id}>${said.value(curve, value)}</output>
+      ${
+        curve.isFixed
+          ? html`<p class="hint">${words.noRoom}</p>`
+          : html`<div class="track"><${Picture} curve=${curve} value=${value} now=${now} />
+      <input type="range" id=${id} min=${curve.first} max=${curve.last} step="1" value=${position} style=${`--over: ${(100 * (position - curve.first)) / (curve.last - curve.first)}%`}
+        aria-valuetext=${words.valueAndPeriod(said.value(curve, value), said.time(period))} aria-describedby=${`${id}-says`}
+        onInput=${({ target }) => move(curve, Number(target.value))} onChange=${({ target }) => release(curve, Number(target.value))} /></div>
+      <p class="hint" id=${`${id}-says`}>${effectOf(said, curve, value)}</p>`
+      }
+    </div>`;
+}
+
+function nameOf(studio, { kind, robot, stop }) {
+  if (kind === "headway") return words.parameters.headway;
+  if (kind === "speed") return words.parameters.speed(robot);
+  const plan = studio.stage.isPlan ? studio.stage.plan : null;
+  const stage = plan?.robots.find(({ name }) => name === robot)?.stages[stop];
+  return words.parameters.work(robot, stage ? plan.roadmap.name(stage.vertex) : stop + 1);
+}
+
+/** What a small change of a value does, and from where on that is otherwise. */
+function effectOf(said, curve, value) {
+  const piece = curve.pieceAt(value);
+  const index = curve.pieces.indexOf(piece);
+  const next = curve.pieces[index + 1];
+  const to = next && said.value(curve, piece.to);
+  if (curve.kind === "speed") {
+    const from = index ? said.value(curve, piece.from) : "";
+    if (!piece.slope[0]) return words.fasterGainsNothing(from);
+    const faster = times(value, [11n, 10n]);
+    const saved = minus(
+      curve.period(value),
+      curve.period(compared(faster, curve.most) > 0 ? curve.most : faster),
+    );
+    return words.fasterSaves(said.time(saved), next && !next.slope[0] ? to : "");
+  }
+  const unit = words.timeUnit(said.units.time);
+  const costs = (slope) => said.time(slope);
+  if (!piece.slope[0]) return next ? words.freeUpTo(to, unit, costs(next.slope)) : words.free;
+  return words.eachCosts(unit, costs(piece.slope), to, next && costs(next.slope));
+}
+
+const [WIDTH, HEIGHT, SAMPLES] = [200, 30, 60];
+
+/** The period over the values of a slider; where another circle takes over there is a line. */
+function Picture({ curve, value, now }) {
+  const [least, span] = [number(curve.least), number(minus(curve.most, curve.least))];
+  const x = (at) => ((number(at) - least) / span) * WIDTH;
+  const periods = [curve.least, curve.most].map((at) => number(curve.period(at)));
+  const [low, high] = [Math.min(...periods), Math.min(Math.max(...periods), 2 * number(now))];
+  const y = (period) => 2 + (HEIGHT - 4) * (1 - (number(period) - low) / (high - low || 1));
+  const inner = Array.from({ length: SAMPLES + 1 }, (_, k) =>
+    plus(curve.least, times(minus(curve.most, curve.least), [BigInt(k), BigInt(SAMPLES)])),
+  );
+  const bends = curve.pieces.slice(1).map(({ from }) => from);
+  const points = [...inner, ...bends]
+    .sort(compared)
+    .filter((at) => number(curve.period(at)) <= high)
+    .map((at) => `${x(at).toFixed(2)} ${y(curve.period(at)).toFixed(2)}`);
+  return html`<svg viewBox="0 0 ${WIDTH} ${HEIGHT}" preserveAspectRatio="none" aria-hidden="true">
+    ${bends.map((at) => html`<path class="bend" d="M${x(at).toFixed(2)} 0V${HEIGHT}" />`)}
+    <path class="origin" d="M${x(curve.value).toFixed(2)} 0V${HEIGHT}" />
+    <path class="curve-line" d=${`M${points.join("L")}`} />
+    <path class="at" d="M${x(value).toFixed(2)} ${y(curve.period(value)).toFixed(2)}h0" /></svg>`;
+}
