@@ -18,6 +18,7 @@ import httpx
 import uvicorn
 
 from rightofway.studio.app import create_app
+from rightofway.studio.connections import Connection
 from rightofway.studio.guard import Access
 from rightofway.studio.serve import bound
 from rightofway.studio.session import Studio
@@ -49,7 +50,8 @@ def running(folder: Path, access: Access | None = None, **settings: Any) -> Iter
         port = listener.getsockname()[1]
         studio = Studio(folder, **settings)
         app = create_app(studio, access or Access.on("127.0.0.1", port))
-        server = uvicorn.Server(uvicorn.Config(app, log_level="critical", access_log=False))
+        config = uvicorn.Config(app, http=Connection, log_level="critical", access_log=False)
+        server = uvicorn.Server(config)
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         thread.start()
         try:

@@ -139,3 +139,12 @@ def test_a_convoy_on_a_lane_of_40_drives_as_close_as_its_pieces_allow(
     ]
     assert {later - earlier for earlier, later in pairwise(passing)} == {apart}
     assert apart == (1 + max(1, ceil(2 * Fraction(radius) * pieces / 40))) * Fraction(40, pieces)
+
+
+def test_a_lane_is_not_split_without_end() -> None:
+    lane = {"vertices": {"A": [0, 0], "B": [1e9, 0]}, "edges": [["A", "B"]]}
+    robots = [{"name": "R1", "home": "A", "target": "B"}]
+    drawn = {"roadmap": lane, "spacing": 0.001}
+    document = {"format": "rightofway-scenario/1", "map": drawn, "robots": robots}
+    with pytest.raises(InputError, match="makes 1000000000000 pieces, more than 1000000"):
+        scenario_of(document)

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 import random
+import resource
 import socket
 import time
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 
 import httpx
 import pytest
 
+from rightofway.studio.connections import PATIENCE
 from tests.builders.studios import DOOR, Command, command, planned, sent
 
 MALFORMED = 10_000
@@ -130,6 +133,28 @@ def test_what_is_no_request_ends_its_connection_only(tmp_path: Path, garbage: by
             connection.sendall(garbage + b"\r\n\r\n")
             assert b"200" not in connection.recv(100)[:12]
         assert studio.client.get("/files").status_code == 200
+        assert studio.end() == ""
+
+
+def test_connections_that_send_nothing_keep_nobody_out(tmp_path: Path) -> None:
+    """The system gives 256 descriptors, and a client opens 600 connections."""
+    with command(tmp_path, "--no-history") as studio:
+        resource.prlimit(studio.process.pid, resource.RLIMIT_NOFILE, (256, 256))
+        base, flood = studio.client.base_url, []
+        for _ in range(600):
+            connection = socket.create_connection((base.host, base.port or 80), timeout=10)
+            with suppress(OSError):  # it is closed already
+                connection.sendall(b"GET /api/v1/files HTTP/1.1\r\nHost: ")
+            flood.append(connection)
+        ends = time.monotonic() + 1.5 * PATIENCE
+        answer = None
+        while answer is None and time.monotonic() < ends:
+            with suppress(httpx.TransportError):
+                answer = studio.client.post("/validate", json={"document": DOOR}, timeout=1)
+        assert answer is not None
+        assert answer.status_code == 200
+        for connection in flood:
+            connection.close()
         assert studio.end() == ""
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import asyncio
 import json
 import socket
+import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -264,3 +266,105 @@ def test_a_defect_of_ours_is_one_line_and_one_form(capsys: pytest.CaptureFixture
     error = json.loads(sent_back[1]["body"])["error"]
     assert error["message"] == "unexpected RuntimeError: first line second line"
     assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        b"Transfer-Encoding: chunked\r\nContent-Length: 2\r\n\r\n2\r\n{}\r\n0\r\n\r\n",
+        b"Content-Length: 2\r\nContent-Length: 40\r\n\r\n{}",
+        b"Transfer-Encoding: identity, chunked\r\n\r\n0\r\n\r\n",
+        b"Transfer-Encoding: xchunked\r\n\r\n0\r\n\r\n",
+        b"Content-Length: -1\r\n\r\n",
+        b"Content-Length: +2\r\n\r\n{}",
+        b"Content-Length: 2\r\nHost: evil.example\r\n\r\n{}",
+    ],
+)
+def test_a_body_that_two_servers_may_cut_differently_ends_the_connection(
+    client: httpx.Client, wrong: bytes
+) -> None:
+    """A proxy and the studio must not see different requests (request smuggling)."""
+    head = b"POST /api/v1/validate HTTP/1.1\r\nHost: %s\r\nContent-Type: application/json\r\n"
+    second = b"GET /api/v1/files HTTP/1.1\r\nHost: %s\r\n\r\n"
+    host = f"{client.base_url.host}:{client.base_url.port}".encode()
+    said = answers(client, head % host + wrong + second % host)
+    assert said.startswith(b"HTTP/1.1 400 ")
+    assert said.count(b"HTTP/1.1") == 1
+
+
+def answers(client: httpx.Client, request: bytes) -> bytes:
+    """Send bytes, and return all that comes back until the connection ends."""
+    with socket.create_connection((client.base_url.host, client.base_url.port), 10) as connection:
+        connection.sendall(request)
+        with connection.makefile("rb") as said:
+            return said.read()
+
+
+def test_headers_that_are_too_long_are_refused(client: httpx.Client) -> None:
+    answer = client.get("/files", headers={"x-note": "a" * 15_990})
+    assert answer.status_code == 431
+    assert "longer than 16000 bytes" in refused(answer)
+
+
+@pytest.mark.parametrize("drip", [b"", b" "])
+def test_a_body_that_comes_too_slowly_is_given_up(
+    client: httpx.Client, monkeypatch: pytest.MonkeyPatch, drip: bytes
+) -> None:
+    """A client is silent within a body, or sends a byte from time to time."""
+    monkeypatch.setattr("rightofway.studio.guard.STALLS", 0.3)
+    monkeypatch.setattr("rightofway.studio.guard.TAKES", 0.6)
+    host = f"{client.base_url.host}:{client.base_url.port}"
+    head = f"PUT /api/v1/files/slow.yaml HTTP/1.1\r\nHost: {host}\r\nContent-Length: 1000000\r\n"
+    with socket.create_connection((client.base_url.host, client.base_url.port), 10) as connection:
+        connection.sendall(f"{head}Content-Type: application/octet-stream\r\n\r\n".encode())
+        connection.settimeout(0.1)
+        said = b""
+        while not said:
+            with suppress(TimeoutError):
+                said = connection.recv(1000)
+            connection.sendall(drip)
+    assert said.startswith(b"HTTP/1.1 408 ")
+    assert client.get("/files").status_code == 200
+
+
+def test_a_stream_that_nobody_reads_is_ended(
+    client: httpx.Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("rightofway.studio.guard.UNREAD", 0.2)
+    monkeypatch.setattr("rightofway.studio.events.HEARTBEAT", 0.1)
+    monkeypatch.setattr("rightofway.studio.routes.planning._line", lambda _: "x" * 10**7)
+    host = f"{client.base_url.host}:{client.base_url.port}"
+    with socket.create_connection((client.base_url.host, client.base_url.port), 10) as connection:
+        connection.sendall(f"GET /api/v1/events HTTP/1.1\r\nHost: {host}\r\n\r\n".encode())
+        time.sleep(1)
+        connection.settimeout(2)
+        read = 0
+        while part := connection.recv(10**6):
+            read += len(part)
+    assert read < 2 * 10**7  # a part that is sent already is all there is
+
+
+def test_http_1_0_without_a_name_of_the_server_is_refused(client: httpx.Client) -> None:
+    assert answers(client, b"GET /api/v1/files HTTP/1.0\r\n\r\n").startswith(b"HTTP/1.1 421 ")
+
+
+def test_no_connection_becomes_a_websocket(client: httpx.Client) -> None:
+    upgrade = {"connection": "Upgrade", "upgrade": "websocket", "sec-websocket-version": "13"}
+    headers = {**upgrade, "sec-websocket-key": "dGhlIHNhbXBsZSBub25jZQ=="}
+    assert client.get("/files", headers=headers).status_code == 200
+    headers["origin"] = "http://evil.example"
+    assert client.get("/files", headers=headers).status_code == 403
+
+
+@pytest.mark.parametrize("is_after_another", [False, True])
+@pytest.mark.parametrize("part", ["", "GET /api/v1/files HTTP/1.1\r\nHost: "])
+def test_a_connection_without_a_whole_request_is_closed(
+    client: httpx.Client, monkeypatch: pytest.MonkeyPatch, part: str, *, is_after_another: bool
+) -> None:
+    monkeypatch.setattr("rightofway.studio.connections.PATIENCE", 0.3)
+    host = f"{client.base_url.host}:{client.base_url.port}"
+    whole = f"GET /api/v1/files HTTP/1.1\r\nHost: {host}\r\n\r\n" if is_after_another else ""
+    began = time.monotonic()
+    with suppress(ConnectionResetError):
+        answers(client, f"{whole}{part}".encode())
+    assert time.monotonic() - began < 8  # a connection that has had an answer may rest for 5 s

@@ -25,6 +25,9 @@ STRAIGHT = 2
 PIECE = re.compile("(.+)/[1-9][0-9]*")
 """The name of a vertex between two pieces of a lane."""
 
+MAX_PIECES = 1_000_000
+"""The most pieces that the lanes of a roadmap are split into."""
+
 
 class SplitLanes(NamedTuple):
     """A roadmap after its long lanes were split.
@@ -69,7 +72,7 @@ def split_lanes(
     Raises
     ------
     InputError
-        If a vertex has the name of a new one already.
+        If a vertex has the name of a new one already, or there would be too many.
 
     Examples
     --------
@@ -83,6 +86,11 @@ def split_lanes(
     for edge in edges:
         lane = _lane(edge, curves)
         longest[lane] = max(longest.get(lane, edge.length), edge.length)
+    count = 0 if spacing is None else sum(ceil(length / spacing) for length in longest.values())
+    if count > MAX_PIECES:
+        remedy = "give a larger spacing"
+        message = f"a spacing of {spacing} makes {count} pieces, more than {MAX_PIECES} ({remedy})"
+        raise InputError.at("", message)
     found, split = dict(positions), list[Edge]()
     pieces: dict[tuple[str, str], list[tuple[str, str]]] = {}
     ways: dict[Lane, tuple[list[str], list[Fraction], Fraction]] = {}

@@ -13,6 +13,7 @@ import json
 import re
 import secrets
 import sys
+import time
 from collections.abc import Awaitable, Callable, MutableMapping
 from contextlib import nullcontext
 from dataclasses import dataclass, field
@@ -32,6 +33,15 @@ MAX_BODY = 20_000_000
 LONGEST_PATH = 2000
 """The longest path of a request, with its query [bytes]."""
 
+LONGEST_HEAD = 16_000
+"""The headers of a request, all together [bytes]."""
+
+STALLS, TAKES = 10.0, 60.0
+"""A client may be silent that long within a body, and its body may take that long to come [s]."""
+
+UNREAD = 30.0
+"""A client that reads nothing of a stream of events for so long is hung up on [s]."""
+
 LARGE_BODY, MOST_LARGE = 1_000_000, 8
 """So many requests with a body of more bytes are worked on at once; the others wait."""
 
@@ -40,6 +50,12 @@ HTTP = 80
 
 COOKIE = "rightofway-token"
 """Where a browser keeps the token."""
+
+TOO_SLOW = 408
+"""The status of a request whose body does not come; its connection is closed."""
+
+CUT_OFF = {400, 413}
+"""Statuses of a refusal after which the rest of what a client has sent is not read."""
 
 READS = {"GET", "HEAD"}
 CHANGES = {"POST", "PUT", "PATCH", "DELETE"}
@@ -131,6 +147,11 @@ class _Request:
         length = self.header("content-length")
         return bool(self.header("transfer-encoding")) or int(length or 0) > LARGE_BODY
 
+    @property
+    def length_of_head(self) -> int:
+        """How long its headers are [bytes]."""
+        return sum(len(name) + len(value) for name, value in self.scope["headers"])
+
     def header(self, name: str) -> str:
         """Return a header, empty where there is none."""
         return self.headers.get(name.encode(), b"").decode("latin-1")
@@ -186,6 +207,8 @@ class Guard:
         raw = scope.get("raw_path") or scope["path"].encode()
         if len(raw) + len(scope["query_string"]) > LONGEST_PATH:
             raise Refused(f"the path is longer than {LONGEST_PATH} bytes (shorten it)", 414)
+        if request.length_of_head > LONGEST_HEAD:
+            raise Refused(f"the headers are longer than {LONGEST_HEAD} bytes (send fewer)", 431)
         if CLIMBS.search(unquote_to_bytes(raw)):
             raise Refused("the path has a part that climbs, or a control code (give plain names)")
         host, origin = request.header("host"), request.header("origin")
@@ -203,6 +226,9 @@ class Guard:
     @staticmethod
     def _judge_body(request: _Request, method: str) -> None:
         length = request.header("content-length")
+        if length and request.header("transfer-encoding"):
+            # A proxy before the studio may go by the other one, and see another request after it.
+            raise Refused("the body has a length and comes in chunks (give one of them)")
         if length and not (length.isascii() and length.isdecimal()):
             raise Refused(f"{length[:20]!r} is no length of a body (give a whole number)")
         if length and int(length[:20]) > MAX_BODY:
@@ -258,18 +284,34 @@ class Guard:
 
 
 class _Body:
-    """The body of a request, cut off where it is too long."""
+    """The body of a request, cut off where it is too long or comes too slowly."""
 
     def __init__(self, receive: Receive) -> None:
         self._receive = receive
         self._length = 0
+        self._waited = 0.0
+        self._is_whole = False
 
     async def receive(self) -> Message:
-        message = await self._receive()
+        message = await (self._receive() if self._is_whole else self._next_part())
         self._length += len(message.get("body", b""))
         if self._length > MAX_BODY:
             # As an exception of Starlette, because FastAPI takes any other one for broken JSON.
             raise HTTPException(413, f"the body is longer than {MAX_BODY} bytes (give less)")
+        return message
+
+    async def _next_part(self) -> Message:
+        began = time.monotonic()
+        try:
+            async with asyncio.timeout(min(STALLS, TAKES - self._waited)):
+                message = await self._receive()
+        except TimeoutError:
+            waited = f"{STALLS:g} s without a part, or {TAKES:g} s in all"
+            raise HTTPException(
+                TOO_SLOW, f"the body comes too slowly: {waited} (send again)"
+            ) from None
+        self._waited += time.monotonic() - began
+        self._is_whole = not message.get("more_body", False)
         return message
 
 
@@ -279,6 +321,7 @@ class _Answer:
     def __init__(self, send: Send) -> None:
         self._send = send
         self._has_begun = False
+        self._patience: float | None = None  # of one part [s]
 
     async def send(self, message: Message) -> None:
         if message["type"] == "http.response.start":
@@ -286,10 +329,18 @@ class _Answer:
             headers = list(message.get("headers", ()))
             known = {name.lower() for name, _ in headers}
             headers += [pair for pair in HEADERS if pair[0] not in known]
+            if message["status"] == TOO_SLOW:
+                headers.append((b"connection", b"close"))
             if b"content-security-policy" not in known:
                 headers.append((b"content-security-policy", POLICY.encode()))
             message = {**message, "headers": headers}
-        await self._send(message)
+            if dict(headers).get(b"content-type", b"").startswith(b"text/event-stream"):
+                self._patience = UNREAD
+        try:
+            async with asyncio.timeout(self._patience):
+                await self._send(message)
+        except TimeoutError:
+            raise Refused("nobody reads the events (listen again)", TOO_SLOW) from None
 
     async def refuse(self, status: int, error: dict[str, Any]) -> None:
         """Answer with an error, where the answer has not begun."""
@@ -300,7 +351,7 @@ class _Answer:
             (b"content-type", b"application/json"),
             (b"content-length", str(len(body)).encode()),
         ]
-        if status == 413:  # noqa: PLR2004 (the rest of the body is not read)
+        if status in CUT_OFF:
             headers.append((b"connection", b"close"))
         await self.send({"type": "http.response.start", "status": status, "headers": headers})
         await self.send({"type": "http.response.body", "body": body})

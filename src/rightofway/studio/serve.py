@@ -14,6 +14,7 @@ import uvicorn
 
 from rightofway.errors import InputError
 from rightofway.studio.app import create_app
+from rightofway.studio.connections import AT_ONCE, Connection, allow_descriptors
 from rightofway.studio.guard import Access
 from rightofway.studio.session import Studio
 
@@ -75,6 +76,7 @@ def serve(
     InputError
         If the address cannot be listened on.
     """
+    allow_descriptors()
     listener = bound(host, port)
     actual = listener.getsockname()[1]
     access = Access.on(host, actual)
@@ -90,6 +92,9 @@ def serve(
 
     config = uvicorn.Config(
         create_app(studio, access, has_page=has_page),
+        http=Connection,
+        ws="none",
+        backlog=AT_ONCE,
         log_level="critical",
         access_log=False,
         server_header=False,

@@ -91,7 +91,7 @@ class Workspace:
         given = PurePosixPath(name)
         parts = given.parts
         is_plain = bool(parts) and name == "/".join(parts) and not given.is_absolute()
-        if not is_plain or UNSAFE.search(name):
+        if not is_plain or UNSAFE.search(name) or not name.isprintable():
             raise Refused(f"{name!r} is no path in the folder (give names with / between)")
         if any(part.startswith(".") or part.endswith((".", " ")) for part in parts):
             raise Refused(f"{name!r} has a hidden part (give names that begin with no dot)")

@@ -196,8 +196,9 @@ def get_draft(studio: InStudio, name: str) -> dict[str, Any]:
 @router.put("/drafts/{name:path}", tags=["drafts"])
 def put_draft(studio: InStudio, name: str, draft: Draft) -> dict[str, Any]:
     """Keep what somebody draws; when the answer comes, it is on the disk."""
-    if not name or len(name) > 500:  # noqa: PLR2004
-        raise Refused("the name of a draft has from 1 to 500 characters (give such a name)")
+    if not (0 < len(name) <= 500 and name.isprintable()):  # noqa: PLR2004
+        remedy = "give from 1 to 500 characters that can be printed"
+        raise Refused(f"{name[:50]!r} is no name of a draft ({remedy})")
     known = studio.store.drafts()
     if len(known) >= MAX_DRAFTS and all(each["name"] != name for each in known):
         raise Busy(f"{len(known)} drafts are kept already (delete some)")

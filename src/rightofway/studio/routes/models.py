@@ -23,7 +23,14 @@ RunNumber = Annotated[int, Path(ge=1, le=2**53, description="number of a run")]
 FilePath = Annotated[str, Path(description="path in the folder, with / between names")]
 Document = Annotated[dict[str, Any], Field(description="a scenario, as in a YAML or JSON file")]
 Folder = Annotated[str, Field("", description="folder of the document, for files that it names")]
-Name = Annotated[str, Field(max_length=200, description="a name of at most 200 characters")]
+Name = Annotated[
+    str,
+    Field(
+        max_length=200,
+        pattern=r"^[^\p{C}\p{Zl}\p{Zp}]*$",
+        description="a name of at most 200 characters that can be printed",
+    ),
+]
 MAX_SECONDS = 3600
 GZIP = b"\x1f\x8b"
 """What compressed bytes begin with."""

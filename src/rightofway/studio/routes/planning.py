@@ -348,7 +348,8 @@ def command_of(run: Run) -> str:
     if run.kind in {"opened", "flip"}:
         raise Refused(f"run {run.number} was not made by a command (export its plan)", 404)
     unnamed = "scenario.yaml" if run.kind in {"plan", "laps"} else "plan.json"
-    words.append(run.source or unnamed)
+    source = run.source or unnamed
+    words.append(f"./{source}" if source.startswith("-") else source)
     if run.kind in {"plan", "improve"}:
         default = DEFAULT if run.kind == "plan" else IMPROVER
         words += ["--planner", request.get("planner", default)]
