@@ -46,6 +46,7 @@ SLOW = (
     "laws/test_workbook_fuzz.py",
     "planners/test_limits.py",  # limits of time, and interrupts
     "studio/test_attacks.py",  # thousands of requests
+    "studio/test_bombs.py",  # a studio, and a browser
     "studio/test_documents.py",  # a process for each studio
     "studio/test_plans_page.py",  # a browser
     "studio/test_page.py",  # a browser

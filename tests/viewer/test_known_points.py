@@ -109,7 +109,7 @@ def test_a_turned_picture_lies_below_a_roadmap_that_is_not_turned(
 def test_the_picture_of_a_layout_is_painted(show: Opener, tmp_path: Path) -> None:
     for name in ("room.yaml", "room.pgm"):
         copy(LAYOUTS / name, tmp_path)
-    viewer = show(plan_on({"layout": "room.yaml"}, "N3", "N3", tmp_path))
+    viewer = show(plan_on({"layout": "room.yaml", "cell_size": 1}, "N3", "N3", tmp_path))
     viewer.wait_for("mapView.base.paintings > 1")  # again, once the picture is there
     assert viewer.complaints == []
 

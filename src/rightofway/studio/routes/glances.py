@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Path, Query, Response
 
 from rightofway.cli.examples import example_names, examples_folder, first_sentence
-from rightofway.studio.errors import Refused
+from rightofway.studio.errors import Refused, TaskFailed
 from rightofway.studio.routes.models import InStudio
 from rightofway.studio.session import Studio
 
@@ -49,13 +49,19 @@ async def glance(
 ) -> Response:
     """Return what a file, draft or example is: kind, robots, extent, and a picture of its map.
 
-    The answer is kept until the file changes.
+    Of a file that cannot be read, ``trouble`` says why: that is no fault of a list. The answer is
+    kept until the file changes.
     """
     arguments, revision = _asked(studio, source, name)
 
     async def make() -> bytes:
-        async with studio.glancing:
-            about, blobs = await studio.ask("glance", dark=dark, **arguments)
+        try:
+            async with studio.glancing:
+                about, blobs = await studio.ask("glance", dark=dark, **arguments)
+        except TaskFailed as failed:
+            if failed.error["kind"] != "input":
+                raise
+            return json.dumps({"trouble": failed.error["message"]}).encode()
         picture = "data:image/png;base64," + base64.b64encode(blobs[0]).decode()
         return json.dumps({**about, "picture": picture}).encode()
 
