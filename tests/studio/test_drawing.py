@@ -270,17 +270,21 @@ def test_a_picture_below_a_roadmap_gets_scale_and_origin_by_presses(lanes: Studi
     lanes.tab("Map")
     lanes.page.get_by_label("Choose a picture to draw over").set_input_files(png)
     lanes.wait_for("Boolean(studio.backdrop.image)")
-    scale = lanes.ask("studio.backdrop.place.scale")
+    lanes.settle()
+    before = lanes.document["map"]["picture"]
+    assert before["file"] == "door.png"
     lanes.button("Scale by two places").click()
     lanes.press((1, 0))
     lanes.press((3, 0))
     lanes.page.get_by_label("Their distance").fill("4")
     lanes.button("Apply").click()
-    assert lanes.ask("studio.backdrop.place.scale") == pytest.approx(2 * scale, rel=0.02)
-    left = lanes.ask("studio.backdrop.place.left")
+    lanes.settle()
+    scaled = lanes.document["map"]["picture"]
+    assert scaled["scale"] == pytest.approx(2 * before["scale"], rel=0.02)
     lanes.button("Set the origin").click()
     lanes.press((1, 0))
-    assert lanes.ask("studio.backdrop.place.left") == pytest.approx(left - 1, abs=0.02)
+    moved = lanes.document["map"]["picture"]["origin"]
+    assert moved[0] == pytest.approx(scaled["origin"][0] - 1, abs=0.02)
     assert lanes.complaints == []
 
 

@@ -32,7 +32,7 @@ KINDS = {
     **dict.fromkeys((".xml", ".graphml", ".geojson", ".csv", ".map"), "layout"),
     ".scen": "scenario",
     ".txt": "document",
-    **dict.fromkeys((".png", ".pgm", ".jpg", ".jpeg", ".bmp"), "picture"),
+    **dict.fromkeys((".png", ".pgm", ".jpg", ".jpeg", ".bmp", ".webp"), "picture"),
 }
 """Which files a list holds, by their endings; what is in them is seen when they are opened."""
 

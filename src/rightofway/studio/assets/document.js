@@ -60,10 +60,10 @@ export class ScenarioStore extends Observable {
   }
 
   /** Change the document by a function; nothing happens if it returns what it was given. */
-  change(edit) {
+  change(edit, { isSame = false } = {}) {
     const next = edit(this.document);
     if (next === this.document) return;
-    this.#past.push(this.document);
+    if (!isSame) this.#past.push(this.document); // else one undo takes it back with the change before
     this.#future = [];
     this.#show(next);
     this.tell("edit");

@@ -14,6 +14,7 @@ export const TOOL_KEYS = {
   lane: "l",
   mark: "s",
   robot: "a",
+  measure: "m",
 };
 
 const TOOL_OF = Object.fromEntries(Object.entries(TOOL_KEYS).map(([tool, key]) => [key, tool]));

@@ -5,6 +5,7 @@ import { Header } from "./header.js";
 import { Help } from "./help.js";
 import { listenToKeys } from "./keys.js";
 import { Notice } from "./notices.js";
+import { ContextMenu } from "./draw/context_menu.js";
 import { MapPanel } from "./draw/panel.js";
 import { PlanPanel } from "./runs/panel.js";
 import { Rail } from "./draw/rail.js";
@@ -72,6 +73,7 @@ function App() {
     </aside>
     ${studio && isStarting && html`<${Start} studio=${studio} />`}
     ${studio && html`<${Notice} notices=${studio.notices} />`}
+    ${studio?.editor.menu && html`<${ContextMenu} studio=${studio} />`}
     ${studio?.isHelping && html`<${Help} studio=${studio} />`}`;
 }
 

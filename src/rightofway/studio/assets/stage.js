@@ -19,7 +19,7 @@ const LEGENDS = `<div class="legends">
 <div id="bottleneck-legend" class="lit-legend" hidden><span class="lit"></span><span class="name"></span></div></div>
 <div id="hover" class="hover" aria-live="off" hidden></div>`;
 
-/** Events: `show` when another map is drawn, `choice`, `underlay` and `overlay` to paint below and above the map (with `context`). */
+/** Events: `show` when another map is drawn, `choice`, `overlay` to paint above the map (with `context`). */
 export class Stage extends Observable {
   /** All that is in `holder`, `below` and `time` is of the stage. */
   constructor({ holder, below, time, card }) {
@@ -111,13 +111,12 @@ export class Stage extends Observable {
     canvas.setAttribute("role", "application");
     canvas.setAttribute("aria-roledescription", texts.mapRole);
     canvas.setAttribute("aria-describedby", "hover");
-    this.under = Object.assign(document.createElement("canvas"), { ariaHidden: "true" });
     this.over = Object.assign(document.createElement("canvas"), {
       className: "over",
       ariaHidden: "true",
     });
     this.holder.innerHTML = LEGENDS;
-    this.holder.prepend(this.under, canvas, this.over);
+    this.holder.prepend(canvas, this.over);
     if (hadFocus) canvas.focus();
     return canvas;
   }
@@ -143,7 +142,6 @@ export class Stage extends Observable {
     this.last = clock.playing ? now : 0;
     if (!this.holder.clientWidth || !this.holder.clientHeight) return; // it is not in sight
     motion.moveTo(clock.tick);
-    this.#paintOn(this.under, "underlay");
     view.paint();
     this.#paintOn(this.over, "overlay");
     this.player?.paint();
@@ -151,7 +149,7 @@ export class Stage extends Observable {
     if (clock.playing) this.ask();
   }
 
-  /** What others paint below or above the map, in units of the drawing. */
+  /** What others paint above the map, in units of the drawing. */
   #paintOn(canvas, event) {
     const { view } = this;
     const { ratio } = fitCanvas(canvas);

@@ -3,6 +3,7 @@
 import { address, get } from "./api.js";
 import { ScenarioStore } from "./document.js";
 import { Backdrop } from "./draw/backdrop.js";
+import { Clipboard } from "./draw/clipboard.js";
 import { Editor } from "./draw/editor.js";
 import { Notices } from "./notices.js";
 import { FormerRoute } from "./runs/former.js";
@@ -36,6 +37,7 @@ export class Studio extends Observable {
     this.notices = new Notices();
     this.notices.watch(this.store, () => this.editor.tool.frees);
     this.former = new FormerRoute(this.runs, this.stage);
+    this.clipboard = new Clipboard(this.editor);
     for (const [source, ...events] of [
       [this.store, "document", "survey", "findings"],
       [this.runs, "runs"],

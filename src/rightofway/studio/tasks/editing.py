@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections import OrderedDict
 from collections.abc import Hashable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -14,17 +15,22 @@ from rightofway.errors import InputError, InputFault
 from rightofway.io import Loaded, dump_scenario
 from rightofway.io.faults import checked
 from rightofway.io.scenario.maps import map_of
+from rightofway.io.scenario.picture import with_picture
 from rightofway.io.sites import sites_of
 from rightofway.metrics import Inspection, Site, inspect, sentences
 from rightofway.model import Units
 from rightofway.studio.messages import Blobs, Emit, fault_data, zipped
 from rightofway.studio.tasks.documents import loaded_of, plain
 from rightofway.viz import site_data
+from rightofway.viz.page.background import background_of, background_place
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import closure_data
 from rightofway.viz.palette import robot_colours
 
 Result = tuple[Any, ...]
+
+SHOWN = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
+"""Endings of pictures that a browser shows as they are."""
 
 ROBOT = re.compile(r"robots\[(\d+)\]")
 
@@ -60,7 +66,7 @@ def surveyed(
         "sentences": [],
     }
     if site is not None:
-        drawn = site_data(site)
+        drawn = _drawn(site)
         colours = robot_colours(1 + max(kept, default=0))
         for robot, index in zip(drawn["robots"], kept, strict=False):
             robot |= {"index": index, "colour": colours[index]}
@@ -98,6 +104,18 @@ def readable(
         return *_without(document, folder, error.faults), error.faults
 
 
+def _drawn(site: Site) -> dict[str, Any]:
+    """Return a site for the editor, which has the picture of a scenario in its own memory."""
+    roadmap = site.roadmap
+    picture, background = roadmap.drawing.picture, background_of(roadmap)
+    if background is None or picture is None or not picture.name.lower().endswith(SHOWN):
+        return site_data(site)
+    bare = replace(roadmap, drawing=replace(roadmap.drawing, picture=None))
+    drawn = site_data(replace(site, roadmap=bare))
+    drawn["map"]["background"] = background_place(roadmap, background)
+    return drawn
+
+
 def _robots(document: dict[str, Any]) -> range:
     robots = document.get("robots")
     return range(len(robots) if isinstance(robots, list) else 0)
@@ -122,17 +140,27 @@ def _without(
 
 
 def drawn_map(document: dict[str, Any], folder: str) -> Site | None:
-    """Return the map of a document whose robots cannot be read; None if it cannot either."""
-    from rightofway.io.scenario.shape import MapDocument, UnitsDocument
+    """Return the map of a document whose robots cannot be read; None if it cannot either.
 
+    A picture that has a fault is left out.
+    """
+    from rightofway.io.scenario.shape import MapDocument, PictureDocument, UnitsDocument
+
+    drawn = document.get("map")
+    picture = drawn.get("picture") if isinstance(drawn, dict) else None
+    if isinstance(drawn, dict):
+        drawn = {key: value for key, value in drawn.items() if key != "picture"}
     try:
         given = checked(UnitsDocument, document.get("units") or {}).given("length", "time")
-        drawn = checked(MapDocument, document.get("map"))
-        loaded = map_of(drawn, [Fraction(1)], Path(folder), Units(**given), lambda: Fraction(0))
+        shape = checked(MapDocument, drawn)
+        loaded = map_of(shape, [Fraction(1)], Path(folder), Units(**given), lambda: Fraction(0))
     except InputError:
         return None
     if loaded is None:
         return None
+    if picture is not None:
+        with contextlib.suppress(InputError):
+            loaded = with_picture(loaded, checked(PictureDocument, picture), Path(folder))
     units = loaded.units if loaded.units.length else Units(**given)
     return Site(roadmap=loaded.roadmap, units=units)
 

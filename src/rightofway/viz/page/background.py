@@ -151,6 +151,34 @@ def place_of(roadmap: Roadmap, background: Background, columns: int, rows: int) 
     return {**found, "turn": turn} if turn else found
 
 
+def background_place(roadmap: Roadmap, background: Background) -> dict[str, Any]:
+    """Return where a picture lies in the drawing, for a page that has the picture itself.
+
+    Parameters
+    ----------
+    roadmap, background
+        As for `background_data`.
+
+    Returns
+    -------
+    dict
+        As from `background_data`, without ``href``.
+
+    Raises
+    ------
+    InputError
+        If the file is no picture that can be read.
+    """
+    from PIL import Image
+
+    try:
+        with Image.open(background.picture) as image:
+            place = place_of(roadmap, background, *image.size)
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+        raise unreadable(background.picture) from error
+    return {"opacity": background.opacity, **place}
+
+
 def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
     """Return a picture as data URI, and its size [pixels]."""
     from PIL import Image

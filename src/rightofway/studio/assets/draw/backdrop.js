@@ -1,96 +1,181 @@
-/** A picture below a roadmap that is being drawn: its scale by two places and their distance, its origin by one. */
+/** The picture below the map: chosen, laid by presses on it, and kept in the scenario. */
 
-import { inAddress, upload } from "../api.js";
-import { html, useState } from "../vendor/htm-preact.js";
+import { get, inAddress, upload } from "../api.js";
+import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
-import { toDrawing } from "./places.js";
+import { isNetwork, withoutKey } from "./network.js";
+import { numberOf, rounded, toDrawing } from "./places.js";
 
-const FIRST_SHARE = 0.8; // of the map's pane that a new picture takes
+const FIRST_SHARE = 0.8; // of the map's pane that a picture takes below a roadmap, which has no size of its own
+const LARGEST = 4096; // pixels of the longer side that are kept in memory
+const USUAL_OPACITY = 0.6;
 
-/** Kept for the file in this browser: it is for drawing only, and no part of the scenario. */
+/** The document says which picture, the library where it lies on the map; the viewer draws it. */
 export class Backdrop {
   image = null; // an ImageBitmap
-  place = null; // { file, left, top, scale }: corner on the site [length unit], length units in a pixel
 
   constructor(store, stage) {
     Object.assign(this, { store, stage });
-    this.of = 0;
-    stage.on("underlay", () => this.#paint());
-    store.on("document", () => store.opened !== this.of && this.#open());
+    store.on("document", () => this.#load());
+    stage.on("show", () => this.#give());
   }
 
-  get #key() {
-    return `backdrop ${this.store.folder} ${this.store.path}`;
+  #shown = ""; // the address of the image
+
+  get picture() {
+    return this.store.document?.map?.picture ?? null;
   }
 
-  /** Take a picture, put it into the folder, and show it in the middle of what is seen. */
+  /** Put a picture into the scenario's folder, and lay the map over it. */
   async take(file) {
-    const { path } = await upload(file, file.name, { replace: true });
-    this.image = await createImageBitmap(file);
+    const { store } = this;
+    const name = await this.#kept(file);
+    const { width, height } = await createImageBitmap(file);
+    const laid = isNetwork(store.document) ? this.#inSight(width, height) : {}; // else as wide as the map
+    this.#put({ file: name, ...laid });
+  }
+
+  /** Put a file beside the scenario: under its name, or with a number where another picture has it. */
+  async #kept(file) {
+    const { files } = await get("/files");
+    const taken = new Set(files.map(({ path }) => path));
+    const [, stem, ending = ""] = /^(.*?)(\.[^.]*)?$/.exec(file.name);
+    let name = file.name;
+    for (let number = 2; taken.has(this.#path(name)); number++) {
+      if (await isSame(file, this.#address(name))) return name;
+      name = `${stem}-${number}${ending}`;
+    }
+    await upload(file, this.#path(name));
+    return name;
+  }
+
+  #path(name) {
+    const parts = [];
+    for (const part of [...this.store.folder.split("/"), ...name.split("/")]) {
+      if (part === "..") parts.pop();
+      else if (part && part !== ".") parts.push(part);
+    }
+    return parts.join("/");
+  }
+
+  #address(name) {
+    return `/api/v1/files/${inAddress(this.#path(name))}`;
+  }
+
+  /** Scale and origin of a picture in the middle of what is seen. */
+  #inSight(width, height) {
     const { viewport, roadmap } = this.stage.view;
     const { clientWidth, clientHeight } = this.stage.canvas;
-    const pixels =
-      Math.max(this.image.width / clientWidth, this.image.height / clientHeight) / FIRST_SHARE;
-    const scale = roadmap.unit / viewport.scale / pixels;
+    const pixels = Math.max(width / clientWidth, height / clientHeight) / FIRST_SHARE;
     const corner = [
-      (clientWidth - this.image.width / pixels) / 2,
-      (clientHeight - this.image.height / pixels) / 2,
+      viewport.toX((clientWidth - width / pixels) / 2),
+      viewport.toY((clientHeight + height / pixels) / 2),
     ];
-    const [left, top] = roadmap.toSite(viewport.toX(corner[0]), viewport.toY(corner[1]));
-    this.#put({ file: path, left, top, scale });
+    return {
+      scale: rounded(roadmap.unit / viewport.scale / pixels),
+      origin: roadmap.toSite(...corner).map(rounded),
+    };
+  }
+
+  /** Length of a pixel and the lower left corner on the site, written or as the library found them. */
+  #laid() {
+    const { background } = this.stage.plan.roadmap;
+    const { roadmap } = this.stage.view;
+    const { scale, origin } = this.picture;
+    return {
+      scale: numberOf(scale, (background.width * roadmap.unit) / this.columns),
+      origin: origin?.map((length) => numberOf(length)) ?? roadmap.toSite(...leftLow(background)),
+    };
   }
 
   /** Let two places of the site be a distance apart; the first one stays where it is. */
   rescale([one, other], distance) {
-    const { left, top, scale, file } = this.place;
+    const { scale, origin } = this.#laid();
     const factor = distance / Math.hypot(other[0] - one[0], other[1] - one[1]);
     this.#put({
-      file,
-      left: one[0] + (left - one[0]) * factor,
-      top: one[1] + (top - one[1]) * factor,
-      scale: scale * factor,
+      ...this.picture,
+      scale: rounded(scale * factor),
+      origin: origin.map((length, axis) => rounded(one[axis] + (length - one[axis]) * factor)),
     });
   }
 
-  /** Let a place of the site be the origin. */
-  setOrigin([x, y]) {
-    this.#put({ ...this.place, left: this.place.left - x, top: this.place.top - y });
+  /** Lay the picture so that what is at one place of the site comes to lie at another one. */
+  move([from, to]) {
+    const { scale, origin } = this.#laid();
+    this.#put({
+      ...this.picture,
+      scale: rounded(scale),
+      origin: origin.map((length, axis) => rounded(length + to[axis] - from[axis])),
+    });
+  }
+
+  /** Let the picture be as wide as the map again. */
+  fit() {
+    const { scale, origin, ...rest } = this.picture;
+    this.#put(rest);
+  }
+
+  setOpacity(opacity) {
+    this.#put({ ...this.picture, opacity });
   }
 
   remove() {
-    this.image = this.place = null;
-    localStorage.removeItem(this.#key);
-    this.stage.ask();
+    this.store.change((document) => ({ ...document, map: withoutKey(document.map, "picture") }));
   }
 
-  #put(place) {
-    this.place = place;
-    localStorage.setItem(this.#key, JSON.stringify(place));
-    this.stage.ask();
+  #put(picture) {
+    this.store.change((document) => ({
+      ...document,
+      map: { ...document.map, picture },
+    }));
   }
 
-  async #open() {
-    this.of = this.store.opened;
-    this.image = this.place = null;
-    const place = JSON.parse(localStorage.getItem(this.#key) ?? "null");
-    if (!place) return;
-    const answer = await fetch(`/api/v1/files/${inAddress(place.file)}`);
-    if (!answer.ok) return;
-    const image = await createImageBitmap(await answer.blob());
-    Object.assign(this, { place, image });
-    this.stage.ask();
+  async #load() {
+    const address = this.picture?.file ? this.#address(this.picture.file) : "";
+    if (address === this.#shown) return;
+    this.#shown = address;
+    this.image = null;
+    const image = address && (await pictureAt(address));
+    if (!image || address !== this.#shown) return;
+    Object.assign(this, image);
+    this.#give();
+    this.stage.repaint();
   }
 
-  #paint() {
-    const { image, place, stage } = this;
-    if (!image) return;
-    const { roadmap } = stage.plan;
-    const [x, y] = toDrawing(roadmap, place.left, place.top);
-    const side = place.scale / roadmap.unit;
-    stage.context.globalAlpha = 0.6;
-    stage.context.drawImage(image, x, y, image.width * side, image.height * side);
-    stage.context.globalAlpha = 1;
+  /** The map that is shown takes the picture from memory; that of a plan may bring its own. */
+  #give() {
+    const background = this.stage.plan?.roadmap.background;
+    if (background && !background.href) background.image = this.image;
   }
+}
+
+/** The lower left corner of a picture in the drawing. */
+const leftLow = ({ x, y, height, turn = 0 }) => [
+  x - height * Math.sin(turn),
+  y + height * Math.cos(turn),
+];
+
+/** A picture of the folder, made smaller if it is large; null if there is none that a browser shows. */
+async function pictureAt(address) {
+  const answer = await fetch(address);
+  if (!answer.ok) return null;
+  const whole = await createImageBitmap(await answer.blob()).catch(() => null);
+  if (!whole) return null;
+  const share = Math.min(LARGEST / Math.max(whole.width, whole.height), 1);
+  const image =
+    share < 1
+      ? await createImageBitmap(whole, { resizeWidth: Math.round(whole.width * share) })
+      : whole;
+  return { image, columns: whole.width };
+}
+
+async function isSame(file, address) {
+  const answer = await fetch(address);
+  if (!answer.ok) return false;
+  const [one, other] = await Promise.all([file.arrayBuffer(), answer.arrayBuffer()]);
+  if (one.byteLength !== other.byteLength) return false;
+  const [a, b] = [new Uint8Array(one), new Uint8Array(other)];
+  return a.every((byte, i) => byte === b[i]);
 }
 
 /** Places of the site that are pressed one after the other, until there are enough. */
@@ -107,24 +192,28 @@ export class PickTool {
     return this.points.length > 0;
   }
 
-  /** Ask for a number of places; `done` is called with them. */
-  ask(count, done) {
-    Object.assign(this, { count, done, points: [] });
+  /** Ask for places, each by a sentence; `done` is called with them. */
+  ask(sentences, done) {
+    Object.assign(this, { sentences, done, points: [], over: null });
     this.editor.tool = this;
-    this.editor.say(words.pickPoint(count));
+    this.editor.say(sentences[0]);
   }
 
   press() {}
 
-  drag() {}
+  drag(point) {
+    this.hover(point);
+  }
 
-  hover() {}
+  hover(point) {
+    this.over = this.editor.roadmap.toSite(point.x, point.y);
+  }
 
   release(point) {
     const { editor } = this;
     this.points.push(editor.roadmap.toSite(point.x, point.y));
-    editor.say(words.pickPoint(this.count - this.points.length));
-    if (this.points.length < this.count) return;
+    editor.say(this.sentences[this.points.length]);
+    if (this.points.length < this.sentences.length) return;
     const { points, done } = this;
     this.cancel();
     editor.take("select");
@@ -132,58 +221,81 @@ export class PickTool {
   }
 
   cancel() {
-    this.points = [];
+    Object.assign(this, { points: [], over: null });
   }
 
   paint(context, theme, scale) {
+    const { roadmap } = this.editor;
     context.strokeStyle = theme.held;
     context.lineWidth = 2 / scale;
-    for (const point of this.points) {
-      const [x, y] = toDrawing(this.editor.roadmap, ...point);
-      const reach = 9 / scale;
-      context.beginPath();
-      for (const [right, down] of [
-        [1, 0],
-        [0, 1],
-      ]) {
-        context.moveTo(x - right * reach, y - down * reach);
-        context.lineTo(x + right * reach, y + down * reach);
-      }
-      context.stroke();
+    const reach = 9 / scale;
+    context.beginPath();
+    for (const point of [...this.points, ...(this.over ? [this.over] : [])]) {
+      const [x, y] = toDrawing(roadmap, ...point);
+      context.moveTo(x - reach, y);
+      context.lineTo(x + reach, y);
+      context.moveTo(x, y - reach);
+      context.lineTo(x, y + reach);
     }
+    if (this.points.length && this.over) {
+      context.moveTo(...toDrawing(roadmap, ...this.points.at(-1)));
+      context.lineTo(...toDrawing(roadmap, ...this.over));
+    }
+    context.stroke();
   }
 }
 
 export function BackdropPanel({ studio }) {
-  const { backdrop, editor } = studio;
+  const { backdrop, editor, store } = studio;
+  const { picture } = backdrop;
   const [points, setPoints] = useState(null);
+  const pick = (sentences, done) => editor.tools.get("pick").ask(sentences, done);
+  const choose = ({ target }) =>
+    target.files.length && studio.attempt(() => backdrop.take(target.files[0]));
+  const button = (text, action) =>
+    html`<button type="button" class="framed" onClick=${action}>${text}</button>`;
+  const rescale = (distance) => {
+    backdrop.rescale(points, distance);
+    setPoints(null);
+  };
+  const wrong = store.faultsAt("map.picture");
+  return html`
+    <section class="backdrop"><h2>${words.backdrop}</h2>
+      ${
+        !picture
+          ? html`<label class="wide">${words.choosePicture}<input type="file" accept="image/png,image/jpeg,image/webp,image/bmp" onChange=${choose} /></label>`
+          : html`
+        <div class="fields">
+          <span class="hint">${picture.file}</span>
+          <label>${words.opacity}<input type="range" min="0.1" max="1" step="0.05" value=${numberOf(picture.opacity, USUAL_OPACITY)}
+            onChange=${({ target }) => backdrop.setOpacity(Number(target.value))} /></label>
+        </div>
+        <div class="buttons">
+          ${backdrop.image && button(words.setScale, () => pick(words.pickScale, setPoints))}
+          ${backdrop.image && button(words.movePicture, () => pick(words.pickMove, (two) => backdrop.move(two)))}
+          ${backdrop.image && button(words.setOrigin, () => pick(words.pickOrigin, ([origin]) => backdrop.move([origin, [0, 0]])))}
+          ${picture.scale !== undefined && !isNetwork(store.document) && button(words.fitPicture, () => backdrop.fit())}
+          ${button(words.removePicture, () => backdrop.remove())}
+        </div>
+        ${points && html`<${Distance} unit=${store.document.units?.length ?? ""} onGiven=${rescale} />`}`
+      }
+      ${wrong.map(({ message }) => html`<p class="wrong" role="alert">${message}</p>`)}
+    </section>`;
+}
+
+/** The distance of the two places that were pressed. */
+function Distance({ unit, onGiven }) {
   const [distance, setDistance] = useState(1);
-  const pick = (count, done) => editor.tools.get("pick").ask(count, done);
-  const change = (action) => {
-    action();
-    studio.tell("change");
+  const field = useRef(null);
+  useEffect(() => field.current.select(), []);
+  const give = (event) => {
+    event.preventDefault();
+    onGiven(distance);
   };
   return html`
-    <section><h2>${words.backdrop}</h2>
-      ${
-        !backdrop.image
-          ? html`<label class="wide">${words.choosePicture}<input type="file" accept="image/png,image/jpeg,image/bmp"
-        onChange=${({ target }) => studio.attempt(() => backdrop.take(target.files[0]))} /></label>`
-          : html`
-        <div class="buttons">
-          <button type="button" class="framed" onClick=${() => pick(2, setPoints)}>${words.setScale}</button>
-          <button type="button" class="framed" onClick=${() => pick(1, ([origin]) => change(() => backdrop.setOrigin(origin)))}>${words.setOrigin}</button>
-          <button type="button" class="framed" onClick=${() => change(() => backdrop.remove())}>${words.removePicture}</button>
-        </div>
-        ${
-          points &&
-          html`<form class="fields" onSubmit=${(event) => {
-            event.preventDefault();
-            change(() => backdrop.rescale(points, distance));
-            setPoints(null);
-          }}><label>${words.distance}<input type="number" required min="0.001" step="any" value=${distance} onInput=${({ target }) => setDistance(Number(target.value))} /></label>
-          <button type="submit" class="framed strong">${words.apply}</button></form>`
-        }`
-      }
-    </section>`;
+    <form class="fields" onSubmit=${give}>
+      <label>${words.distance}<span><input type="number" required min="0.001" step="any" value=${distance} ref=${field}
+        onInput=${({ target }) => setDistance(Number(target.value))} /> ${unit}</span></label>
+      <button type="submit" class="framed strong">${words.apply}</button>
+    </form>`;
 }

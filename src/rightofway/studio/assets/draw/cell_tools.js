@@ -1,16 +1,19 @@
 /** Tools for walls: brush, box, line, door, eraser. They collect cells while they are drawn. */
 
 import { cellsOfBox, cellsOfLine } from "./ground.js";
+import { lengthText } from "./readout.js";
+import { guidesOfCell, paintGuides } from "./snapping.js";
 
 /** A tool that collects cells from press to release, and then changes them. */
 class CellTool {
   isDrawn = true; // from a place to another one, with the keyboard too
+  start = null;
+  end = null; // the cell that was reached last
+  over = null; // the cell below the pointer
 
   constructor(editor) {
     this.editor = editor;
-    this.cells = [];
-    this.start = null;
-    this.over = null; // the cell below the pointer
+    this.cells = new Map();
   }
 
   get isBusy() {
@@ -19,73 +22,102 @@ class CellTool {
 
   press(point) {
     const cell = this.editor.ground.cellAt(point.x, point.y);
-    this.start = cell;
-    this.cells = this.collect(cell, []);
+    this.cells = new Map();
+    this.start = this.end = cell;
+    this.#reach(cell);
   }
 
   drag(point) {
-    if (this.start)
-      this.cells = this.collect(this.editor.ground.cellAt(point.x, point.y), this.cells);
+    if (this.start) {
+      const cell = this.aimed(this.editor.ground.cellAt(point.x, point.y), point);
+      if (cell[0] !== this.end[0] || cell[1] !== this.end[1]) this.#reach(cell);
+    }
     this.hover(point);
+  }
+
+  /** The cell that is meant by the one below the pointer. */
+  aimed(cell) {
+    return cell;
   }
 
   hover(point) {
     this.over = this.editor.ground?.cellAt(point.x, point.y) ?? null;
   }
 
+  #reach(cell) {
+    const { ground } = this.editor;
+    if (!this.keeps) this.cells.clear();
+    for (const each of this.collect(this.end, cell))
+      if (ground.holds(each)) this.cells.set(each.join(), each);
+    this.end = cell;
+  }
+
   release() {
     if (!this.start) return;
-    const { cells, editor } = this;
-    const boxes = this.#boxes();
-    this.start = null;
-    this.cells = [];
+    const { editor } = this;
+    const cells = [...this.cells.values()];
+    const path = this.#path();
+    this.cancel();
     const before = editor.document;
     editor.store.change((document) => this.apply(editor.ground, document, cells));
-    if (editor.document !== before)
-      editor.done = (context, scale) => this.#fill(context, boxes, scale, 1);
+    if (editor.document !== before) editor.done = (context) => this.#fill(context, path, 1);
   }
 
   cancel() {
-    this.start = null;
-    this.cells = [];
+    this.start = this.end = null;
+    this.cells = new Map();
   }
 
   paint(context, theme, scale) {
-    if (this.start) this.#fill(context, this.#boxes(), scale, 0.75);
-    else if (this.over && this.editor.ground?.holds(this.over)) {
+    const { editor, over } = this;
+    if (this.start) {
+      this.#fill(context, this.#path(), 0.75);
+      paintGuides(context, editor, guidesOfCell(editor, this.end), scale);
+    } else if (over && editor.ground?.holds(over)) {
       context.strokeStyle = theme.muted;
       context.lineWidth = 1.5 / scale;
-      context.strokeRect(...this.editor.ground.boxOf(this.over));
+      context.strokeRect(...editor.ground.boxOf(over));
+      if (!this.keeps) paintGuides(context, editor, guidesOfCell(editor, over), scale);
     }
   }
 
-  #boxes() {
-    const { ground } = this.editor;
-    return this.cells.filter((cell) => ground.holds(cell)).map((cell) => ground.boxOf(cell));
+  #path() {
+    const { ground, stage } = this.editor;
+    const path = new Path2D();
+    const more = 0.5 / stage.view.viewport.scale; // no hairline between two cells
+    for (const cell of this.cells.values()) {
+      const [left, top, width, height] = ground.boxOf(cell);
+      path.rect(left, top, width + more, height + more);
+    }
+    return path;
   }
 
-  #fill(context, boxes, scale, opacity) {
+  #fill(context, path, opacity) {
     const { theme } = this.editor.stage;
     context.globalAlpha = opacity;
     context.fillStyle = this.frees ? theme.floor : theme.wall;
-    for (const [left, top, width, height] of boxes)
-      context.fillRect(left, top, width + 0.5 / scale, height + 0.5 / scale);
+    context.fill(path);
     context.globalAlpha = 1;
   }
 
   apply(ground, document, cells) {
     return this.frees ? ground.free(document, cells) : ground.block(document, cells);
   }
+
+  /** How wide and high what is drawn is [length unit]. */
+  get span() {
+    const { start, end, editor } = this;
+    const step = editor.ground.side * editor.roadmap.unit;
+    return [0, 1].map((axis) => (Math.abs(end[axis] - start[axis]) + 1) * step);
+  }
 }
 
 export class BrushTool extends CellTool {
   static called = "brush";
-  last = null;
+  keeps = true; // the cells that it was dragged over before
 
-  collect(cell, cells) {
-    const from = cells.length ? this.last : cell;
-    this.last = cell;
-    return [...cells, ...cellsOfLine(from, cell)];
+  collect(from, cell) {
+    return cellsOfLine(from, cell);
   }
 }
 
@@ -97,16 +129,46 @@ export class EraseTool extends BrushTool {
 export class BoxTool extends CellTool {
   static called = "box";
 
-  collect(cell) {
+  /** With Shift a square. */
+  aimed(cell, { isMore }) {
+    if (!isMore) return cell;
+    const way = cell.map((each, axis) => each - this.start[axis]);
+    const side = Math.max(...way.map(Math.abs));
+    return this.start.map((each, axis) => each + (way[axis] < 0 ? -side : side));
+  }
+
+  collect(_, cell) {
     return cellsOfBox(this.start, cell);
+  }
+
+  get measure() {
+    if (!this.start) return "";
+    return this.span.map((length) => lengthText(this.editor, length)).join(" × ");
   }
 }
 
 export class LineTool extends CellTool {
   static called = "line";
 
-  collect(cell) {
+  /** With Shift along a row or a column. */
+  aimed(cell, { isMore }) {
+    if (!isMore) return cell;
+    const [right, down] = cell.map((each, axis) => Math.abs(each - this.start[axis]));
+    return right < down ? [this.start[0], cell[1]] : [cell[0], this.start[1]];
+  }
+
+  collect(_, cell) {
     return cellsOfLine(this.start, cell);
+  }
+
+  get measure() {
+    if (!this.start) return "";
+    const { editor, span } = this;
+    const step = editor.ground.side * editor.roadmap.unit;
+    const [width, height] = span.map((length) => lengthText(editor, length));
+    if (span[1] <= step * 1.001) return width;
+    if (span[0] <= step * 1.001) return height;
+    return `${lengthText(editor, Math.hypot(...span))}  (${width}, ${height})`;
   }
 }
 

@@ -5,13 +5,17 @@ import { RobotTool } from "../robots/tool.js";
 import { PickTool } from "./backdrop.js";
 import { groundOf } from "./ground.js";
 import { Hits } from "./hits.js";
+import { MeasureTool } from "./measure_tool.js";
 import { LaneTool, MarkTool, VertexTool } from "./network_tools.js";
 import { isNetwork } from "./network.js";
 import { paintFaults, paintSelection } from "./overlay.js";
+import { paintReadout, paintRulers } from "./readout.js";
 import { Selection } from "./selection.js";
 import { SelectTool } from "./select_tool.js";
 import { BoxTool, BrushTool, DoorTool, EraseTool, LineTool } from "./cell_tools.js";
 
+const LONG_PRESS = 550; // milliseconds that a finger rests for a menu
+const WAVERING = 10; // pixels that a resting finger may move
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 /** Events: `editor` when tool, selection or what is drawn at the moment changes. */
@@ -21,6 +25,8 @@ export class Editor extends Observable {
     Object.assign(this, { store, stage });
     this.selection = new Selection();
     this.cursor = null; // of the keyboard, in units of the drawing
+    this.over = null; // where the pointer is over the map, in units of the drawing
+    this.menu = null; // what can be done at a place: { x, y } of the page, and `point` of the drawing
     this.isOn = true;
     this.message = "";
     const tools = [
@@ -34,6 +40,7 @@ export class Editor extends Observable {
       LaneTool,
       MarkTool,
       RobotTool,
+      MeasureTool,
       PickTool,
     ];
     this.tools = new Map(tools.map((Tool) => [Tool.called, new Tool(this)]));
@@ -48,6 +55,7 @@ export class Editor extends Observable {
   #touches = new Map();
   #held = null; // the pointer that the tool follows
   #panning = false;
+  #resting = null; // the timer of a finger that rests
 
   /** Whether there is a map that can be drawn on. */
   get isReady() {
@@ -73,7 +81,7 @@ export class Editor extends Observable {
     const cells =
       document.map.grid || document.map.floor ? ["line", "brush", "box", "door", "erase"] : [];
     const lanes = isNetwork(document) ? ["vertex", "lane", "mark"] : [];
-    return ["select", ...cells, ...lanes, "robot"];
+    return ["select", ...cells, ...lanes, "robot", "measure"];
   }
 
   /** What is where, in the document as it is drawn. */
@@ -137,23 +145,73 @@ export class Editor extends Observable {
     on("pointerup", (event) => this.#up(event));
     on("pointercancel", (event) => this.#drop(event));
     on("keydown", (event) => this.#key(event));
-    on("contextmenu", (event) => event.preventDefault());
+    on("contextmenu", (event) => this.#ask(event));
+    on("pointerleave", () => {
+      this.over = null;
+      this.stage.ask();
+    });
     document.addEventListener(
       "keyup",
       (event) => event.code === "Space" && (this.#panning = false),
     );
   }
 
+  /** Where an event is on the map: Shift for more of it, Ctrl for just there, Alt for a copy. */
   #point(event) {
     const { left, top } = this.stage.holder.getBoundingClientRect();
     const { viewport } = this.stage.view;
+    const screen = { x: event.clientX - left, y: event.clientY - top };
+    this.over = { x: viewport.toX(screen.x), y: viewport.toY(screen.y), screen };
     return {
-      x: viewport.toX(event.clientX - left),
-      y: viewport.toY(event.clientY - top),
+      ...this.over,
       isMore: event.shiftKey,
-      isFree: event.altKey,
+      isFree: event.ctrlKey || event.metaKey,
+      isCopy: event.altKey,
+      isTouch: event.pointerType === "touch",
     };
   }
+
+  /** The menu of a place, by the second button. */
+  #ask(event) {
+    event.preventDefault();
+    if (event.pointerType !== "touch" && !this.tool.isBusy)
+      this.openMenu(event, this.#point(event));
+  }
+
+  openMenu({ clientX, clientY }, point) {
+    const hit = this.hits.at(point, this.stage.view.viewport.scale);
+    if (!hit) this.select([]);
+    else if (!this.selection.has(hit)) this.select([hit]);
+    this.menu = { x: clientX, y: clientY, point };
+    this.changed();
+  }
+
+  /** Begin a robot whose home is a vertex. */
+  startRobot(vertex) {
+    const { roadmap } = this;
+    this.take("robot");
+    this.tool.release({ x: roadmap.x[vertex], y: roadmap.y[vertex] });
+    this.changed();
+  }
+
+  closeMenu() {
+    this.menu = null;
+    this.changed();
+    this.stage.canvas.focus({ preventScroll: true });
+  }
+
+  #rest(event) {
+    clearTimeout(this.#resting);
+    if (event.pointerType !== "touch") return;
+    const point = this.#point(event);
+    this.#resting = setTimeout(() => {
+      this.#abandon();
+      this.openMenu(event, point);
+    }, LONG_PRESS);
+    this.#rested = { x: event.clientX, y: event.clientY };
+  }
+
+  #rested = { x: 0, y: 0 };
 
   /** The first button and the first finger draw; the others, and two fingers, move the map. */
   #down(event) {
@@ -166,6 +224,7 @@ export class Editor extends Observable {
     if (this.#touches.size > 1) return this.#abandon();
     this.#held = event.pointerId;
     this.cursor = null;
+    this.#rest(event);
     this.tool.press(this.#point(event));
     this.changed();
   }
@@ -180,6 +239,8 @@ export class Editor extends Observable {
     this.#touches.set(event.pointerId, event);
     if (this.#touches.size > 1) return this.#pinch(before, this.#span());
     if (event.pointerId !== this.#held) return;
+    const { x, y } = this.#rested;
+    if (Math.hypot(event.clientX - x, event.clientY - y) > WAVERING) clearTimeout(this.#resting);
     this.tool.drag(this.#point(event));
     this.stage.ask();
   }
@@ -192,9 +253,11 @@ export class Editor extends Observable {
   #up(event) {
     if (!this.#touches.delete(event.pointerId)) return;
     event.stopPropagation();
+    clearTimeout(this.#resting);
     if (event.pointerId !== this.#held) return;
     this.#held = null;
     this.tool.release(this.#point(event));
+    if (event.pointerType === "touch") this.over = null;
     this.changed();
   }
 
@@ -204,6 +267,7 @@ export class Editor extends Observable {
   }
 
   #abandon() {
+    clearTimeout(this.#resting);
     this.#held = null;
     this.tool.cancel();
     this.changed();
@@ -230,8 +294,12 @@ export class Editor extends Observable {
   /** Arrow keys move a cursor; Enter does there what the pointer does, press and release in turn. */
   #key(event) {
     const arrow = ARROWS[event.key];
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (arrow) this.#moveCursor(arrow, event.shiftKey);
+    if (event.ctrlKey || event.metaKey || (event.altKey && !arrow)) return;
+    const isNudge = arrow && this.selection.size && (!this.cursor || event.altKey);
+    if (isNudge) this.tools.get("select").nudge(arrow, event.shiftKey);
+    else if (arrow) this.#moveCursor(arrow, event.shiftKey);
+    else if (event.key === "ContextMenu" || (event.key === "F10" && event.shiftKey))
+      this.#askAtCursor();
     else if (event.key === "Enter" && this.cursor) this.#pressAtCursor();
     else if (event.key === "Delete" || event.key === "Backspace") this.remove();
     else if (event.key === "Escape") this.escape();
@@ -272,6 +340,25 @@ export class Editor extends Observable {
     );
   }
 
+  /** The menu of the cursor's place, or of what is selected. */
+  #askAtCursor() {
+    const [item] = this.selection.items;
+    const vertex = item ? this.hits.vertexOf(item) : -1;
+    const { roadmap, stage } = this;
+    const point =
+      this.cursor ?? (vertex >= 0 ? { x: roadmap.x[vertex], y: roadmap.y[vertex] } : this.over);
+    if (!point) return;
+    const { left, top } = stage.holder.getBoundingClientRect();
+    const { viewport } = stage.view;
+    this.openMenu(
+      {
+        clientX: left + viewport.left + point.x * viewport.scale,
+        clientY: top + viewport.top + point.y * viewport.scale,
+      },
+      point,
+    );
+  }
+
   #pressAtCursor() {
     if (this.tool.isBusy || !this.tool.isDrawn) {
       if (!this.tool.isBusy) this.tool.press(this.cursor);
@@ -288,6 +375,10 @@ export class Editor extends Observable {
     this.done?.(context, scale);
     paintSelection(context, this, scale);
     this.tool.paint(context, theme, scale);
+    const { over } = this;
+    paintRulers(context, this, over?.screen);
+    const { measure } = this.tool;
+    if (measure && over) paintReadout(context, this, measure, over.screen);
     if (!this.cursor) return;
     const side = this.ground?.side ?? 24 / scale;
     context.strokeStyle = theme.ink;

@@ -3,7 +3,7 @@
 import { robotsOf, stopsOf } from "../robots/fleet.js";
 import { nearest } from "../viewer/arrays.js";
 import { cellsOfBox, groundOf } from "./ground.js";
-import { endsOf, isNetwork, lanesOf } from "./network.js";
+import { bezierAt, controlsOf, endsOf, isNetwork, lanesOf, positionOf } from "./network.js";
 import { numberOf, toDrawing, vertexOf } from "./places.js";
 
 const REACH = 12; // pixels round a point that is small
@@ -20,7 +20,7 @@ export class Hits {
     }));
     this.obstacles = (document.map.floor?.obstacles ?? []).map(({ rect }) => boxOf(rect, roadmap));
     this.lanes = isNetwork(document)
-      ? lanesOf(document).map((lane) => endsOf(lane).map((name) => roadmap.vertexNamed(name)))
+      ? lanesOf(document).map((lane) => lineOf(lane, document, roadmap))
       : [];
   }
 
@@ -39,10 +39,10 @@ export class Hits {
       if (standing) return { kind: "robot", id: standing.index };
       const going = this.robots.find(({ stops }) => stops.includes(vertex));
       if (going) return { kind: "stop", id: `${going.index}/${going.stops.indexOf(vertex)}` };
-      if (isNetwork(this.document)) return { kind: "vertex", id: this.roadmap.name(vertex) };
+      if (this.isWritten(vertex)) return { kind: "vertex", id: this.roadmap.name(vertex) };
     }
-    const lane = this.lanes.findIndex((ends) => this.#distance(ends, x, y) < REACH / scale);
-    if (lane >= 0) return { kind: "lane", id: lane };
+    const lane = this.laneAt({ x, y }, scale);
+    if (lane) return { kind: "lane", id: lane.index };
     const obstacle = this.obstacles.findLastIndex(
       ([left, top, width, height]) =>
         x >= left && y >= top && x <= left + width && y <= top + height,
@@ -52,6 +52,15 @@ export class Hits {
     return cell && this.ground.holds(cell) && this.ground.isBlocked(this.document, cell)
       ? { kind: "cell", id: cell.join() }
       : null;
+  }
+
+  /** The lane at a point: its index, and where on it that is, as a share of the curve; or null. */
+  laneAt({ x, y }, scale) {
+    const near = this.lanes.map(({ points }) => distanceTo(points, x, y));
+    const index = near.findIndex(({ least }) => least < REACH / scale);
+    if (index < 0) return null;
+    const { share, at } = near[index];
+    return { index, share, x: at[0], y: at[1] };
   }
 
   /** All that lies in a rectangle of the drawing. */
@@ -65,7 +74,7 @@ export class Hits {
       y[vertex] <= bottom;
     const names = isNetwork(this.document)
       ? Array.from(x.keys())
-          .filter(isIn)
+          .filter((vertex) => isIn(vertex) && this.isWritten(vertex))
           .map((vertex) => ({ kind: "vertex", id: this.roadmap.name(vertex) }))
       : [];
     return [
@@ -73,7 +82,7 @@ export class Hits {
         .filter(({ home }) => isIn(home))
         .map(({ index }) => ({ kind: "robot", id: index })),
       ...names,
-      ...this.lanes.flatMap((ends, id) => (ends.every(isIn) ? [{ kind: "lane", id }] : [])),
+      ...this.lanes.flatMap(({ ends }, id) => (ends.every(isIn) ? [{ kind: "lane", id }] : [])),
       ...this.obstacles.flatMap(([l, t, w, h], id) =>
         l >= left && t >= top && l + w <= right && t + h <= bottom
           ? [{ kind: "obstacle", id }]
@@ -114,15 +123,42 @@ export class Hits {
       .map(({ robot }) => robot.name);
   }
 
-  #distance([tail, head], px, py) {
-    const { x, y } = this.roadmap;
-    if (tail < 0 || head < 0) return Infinity;
-    const [right, down] = [x[head] - x[tail], y[head] - y[tail]];
-    const along =
-      ((px - x[tail]) * right + (py - y[tail]) * down) / (right * right + down * down || 1);
-    const share = Math.min(Math.max(along, 0), 1);
-    return Math.hypot(px - x[tail] - right * share, py - y[tail] - down * share);
+  /** Whether a vertex is one of the document; those between pieces of a lane are not. */
+  isWritten(vertex) {
+    const { document, roadmap } = this;
+    return isNetwork(document) && roadmap.name(vertex) in document.map.roadmap.vertices;
   }
+}
+
+const CURVE_PIECES = 24;
+
+/** A lane as it is drawn: its ends, and the points of the line between them, all in the drawing. */
+function lineOf(lane, document, roadmap) {
+  const names = endsOf(lane);
+  const [tail, head] = names.map((name) => document.map.roadmap.vertices[name]);
+  const ends = names.map((name) => roadmap.vertexNamed(name));
+  if (!tail || !head) return { ends, points: [] };
+  const controls = [positionOf(tail), ...controlsOf(lane), positionOf(head)].map((at) =>
+    toDrawing(roadmap, ...at),
+  );
+  const pieces = controls.length > 2 ? CURVE_PIECES : 1;
+  const points = Array.from({ length: pieces + 1 }, (_, i) => bezierAt(controls, i / pieces));
+  return { ends, points };
+}
+
+/** How far a point is from a line of several pieces, and which point of it is nearest. */
+function distanceTo(points, px, py) {
+  let found = { least: Infinity, share: 0, at: [NaN, NaN] };
+  for (let i = 1; i < points.length; i++) {
+    const [[x, y], [toX, toY]] = [points[i - 1], points[i]];
+    const [right, down] = [toX - x, toY - y];
+    const along = ((px - x) * right + (py - y) * down) / (right * right + down * down || 1);
+    const share = Math.min(Math.max(along, 0), 1);
+    const at = [x + right * share, y + down * share];
+    const least = Math.hypot(px - at[0], py - at[1]);
+    if (least < found.least) found = { least, share: (i - 1 + share) / (points.length - 1), at };
+  }
+  return found;
 }
 
 /** A rectangle of a floor, in the drawing: left, top, width, height. */

@@ -21,12 +21,12 @@ export function asMapping(lane) {
 export const positionOf = (vertex) =>
   (Array.isArray(vertex) ? vertex : vertex.at).map((length) => numberOf(length));
 
-const withRoadmap = (document, change) => ({
+export const withRoadmap = (document, change) => ({
   ...document,
   map: { ...document.map, roadmap: { ...document.map.roadmap, ...change } },
 });
 
-const withoutKey = (mapping, key) =>
+export const withoutKey = (mapping, key) =>
   Object.fromEntries(Object.entries(mapping).filter(([known]) => known !== key));
 
 /** A name that no vertex has: V1, V2, ... */
@@ -36,27 +36,143 @@ export function freeVertexName({ map }, more = []) {
   return `V${number}`;
 }
 
-export function addVertex(document, name, position) {
+/** Add a vertex at a place of the site, with what a vertex may have beside its place. */
+export function addVertex(document, name, position, { at: _, ...more } = {}) {
+  const at = position.map(rounded);
+  const vertex = Object.keys(more).length ? { at, ...more } : at;
   return withRoadmap(document, {
-    vertices: { ...document.map.roadmap.vertices, [name]: position.map(rounded) },
+    vertices: { ...document.map.roadmap.vertices, [name]: vertex },
   });
 }
 
-/** Move vertices by a distance of the site; their lanes are as long as they are then. */
-export function moveVertices(document, names, [right, up]) {
+/** The control points of a lane that is a curve, on the site; none for a straight one. */
+export const controlsOf = (lane) =>
+  (asMapping(lane).curve ?? []).map((point) => point.map((length) => numberOf(length)));
+
+/** Where a Bézier curve is over; its ends are the first and the last point. */
+export function bezierAt(points, share) {
+  let left = points;
+  while (left.length > 1)
+    left = left
+      .slice(1)
+      .map(([x, y], i) => [
+        left[i][0] + (x - left[i][0]) * share,
+        left[i][1] + (y - left[i][1]) * share,
+      ]);
+  return left[0];
+}
+
+/** Let a lane be a curve by its control points, or straight without any; it is as long as it is then. */
+export function bendLane(document, index, controls) {
+  const edges = lanesOf(document).map((lane, each) => {
+    if (each !== index) return lane;
+    const { curve, length, ...rest } = asMapping(lane);
+    const isPlain = Object.keys(rest).length === 2;
+    if (!controls.length) return isPlain ? [rest.from, rest.to] : rest;
+    return { ...rest, curve: controls.map((point) => point.map(rounded)) };
+  });
+  return withRoadmap(document, { edges });
+}
+
+/** A lane whose ends are mapped to other places of the site; its curve goes with them. */
+function carried(lane, [tail, head], [tailMoved, headMoved], map) {
+  const curve = controlsOf(lane);
+  if (!curve.length) return Array.isArray(lane) ? lane.slice(0, 2) : withoutKey(lane, "length");
+  const shiftOf = (at, isMoved) => map(at).map((to, axis) => (isMoved ? to - at[axis] : 0));
+  const [one, other] = [shiftOf(tail, tailMoved), shiftOf(head, headMoved)];
+  const moved = curve.map((point, i) => {
+    if (tailMoved && headMoved) return map(point).map(rounded);
+    const share = (i + 1) / (curve.length + 1);
+    return point.map((length, axis) =>
+      rounded(length + one[axis] * (1 - share) + other[axis] * share),
+    );
+  });
+  return { ...withoutKey(lane, "length"), curve: moved };
+}
+
+/** Map vertices to other places of the site; their lanes are as long as they are then. */
+export function mapVertices(document, names, map) {
   const moved = new Set(names);
+  const known = document.map.roadmap.vertices;
   const vertices = Object.fromEntries(
-    Object.entries(document.map.roadmap.vertices).map(([name, vertex]) => {
+    Object.entries(known).map(([name, vertex]) => {
       if (!moved.has(name)) return [name, vertex];
-      const at = positionOf(vertex).map((length, i) => rounded(length + [right, up][i]));
+      const at = map(positionOf(vertex)).map(rounded);
       return [name, Array.isArray(vertex) ? at : { ...vertex, at }];
     }),
   );
   const edges = lanesOf(document).map((lane) => {
-    if (!endsOf(lane).some((end) => moved.has(end))) return lane;
-    return Array.isArray(lane) ? lane.slice(0, 2) : withoutKey(lane, "length");
+    const ends = endsOf(lane);
+    const areMoved = ends.map((end) => moved.has(end));
+    if (!areMoved.some(Boolean)) return lane;
+    const places = ends.map((end) => positionOf(known[end]));
+    return carried(lane, places, areMoved, map);
   });
   return withRoadmap(document, { vertices, edges });
+}
+
+/** Put a vertex on a lane, which becomes two; halves of a curve are curves. */
+export function splitLane(document, index, share, name) {
+  const lane = asMapping(lanesOf(document)[index]);
+  const { from, to, length, curve, ...rest } = lane;
+  const [tail, head] = [from, to].map((end) => positionOf(document.map.roadmap.vertices[end]));
+  const [left, right] = halves([tail, ...controlsOf(lane), head], share);
+  const half = (ends, points) => {
+    const inner = points.slice(1, -1).map((point) => point.map(rounded));
+    const isPlain = !Object.keys(rest).length && !inner.length;
+    return isPlain
+      ? ends
+      : {
+          from: ends[0],
+          to: ends[1],
+          ...rest,
+          ...(inner.length && { curve: inner }),
+        };
+  };
+  const edges = lanesOf(document).flatMap((each, i) =>
+    i === index ? [half([from, name], left), half([name, to], right)] : [each],
+  );
+  const zones = document.map.roadmap.zones?.map((zone) => ({
+    ...zone,
+    ...(zone.edges && { edges: zone.edges.flatMap((ends) => throughVertex(ends, from, to, name)) }),
+  }));
+  const closures = document.closures?.flatMap((closure) =>
+    closure.edge
+      ? throughVertex(closure.edge, from, to, name).map((edge) => ({ ...closure, edge }))
+      : [closure],
+  );
+  const added = addVertex(document, name, left.at(-1));
+  return withRoadmap(
+    { ...added, ...(closures && { closures }) },
+    { edges, ...(zones && { zones }) },
+  );
+}
+
+/** Both ways from one end of a lane to the other, by the vertex that was put on it. */
+function throughVertex([a, b], from, to, name) {
+  const isLane = (a === from && b === to) || (a === to && b === from);
+  return isLane
+    ? [
+        [a, name],
+        [name, b],
+      ]
+    : [[a, b]];
+}
+
+/** A Bézier curve as two, up to a share of it and from there on (de Casteljau). */
+function halves(points, share) {
+  const [left, right] = [[], []];
+  for (let rest = points; rest.length;) {
+    left.push(rest[0]);
+    right.unshift(rest.at(-1));
+    rest = rest
+      .slice(1)
+      .map(([x, y], i) => [
+        rest[i][0] + (x - rest[i][0]) * share,
+        rest[i][1] + (y - rest[i][1]) * share,
+      ]);
+  }
+  return [left, right];
 }
 
 /** Take vertices away, with their lanes, stations and what else is there. */
@@ -127,7 +243,9 @@ export function renameVertex(document, before, after) {
         ...robot,
         ...(robot.home === before && { home: after }),
         ...(robot.target === before && { target: after }),
-        ...(robot.stops && { stops: robot.stops.map((stop) => ({ ...stop, at: named(stop.at) })) }),
+        ...(robot.stops && {
+          stops: robot.stops.map((stop) => ({ ...stop, at: named(stop.at) })),
+        }),
       }))
     : document.robots;
   const closures = document.closures?.map((closure) => ({
@@ -135,7 +253,10 @@ export function renameVertex(document, before, after) {
     ...(closure.at && { at: named(closure.at) }),
     ...(closure.edge && { edge: closure.edge.map(named) }),
   }));
-  return { ...withRoadmap({ ...document, robots }, change), ...(closures && { closures }) };
+  return {
+    ...withRoadmap({ ...document, robots }, change),
+    ...(closures && { closures }),
+  };
 }
 
 /** Add a lane; nothing changes where there is one already. */
@@ -207,15 +328,4 @@ export function removeZone(document, index) {
   return withRoadmap(document, {
     zones: document.map.roadmap.zones.filter((_, each) => each !== index),
   });
-}
-
-/** Close a place or a lane; the closure of the same one is lifted instead. */
-export function toggleClosure(document, closure) {
-  const closures = document.closures ?? [];
-  const isSame = (other) =>
-    JSON.stringify([other.at, other.edge]) === JSON.stringify([closure.at, closure.edge]);
-  const rest = closures.filter((other) => !isSame(other));
-  if (rest.length === closures.length) return { ...document, closures: [...closures, closure] };
-  if (rest.length) return { ...document, closures: rest };
-  return withoutKey(document, "closures");
 }

@@ -2,16 +2,18 @@
 
 import { html } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
+import { ClosureFields } from "./closures.js";
 import {
   addZone,
   asMapping,
+  bendLane,
   changeLanes,
   endsOf,
   lanesOf,
   nameStation,
+  positionOf,
   removeZone,
   renameVertex,
-  toggleClosure,
   toggleUse,
 } from "./network.js";
 
@@ -19,7 +21,6 @@ export function VertexPanel({ studio, name }) {
   const { store } = studio;
   const { stations = {}, parking = [], charging = [] } = store.document.map.roadmap;
   const station = Object.entries(stations).find(([, at]) => at === name)?.[0] ?? "";
-  const isClosed = (store.document.closures ?? []).some(({ at }) => at === name);
   const check = (text, isOn, change) =>
     html`<label class="check"><input type="checkbox" checked=${isOn} onChange=${() => store.change(change)} /> ${text}</label>`;
   const rename = ({ target }) => {
@@ -35,7 +36,7 @@ export function VertexPanel({ studio, name }) {
       <label>${words.station}<input value=${station} onChange=${({ target }) => store.change((document) => nameStation(document, name, target.value.trim()))} /></label>
       ${check(words.parking, parking.includes(name), (document) => toggleUse(document, "parking", name))}
       ${check(words.charging, charging.includes(name), (document) => toggleUse(document, "charging", name))}
-      ${check(words.closed, isClosed, (document) => toggleClosure(document, { at: name }))}
+      <${ClosureFields} studio=${studio} place=${{ at: name }} />
     </div>`;
 }
 
@@ -45,9 +46,6 @@ export function LanePanel({ studio, lanes }) {
   const known = lanes.filter((index) => all[index]);
   if (!known.length) return null;
   const first = asMapping(all[known[0]]);
-  const isClosed = (store.document.closures ?? []).some(
-    ({ edge }) => JSON.stringify(edge) === JSON.stringify(endsOf(first)),
-  );
   const set = (key, value) => store.change((document) => changeLanes(document, known, key, value));
   const wrong = known.flatMap((index) => store.faultsAt(`map.roadmap.edges[${index}]`));
   return html`
@@ -60,9 +58,32 @@ export function LanePanel({ studio, lanes }) {
     <div class="fields">
       <label class="check"><input type="checkbox" checked=${first.both_ways ?? true} onChange=${({ target }) => set("both_ways", target.checked ? undefined : false)} /> ${words.bothWays}</label>
       <label>${words.maxSpeed}<input type="number" min="0.01" step="any" value=${first.max_speed ?? ""} onChange=${({ target }) => set("max_speed", target.value === "" ? undefined : Number(target.value))} /></label>
-      <label class="check"><input type="checkbox" checked=${isClosed} onChange=${() => store.change((document) => toggleClosure(document, { edge: endsOf(first) }))} /> ${words.closed}</label>
+      <label>${words.shape}<select value=${String(first.curve?.length ?? 0)} onChange=${({ target }) => store.change((document) => bent(document, known, Number(target.value)))}>
+        ${words.shapes.map((name, bends) => html`<option value=${String(bends)}>${name}</option>`)}</select></label>
+      <${ClosureFields} studio=${studio} place=${{ edge: endsOf(first) }} />
     </div>
+    ${known.length === 1 && html`<p class="hint">${words.bendHint}</p>`}
     ${wrong.map(({ message }) => html`<p class="wrong">${message}</p>`)}`;
+}
+
+const BEND = 0.5; // how far control points are beside the straight line, in parts of its length
+
+/** The document with lanes that have some bends: none, one to the left, or one to each side. */
+function bent(document, lanes, bends) {
+  let next = document;
+  for (const index of lanes) {
+    const [tail, head] = endsOf(lanesOf(document)[index]).map((name) =>
+      positionOf(document.map.roadmap.vertices[name]),
+    );
+    const along = [head[0] - tail[0], head[1] - tail[1]];
+    const beside = (share, side) => [
+      tail[0] + along[0] * share - along[1] * side * BEND,
+      tail[1] + along[1] * share + along[0] * side * BEND,
+    ];
+    const controls = [[], [beside(0.5, 1)], [beside(1 / 3, 1), beside(2 / 3, -1)]][bends];
+    next = bendLane(next, index, controls);
+  }
+  return next;
 }
 
 export function ZoneList({ studio }) {

@@ -7,32 +7,13 @@ import {
   addVertex,
   freeVertexName,
   nameStation,
-  positionOf,
+  splitLane,
   toggleUse,
 } from "./network.js";
 import { radiusAt } from "./overlay.js";
-import { rounded, toDrawing } from "./places.js";
-
-const ALIGNED = 8; // pixels within which a point keeps to the row or column of a vertex
-
-/** Where on the site a point is: in line with vertices that are near, else at a round length; as it is with Alt. */
-export function snapped(point, editor) {
-  const { document, roadmap } = editor;
-  const there = roadmap.toSite(point.x, point.y);
-  if (point.isFree) return there;
-  const pixel = roadmap.unit / editor.stage.view.viewport.scale;
-  const step = 10 ** Math.floor(Math.log10(24 * pixel));
-  const known = Object.values(document.map.roadmap.vertices).map(positionOf);
-  return there.map((length, axis) => {
-    const near = known.reduce(
-      (best, at) => (Math.abs(at[axis] - length) < Math.abs(best - length) ? at[axis] : best),
-      Infinity,
-    );
-    return Math.abs(near - length) < ALIGNED * pixel
-      ? near
-      : rounded(Math.round(length / step) * step);
-  });
-}
+import { toDrawing } from "./places.js";
+import { wayText } from "./readout.js";
+import { paintGuides, snapped } from "./snapping.js";
 
 class PointTool {
   isDrawn = false;
@@ -57,34 +38,60 @@ class PointTool {
     this.isBusy = false;
   }
 
+  /** The name of the vertex at a point, or null; those between pieces of a lane have none to draw with. */
+  vertexNameAt(point) {
+    const { editor } = this;
+    const vertex = editor.vertexAt(point);
+    return vertex >= 0 && editor.hits.isWritten(vertex) ? editor.roadmap.name(vertex) : null;
+  }
+
+  /** Make a vertex at a point, on the lane that is there or beside all, and return its name. */
+  make(point) {
+    const { editor } = this;
+    const name = freeVertexName(editor.document);
+    const lane = point.isFree ? null : editor.hits.laneAt(point, editor.stage.view.viewport.scale);
+    const { at } = snapped(point, editor);
+    editor.store.change((document) =>
+      lane ? splitLane(document, lane.index, lane.share, name) : addVertex(document, name, at),
+    );
+    return name;
+  }
+
+  /** Where a vertex would be, in the drawing, and what it would be in line with. */
+  aimed(point) {
+    const { editor } = this;
+    const { roadmap } = editor;
+    const vertex = editor.vertexAt(point);
+    if (vertex >= 0) return { x: roadmap.x[vertex], y: roadmap.y[vertex], vertex, guides: [] };
+    const lane = point.isFree ? null : editor.hits.laneAt(point, editor.stage.view.viewport.scale);
+    if (lane) return { x: lane.x, y: lane.y, vertex, guides: [] };
+    const { at, guides } = snapped(point, editor);
+    const [x, y] = toDrawing(roadmap, ...at);
+    return { x, y, vertex, guides };
+  }
+
   paint(context, theme, scale) {
     const { editor, over } = this;
     if (!over) return;
-    const vertex = editor.vertexAt(over);
+    const { x, y, vertex, guides } = this.aimed(over);
+    paintGuides(context, editor, guides, scale);
     context.strokeStyle = theme.ink;
     context.lineWidth = 1.5 / scale;
-    const [x, y] =
-      vertex >= 0
-        ? [editor.roadmap.x[vertex], editor.roadmap.y[vertex]]
-        : toDrawing(editor.roadmap, ...snapped(over, editor));
     ring(context, x, y, vertex >= 0 ? radiusAt(editor.roadmap, vertex, scale) : 5 / scale);
   }
 }
 
-/** A vertex at a point; with Shift also a lane from the vertex before. */
+/** A vertex at a point, on the lane that is there; with Shift also a lane from the vertex before. */
 export class VertexTool extends PointTool {
   static called = "vertex";
 
   release(point) {
     const { editor } = this;
     if (editor.vertexAt(point) >= 0) return;
-    const name = freeVertexName(editor.document);
     const [from] = editor.selection.of("vertex");
-    const at = snapped(point, editor);
-    editor.store.change((document) => {
-      const added = addVertex(document, name, at);
-      return point.isMore && from ? addLane(added, from, name, true) : added;
-    });
+    const name = this.make(point);
+    if (point.isMore && from)
+      editor.store.change((document) => addLane(document, from, name, true), { isSame: true });
     editor.select([{ kind: "vertex", id: name }]);
   }
 }
@@ -111,8 +118,7 @@ export class LaneTool extends PointTool {
   release(point) {
     const { editor } = this;
     const before = this.from;
-    const vertex = editor.vertexAt(point);
-    if (before !== null && vertex >= 0 && editor.roadmap.name(vertex) === before) {
+    if (before !== null && this.vertexNameAt(point) === before) {
       if (this.began === before) this.from = null; // pressed twice: the chain ends
       return editor.say(this.from === null ? "" : words.pressLane);
     }
@@ -124,23 +130,34 @@ export class LaneTool extends PointTool {
 
   /** The vertex at a point, which is made where there is none. */
   #at(point) {
-    const { editor } = this;
-    const vertex = editor.vertexAt(point);
-    if (vertex >= 0) return editor.roadmap.name(vertex);
-    const name = freeVertexName(editor.document);
-    const at = snapped(point, editor);
-    editor.store.change((document) => addVertex(document, name, at));
-    return name;
+    return this.vertexNameAt(point) ?? this.make(point);
+  }
+
+  /** Where the lane begins, in the drawing; null while none has begun. */
+  get #begin() {
+    const { editor, from } = this;
+    const vertex = from === null ? -1 : editor.roadmap.vertexNamed(from);
+    return vertex < 0 || !this.over ? null : [editor.roadmap.x[vertex], editor.roadmap.y[vertex]];
+  }
+
+  get measure() {
+    const begin = this.#begin;
+    if (!begin) return "";
+    const { roadmap } = this.editor;
+    const { x, y } = this.aimed(this.over);
+    const [from, to] = [roadmap.toSite(...begin), roadmap.toSite(x, y)];
+    return wayText(this.editor, [to[0] - from[0], to[1] - from[1]]);
   }
 
   paint(context, theme, scale) {
     super.paint(context, theme, scale);
-    const vertex = this.from === null ? -1 : this.editor.roadmap.vertexNamed(this.from);
-    if (vertex < 0 || !this.over) return;
+    const begin = this.#begin;
+    if (!begin) return;
+    const { x, y } = this.aimed(this.over);
     context.setLineDash([6 / scale, 4 / scale]);
     context.beginPath();
-    context.moveTo(this.editor.roadmap.x[vertex], this.editor.roadmap.y[vertex]);
-    context.lineTo(this.over.x, this.over.y);
+    context.moveTo(...begin);
+    context.lineTo(x, y);
     context.stroke();
     context.setLineDash([]);
   }

@@ -19,7 +19,7 @@ export function paintSelection(context, editor, scale) {
     else if (item.kind === "obstacle" && hits.obstacles[item.id])
       context.strokeRect(...hits.obstacles[item.id]);
     else if (item.kind === "lane" && hits.lanes[item.id])
-      band(context, roadmap, hits.lanes[item.id], 5 / scale);
+      band(context, hits.lanes[item.id].points, 5 / scale);
     if (item.kind === "robot" && vertex >= 0) route(context, roadmap, hits.robots[item.id], scale);
   }
 }
@@ -35,7 +35,7 @@ export function paintFaults(context, { store, hits, roadmap, stage }, scale) {
     }
     const lane = /^map\.roadmap\.edges\[(\d+)\]/.exec(place);
     context.strokeStyle = stage.theme.held;
-    if (lane && hits.lanes[lane[1]]) band(context, roadmap, hits.lanes[lane[1]], 4 / scale);
+    if (lane && hits.lanes[lane[1]]) band(context, hits.lanes[lane[1]].points, 4 / scale);
     const box = /^map\.floor\.obstacles\[(\d+)\]/.exec(place);
     context.lineWidth = 2.5 / scale;
     if (box && hits.obstacles[box[1]]) context.strokeRect(...hits.obstacles[box[1]]);
@@ -82,12 +82,10 @@ function route(context, { x, y }, { home, stops }, scale) {
 }
 
 /** A line along a lane. */
-function band(context, { x, y }, [tail, head], width) {
-  if (tail < 0 || head < 0) return;
+export function band(context, points, width) {
   context.lineWidth = width;
   context.beginPath();
-  context.moveTo(x[tail], y[tail]);
-  context.lineTo(x[head], y[head]);
+  for (const [x, y] of points) context.lineTo(x, y);
   context.stroke();
 }
 

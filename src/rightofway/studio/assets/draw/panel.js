@@ -30,8 +30,9 @@ export function MapPanel({ studio }) {
       }
       <${Selected} studio=${studio} />
       <${Size} studio=${studio} />
-      ${editor.fitting.includes("lane") && html`<${ZoneList} studio=${studio} /><${BackdropPanel} studio=${studio} />`}
+      ${editor.fitting.includes("lane") && html`<${ZoneList} studio=${studio} />`}
       <${Findings} studio=${studio} />
+      <${BackdropPanel} studio=${studio} />
       <${AboutMap} studio=${studio} />
     </div>
     <div class="next">
@@ -69,7 +70,7 @@ function Size({ studio }) {
           step="any"
           value=${numberOf(value) || ""}
           placeholder=${Number.isNaN(numberOf(value, 0)) ? value : ""}
-          onChange=${({ target }) => target.reportValidity() && set(Number(target.value))}
+          onChange=${({ target }) => target.value && target.reportValidity() && set(Number(target.value))}
         />
         ${unit}</span
       ></label
@@ -114,38 +115,35 @@ function Selected({ studio }) {
   const known = store.document.map.floor?.obstacles ?? [];
   const [obstacle] = obstacles;
   const isOne = selection.size === 1;
-  return html` <section class="selected">
-    <h2>${words.selected(selection.size)}</h2>
-    ${
-      isOne &&
-      known[obstacle] &&
-      html`<label class="wide"
-        >${words.name}<input
-          value=${known[obstacle].name ?? ""}
-          onChange=${({ target }) =>
-            store.change((document) =>
-              withObstacles(
-                document,
-                document.map.floor.obstacles.map((each, i) =>
-                  i === obstacle ? { ...each, name: target.value } : each,
-                ),
+  const select = editor.tools.get("select");
+  const button = (text, action) =>
+    html`<button type="button" class="framed" onClick=${action}>${text}</button>`;
+  return html`
+    <section class="selected"><h2>${words.selected(selection.size)}</h2>
+      ${
+        isOne &&
+        known[obstacle] &&
+        html`<label class="wide">${words.name}<input value=${known[obstacle].name ?? ""}
+        onChange=${({ target }) =>
+          store.change((document) =>
+            withObstacles(
+              document,
+              document.map.floor.obstacles.map((each, i) =>
+                i === obstacle ? { ...each, name: target.value } : each,
               ),
-            )}
-      /></label>`
-    }
-    ${isOne && vertices.length === 1 && html`<${VertexPanel} studio=${studio} name=${vertices[0]} />`}
-    ${lanes.length > 0 && html`<${LanePanel} studio=${studio} lanes=${lanes} />`}
-    <div class="buttons">
-      <button
-        type="button"
-        class="framed"
-        onClick=${() => editor.tools.get("select").duplicate()}
-      >
-        ${words.duplicate}
-      </button>
-      <button type="button" class="framed" onClick=${() => editor.remove()}>
-        ${words.remove}
-      </button>
-    </div>
-  </section>`;
+            ),
+          )} /></label>`
+      }
+      ${isOne && vertices.length === 1 && html`<${VertexPanel} studio=${studio} name=${vertices[0]} />`}
+      ${lanes.length > 0 && html`<${LanePanel} studio=${studio} lanes=${lanes} />`}
+      <div class="buttons">
+        ${button(words.duplicate, () => select.duplicate())}
+        ${button(words.turn, () => select.turn("turn"))}
+        ${button(words.mirror, () => select.turn("mirror"))}
+        ${button(words.flip, () => select.turn("flip"))}
+        ${vertices.length > 1 && button(words.alignRow, () => select.align(1))}
+        ${vertices.length > 1 && button(words.alignColumn, () => select.align(0))}
+        ${button(words.remove, () => editor.remove())}
+      </div>
+    </section>`;
 }

@@ -1,32 +1,18 @@
 /** Select, move, copy and delete what is on the map: one thing, several with Shift, all in a box. */
 
-import {
-  addRobots,
-  changeRobots,
-  removeRobots,
-  robotsOf,
-  stopsOf,
-  withStops,
-} from "../robots/fleet.js";
+import { changeRobots, removeRobots, stopsOf, withStops } from "../robots/fleet.js";
 import { words } from "../words.js";
+import { arranged, boundsOf, movedCells, turnOf } from "./arrange.js";
 import { cellOf, withObstacles } from "./ground.js";
-import {
-  addLane,
-  addVertex,
-  asMapping,
-  endsOf,
-  freeVertexName,
-  isNetwork,
-  lanesOf,
-  moveVertices,
-  positionOf,
-  removeLanes,
-  removeVertices,
-} from "./network.js";
-import { snapped } from "./network_tools.js";
-import { numberOf, placeOf, rounded, vertexOf } from "./places.js";
+import { Handles } from "./handles.js";
+import { positionOf, removeLanes, removeVertices } from "./network.js";
+import { isEmpty, middleOf, pieceOf, withPiece } from "./piece.js";
+import { toDrawing } from "./places.js";
+import { lengthText, wayText } from "./readout.js";
+import { blockShift, paintGuides, roundStep, snapped } from "./snapping.js";
 
 const STILL = 4; // pixels that a press may move
+const FAR = 5; // steps that arrow keys go with Shift
 
 export class SelectTool {
   static called = "select";
@@ -34,6 +20,7 @@ export class SelectTool {
 
   constructor(editor) {
     this.editor = editor;
+    this.handles = new Handles(editor);
     this.cancel();
   }
 
@@ -44,19 +31,25 @@ export class SelectTool {
   press(point) {
     const { editor } = this;
     this.start = this.now = point;
-    this.hit = editor.hits.at(point, editor.stage.view.viewport.scale);
     this.isMoving = false;
+    this.isBending = this.handles.take(point);
+    this.hit = this.isBending ? null : editor.hits.at(point, editor.stage.view.viewport.scale);
     const { hit } = this;
-    if (!hit) return;
-    if (point.isMore) editor.selection.toggle(hit);
-    else if (!editor.selection.has(hit)) editor.select([hit]);
+    if (hit && !point.isMore && !editor.selection.has(hit)) editor.select([hit]);
   }
 
   drag(point) {
     this.now = point;
-    const { scale } = this.editor.stage.view.viewport;
-    if (Math.hypot(point.x - this.start.x, point.y - this.start.y) * scale > STILL)
-      this.isMoving = true;
+    if (this.isBending) return this.handles.drag(point);
+    const { editor, hit } = this;
+    const { scale } = editor.stage.view.viewport;
+    if (
+      this.isMoving ||
+      Math.hypot(point.x - this.start.x, point.y - this.start.y) * scale <= STILL
+    )
+      return;
+    this.isMoving = true;
+    if (hit && !editor.selection.has(hit)) editor.select([...editor.selection.items, hit]);
   }
 
   hover() {}
@@ -64,20 +57,26 @@ export class SelectTool {
   release(point) {
     if (!this.start) return;
     this.now = point;
-    const { editor, hit, isMoving } = this;
-    const moved = this.#box();
-    if (!hit && isMoving)
+    const { editor, hit, isMoving, start } = this;
+    if (this.isBending) this.handles.release();
+    else if (!hit && isMoving)
       editor.select([
-        ...(point.isMore ? editor.selection.items : []),
-        ...editor.hits.inside(moved),
+        ...(start.isMore ? editor.selection.items : []),
+        ...editor.hits.inside(this.#box()),
       ]);
-    else if (!hit && !point.isMore) editor.select([]);
-    else if (hit && isMoving) this.#move();
+    else if (!hit && !start.isMore) editor.select([]);
+    else if (hit && isMoving && point.isCopy) this.#put(pieceOf(editor), this.#shift().shift);
+    else if (hit && isMoving) this.#move(this.#shift().shift);
+    else if (hit && start.isMore) {
+      editor.selection.toggle(hit);
+      editor.select(editor.selection.items);
+    }
     this.cancel();
   }
 
   cancel() {
-    Object.assign(this, { start: null, now: null, hit: null, isMoving: false });
+    this.handles.cancel();
+    Object.assign(this, { start: null, now: null, hit: null, isMoving: false, isBending: false });
   }
 
   /** Take away what is selected; a robot without its only stop goes too. */
@@ -114,162 +113,114 @@ export class SelectTool {
   /** Copy what is selected beside itself, and select the copies. */
   duplicate() {
     const { editor } = this;
-    const { document, selection, roadmap } = editor;
-    const copies = [];
-    editor.store.change((before) => {
-      let next = before;
-      const obstacles = next.map.floor?.obstacles ?? [];
-      for (const index of selection.of("obstacle")) {
-        const side = (editor.ground?.side ?? 1) * roadmap.unit;
-        const [x, y, ...size] = obstacles[index].rect.map((length) => numberOf(length));
-        copies.push({ kind: "obstacle", id: next.map.floor.obstacles.length });
-        next = withObstacles(next, [
-          ...next.map.floor.obstacles,
-          { ...obstacles[index], rect: [rounded(x + side), rounded(y + side), ...size] },
-        ]);
-      }
-      const cells = selection
-        .of("cell")
-        .map(cellOf)
-        .map(([column, row]) => [column + 1, row + 1]);
-      if (cells.length) next = editor.ground.block(next, cells);
-      copies.push(...cells.map((cell) => ({ kind: "cell", id: cell.join() })));
-      for (const index of selection.of("robot")) {
-        const home = this.#freeBeside(editor.hits.robots[index].home, next);
-        if (home < 0) continue;
-        const { name, ...rest } = robotsOf(document)[index];
-        copies.push({ kind: "robot", id: robotsOf(next).length });
-        next = addRobots(next, [{ ...rest, home: placeOf(home, roadmap, next) }]);
-      }
-      return selection.of("vertex").length && isNetwork(next)
-        ? this.#copyVertices(next, copies)
-        : next;
-    });
-    editor.select(copies);
+    const side = editor.ground?.side ?? 0.5;
+    this.#put(pieceOf(editor), this.#onSite([side, side]));
   }
 
-  #copyVertices(document, copies) {
+  /** Put a piece of a drawing below the pointer, or beside where it was taken, and select it. */
+  paste(piece, over = this.editor.over) {
     const { editor } = this;
-    const { roadmap } = editor;
-    const names = new Map();
-    let next = document;
-    for (const name of editor.selection.of("vertex")) {
-      const vertex = roadmap.vertexNamed(name);
-      const copy = freeVertexName(next);
-      names.set(name, copy);
-      copies.push({ kind: "vertex", id: copy });
-      next = addVertex(
-        next,
-        copy,
-        roadmap.toSite(roadmap.x[vertex] + 0.5, roadmap.y[vertex] + 0.5),
-      );
-    }
-    for (const lane of lanesOf(document)) {
-      const [from, to] = endsOf(lane).map((end) => names.get(end));
-      if (from && to) next = addLane(next, from, to, asMapping(lane).both_ways ?? true);
-    }
-    return next;
-  }
-
-  /** The free vertex that is nearest to another one. */
-  #freeBeside(vertex, document) {
-    const { roadmap } = this.editor;
-    const seen = new Set([vertex]);
-    const taken = new Set(robotsOf(document).map(({ home }) => vertexOf(home, roadmap)));
-    for (const at of seen) {
-      if (!taken.has(at)) return at;
-      for (const next of roadmap.next(at)) seen.add(next);
-    }
-    return -1;
-  }
-
-  #move() {
-    const { editor, start, now } = this;
-    const { selection, roadmap } = editor;
-    const [robots, stops, vertices, obstacles] = ["robot", "stop", "vertex", "obstacle"].map(
-      (kind) => selection.of(kind),
+    const { roadmap, ground } = editor;
+    const side = ground?.side ?? 0.5;
+    const middle = middleOf(piece);
+    const wanted = over
+      ? roadmap.toSite(over.x, over.y).map((length, axis) => length - middle[axis])
+      : this.#onSite([side, side]);
+    const step = ground ? side * roadmap.unit : roundStep(editor);
+    this.#put(
+      piece,
+      wanted.map((length) => Math.round(length / step) * step),
     );
-    const shift = [now.x - start.x, now.y - start.y];
-    const lost = [];
-    const moved = (vertex) => {
-      const at = editor.vertexAt({
-        x: roadmap.x[vertex] + shift[0],
-        y: roadmap.y[vertex] + shift[1],
-      });
-      if (at < 0) lost.push(vertex);
-      return at;
-    };
+  }
+
+  #put(piece, shift) {
+    const { editor } = this;
+    if (isEmpty(piece)) return;
+    let items = [];
     editor.store.change((document) => {
-      let next = document;
-      if (robots.length) {
-        next = changeRobots(next, robots, (robot, index) => {
-          const at = moved(editor.hits.robots[index].home);
-          return at < 0 ? robot : { ...robot, home: placeOf(at, roadmap, document) };
-        });
-      }
-      for (const id of stops) {
-        const [index, number] = id.split("/").map(Number);
-        const at = moved(editor.hits.robots[index].stops[number]);
-        if (at < 0) continue;
-        next = changeRobots(next, [index], (robot) =>
-          withStops(
-            robot,
-            stopsOf(robot).map((stop, i) =>
-              i === number ? { ...stop, at: placeOf(at, roadmap, document) } : stop,
-            ),
-          ),
-        );
-      }
-      if (vertices.length) next = moveVertices(next, vertices, this.#siteShift());
-      if (obstacles.length) next = this.#moveObstacles(next, obstacles, shift);
-      return next;
+      const found = withPiece(editor, document, piece, shift);
+      ({ items } = found);
+      return found.document;
     });
-    this.#moveCells(shift);
+    editor.select(items);
+    if (!items.length) editor.say(words.noRoomHere);
+  }
+
+  /** Turn what is selected to the right, or mirror it. */
+  turn(kind) {
+    if (boundsOf(this.editor)) this.#arrange(turnOf(this.editor, kind));
+  }
+
+  /** Let arrow keys move what is selected by one step, or by several. */
+  nudge([right, down], isFar) {
+    const { editor } = this;
+    const step = editor.ground?.side ?? roundStep(editor) / editor.roadmap.unit;
+    const far = isFar ? FAR : 1;
+    this.#move(this.#onSite([right * step * far, down * step * far]));
+  }
+
+  /** Put the vertices that are selected into one row, or one column: that of their middle. */
+  align(axis) {
+    const { editor } = this;
+    const [x, y, width, height] = boundsOf(editor);
+    const middle = [x + width / 2, y + height / 2];
+    const step = roundStep(editor);
+    const to = Math.round(middle[axis] / step) * step;
+    this.#arrange((at) => at.map((length, each) => (each === axis ? to : length)));
+  }
+
+  #move(shift) {
+    if (shift.some(Boolean)) this.#arrange((at) => at.map((length, axis) => length + shift[axis]));
+  }
+
+  #arrange(map) {
+    const { editor } = this;
+    const lost = [];
+    const cells = movedCells(editor, map);
+    editor.store.change((document) => arranged(editor, document, map, lost));
+    if (cells.length)
+      editor.select([
+        ...editor.selection.items.filter(({ kind }) => kind !== "cell"),
+        ...cells.map((cell) => ({ kind: "cell", id: cell.join() })),
+      ]);
     if (lost.length) editor.say(words.noVertexHere);
   }
 
-  /** Blocked cells of a grid go by whole cells, and stay selected. */
-  #moveCells(shift) {
-    const { editor } = this;
-    const cells = editor.selection.of("cell").map(cellOf);
-    const [right, down] = shift.map(Math.round);
-    if (!cells.length || !(right || down)) return;
-    const there = cells.map(([column, row]) => [column + right, row + down]);
-    editor.store.change((document) =>
-      editor.ground.block(editor.ground.free(document, cells), there),
-    );
-    editor.select([
-      ...editor.selection.items.filter(({ kind }) => kind !== "cell"),
-      ...there.map((cell) => ({ kind: "cell", id: cell.join() })),
-    ]);
-  }
-
-  /** How far vertices go on the site, so that the one that was pressed lies in line, or at a round length. */
-  #siteShift() {
-    const { editor, hit, start, now } = this;
-    const { roadmap, document } = editor;
-    const isVertex = hit.kind === "vertex";
-    const from = isVertex
-      ? positionOf(document.map.roadmap.vertices[hit.id])
-      : roadmap.toSite(start.x, start.y);
-    const to = isVertex ? snapped(now, editor) : roadmap.toSite(now.x, now.y);
+  /** A way in the drawing as one on the site. */
+  #onSite([right, down]) {
+    const { roadmap } = this.editor;
+    const [from, to] = [roadmap.toSite(0, 0), roadmap.toSite(right, down)];
     return [to[0] - from[0], to[1] - from[1]];
   }
 
-  #moveObstacles(document, chosen, [right, down]) {
-    const { roadmap, ground } = this.editor;
-    const [x, y] = [right, down].map(
-      (length) => Math.round(length / ground.side) * ground.side * roadmap.unit,
-    );
-    const up = roadmap.frame.yUp ? -y : y;
-    return withObstacles(
-      document,
-      document.map.floor.obstacles.map((each, index) => {
-        if (!chosen.includes(index)) return each;
-        const [left, top, ...size] = each.rect.map((length) => numberOf(length));
-        return { ...each, rect: [rounded(left + x), rounded(top + up), ...size] };
-      }),
-    );
+  /** How far what is selected goes on the site, and what it is in line with then. */
+  #shift() {
+    const { editor, hit, start, now } = this;
+    const { roadmap, document, selection } = editor;
+    const way = [now.x - start.x, now.y - start.y];
+    if (now.isMore) way[Math.abs(way[0]) < Math.abs(way[1]) ? 0 : 1] = 0;
+    const point = { ...now, x: start.x + way[0], y: start.y + way[1] };
+    const raw = this.#onSite(way);
+    if (selection.of("vertex").length || selection.of("lane").length) {
+      if (hit.kind !== "vertex") return this.#rounded(raw, now);
+      const from = positionOf(document.map.roadmap.vertices[hit.id]);
+      const { at, guides } = snapped(point, editor, selection.of("vertex"));
+      const kept = now.isMore ? (way[0] ? 0 : 1) : null; // the only axis along which it goes
+      const shift = at.map((length, axis) =>
+        kept === null || kept === axis ? length - from[axis] : 0,
+      );
+      return { shift, guides };
+    }
+    const obstacles = selection.of("obstacle");
+    if (!obstacles.length && !selection.of("cell").length) return { shift: raw, guides: [] };
+    const isFree = now.isFree && Boolean(document.map.floor);
+    return blockShift(editor, boundsOf(editor), raw, isFree, obstacles);
+  }
+
+  #rounded(raw, { isFree }) {
+    const step = roundStep(this.editor);
+    const shift = isFree ? raw : raw.map((length) => Math.round(length / step) * step);
+    return { shift, guides: [] };
   }
 
   #box() {
@@ -282,7 +233,18 @@ export class SelectTool {
     ];
   }
 
+  /** What stands at the pointer while something is dragged. */
+  get measure() {
+    const { editor, start, now } = this;
+    if (!start || !this.isMoving) return "";
+    if (this.hit) return wayText(editor, this.#shift().shift);
+    const { unit } = editor.roadmap;
+    const sides = [Math.abs(now.x - start.x) * unit, Math.abs(now.y - start.y) * unit];
+    return sides.map((length) => lengthText(editor, length)).join(" × ");
+  }
+
   paint(context, theme, scale) {
+    this.handles.paint(context, theme, scale);
     if (!this.start || !this.isMoving) return;
     const { editor } = this;
     context.strokeStyle = theme.ink;
@@ -291,20 +253,31 @@ export class SelectTool {
     if (!this.hit) {
       const [left, top, right, bottom] = this.#box();
       context.strokeRect(left, top, right - left, bottom - top);
-    } else {
-      const [right, down] = [this.now.x - this.start.x, this.now.y - this.start.y];
-      for (const item of editor.selection.items) {
-        const vertex = editor.hits.vertexOf(item);
-        const [x, y, wide, high] =
-          item.kind === "cell"
-            ? editor.ground.boxOf(cellOf(item.id))
-            : item.kind === "obstacle"
-              ? editor.hits.obstacles[item.id]
-              : [editor.roadmap.x[vertex] - 0.4, editor.roadmap.y[vertex] - 0.4, 0.8, 0.8];
-        context.strokeRect(x + right, y + down, wide, high);
-      }
+      context.setLineDash([]);
+      return;
     }
+    const { shift, guides } = this.#shift();
+    const [zero, there] = [[0, 0], shift].map((at) => toDrawing(editor.roadmap, ...at));
+    this.#ghosts(context, [there[0] - zero[0], there[1] - zero[1]]);
     context.setLineDash([]);
+    paintGuides(context, editor, guides, scale);
+  }
+
+  /** Frames of what is selected where it would come to lie. */
+  #ghosts(context, [right, down]) {
+    const { selection, hits, roadmap, ground } = this.editor;
+    for (const { kind, id } of selection.items) {
+      if (kind === "lane") continue;
+      const vertex = hits.vertexOf({ kind, id });
+      if (kind !== "cell" && kind !== "obstacle" && vertex < 0) continue;
+      const [x, y, wide, high] =
+        kind === "cell"
+          ? ground.boxOf(cellOf(id))
+          : kind === "obstacle"
+            ? hits.obstacles[id]
+            : [roadmap.x[vertex] - 0.4, roadmap.y[vertex] - 0.4, 0.8, 0.8];
+      context.strokeRect(x + right, y + down, wide, high);
+    }
   }
 }
 

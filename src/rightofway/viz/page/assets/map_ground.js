@@ -32,12 +32,8 @@ export class MapGround {
     const { background } = this.roadmap;
     if (!background) return;
     const { x, y, width, height, turn, opacity } = background;
-    if (!this.image) {
-      this.image = new Image();
-      this.image.addEventListener("load", () => this.viewport.tell("view"));
-      this.image.src = background.href;
-    }
-    if (!this.image.complete) return;
+    const image = background.image ?? this.#loaded(background.href);
+    if (!image) return;
     const isDark = inkOn(this.theme.paper) === "#ffffff"; // a white floor plan would glare there
     context.save();
     const canInvert = context.filter !== undefined;
@@ -45,8 +41,19 @@ export class MapGround {
     if (isDark && canInvert) context.filter = "invert(1) hue-rotate(180deg)"; // dark lines would not be seen
     context.translate(x, y);
     context.rotate(turn ?? 0);
-    context.drawImage(this.image, 0, 0, width, height);
+    context.drawImage(image, 0, 0, width, height);
     context.restore();
+  }
+
+  /** The picture at an address, or null until it is there; a page that has it already gives `image`. */
+  #loaded(href) {
+    if (!href) return null;
+    if (!this.image) {
+      this.image = new Image();
+      this.image.addEventListener("load", () => this.viewport.tell("view"));
+      this.image.src = href;
+    }
+    return this.image.complete ? this.image : null;
   }
 
   #grid(context) {

@@ -1,0 +1,71 @@
+/** What can be done at a place of the map: by the second button, a long press or the menu key. */
+
+import { html, useEffect, useRef } from "../vendor/htm-preact.js";
+import { words } from "../words.js";
+import { ClosureFields, closableAt } from "./closures.js";
+import { freeVertexName, isNetwork, splitLane } from "./network.js";
+import { textOfPlace } from "./places.js";
+
+const MARGIN = 8; // pixels from the border of the page
+
+export function ContextMenu({ studio }) {
+  const { editor, clipboard, store } = studio;
+  const { menu, selection, hits, stage } = editor;
+  const list = useRef(null);
+  useEffect(() => {
+    const { current } = list;
+    const { width, height } = current.getBoundingClientRect();
+    current.style.left = `${Math.max(Math.min(menu.x, innerWidth - width - MARGIN), MARGIN)}px`;
+    current.style.top = `${Math.max(Math.min(menu.y, innerHeight - height - MARGIN), MARGIN)}px`;
+    current.querySelector("input, button").focus();
+    const leave = (event) => current.contains(event.target) || editor.closeMenu();
+    document.addEventListener("pointerdown", leave, true);
+    return () => document.removeEventListener("pointerdown", leave, true);
+  }, [menu]);
+  const item = (text, action, key = "") =>
+    html`<button type="button" role="menuitem" onClick=${() => {
+      editor.closeMenu();
+      action();
+    }}><span>${text}</span> <kbd hidden=${!key}>${key}</kbd></button>`;
+  const place = closableAt(editor, menu.point);
+  const scale = stage.view.viewport.scale;
+  const lane = isNetwork(store.document) ? hits.laneAt(menu.point, scale) : null;
+  const vertex = editor.vertexAt(menu.point);
+  const isLane = Boolean(place?.edge && lane);
+  const split = () => {
+    const name = freeVertexName(store.document);
+    store.change((document) => splitLane(document, lane.index, lane.share, name));
+    editor.select([{ kind: "vertex", id: name }]);
+  };
+  const keys = (event) => {
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (event.key === "Escape") editor.closeMenu();
+    else if (step && event.target.type !== "number") {
+      const items = [...list.current.querySelectorAll("input, button")];
+      items[(items.indexOf(event.target) + step + items.length) % items.length].focus();
+    } else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  const title = place ? (place.edge ?? [place.at]).map(textOfPlace).join(" – ") : words.map;
+  const select = editor.tools.get("select");
+  return html`
+    <div class="menu" role="menu" aria-label=${title} ref=${list} onKeyDown=${keys}>
+      <p class="hint">${title}</p>
+      ${place && html`<${ClosureFields} studio=${studio} place=${place} />`}
+      ${isLane && item(words.splitLane, split)}
+      ${vertex >= 0 && Array.isArray(store.document.robots) && item(words.robotFromHere, () => editor.startRobot(vertex))}
+      ${
+        selection.size > 0 &&
+        html`<hr />${item(words.copy, () => clipboard.copy(), "Ctrl+C")}
+        ${item(words.cut, () => clipboard.cut(), "Ctrl+X")}
+        ${item(words.duplicate, () => select.duplicate(), "Ctrl+D")}`
+      }
+      ${item(words.paste, () => clipboard.paste(menu.point), "Ctrl+V")}
+      ${
+        selection.size > 0 &&
+        html`${item(words.turn, () => select.turn("turn"))}
+        ${item(words.remove, () => editor.remove(), "Del")}`
+      }
+    </div>`;
+}
