@@ -20,6 +20,8 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from rightofway.phrases import Phrase, joined
+
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Sequence
 
@@ -224,8 +226,9 @@ def _list_shown(items: list[object] | tuple[object, ...]) -> str:
 def listed(names: Sequence[str]) -> str:
     """Return names as a sentence has them: ``R1, R2 and R3``, long lists cut."""
     most = 2 * FEW
-    cut = [*names[: most - 1], f"{len(names) - most + 1} more"] if len(names) > most else names
-    return " and ".join([", ".join(cut[:-1]), cut[-1]] if len(cut) > 1 else cut)
+    if len(names) <= most:
+        return joined(names) if names else ""
+    return joined([*names[: most - 1], Phrase("{number} more", number=str(len(names) - most + 1))])
 
 
 def is_printable(text: str) -> bool:

@@ -28,6 +28,7 @@ from rightofway.metrics.connectivity import (
 from rightofway.metrics.nearness import nearness, rounded_distance
 from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, trip_of
 from rightofway.model import Roadmap, decimal
+from rightofway.phrases import Phrase, counted
 
 MOST_PLACES = 200
 """The most places that are compared; of a longer list, this number spread over it."""
@@ -45,6 +46,19 @@ BITS = 10
 
 BUSY = Fraction(3, 10)
 """From this share of the shortest routes on, a vertex is a bottleneck."""
+
+OUTSIDE_REMEDIES: dict[Kind, tuple[Phrase, Phrase]] = {
+    "trap": (
+        Phrase("add a lane back, or take it out"),
+        Phrase("add a lane back, or take them out"),
+    ),
+    "unreachable": (
+        Phrase("add a lane to it, or take it out"),
+        Phrase("add a lane to it, or take them out"),
+    ),
+    "cut off": (Phrase("add lanes, or take it out"), Phrase("add lanes, or take them out")),
+}
+"""What to do about one vertex or several that cannot be reached or left."""
 
 LISTED_CORRIDORS = 10
 """Corridors that are looked at in detail: those that most shortest routes use."""
@@ -136,8 +150,13 @@ def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) ->
                 yield Finding(
                     kind="trip",
                     severity="error",
-                    fact=f"{robot.name} cannot drive from {site.name(start)} to {site.name(goal)}",
-                    remedy="add a lane, or give it another home or stop",
+                    fact=Phrase(
+                        "{robot} cannot drive from {start} to {goal}",
+                        robot=robot.name,
+                        start=site.name(start),
+                        goal=site.name(goal),
+                    ),
+                    remedy=Phrase("add a lane, or give it another home or stop"),
                     vertices=site.names((start, goal)),
                     robots=(robot.name,),
                 )
@@ -149,12 +168,12 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
     ahead = set(grown_from(main, ways.along, lambda _: True))
     behind = set(grown_from(main, ways.against, lambda _: True))
     rest = {vertex for part in parts[1:] for vertex in part}
-    kinds: tuple[tuple[Kind, set[int], str, str], ...] = (
-        ("trap", ahead & rest, "{} can be entered and not left again", "a lane back"),
-        ("unreachable", behind & rest, "{} can be left and not reached", "a lane to it"),
-        ("cut off", rest - ahead - behind, "No lane joins {} to the largest part", "lanes"),
+    kinds: tuple[tuple[Kind, set[int]], ...] = (
+        ("trap", ahead & rest),
+        ("unreachable", behind & rest),
+        ("cut off", rest - ahead - behind),
     )
-    for kind, found, fact, remedy in kinds:
+    for kind, found in kinds:
         pieces, seen = list[list[int]](), set[int]()
         beside = {vertex: ways.beside(vertex) & found for vertex in sorted(found)}
         for vertex in beside:
@@ -170,16 +189,26 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
             own = [vertex for vertex in piece if vertex in site.places]
             what = listed([site.name(vertex) for vertex in own or piece])
             others = len(piece) - len(own) if own else 0
-            more = f" and {_counted(others, 'vertex')} around" if others else ""
+            if others:
+                around = counted(others, "vertex", "vertices")
+                what = Phrase("{places} and {vertices} around", places=what, vertices=around)
             yield Finding(
                 kind=kind,
                 severity="error" if own else "note" if kind == "cut off" else "warning",
-                fact=fact.format(what + more),
-                remedy="make a way wide enough for a cell, or ignore it"
+                fact=_outside_fact(kind, what),
+                remedy=Phrase("make a way wide enough for a cell, or ignore it")
                 if site.roadmap.has_cells
-                else f"add {remedy}, or take {'it' if len(piece) == 1 else 'them'} out",
+                else OUTSIDE_REMEDIES[kind][len(piece) > 1],
                 vertices=site.names(piece),
             )
+
+
+def _outside_fact(kind: Kind, places: str) -> Phrase:
+    if kind == "trap":
+        return Phrase("{places} can be entered and not left again", places=places)
+    if kind == "unreachable":
+        return Phrase("{places} can be left and not reached", places=places)
+    return Phrase("No lane joins {places} to the largest part", places=places)
 
 
 def _on_the_way(
@@ -200,14 +229,19 @@ def _on_the_way(
 
     def remedy(vertex: int) -> str:
         if vertex not in site.homes:
-            return "move it into a bay, or add a way round"
+            return Phrase("move it into a bay, or add a way round")
         spot = next(filter(is_aside, distances_from(ways, vertex)[0]), None)
         if spot is None:
-            return "let no other robot need the way while one stands there, or add a way round"
+            return Phrase(
+                "let no other robot need the way while one stands there, or add a way round"
+            )
         taken.add(spot)
         away = site.units.written_length(rounded_distance(site.roadmap, vertex, spot))
-        place = f"{site.name(spot)}, {away} away"
-        return f"park at {place}, which no route needs, or add a way round"
+        return Phrase(
+            "park at {place}, {distance} away, which no route needs, or add a way round",
+            place=site.name(spot),
+            distance=away,
+        )
 
     separating = [(vertex, beyond) for vertex, beyond in apart.items() if vertex in site.places]
     inside = main.intersection(site.places)
@@ -215,11 +249,16 @@ def _on_the_way(
         rest = inside - beyond - {vertex}
         few = sorted(beyond if len(beyond) <= len(rest) else rest)
         parted = listed([site.name(place) for place in few])
-        others = _counted(len(inside) - 1 - len(few), "other place")
+        others = counted(len(inside) - 1 - len(few), "other place", "other places")
         yield Finding(
             kind="through way",
             severity="warning" if vertex in site.homes else "note",
-            fact=f"{site.name(vertex)} lies on the only way between {parted} and {others}",
+            fact=Phrase(
+                "{place} lies on the only way between {places} and {others}",
+                place=site.name(vertex),
+                places=parted,
+                others=others,
+            ),
             remedy=remedy(vertex),
             vertices=site.names((vertex, *few)),
         )
@@ -229,8 +268,12 @@ def _on_the_way(
             yield Finding(
                 kind="through way",
                 severity="warning",
-                fact=f"{site.name(vertex)} is on {_percent(load[vertex] / total)} of the shortest"
-                " routes, and robots drive round it while one stands there",
+                fact=Phrase(
+                    "{place} is on {share} of the shortest routes, and robots drive round it while"
+                    " one stands there",
+                    place=site.name(vertex),
+                    share=_percent(load[vertex] / total),
+                ),
                 remedy=remedy(vertex),
                 vertices=site.names((vertex,)),
             )
@@ -262,16 +305,29 @@ def _corridors(
         if site.robots and is_only:
             if len(using) < 2:  # noqa: PLR2004 - a robot alone meets nobody
                 continue
-            users = f"{len(using)} of {_counted(len(site.robots), 'robot')} must use it"
+            users = Phrase(
+                "{some} of {robots} must use it",
+                some=str(len(using)),
+                robots=counted(len(site.robots), "robot", "robots"),
+            )
         else:
-            users = f"{_percent(use(corridor) / total)} of the shortest routes use it"
+            share = _percent(use(corridor) / total)
+            users = Phrase("{share} of the shortest routes use it", share=share)
         yield Finding(
             kind="corridor",
             severity="warning" if is_only else "note",
-            fact=f"{names[0]} to {names[1]} is a corridor of"
-            f" {site.units.written_length(corridor.steps * scale)} without a passing place;"
-            f" {users}, and {'no way leads round it' if is_only else 'there is a way round'}",
-            remedy="add a passing place in the middle, or make it one-way with a way back",
+            fact=Phrase(
+                "{one} to {other} is a corridor of {length} without a passing place; {users}, and"
+                " {round}",
+                one=names[0],
+                other=names[1],
+                length=site.units.written_length(corridor.steps * scale),
+                users=users,
+                round=Phrase("no way leads round it")
+                if is_only
+                else Phrase("there is a way round"),
+            ),
+            remedy=Phrase("add a passing place in the middle, or make it one-way with a way back"),
             vertices=site.names((ends[0], *corridor.inside, ends[1])),
             robots=tuple(using) if is_only else (),
         )
@@ -306,7 +362,6 @@ def _bottlenecks(
     busy = {vertex for vertex in load if _is_busy(load, total, vertex)}
     beside = {vertex: ways.beside(vertex) & busy for vertex in busy}
     seen = set[int]()
-    ends = "places" if named else "vertices"
     for vertex in sorted(busy, key=lambda each: (-load[each], each)):
         if vertex in seen:
             continue
@@ -318,21 +373,35 @@ def _bottlenecks(
             front += sorted(new)
         seen |= around
         more = len(around) - 1
-        with_it = f"; {_counted(more, 'vertex')} around it on {_percent(BUSY)} or more"
+        name, share = site.name(vertex), _percent(load[vertex] / total)
+        fact = (
+            Phrase(
+                "{place} is on {share} of the shortest routes between places",
+                place=name,
+                share=share,
+            )
+            if named
+            else Phrase(
+                "{place} is on {share} of the shortest routes between vertices",
+                place=name,
+                share=share,
+            )
+        )
+        if more:
+            fact = Phrase(
+                "{fact}; {vertices} around it on {least} or more",
+                fact=fact,
+                vertices=counted(more, "vertex", "vertices"),
+                least=_percent(BUSY),
+            )
         yield Finding(
             kind="bottleneck",
             severity="note",
-            fact=f"{site.name(vertex)} is on {_percent(load[vertex] / total)} of the shortest"
-            f" routes between {ends}{with_it if more else ''}",
-            remedy="add a second way, or spread the places",
+            fact=fact,
+            remedy=Phrase("add a second way, or spread the places"),
             vertices=site.names((vertex, *sorted(around - {vertex}))),
         )
 
 
 def _percent(share: float | Fraction) -> str:
     return f"{decimal(Fraction(round(100 * share)))} %"
-
-
-def _counted(number: int, noun: str) -> str:
-    plural = "vertices" if noun == "vertex" else f"{noun}s"
-    return f"{number} {noun if number == 1 else plural}"

@@ -14,6 +14,7 @@ from rightofway.model.geometry import squared_distance
 from rightofway.model.resources import ClosePairs, close_pairs
 from rightofway.model.spacing import along_one_lane
 from rightofway.model.walls import reaches_walls
+from rightofway.phrases import Phrase, counted, joined
 
 TOUCHING = Fraction(1, 10**6)
 """Vertices and lanes nearer than this touch, whatever the size of the robots [length unit]."""
@@ -46,13 +47,19 @@ def _beside_walls(site: Site) -> Iterator[Finding]:
     for radius in sorted(wide):
         reaches = np.flatnonzero(reaches_walls(roadmap, radius)).tolist()
         if reaches:
-            cells = "1 cell" if len(reaches) == 1 else f"{len(reaches)} cells"
             yield Finding(
                 kind="too near",
                 severity="warning",
-                fact=f"A robot of radius {length(radius)} reaches into walls in {cells},"
-                f" for example in {site.name(reaches[0])}",
-                remedy="set walls: strict, so that it keeps out of them, or take larger cells",
+                fact=Phrase(
+                    "A robot of radius {radius} reaches into walls in {cells}, for example in"
+                    " {place}",
+                    radius=length(radius),
+                    cells=counted(len(reaches), "cell", "cells"),
+                    place=site.name(reaches[0]),
+                ),
+                remedy=Phrase(
+                    "set walls: strict, so that it keeps out of them, or take larger cells"
+                ),
                 vertices=site.names(reaches[:MOST_NAMED]),
                 robots=tuple(it.name for it in site.robots if it.radius == radius),
             )
@@ -62,20 +69,31 @@ def _near(site: Site) -> Iterator[Finding]:
     """Yield vertices and lanes that are nearer than the robots are wide, and lanes that cross."""
     roadmap, room = site.roadmap, site.room
     length = site.units.written_length
-    need = ""
+    need = None
     if room:
-        sizes = " and ".join(length(each) for each in dict.fromkeys(site.radii))
-        with_room = f" and {length(site.rules.clearance)} apart" if site.rules.clearance else ""
-        need = f"robots of radius {sizes}{with_room} need {length(room)}"
+        sizes = joined([length(each) for each in dict.fromkeys(site.radii)])
+        need = Phrase("robots of radius {sizes} need {room}", sizes=sizes, room=length(room))
+        if site.rules.clearance:
+            need = Phrase(
+                "robots of radius {sizes} and {clearance} apart need {room}",
+                sizes=sizes,
+                clearance=length(site.rules.clearance),
+                room=length(room),
+            )
     size = smallest_cell(roadmap)
     if size is not None:
-        cells = "cells" if roadmap.sides is None else "the smallest cells"
-        if size < room:
+        if need and size < room:
+            is_even = roadmap.sides is None
             yield Finding(
                 kind="too near",
                 severity="warning",
-                fact=f"The middles of {cells} are {length(size)} apart; {need}",
-                remedy="take larger cells, or smaller robots",
+                fact=Phrase(
+                    "The middles of {cells} are {distance} apart; {need}",
+                    cells=Phrase("cells") if is_even else Phrase("the smallest cells"),
+                    distance=length(size),
+                    need=need,
+                ),
+                remedy=Phrase("take larger cells, or smaller robots"),
             )
         return
     pairs = close_pairs(roadmap, room or TOUCHING)
@@ -83,28 +101,42 @@ def _near(site: Site) -> Iterator[Finding]:
     for vertex, (tail, head) in pairs.beside:
         if along_one_lane(site.names((vertex, tail, head))):
             continue
-        lane = f"the lane {roadmap.name(tail)} to {roadmap.name(head)}"
+        place, ends = site.name(vertex), {"tail": roadmap.name(tail), "head": roadmap.name(head)}
         beside = (
-            f"{site.name(vertex)} is too near to {lane}; {need}"
+            Phrase(
+                "{place} is too near to the lane {tail} to {head}; {need}",
+                place=place,
+                need=need,
+                **ends,
+            )
             if need
-            else f"{site.name(vertex)} lies on {lane} and is no end of it"
+            else Phrase(
+                "{place} lies on the lane {tail} to {head} and is no end of it", place=place, **ends
+            )
         )
         yield Finding(
             kind="too near",
             severity="warning",
             fact=beside,
-            remedy="a robot on one blocks the other; move one" if need else "split the lane there",
+            remedy=Phrase("a robot on one blocks the other; move one")
+            if need
+            else Phrase("split the lane there"),
             vertices=site.names((vertex, tail, head)),
         )
     for lanes in pairs.crossings:
-        one, other = (" to ".join(site.names(lane)) for lane in lanes)
+        one, other = (
+            Phrase("{tail} to {head}", tail=tail, head=head)
+            for tail, head in map(site.names, lanes)
+        )
         yield Finding(
             kind="crossing",
             severity="note" if need else "warning",
-            fact=f"The lanes {one} and {other} cross without a vertex",
-            remedy="robots wait for each other there; a vertex lets them wait nearer"
+            fact=Phrase("The lanes {one} and {other} cross without a vertex", one=one, other=other),
+            remedy=Phrase("robots wait for each other there; a vertex lets them wait nearer")
             if need
-            else "draw a vertex there, or give robots a radius: without one they do not give way",
+            else Phrase(
+                "draw a vertex there, or give robots a radius: without one they do not give way"
+            ),
             vertices=site.names(vertex for lane in lanes for vertex in lane),
         )
 
@@ -116,7 +148,7 @@ def smallest_cell(roadmap: Roadmap) -> Fraction | None:
     return None if roadmap.sides is None else Fraction(repr(float(roadmap.sides.min())))
 
 
-def _near_vertices(site: Site, pairs: ClosePairs, need: str) -> Iterator[Finding]:
+def _near_vertices(site: Site, pairs: ClosePairs, need: Phrase | None) -> Iterator[Finding]:
     roadmap = site.roadmap
     for one, other in pairs.vertices:
         if along_one_lane(site.names((one, other))):
@@ -125,10 +157,16 @@ def _near_vertices(site: Site, pairs: ClosePairs, need: str) -> Iterator[Finding
         both_homes = _homes_clash(site, one, other)
         is_joined = roadmap.edge(one, other) is not None or roadmap.edge(other, one) is not None
         are_places = one in site.places and other in site.places
+        names = {"one": site.name(one), "other": site.name(other)}
         if need:
-            fact = f"{site.name(one)} and {site.name(other)} are {apart} apart; {need}"
+            fact = Phrase(
+                "{one} and {other} are {distance} apart; {need}",
+                distance=apart,
+                need=need,
+                **names,
+            )
         else:
-            fact = f"{site.name(one)} and {site.name(other)} are the same point"
+            fact = Phrase("{one} and {other} are the same point", **names)
         yield Finding(
             kind="too near",
             severity="error"
@@ -137,7 +175,9 @@ def _near_vertices(site: Site, pairs: ClosePairs, need: str) -> Iterator[Finding
             if is_joined and not are_places
             else "warning",
             fact=fact,
-            remedy="move one, or use smaller robots" if need else "make them one vertex",
+            remedy=Phrase("move one, or use smaller robots")
+            if need
+            else Phrase("make them one vertex"),
             vertices=site.names((one, other)),
         )
 

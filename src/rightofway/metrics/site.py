@@ -12,6 +12,7 @@ from typing import Literal
 
 from rightofway.errors import listed
 from rightofway.model import Roadmap, Robot, Rules, Units, decimal
+from rightofway.phrases import Phrase, counted
 
 Severity = Literal["error", "warning", "note"]
 """``error``: some work cannot be done; ``warning``: robots will wait; ``note``: good to know."""
@@ -23,9 +24,9 @@ Kind = Literal[
 """What a finding is about."""
 
 HEADINGS: dict[Severity, str] = {
-    "error": "Errors (some work cannot be done)",
-    "warning": "Warnings (robots will wait)",
-    "note": "Notes",
+    "error": Phrase("Errors (some work cannot be done)"),
+    "warning": Phrase("Warnings (robots will wait)"),
+    "note": Phrase("Notes"),
 }
 """What findings of each severity are called, the worst first."""
 
@@ -125,15 +126,19 @@ class Site:
     def homes(self) -> dict[int, str]:
         """Vertices that robots stand on without work, with what they are."""
         if not self.robots:
-            return dict.fromkeys(self.parking.values(), "parking")
-        return {int(robot.home): f"home of {robot.name}" for robot in self.robots}
+            return dict.fromkeys(self.parking.values(), Phrase("parking"))
+        return {
+            int(robot.home): Phrase("home of {robot}", robot=robot.name) for robot in self.robots
+        }
 
     @cached_property
     def places(self) -> dict[int, str]:
         """Vertices that robots stay at, with what they are."""
         if not self.robots:
             stations = {
-                vertex: f"station {name}" if name != self.roadmap.name(vertex) else "station"
+                vertex: Phrase("station {name}", name=name)
+                if name != self.roadmap.name(vertex)
+                else Phrase("station")
                 for name, vertex in self.stations.items()
             }
             return stations | self.homes
@@ -141,7 +146,10 @@ class Site:
         for robot in self.robots:
             for stop in robot.stops:
                 stops[int(stop.at)].append(robot.name)
-        names = {at: f"stop of {listed(sorted(set(of)))}" for at, of in stops.items()}
+        names = {
+            at: Phrase("stop of {robots}", robots=listed(sorted(set(of))))
+            for at, of in stops.items()
+        }
         return names | self.homes
 
     @cached_property
@@ -178,9 +186,11 @@ class Site:
         """
         what = self.places.get(vertex)
         if self.roadmap.has_cells and self.units.length:
-            middle = [decimal(each, PLACES) for each in self.roadmap.point(vertex)]
-            return f"({', '.join([*middle, *([what] if what else [])])})"
-        return f"{self.roadmap.name(vertex)} ({what})" if what else self.roadmap.name(vertex)
+            x, y = (decimal(each, PLACES) for each in self.roadmap.point(vertex))
+            middle = f"{x}, {y}"
+            return Phrase("({middle}, {what})", middle=middle, what=what) if what else f"({middle})"
+        name = self.roadmap.name(vertex)
+        return Phrase("{name} ({what})", name=name, what=what) if what else name
 
     def names(self, vertices: Iterable[int]) -> tuple[str, ...]:
         """Return the names of vertices."""
@@ -197,24 +207,42 @@ def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
     inspection
         What was found on it.
     """
-    one_way = f", {inspection.one_way} of them one-way" if inspection.one_way else ""
-    vertices = _counted(inspection.vertices, "vertex", "vertices")
-    edges = _counted(inspection.edges, "directed edge")
-    places = _counted(inspection.places, "place")
+    edges = counted(inspection.edges, "directed edge", "directed edges")
+    if inspection.one_way:
+        number = str(inspection.one_way)
+        edges = Phrase("{edges}, {number} of them one-way", edges=edges, number=number)
     across, down = extent(site.roadmap)
-    width, height = decimal(across), site.units.written_length(down)
-    found = [f"{vertices}, {edges}{one_way}, {width} x {height}; {places}."]
+    size = Phrase(
+        "{vertices}, {edges}, {width} x {height}; {places}.",
+        vertices=counted(inspection.vertices, "vertex", "vertices"),
+        edges=edges,
+        width=decimal(across),
+        height=site.units.written_length(down),
+        places=counted(inspection.places, "place", "places"),
+    )
+    found = [size]
     if len(inspection.parts) == 1:
-        found.append("All vertices reach each other.")
+        found.append(Phrase("All vertices reach each other."))
     else:
         sizes = [str(part) for part in inspection.parts[:LISTED_PARTS]]
         more = len(inspection.parts) - len(sizes)
-        cut = [*sizes, f"{more} more"] if more else sizes
-        count = len(inspection.parts)
-        found.append(f"{count} strongly connected parts, of {listed(cut)} vertices.")
+        cut = [*sizes, Phrase("{number} more", number=str(more))] if more else sizes
+        found.append(
+            Phrase(
+                "{number} strongly connected parts, of {sizes} vertices.",
+                number=str(len(inspection.parts)),
+                sizes=listed(cut),
+            )
+        )
     if inspection.sampled:
-        some, all_of = inspection.sampled
-        found.append(f"Shortest routes are counted from {some} of {all_of} vertices only.")
+        some, all_of = map(str, inspection.sampled)
+        found.append(
+            Phrase(
+                "Shortest routes are counted from {some} of {all_of} vertices only.",
+                some=some,
+                all_of=all_of,
+            )
+        )
     return tuple(found)
 
 
@@ -233,10 +261,6 @@ def extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:
     spans = (roadmap.positions + reach).max(axis=0) - (roadmap.positions - reach).min(axis=0)
     width, height = (Fraction(repr(span)) for span in spans.tolist())
     return width, height
-
-
-def _counted(number: int, noun: str, plural: str = "") -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {plural or noun + 's'}"
 
 
 def trip_of(robot: Robot, rules: Rules) -> list[int]:

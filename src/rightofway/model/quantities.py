@@ -12,6 +12,7 @@ from fractions import Fraction
 from typing import Literal, get_args
 
 from rightofway.errors import InputError, InputFault, shown
+from rightofway.phrases import counted
 
 LengthUnit = Literal["mm", "cm", "m"]
 TimeUnit = Literal["ms", "s", "min", "h"]
@@ -75,7 +76,12 @@ class Units:
 
     def written_length(self, value: Value) -> str:
         """Return a length: ``0.45 m``, ``0.45 length units``."""
-        return f"{decimal(value)} {self.length}" if self.length else _counted(value, "length unit")
+        number = decimal(value)
+        return (
+            f"{number} {self.length}"
+            if self.length
+            else counted(number, "length unit", "length units")
+        )
 
 
 def decimal(value: Value, digits: int = DIGITS) -> str:
@@ -148,10 +154,12 @@ class Quantities:
     def duration(self, ticks: Value) -> str:
         """Return how long a number of ticks lasts: ``6 min 23 s``, ``2 time units``."""
         if self.in_ticks:
-            return _counted(ticks, "tick")
+            return counted(decimal(ticks), "tick", "ticks")
         time = self._time(ticks)
         seconds = self.units.seconds
-        return _counted(time, "time unit") if seconds is None else self._clock(time * seconds)
+        if seconds is None:
+            return counted(decimal(time), "time unit", "time units")
+        return self._clock(time * seconds)
 
     def moment(self, ticks: Value) -> str:
         """Return a point in time: ``6 min 23 s`` after the start, ``time 2``, ``tick 4``."""
@@ -206,8 +214,3 @@ class Quantities:
         hours, minutes = divmod(minutes, 60)
         parts = ((hours, "h"), (minutes, "min"), (rest_seconds, "s"))
         return " ".join(f"{number} {unit}" for number, unit in parts if number)
-
-
-def _counted(value: Value, noun: str) -> str:
-    text = decimal(value)
-    return f"{text} {noun}" if text == "1" else f"{text} {noun}s"

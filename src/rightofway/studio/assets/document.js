@@ -12,6 +12,7 @@ const UNKNOWN = Object.freeze({
   site: null,
   findings: [],
   sentences: [],
+  phrases: [],
 });
 
 /**
@@ -152,7 +153,7 @@ export class ScenarioStore extends Observable {
   async #look() {
     const { document, folder, opened } = this;
     try {
-      const { findings, sentences } = this.survey;
+      const { findings, sentences, phrases } = this.survey;
       const isLarge = !this.site || sizeOf(this.site.map) > MANY; // or not known yet
       const survey = await post("/survey", {
         document,
@@ -161,7 +162,7 @@ export class ScenarioStore extends Observable {
       });
       if (opened !== this.opened) return;
       Object.assign(this, {
-        survey: isLarge ? { ...survey, findings, sentences } : survey,
+        survey: isLarge ? { ...survey, findings, sentences, phrases } : survey,
         site: survey.site ?? this.site,
       });
       this.tell("survey");
@@ -175,12 +176,11 @@ export class ScenarioStore extends Observable {
   /** Find out what will hurt on a large map, which takes longer than to draw it. */
   async #inspect() {
     const { document, folder } = this;
-    const { findings, sentences } = await post("/survey", {
-      document,
-      folder,
-    }).catch(() => UNKNOWN);
+    const { findings, sentences, phrases } = await post("/survey", { document, folder }).catch(
+      () => UNKNOWN,
+    );
     if (document !== this.document) return;
-    this.survey = { ...this.survey, findings, sentences };
+    this.survey = { ...this.survey, findings, sentences, phrases };
     this.tell("findings");
   }
 

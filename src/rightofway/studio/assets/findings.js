@@ -1,6 +1,7 @@
 /** Faults and findings of the map that is drawn, in the library's words; each lights its places. */
 
 import { html, useState } from "./vendor/htm-preact.js";
+import { languageOf, said } from "./viewer/language.js";
 import { words } from "./words.js";
 
 const FIRST = 3; // findings, the worst first; the others on request
@@ -20,7 +21,7 @@ export function Findings({ studio }) {
             html` <li>
               <button type="button" onClick=${() => studio.goTo(fault.place)}>
                 <${Sign} severity="error" /><span
-                  ><b>${fault.named || fault.place}</b> ${fault.message}</span
+                  ><b>${fault.named || fault.place}</b> <span lang="en">${fault.message}</span></span
                 >
               </button>
             </li>`,
@@ -40,8 +41,9 @@ export function Findings({ studio }) {
                 onClick=${() => show(studio, finding.vertices)}
               >
                 <${Sign} severity=${finding.severity} /><span
-                  >${finding.fact}<br /><small>${finding.remedy}</small></span
-                >
+                  ><${Phrase} phrase=${finding.phrases.fact} /><br /><small
+                    ><${Phrase} phrase=${finding.phrases.remedy} /></small
+                ></span>
               </button>
             </li>`,
         )}
@@ -51,6 +53,9 @@ export function Findings({ studio }) {
     ${!store.faults.length && !findings.length && html`<p class="hint">${words.nothingFound}</p>`}
   </section>`;
 }
+
+/** A phrase of the library, in the language of the page or marked as English. */
+const Phrase = ({ phrase }) => html`<span lang=${languageOf(phrase)}>${said(phrase)}</span>`;
 
 const Sign = ({ severity }) =>
   html`<span
@@ -73,12 +78,12 @@ function show(studio, names) {
 /** What the reader notes, and how large the map is: for those who want to know. */
 export function AboutMap({ studio }) {
   const { notes, store } = studio;
-  const all = [...new Set([...store.survey.sentences, ...notes, ...store.survey.notes])];
+  const all = [...store.survey.phrases, ...new Set([...notes, ...store.survey.notes])];
   if (!all.length) return null;
   return html`<details class="notes">
     <summary>${words.notes}</summary>
     <ul>
-      ${all.map((note) => html`<li>${note}</li>`)}
+      ${all.map((note) => html`<li><${Phrase} phrase=${note} /></li>`)}
     </ul>
   </details>`;
 }

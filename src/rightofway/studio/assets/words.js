@@ -22,6 +22,7 @@ function shared({ markup, ...texts }) {
     bound: texts.lowerBound,
     faultCount: faults,
     nothingFound: noFindings,
+    severities: texts.severities,
   };
 }
 

@@ -19,6 +19,7 @@ from rightofway.io.scenario.picture import with_picture
 from rightofway.io.sites import sites_of
 from rightofway.metrics import Inspection, Site, inspect, sentences
 from rightofway.model import Units
+from rightofway.phrases import parts_of
 from rightofway.studio.messages import Blobs, Emit, fault_data, zipped
 from rightofway.studio.tasks.documents import loaded_of, plain
 from rightofway.viz import site_data
@@ -64,6 +65,7 @@ def surveyed(
         "site": None,
         "findings": [],
         "sentences": [],
+        "phrases": [],
     }
     if site is not None:
         drawn = _drawn(site)
@@ -73,9 +75,18 @@ def surveyed(
         answer["site"] = {**drawn, "closures": closures}
     if site is not None and inspects:
         found = _inspected(site)
+        said = sentences(site, found)
         answer |= {
-            "findings": [{**asdict(each), "sentence": str(each)} for each in found.findings],
-            "sentences": list(sentences(site, found)),
+            "findings": [
+                {
+                    **asdict(each),
+                    "sentence": str(each),
+                    "phrases": {"fact": parts_of(each.fact), "remedy": parts_of(each.remedy)},
+                }
+                for each in found.findings
+            ],
+            "sentences": list(said),
+            "phrases": [parts_of(each) for each in said],
         }
     return (None, zipped(compact_json(answer)))
 

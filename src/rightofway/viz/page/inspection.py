@@ -8,6 +8,7 @@ from typing import Any
 
 from rightofway.files import write_whole
 from rightofway.metrics import HEADINGS, Inspection, Site, sentences
+from rightofway.phrases import parts_of
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.document import document_of
 from rightofway.viz.page.map_data import map_data
@@ -52,9 +53,9 @@ def inspection_page(
     """
     payload = {
         "title": title,
-        "what": what,
-        "notes": list(notes),
-        "headings": HEADINGS,
+        "what": parts_of(what),
+        "notes": [parts_of(note) for note in notes],
+        "headings": {severity: parts_of(heading) for severity, heading in HEADINGS.items()},
         "levels": [_level(*level, background) for level in levels],
     }
     about = f"{title}: {what}" if what else title
@@ -134,14 +135,14 @@ def _level(
     robot_of = {robot.name: index for index, robot in enumerate(site.robots)}
     return {
         "name": name,
-        "sentences": sentences(site, inspection),
+        "sentences": [parts_of(each) for each in sentences(site, inspection)],
         **site_data(site, background),
         "findings": [
             {
                 "severity": each.severity,
                 "kind": each.kind,
-                "fact": each.fact,
-                "remedy": each.remedy,
+                "fact": parts_of(each.fact),
+                "remedy": parts_of(each.remedy),
                 "vertices": [int(site.roadmap.vertex(vertex)) for vertex in each.vertices],
                 "robots": [robot_of[robot] for robot in each.robots],
             }

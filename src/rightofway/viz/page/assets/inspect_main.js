@@ -3,7 +3,9 @@ import { element } from "./dom.js";
 import { connectFind, matches } from "./find.js";
 import {
   askedLanguage,
+  languageOf,
   offerLanguages,
+  said,
   setLanguage,
   texts,
   withKey,
@@ -43,7 +45,7 @@ class InspectPage {
   showLevel(index) {
     this.level = this.raw.levels[index];
     document.getElementById("level").value = String(index);
-    document.getElementById("size").textContent = this.level.sentences.join(" ");
+    document.getElementById("size").textContent = this.level.sentences.map(said).join(" ");
     const before = document.getElementById("map");
     const canvas = before.cloneNode(); // without the listeners of another level's map
     before.replaceWith(canvas);
@@ -76,7 +78,7 @@ class InspectPage {
     const { title, what, notes, levels } = this.raw;
     document
       .getElementById("headline")
-      .replaceChildren(element("b", { className: "name" }, title), element("span", {}, what));
+      .replaceChildren(element("b", { className: "name" }, title), inLanguage("span", {}, what));
     document.getElementById("level-choice").hidden = levels.length < 2;
     document
       .getElementById("level")
@@ -87,14 +89,14 @@ class InspectPage {
     box.hidden = !notes.length;
     box.open = notes.length <= FEW_NOTES;
     box.querySelector("summary").textContent = texts.readerNotes(notes.length);
-    box.querySelector("ul").replaceChildren(...notes.map((note) => element("li", {}, note)));
+    box.querySelector("ul").replaceChildren(...notes.map((note) => inLanguage("li", {}, note)));
   }
 
   /** How many findings there are of each severity. */
   #showCounts() {
     const counts = Object.entries(this.raw.headings).map(([severity, heading]) => [
       severity,
-      heading,
+      said(heading),
       this.level.findings.filter((finding) => finding.severity === severity).length,
     ]);
     document
@@ -114,11 +116,11 @@ class InspectPage {
   #fill(row, finding) {
     if (row.filled === finding) return;
     row.filled = finding;
-    row.title = `${finding.fact} (${finding.remedy})`;
+    row.title = `${said(finding.fact)} (${said(finding.remedy)})`;
     row.replaceChildren(
       severitySign(finding.severity),
-      element("span", { className: "text name" }, finding.fact),
-      element("span", { className: "text name" }, finding.remedy),
+      inLanguage("span", { className: "text name" }, finding.fact),
+      inLanguage("span", { className: "text name" }, finding.remedy),
     );
   }
 
@@ -137,17 +139,17 @@ class InspectPage {
       "✕",
     );
     close.addEventListener("click", () => this.choose(null));
-    const title = this.raw.headings[finding.severity].split(" (")[0].replace(/s$/, "");
+    const { severity, kind, fact, remedy } = finding;
     box.replaceChildren(
       element(
         "header",
         {},
         severitySign(finding.severity),
-        element("h2", {}, `${title}: ${finding.kind}`),
+        element("h2", {}, `${upperFirst(texts.severities[severity])}: ${texts.findingKinds[kind]}`),
         close,
       ),
-      element("p", { className: "name" }, `${finding.fact}.`),
-      element("p", { className: "name" }, `${upperFirst(finding.remedy)}.`),
+      inLanguage("p", { className: "name" }, fact, `${said(fact)}.`),
+      inLanguage("p", { className: "name" }, remedy, `${upperFirst(said(remedy))}.`),
     );
     box.scrollTop = 0;
   }
@@ -170,7 +172,7 @@ class InspectPage {
   #select() {
     this.list.setItems(
       this.level.findings.filter(({ severity, kind, fact, remedy }) =>
-        matches(`${severity} ${kind} ${fact} ${remedy}`, this.find.value),
+        matches(`${severity} ${kind} ${said(fact)} ${said(remedy)}`, this.find.value),
       ),
     );
   }
@@ -212,7 +214,7 @@ class InspectPage {
     this.theme.refresh();
     this.#paint();
     const groups = Object.entries(this.raw.headings).map(([severity, heading]) => [
-      heading,
+      said(heading),
       this.level.findings.filter((finding) => finding.severity === severity),
     ]);
     document
@@ -225,7 +227,9 @@ class InspectPage {
             element(
               "ul",
               {},
-              ...found.map(({ fact, remedy }) => element("li", {}, `${fact} (${remedy})`)),
+              ...found.map(({ fact, remedy }) =>
+                inLanguage("li", {}, fact, `${said(fact)} (${said(remedy)})`),
+              ),
             ),
           ]),
       );
@@ -252,15 +256,20 @@ class InspectPage {
   }
 }
 
+/** An element with a phrase of the library, or a text made of it, and the language that it is in. */
+function inLanguage(tag, properties, phrase, text = said(phrase)) {
+  return element(tag, { ...properties, lang: languageOf(phrase) }, text);
+}
+
 /** A sign of how much a finding hurts: shape and colour. */
 function severitySign(severity) {
   const sign = element(
     "span",
-    { className: `severity ${severity}`, title: severity },
+    { className: `severity ${severity}`, title: texts.severities[severity] },
     { error: "✕", warning: "!", note: "i" }[severity],
   );
   sign.setAttribute("role", "img");
-  sign.setAttribute("aria-label", severity);
+  sign.setAttribute("aria-label", texts.severities[severity]);
   return sign;
 }
 

@@ -11,6 +11,7 @@ export class Summary {
     const outcome = this.#outcome();
     const titles = [plan, ...plan.others].map(({ title }) => title);
     if (comparison) document.title = titles.join(", ");
+    else if (plan.title) document.title = `${plan.title}: ${robots}`;
     const rest = plan.title ? [robots, outcome] : [outcome];
     document
       .getElementById("headline")

@@ -9,7 +9,7 @@ export const GERMAN = {
   markup: {
     details: "Details",
     made: "Wie dieser Plan entstand und wie gut er ist",
-    link: "Link kopieren",
+    link: "Link",
     linkAtLength: "Einen Link auf diesen Moment kopieren",
     picture: "Bild",
     pictureAtLength: "Diesen Moment als Bild speichern",
@@ -103,7 +103,7 @@ export const GERMAN = {
   robots: (count) => `${count} Roboter`,
   faults: faultsOf,
 
-  activities: ["fahren", "warten", "arbeiten", "drehen", "fertig", "aufgehalten", "ausgefallen"],
+  activities: ["Fahrt", "Warten", "Arbeit", "Drehen", "fertig", "aufgehalten", "ausgefallen"],
   stuck: "steckt fest",
   byPlan: "laut Plan",
 
@@ -116,7 +116,7 @@ export const GERMAN = {
     counted(count, "davon steckt für immer fest", "davon stecken für immer fest"),
   someRepeat: (count) => `von ${count} ist bekannt, dass sie sich wiederholen`,
   groupsRepeat: (count) => `in ${count} Gruppen, die sich wiederholen`,
-  allAt: (isHome) => `Alle ${arrivedIn(isHome)} bei`,
+  allAt: (isHome) => `Alle ${arrivedIn(isHome)}`,
   allAtLength: (isHome) => `Wann der letzte Roboter ${arrivedIn(isHome)} ist`,
   allWasAtLength: (isHome) => `Wann der letzte Roboter ${arrivedIn(isHome)} war`,
   allBothAtLength: (isHome) => `Wann der letzte Roboter ${arrivedIn(isHome)} ist, in beiden Plänen`,
@@ -453,4 +453,15 @@ export const GERMAN = {
   readerNotes: (count) =>
     `${counted(count, "Hinweis", "Hinweise")} beim Einlesen: was ausgebessert oder weggelassen wurde`,
   severities: { error: "Fehler", warning: "Warnung", note: "Hinweis" },
+  findingKinds: {
+    trip: "Fahrt",
+    trap: "Sackgasse ohne Rückweg",
+    unreachable: "unerreichbar",
+    "cut off": "abgeschnitten",
+    "too near": "zu nah",
+    crossing: "Kreuzung",
+    "through way": "Durchfahrt",
+    corridor: "Engstelle",
+    bottleneck: "Engpass",
+  },
 };

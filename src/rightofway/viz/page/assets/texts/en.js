@@ -463,4 +463,15 @@ export const ENGLISH = {
   readerNotes: (count) =>
     `${counted(count, "note", "notes")} of the reader: what was mended or left out`,
   severities: { error: "error", warning: "warning", note: "note" },
+  findingKinds: {
+    trip: "trip",
+    trap: "trap",
+    unreachable: "unreachable",
+    "cut off": "cut off",
+    "too near": "too near",
+    crossing: "crossing",
+    "through way": "through way",
+    corridor: "corridor",
+    bottleneck: "bottleneck",
+  },
 };
