@@ -1,25 +1,51 @@
-"""One right of way of a plan, flipped: the other robot goes first, and all else follows."""
+"""One right of way of a plan, flipped: the other robot goes first, and all else follows.
+
+The routes stay where that is possible; the timetable follows without any search. Else both robots
+are planned again around all others, the one that waited before the other one.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
+from rightofway.check import check
 from rightofway.errors import GaveUp
-from rightofway.model import Plan, Tick, Track
+from rightofway.model import Plan, Tick, Track, completions_of
 from rightofway.planners.local_search import LocalSearch
+from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Deadline, Task, planning_headway
-from rightofway.precedence import graph_of
+from rightofway.precedence import PrecedenceGraph, graph_of
+
+SEARCHES = 100
+"""Searches for both robots and those that are in their way."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Flipped:
+    """What follows from a flipped right of way.
+
+    Attributes
+    ----------
+    tracks
+        One for each robot.
+    keeps_routes
+        Whether all robots drive on their routes, only at other times.
+    """
+
+    tracks: tuple[Track, ...]
+    keeps_routes: bool
 
 
 def flipped(
     plan: Plan, waits: int, goes_first: int, tick: Tick, *, time_limit: float | None = None
-) -> Sequence[Track]:
+) -> Flipped:
     """Return the timetable of a plan in which a robot that waits goes first instead.
 
     Parameters
     ----------
     plan
-        A plan that keeps the rules.
+        A plan.
     waits
         The robot that waits, by index.
     goes_first
@@ -32,16 +58,22 @@ def flipped(
 
     Returns
     -------
-    sequence of Track
-        The earliest timetable, on the same routes. Conflicts that follow from the flip are resolved
-        one after the other by what they cost.
+    Flipped
+        The earliest timetable on the same routes, with conflicts that follow from the flip resolved
+        one after the other by what they cost. Where that is impossible, other routes on which the
+        robot completes sooner than in the plan.
 
     Raises
     ------
     GaveUp
-        If no right of way of the two is there, or no timetable was found on these routes.
+        If the plan has faults, no right of way of the two is there, or neither was found.
     """
     scenario, names = plan.scenario, [robot.name for robot in plan.scenario.robots]
+    judged = check(plan)
+    if not judged.ok:
+        remedy = "plan again with a planner that leaves none"
+        raise GaveUp(f"the plan has {judged.summary}: no right of way can be flipped ({remedy})")
+    task = Task(scenario=scenario, deadline=Deadline.after(time_limit))
     graph = graph_of(scenario, plan.tracks, headway=planning_headway(scenario))
     rights = [
         (first, second)
@@ -51,9 +83,45 @@ def flipped(
     if not rights:
         raise GaveUp(f"{names[waits]} never waits for {names[goes_first]} (choose another wait)")
     first, second = min(rights, key=lambda right: (abs(graph.enter(right[1]) - tick), right))
-    search = LocalSearch(Task(scenario=scenario, deadline=Deadline.after(time_limit)), graph)
-    if not (search.reverse(first, second) and search.resolve()):
+    search = LocalSearch(task, graph)
+    if search.reverse(first, second) and search.resolve():
+        return Flipped(tracks=tuple(graph.tracks()), keeps_routes=True)
+    tracks = _on_other_routes(task, plan, waits, goes_first)
+    if tracks is None:
+        why = _why_not(graph, names, first, second)
         raise GaveUp(
-            f"{names[waits]} cannot go first on these routes (plan again for other routes)"
+            f"{names[waits]} cannot go before {names[goes_first]}: {why}, and no other way brings"
+            f" {names[waits]} home sooner (try another wait, or move a home or a stop)"
         )
-    return graph.tracks()
+    return Flipped(tracks=tracks, keeps_routes=False)
+
+
+def _why_not(graph: PrecedenceGraph, names: Sequence[str], first: int, second: int) -> str:
+    """Return why a visit cannot come before another one."""
+    (other, index), (robot, end) = graph.place(first), graph.place(second)
+    if index == 0:
+        return f"{names[other]} starts in its way"
+    if end == len(graph.routes[robot]) - 1:
+        return f"{names[robot]} ends in the way of {names[other]}"
+    return "robots would block each other"
+
+
+def _on_other_routes(
+    task: Task, plan: Plan, waits: int, goes_first: int
+) -> tuple[Track, ...] | None:
+    """Return a plan in which one robot is planned before another; None if it is not home sooner."""
+    search = fleet_search(task)
+    kept = [
+        None if robot in {waits, goes_first} else track for robot, track in enumerate(plan.tracks)
+    ]
+    try:
+        search.start(kept)
+    except ValueError:
+        return None  # the search reads zones more strictly than the order of a plan does
+    limit = task.deadline.seconds_left()
+    if not search.repair([waits, goes_first], searches=SEARCHES, time_limit=limit):
+        return None
+    tracks = search.tracks()
+    before, after = (completions_of(plan.scenario, one)[waits] for one in (plan.tracks, tracks))
+    is_good = after < before and check(replace(plan, tracks=tracks)).ok
+    return tracks if is_good else None

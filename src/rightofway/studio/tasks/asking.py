@@ -75,9 +75,12 @@ def flip(
     """Return the plan in which a robot that waits goes first, judged, and what it costs."""
     plan = read(blobs[0])
     pair = _index(plan, "waits", waits), _index(plan, "goes_first", goes_first)
-    tracks = flipped(plan, *pair, Tick(tick), time_limit=time_limit)
-    run = replace(plan.run, status=f"{waits} goes before {goes_first}", seconds=None, decisions=())
-    found = Plan(scenario=plan.scenario, tracks=tuple(tracks), run=run)
+    answer = flipped(plan, *pair, Tick(tick), time_limit=time_limit)
+    status = f"{waits} goes before {goes_first}"
+    if not answer.keeps_routes:
+        status = f"{status}; both on new routes"
+    run = replace(plan.run, status=status, seconds=None, decisions=())
+    found = Plan(scenario=plan.scenario, tracks=answer.tracks, run=run)
     report = check(found)
     if not report.ok:
         raise InvalidPlan(f"a flipped right of way made a plan with {report}")

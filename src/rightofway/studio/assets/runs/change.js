@@ -3,7 +3,6 @@
 import { html } from "../vendor/htm-preact.js";
 import { Quantities } from "../viewer/quantities.js";
 import { words } from "../words.js";
-import { editsBetween } from "./edits.js";
 
 /** Robots whose completion time differs: name and difference [time unit], the largest gain first. */
 export function differences({ robots }) {
@@ -23,13 +22,13 @@ export function Change({ studio }) {
   const { comparison } = runs;
   if (!comparison || !stage.plan) return null;
   const [before, after] = comparison.plans.map(({ text }) => text.flowtime);
-  const [old, now] = comparison.runs.map((number) => runs.knownDocument(number));
+  const { changes } = comparison.comparison.plans[1];
   const { start, robots } = runs.run?.figures ?? {};
   const found = differences(comparison);
   return html`
-    <section class="change" role="status">
+    <section class="change" role="status" aria-busy=${String(comparison.runs[1] !== runs.shown)}>
       ${runs.run?.kind === "flip" && html`<p class="edit">${words.goesBefore(runs.run.request)}</p>`}
-      ${old && now && editsBetween(old, now).map((edit) => html`<p class="edit">${edit}</p>`)}
+      ${changes.map(({ text }) => html`<p class="edit">${text}</p>`)}
       <p>${words.flowtime} <b>${after}</b>${before === after ? ` ${words.asBefore}` : `, ${words.wasBefore(before)}`}</p>
       <${Robots} studio=${studio} className="gain" label=${words.gains} found=${found.filter(({ by }) => by < 0)} />
       <${Robots} studio=${studio} className="lose" label=${words.losesTime} found=${found.filter(({ by }) => by > 0).reverse()} />

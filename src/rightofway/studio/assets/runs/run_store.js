@@ -66,11 +66,6 @@ export class RunStore extends Observable {
     return made === undefined || made === document;
   }
 
-  /** The document that a run of this page was made from, if that is known. */
-  knownDocument(number) {
-    return this.#documents.get(number);
-  }
-
   /** The document that a run was made from. */
   async documentOf(number) {
     if (!this.#documents.has(number))
@@ -123,20 +118,22 @@ export class RunStore extends Observable {
     if (this.shown !== number && this.payload)
       this.former = { number: this.shown, payload: this.payload };
     if (this.shown !== number)
-      Object.assign(this, { losses: null, comparison: null, report: null, command: "" });
+      Object.assign(this, { losses: null, report: null, command: "" });
     Object.assign(this, { shown: number, payload });
     this.tell("payload");
     const run = this.find(number);
-    if (!run || !isOver(run)) return;
+    const isCompared = this.beside && this.beside !== number && run?.has_plan;
+    const comparing = this.compare(isCompared ? this.beside : null);
+    if (!run || !isOver(run)) return comparing;
     const [losses, report, command] = await Promise.all([
       run.has_plan ? get(`/runs/${number}/losses`) : { losses: [] },
       run.has_report ? get(`/runs/${number}/report`) : null,
       NO_COMMAND.includes(run.kind) ? { command: "" } : get(`/runs/${number}/command`),
+      comparing,
     ]);
     if (this.shown !== number) return;
     Object.assign(this, { ...losses, report, ...command });
     this.tell("runs");
-    if (this.beside && this.beside !== number && run.has_plan) await this.compare(this.beside);
   }
 
   /** Play another run of the simulation that is shown. */
@@ -155,9 +152,13 @@ export class RunStore extends Observable {
     this.tell("payload");
   }
 
-  /** Compare the plan that is shown with that of another run; null to end that. */
+  /**
+   * Compare the plan that is shown with that of another run; null to end that. What was compared
+   * before stays until the answer is there, so that nothing jumps.
+   */
   async compare(number) {
-    Object.assign(this, { beside: number, comparison: null });
+    this.beside = number;
+    if (!number) this.comparison = null;
     if (number) {
       const found = await get(`/compare?run=${number}&run=${this.shown}`);
       if (found.runs[1] === this.shown && this.beside === number) this.comparison = found;
