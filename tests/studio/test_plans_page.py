@@ -252,32 +252,6 @@ def test_a_place_is_closed_planned_and_opened_again(opened: Opener) -> None:
     assert "closures" not in studio.document
 
 
-def test_laps_say_their_period_and_light_the_bottleneck(opened: Opener) -> None:
-    studio = opened(BAY)
-    studio.page.locator("details.laps summary").click()
-    studio.button("Repeat").click()
-    studio.wait_for("Boolean(studio.runs.report?.text)")
-    assert "period" in studio.text(".report")
-    assert studio.page.locator("#bottleneck-legend").is_visible()
-    assert studio.text(".command code").startswith("rightofway laps floor.yaml --rule first-come")
-
-
-def test_delays_show_their_spread_and_play_the_worst_run(opened: Opener) -> None:
-    studio = opened(BAY)
-    begin(studio)
-    studio.planned()
-    studio.page.locator("details.delays summary").click()
-    studio.page.fill("#run-count", "200")
-    studio.button("Simulate").click()
-    studio.wait_for("Boolean(studio.runs.report?.spread)")
-    assert studio.ask("studio.runs.report.spread.counts.reduce((a, b) => a + b)") == 200
-    assert studio.page.locator(".spread rect").count() > 1
-    worst, end = studio.ask("[studio.runs.report.worst, studio.stage.plan.end]")
-    studio.button(f"Play the worst run ({worst})").click()
-    studio.wait_for(f"studio.runs.report?.played === {worst}")
-    assert studio.ask("studio.stage.plan.end") >= end
-
-
 def test_everything_about_plans_has_a_name_and_is_reached_by_keys(opened: Opener) -> None:
     studio = opened(BAY)
     studio.page.keyboard.press("Control+Enter")

@@ -1,0 +1,212 @@
+"""Laps and delays on the page of the studio: sliders that answer at once, runs that are replayed.
+
+With ``RIGHTOFWAY_PICTURES=docs/images`` the pictures of docs/studio.md are written anew.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from tests.builders.browsers import needs_browser
+from tests.builders.drawing import StudioPage
+from tests.builders.studios import running
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Locator
+
+pytestmark = needs_browser
+
+BAY = Path(__file__).parents[2] / "examples" / "bay.yaml"
+
+
+@pytest.fixture
+def studio(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
+    """Yield a studio that shows three robots and one bay, at its tab of plans."""
+    shutil.copy(BAY, tmp_path)
+    with running(tmp_path, keeps=False, file="bay.yaml") as client:
+        context = browser.new_context(
+            locale="en-GB", reduced_motion="reduce", viewport={"width": 1280, "height": 760}
+        )
+        studio = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+        studio.opened()
+        studio.tab("Plan")
+        yield studio
+        context.close()
+
+
+def repeat(studio: StudioPage) -> Any:
+    """Let the robots repeat their trips; return what the report says of their group."""
+    studio.page.locator("details.laps summary").click()
+    studio.button("Repeat").click()
+    studio.wait_for("Boolean(studio.runs.report?.groups)")
+    studio.wait_for("Boolean(document.querySelector('.parameter'))")
+    return studio.ask("studio.runs.report.groups[0]")
+
+
+def simulate(studio: StudioPage, runs: int) -> Any:
+    """Plan, execute the plan with delays, and return the report."""
+    studio.page.locator(".settings [type=submit]").click()
+    studio.planned()
+    studio.page.locator("details.delays summary").click()
+    studio.page.fill("#run-count", str(runs))
+    studio.button("Simulate").click()
+    studio.wait_for("Boolean(studio.runs.report?.ranks)")
+    return studio.ask("studio.runs.report")
+
+
+def slider(studio: StudioPage, name: str) -> Locator:
+    """Return the slider of a name."""
+    return studio.page.get_by_role("slider", name=name)
+
+
+def lit(studio: StudioPage) -> set[int]:
+    """Return the vertices that are lit as the circle."""
+    return set(studio.ask("studio.stage.plan.steady.largest.circuit.map(({vertex}) => vertex)"))
+
+
+def test_laps_say_their_period_and_light_the_bottleneck(studio: StudioPage) -> None:
+    group = repeat(studio)
+    assert studio.text(".pace .figure output") == str(group["period"]) == "32"
+    assert studio.page.locator("#bottleneck-legend").is_visible()
+    steps = studio.page.locator(".circle .watch")
+    assert steps.first.inner_text().split("\n") == ["R3 drives from N7 to N17", "2"]
+    studio.button("Show 6 more steps").click()
+    times = [Fraction(text) for text in steps.locator("small").all_inner_texts()]
+    assert sum(times) == 32  # what the steps take is the period
+    studio.page.get_by_text("Report", exact=True).click()
+    assert "period 32 time units" in studio.text(".report")
+    command = studio.text(".command code")
+    assert command.startswith("rightofway laps bay.yaml --rule first-come")
+
+
+def test_a_slider_says_the_period_at_once_and_lights_the_circle_that_takes_over(
+    studio: StudioPage,
+) -> None:
+    repeat(studio)
+    before = lit(studio)
+    speed = slider(studio, "R2: speed")
+    described = speed.get_attribute("aria-describedby")
+    says = studio.page.locator(f"#{described}")
+    assert says.inner_text() == "10 % faster: 0.55 time units less; above 1.2 nothing more."
+    studio.requests.clear()
+    speed.focus()
+    for _ in range(2):
+        studio.page.keyboard.press("ArrowRight")
+    assert speed.get_attribute("aria-valuetext") == "1.1: period 31.45 time units"
+    assert studio.text(".pace .figure output") == "31.45"
+    assert lit(studio) == before
+    for _ in range(4):
+        studio.page.keyboard.press("ArrowRight")
+    assert speed.get_attribute("aria-valuetext") == "1.3: period 31 time units"
+    assert says.inner_text() == "Faster gains nothing; below 1.2 the period grows."
+    assert lit(studio) != before
+    studio.wait_for(
+        "document.querySelector('.orders tbody tr:last-child').dataset.known === 'true'"
+    )
+    # The page knows the whole function; only the new order is asked for, where the slider rests.
+    asked = [request.rpartition("/")[2] for request in studio.requests if "/runs/" in request]
+    assert set(asked) == {"laps"}
+    studio.keep("studio-laps")
+    rows = studio.page.locator(".orders tbody tr").all_inner_texts()
+    assert [row.split()[:3] for row in rows[:2]] == [["as", "it", "is"], ["same", "order", "31"]]
+    studio.button("Back").click()
+    assert studio.text(".pace .figure output") == "32"
+    assert lit(studio) == before
+    assert studio.complaints == []
+
+
+def test_a_value_that_is_taken_gives_the_laps_of_the_new_order(studio: StudioPage) -> None:
+    repeat(studio)
+    slider(studio, "R3: work at N17").press("ArrowRight")
+    assert studio.text(".pace .figure output") == "32.5"
+    anew = ".orders tbody tr:last-child"
+    studio.wait_for(f"document.querySelector('{anew}').dataset.known === 'true'")
+    promised = studio.page.locator(f"{anew} td").all_inner_texts()
+    studio.button("Take the value, repeat the laps").click()
+    studio.wait_for("studio.runs.shown === 2 && Boolean(studio.runs.report?.groups)")
+    assert studio.document["robots"][2]["work"] == 3.5
+    now = studio.page.locator(".orders tbody tr:first-child td").all_inner_texts()
+    assert now == promised != ["32.5", "443.1"]
+
+
+def test_the_group_of_the_robot_that_is_chosen_is_shown(studio: StudioPage) -> None:
+    """R4 drives in a corner of its own, and meets nobody: 2 edges, 2 turns, 2 of work."""
+    studio.ask(
+        "studio.store.change((document) => ({ ...document, map: { grid: ['.@.@.@.', '.....@.',"
+        " '@@.@@@@', '@@.@@@@'] }, robots: [...document.robots.map((robot) => ({ ...robot,"
+        " stops: [{ at: 'N23', work: 1 }] })),"
+        " { name: 'R4', home: 'N6', target: 'N13', work: 2 }] }))"
+    )
+    studio.settle()
+    repeat(studio)
+    assert slider(studio, "R4: speed").count() == 0
+    studio.ask("studio.stage.choice.chooseRobot(3)")
+    studio.wait_for("Boolean(document.querySelector('[data-curve=\"speed R4 null\"]'))")
+    assert studio.text(".pace .figure output") == "6"
+    assert slider(studio, "Headway").count() == 0
+    assert "R4" in studio.text(".study h3")
+
+
+def test_delays_show_their_spread_and_replay_any_run(studio: StudioPage) -> None:
+    report = simulate(studio, 200)
+    counts = report["spread"]["counts"]
+    assert sum(counts) == 200
+    assert studio.page.locator(".spread rect").count() == len(counts)
+    assert "200" not in studio.text(".spread")
+    runs = len(studio.ask("studio.runs.runs"))
+    studio.button("Worst").click()
+    studio.wait_for(f"studio.runs.replayed === {report['worst']}")
+    worst = studio.ask(
+        "studio.stage.plan.happened.reduce((sum, {completion}) => sum + completion, 0)"
+    )
+    assert worst == report["ranks"]["flowtime"][-1]
+    held = studio.page.locator(".held-up .watch")
+    assert "more than planned" in held.first.inner_text()
+    assert studio.ask("studio.stage.choice.lit.length") == held.count()
+    studio.keep("studio-delays")
+    rank = slider(studio, "A run, from the best to the worst")
+    rank.press("Home")
+    best = report["ranks"]["run"][0]
+    studio.wait_for(f"studio.runs.replayed === {best}")
+    assert f"Run {best}: flowtime" in str(rank.get_attribute("aria-valuetext"))
+    picture = studio.page.locator(".spread svg")
+    box = picture.bounding_box()
+    assert box is not None
+    picture.click(position={"x": box["width"] - 2, "y": box["height"] - 2})
+    studio.wait_for(f"studio.runs.replayed === {report['worst']}")
+    assert len(studio.ask("studio.runs.runs")) == runs  # no run of the studio for each replay
+    held.first.click()
+    assert studio.page.locator("#card").is_visible()
+    assert studio.page.locator(".sufferers .watch").count() == 3
+    assert studio.complaints == []
+
+
+def test_a_simulation_that_is_stopped_keeps_the_runs_that_were_made(studio: StudioPage) -> None:
+    studio.page.locator(".settings [type=submit]").click()
+    studio.planned()
+    number = studio.ask("studio.runs.shown")
+    begun = (
+        f"studio.study({{ kind: 'simulate', based_on: {number}, delays: ['chance:0.2x9'],"
+        " runs: 100000, replan: true, time_limit: 600 })"
+    )
+    studio.ask(begun)
+    studio.wait_for("Boolean(studio.runs.running?.message)")
+    studio.button("Stop, keep the best").click()
+    studio.wait_for("Boolean(studio.runs.report?.ranks)")
+    assert studio.ask("studio.runs.run.state") == "stopped"
+    assert 0 < studio.ask("studio.runs.report.runs") < 100000
+
+
+def test_both_studies_are_whole_in_german(studio: StudioPage) -> None:
+    studio.page.locator("header select").select_option("de")
+    studio.page.locator("details.laps summary").click()
+    studio.page.locator("details.laps button").click()
+    studio.wait_for("Boolean(document.querySelector('.parameter'))")
+    assert "Was den Takt bestimmt" in studio.text(".study")
+    assert "undefined" not in studio.text(".study")
