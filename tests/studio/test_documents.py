@@ -119,6 +119,25 @@ def test_a_document_is_inspected_drawn_and_converted(client: httpx.Client) -> No
     assert written.startswith("format: rightofway-scenario/1")
 
 
+def test_a_draft_that_another_page_has_changed_is_kept(client: httpx.Client) -> None:
+    def put(document: dict[str, Any], revision: str | None) -> httpx.Response:
+        return client.put("/drafts/shared", json={"document": document, "revision": revision})
+
+    first = put({"walls": 1}, "").json()["revision"]
+    second = put({"walls": 2}, first).json()["revision"]
+    assert client.get("/drafts/shared").json()["revision"] == second
+    for stale in (first, ""):
+        refused = put({"walls": 3}, stale)
+        assert refused.status_code == 412
+        assert "was changed on another page" in refused.json()["error"]["message"]
+    assert client.delete("/drafts/shared", params={"revision": first}).status_code == 412
+    assert client.get("/drafts/shared").json()["document"] == {"walls": 2}
+    assert client.delete("/drafts/shared", params={"revision": second}).status_code == 200
+    assert put({"walls": 4}, second).status_code == 412
+    assert put({"walls": 4}, None).status_code == 200
+    client.delete("/drafts/shared")
+
+
 def test_a_draft_is_kept_until_it_is_deleted(client: httpx.Client) -> None:
     unfinished: dict[str, Any] = {"map": {"grid": ["."]}}
     assert client.put("/drafts/new floor", json={"document": unfinished}).status_code == 200

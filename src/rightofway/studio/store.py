@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.studio.errors import Refused
+from rightofway.studio.workspace import revision_of
 
 FILE = ".rightofway-studio.sqlite"
 """The name of the file in the folder of the studio."""
@@ -81,20 +82,53 @@ class Store:
         with self._lock:
             self._database.close()
 
-    def put_draft(self, name: str, document: Any) -> float:
-        """Keep a draft, and return when [s since 1970]."""
-        saved = time.time()
+    def put_draft(
+        self, name: str, document: Any, *, revision: str | None = None
+    ) -> tuple[float, str]:
+        """Keep a draft, and return when [s since 1970], and its revision.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        document
+            What was drawn.
+        revision
+            What the draft must be before; empty if there must be none; None for whatever there is.
+
+        Raises
+        ------
+        Refused
+            If it is another one by now.
+        """
+        saved, text = time.time(), json.dumps(document)
         with self._work() as database:
-            row = (name, saved, json.dumps(document))
+            self._is_still(database, name, revision)
+            row = (name, saved, text)
             database.execute("INSERT OR REPLACE INTO drafts VALUES (?, ?, ?)", row)
-        return saved
+        return saved, revision_of(text.encode())
+
+    @staticmethod
+    def _is_still(database: sqlite3.Connection, name: str, revision: str | None) -> None:
+        """Refuse where a draft is not the one that was opened."""
+        if revision is None:
+            return
+        row = database.execute("SELECT document FROM drafts WHERE name = ?", (name,)).fetchone()
+        if revision != (revision_of(row[0].encode()) if row else ""):
+            was = "was changed on another page" if row else "is not kept any more"
+            raise Refused(f"the draft {name!r} {was} (open it again, or take another name)", 412)
 
     def draft(self, name: str) -> dict[str, Any] | None:
-        """Return a draft with when it was kept, or None."""
+        """Return a draft with its revision and when it was kept, or None."""
         with self._work() as database:
             query = "SELECT saved, document FROM drafts WHERE name = ?"
             row = database.execute(query, (name,)).fetchone()
-        return row and {"name": name, "saved": row[0], "document": json.loads(row[1])}
+        if not row:
+            return None
+        saved, text = row
+        revision = revision_of(text.encode())
+        document = json.loads(text)
+        return {"name": name, "saved": saved, "revision": revision, "document": document}
 
     def drafts(self) -> list[dict[str, Any]]:
         """Return name, time and size of all drafts, the latest first."""
@@ -103,9 +137,10 @@ class Store:
             rows = database.execute(query).fetchall()
         return [{"name": name, "saved": saved, "size": size} for name, saved, size in rows]
 
-    def delete_draft(self, name: str) -> bool:
-        """Delete a draft; false if there is none."""
+    def delete_draft(self, name: str, *, revision: str | None = None) -> bool:
+        """Delete a draft, if it is still of a revision; false if there is none."""
         with self._work() as database:
+            self._is_still(database, name, revision)
             return bool(database.execute("DELETE FROM drafts WHERE name = ?", (name,)).rowcount)
 
     def add_run(self, data: dict[str, Any]) -> int:

@@ -203,12 +203,17 @@ def put_draft(studio: InStudio, name: str, draft: Draft) -> dict[str, Any]:
     if len(known) >= MAX_DRAFTS and all(each["name"] != name for each in known):
         raise Busy(f"{len(known)} drafts are kept already (delete some)")
     checked_json(draft.document)
-    return {"name": name, "saved": studio.store.put_draft(name, draft.document)}
+    saved, revision = studio.store.put_draft(name, draft.document, revision=draft.revision)
+    return {"name": name, "saved": saved, "revision": revision}
 
 
 @router.delete("/drafts/{name:path}", tags=["drafts"])
-def delete_draft(studio: InStudio, name: str) -> dict[str, Any]:
+def delete_draft(
+    studio: InStudio,
+    name: str,
+    revision: Annotated[str | None, Query(description="revision that the draft must have")] = None,
+) -> dict[str, Any]:
     """Delete a draft."""
-    if not studio.store.delete_draft(name):
+    if not studio.store.delete_draft(name, revision=revision):
         raise Refused(f"there is no draft {name!r} (see the list of drafts)", 404)
     return {"name": name}

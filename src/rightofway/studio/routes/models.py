@@ -88,6 +88,10 @@ class Draft(Model):
     """A document that somebody draws."""
 
     document: Document
+    revision: str | None = Field(
+        None,
+        description="revision that the draft must have; empty if there must be none; null for any",
+    )
 
 
 class Survey(Placed):
