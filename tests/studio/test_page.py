@@ -119,7 +119,7 @@ def test_the_page_speaks_german_to_a_german_browser_and_english_on_request(
         context = browser.new_context(locale="de-DE")
         page = context.new_page()
         page.goto(str(client.base_url).removesuffix("api/v1/"))
-        page.get_by_text("Neuer Boden").wait_for()
+        page.get_by_text("Neuer Grundriss").wait_for()
         assert page.locator("html").get_attribute("lang") == "de"
         page.get_by_label("Sprache").select_option("en")
         page.get_by_text("New floor").wait_for()
