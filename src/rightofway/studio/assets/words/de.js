@@ -140,7 +140,7 @@ export const GERMAN = {
   robotFromHere: "Roboter von hier",
   shape: "Form",
   shapes: ["gerade", "Kurve", "S-Kurve"],
-  bendHint: "Am runden Griff lässt sich der Weg biegen.",
+  bendHint: "Am runden Griff lässt sich die Strecke biegen.",
   from: "von",
   until: "bis",
   always: { from: "Anfang", until: "immer" },
