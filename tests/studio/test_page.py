@@ -71,7 +71,7 @@ def test_faults_of_a_file_stand_in_the_list_and_at_the_field(
 def test_a_wait_is_explained_and_the_right_of_way_flipped(studio: StudioPage) -> None:
     plan(studio)
     waits = studio.page.locator(".waits")
-    assert "waits 1 time unit in N0 at time 0, for R2 to leave N1" in waits.inner_text()
+    assert "R1 waits 1 time unit in N0 for R2 to leave N1, at time 0." in waits.inner_text()
     studio.button("Let R1 go first").click()
     studio.wait_for("studio.runs.comparison !== null")
     assert "was 19 time units" in studio.text(".change")
@@ -119,7 +119,7 @@ def test_the_page_speaks_german_to_a_german_browser_and_english_on_request(
         context = browser.new_context(locale="de-DE")
         page = context.new_page()
         page.goto(str(client.base_url).removesuffix("api/v1/"))
-        page.get_by_text("Neuer Boden").wait_for()
+        page.get_by_text("Neuer Grundriss").wait_for()
         assert page.locator("html").get_attribute("lang") == "de"
         page.get_by_label("Sprache").select_option("en")
         page.get_by_text("New floor").wait_for()

@@ -14,15 +14,13 @@ export const LANGUAGES = Object.entries(viewer.LANGUAGES).map(([code, { name }])
 
 /** Terms that the viewer has, too: they are written once. */
 function shared({ markup, ...texts }) {
-  const { flowtime, makespan, gap, planner, robot, copied, noFindings, faults } = texts;
+  const { planner, robot, copied, severities, noFindings, faults } = texts;
   const { map, time, language, keys, close, zoomIn, zoomOut, fit } = markup;
   return {
     ...{ map, time, language, keys, close, zoomIn, zoomOut, fit },
-    ...{ flowtime, makespan, gap, planner, robot, copied },
-    bound: texts.lowerBound,
+    ...{ planner, robot, copied, severities },
     faultCount: faults,
     nothingFound: noFindings,
-    severities: texts.severities,
   };
 }
 

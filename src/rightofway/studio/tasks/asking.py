@@ -39,6 +39,7 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
     because = None
     if decision is not None:
         because = {
+            "index": words.plan.run.decisions.index(decision),
             "decision": decision_in_words(words, decision),
             "reason": reason_in_words(words, decision),
         }

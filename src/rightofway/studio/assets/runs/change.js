@@ -3,6 +3,7 @@
 import { html } from "../vendor/htm-preact.js";
 import { Quantities } from "../viewer/quantities.js";
 import { words } from "../words.js";
+import { Term } from "./term.js";
 
 /** Robots whose completion time differs: name and difference [time unit], the largest gain first. */
 export function differences({ robots }) {
@@ -29,7 +30,7 @@ export function Change({ studio }) {
     <section class="change" role="status" aria-busy=${String(comparison.runs[1] !== runs.shown)}>
       ${runs.run?.kind === "flip" && html`<p class="edit">${words.goesBefore(runs.run.request)}</p>`}
       ${changes.map(({ text }) => html`<p class="edit">${text}</p>`)}
-      <p>${words.flowtime} <b>${after}</b>${before === after ? ` ${words.asBefore}` : `, ${words.wasBefore(before)}`}</p>
+      <p><${Term} of="flowtime" /> <b>${after}</b>${before === after ? ` ${words.asBefore}` : `, ${words.wasBefore(before)}`}</p>
       <${Robots} studio=${studio} className="gain" label=${words.gains} found=${found.filter(({ by }) => by < 0)} />
       <${Robots} studio=${studio} className="lose" label=${words.losesTime} found=${found.filter(({ by }) => by > 0).reverse()} />
       ${start && html`<p class="hint">${words.keptRoutes(start.routes, robots)}</p>`}

@@ -6,6 +6,7 @@ import { Quantities } from "../viewer/quantities.js";
 import { words } from "../words.js";
 import { differences } from "./change.js";
 import { titleOf } from "./list.js";
+import { Term } from "./term.js";
 
 const MOST = 20;
 
@@ -31,11 +32,11 @@ export function Comparison({ studio }) {
         <thead><tr><td></td>${both.map((run) => html`<th scope="col">${run.number} ${titleOf(run)}</th>`)}</tr></thead>
         <tbody>
           ${["flowtime", "makespan"].map(
-            (key) => html`<tr><th scope="row">${words[key]}</th>
+            (key) => html`<tr><th scope="row"><${Term} of=${key} /></th>
             <td>${before.text[key]}</td><td class=${way(after.time[key] - before.time[key])}>${after.text[key]}</td></tr>`,
           )}
-          <tr><th scope="row">${words.bound}</th><td>${before.text.lower_bound}</td><td>${after.text.lower_bound}</td></tr>
-          <tr><th scope="row">${words.gap}</th><td>${before.text.gap}</td><td>${after.text.gap}</td></tr>
+          <tr><th scope="row"><${Term} of="bound" /></th><td>${before.text.lower_bound}</td><td>${after.text.lower_bound}</td></tr>
+          <tr><th scope="row"><${Term} of="gap" /></th><td>${before.text.gap}</td><td>${after.text.gap}</td></tr>
         </tbody>
       </table>
       ${

@@ -3,6 +3,7 @@
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { isOver } from "./run_store.js";
+import { Term } from "./term.js";
 
 const [WIDTH, HEIGHT] = [300, 90];
 const PERIOD = 200; // between two looks at the time while a run goes on [ms]
@@ -24,7 +25,7 @@ export function Curve({ run }) {
       }
       <figcaption>
         ${!isOver(run) && html`<span role="status">${words.states[run.state]}</span>${run.state === "running" && ` ${seconds.toFixed(1)} s`} `}
-        ${figures && html`${words.flowtime} <b>${figures.text.flowtime}</b>, ${words.bound} ${figures.text.lower_bound}${figures.flowtime > bound && ` (+${figures.text.gap})`}`}
+        ${figures && html`<${Term} of="flowtime" /> <b>${figures.text.flowtime}</b>, <${Term} of="bound" /> ${figures.text.lower_bound}${figures.flowtime > bound && ` (+${figures.text.gap})`}`}
         ${isOver(run) && run.status && html` <span class="hint">${run.status}</span>`}
       </figcaption>
     </figure>`;

@@ -3,6 +3,7 @@
 import { html, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { canBeShown, isOver } from "./run_store.js";
+import { Term } from "./term.js";
 
 const MOST = 30; // that are listed at once; the others on request
 
@@ -15,8 +16,8 @@ export function RunList({ studio }) {
   return html`
     <section aria-labelledby="runs-title"><h2 id="runs-title">${words.runs}</h2>
       <table class="runs">
-        <thead><tr><th scope="col"><span class="unseen">${words.show}</span></th><th scope="col">${words.name}</th><th scope="col">${words.flowtime}</th>
-          <th scope="col">${words.gap}</th><th scope="col">${words.took}</th><th scope="col"><span class="unseen">${words.compare}, ${words.remove}</span></th></tr></thead>
+        <thead><tr><th scope="col"><span class="unseen">${words.show}</span></th><th scope="col">${words.name}</th><th scope="col"><${Term} of="flowtime" /></th>
+          <th scope="col"><${Term} of="gap" /></th><th scope="col">${words.took}</th><th scope="col"><span class="unseen">${words.compare}, ${words.remove}</span></th></tr></thead>
         <tbody>${runs.runs.slice(0, listed).map((run) => html`<${Row} key=${run.number} studio=${studio} run=${run} />`)}</tbody>
       </table>
       ${runs.runs.length > listed && html`<button type="button" class="framed" onClick=${() => setListed(listed + MOST)}>${words.moreRows(runs.runs.length - listed)}</button>`}

@@ -1,6 +1,7 @@
 /** Why robots wait: each wait in a sentence, the decision behind it, and what if the other went first. */
 
 import { html } from "../vendor/htm-preact.js";
+import { texts } from "../viewer/language.js";
 import { words } from "../words.js";
 
 const MOST = 30;
@@ -21,8 +22,8 @@ export function Waits({ studio }) {
         found.length
           ? html`<ol class="waits">${found.slice(0, MOST).map(
               (loss) => html`<li>
-        <button type="button" class="watch" onClick=${() => watch(loss)}>${loss.sentence}</button>
-        ${loss.because && html`<p><small>${loss.because.decision} ${loss.because.reason}</small></p>`}
+        <button type="button" class="watch" onClick=${() => watch(loss)}>${sentenceOn(stage, loss)}</button>
+        ${loss.because && html`<p><small>${reasonOf(stage, loss)}</small></p>`}
         ${loss.for && html`<button type="button" class="framed" onClick=${() => studio.attempt(() => runs.flip(loss))}>${words.letGoFirst(loss.robot)}</button>`}
       </li>`,
             )}</ol>`
@@ -30,4 +31,19 @@ export function Waits({ studio }) {
       }
       ${found.length > MOST && html`<p class="hint">${words.moreWaits(found.length - MOST)}</p>`}
     </section>`;
+}
+
+/** How a robot loses time, as the viewer says it; the server and the viewer list the same losses. */
+function sentenceOn({ plan, words: said }, { robot, tick, vertex, sentence }) {
+  const own = plan.planned?.find(({ name }) => name === robot);
+  const loss = own?.losses.find(
+    (each) => each.tick === tick && said.vertex(each.vertex) === vertex,
+  );
+  return loss ? `${robot} ${said.loss(loss, own)}, ${texts.at(said.moment(tick))}.` : sentence;
+}
+
+/** The decision behind it, and why it was taken. */
+function reasonOf({ plan, words: said }, { because }) {
+  const decision = plan.decisions[because.index];
+  return decision ? `${said.decisionAtLength(decision)} ${said.reason(decision)}` : "";
 }

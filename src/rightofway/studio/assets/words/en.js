@@ -151,7 +151,6 @@ export const ENGLISH = {
   spacing: "Split lanes at",
   findings: "What will hurt",
   moreFindings: (count) => `${count} more`,
-  severities: { error: "error", warning: "warning", note: "note" },
   notes: "About this map",
   noUnit: "none",
   columns: {
@@ -186,7 +185,17 @@ export const ENGLISH = {
   options: "Options",
   stop: "Stop, keep the best",
   live: "Plan again at each change",
-  curve: "Flowtime over time",
+  flowtime: "sum of arrivals",
+  makespan: "last arrival",
+  bound: "each alone",
+  gap: "extra",
+  terms: {
+    flowtime: "Flowtime: the sum of the times at which the robots are done",
+    makespan: "Makespan: when the last robot is done",
+    bound: "Lower bound: the sum of arrivals if each robot drove alone; no plan is below it",
+    gap: "Gap: how far the sum of arrivals is above that of robots that drive alone",
+  },
+  curve: "Sum of arrivals while the search goes on",
   changedSince: "The map or the robots have changed since this plan.",
   asBefore: "as before",
   wasBefore: (text) => `was ${text}`,
@@ -280,7 +289,7 @@ export const ENGLISH = {
   plannedSum: (time) => `planned ${time}`,
   runByRank: "A run, from the best to the worst",
   runSays: (run, flowtime, share) =>
-    `Run ${run}: flowtime ${flowtime}; ${share} % of the runs are better.`,
+    `Run ${run}: sum of arrivals ${flowtime}; ${share} % of the runs are better.`,
   runNeverEnds: (run) => `Run ${run}: a robot never arrives.`,
   runsNeverEnd: (count, all) => `In ${count} of ${all} runs a robot never arrives.`,
   best: "Best",
@@ -291,7 +300,8 @@ export const ENGLISH = {
   suffersMost: "Who suffers most",
   suffers: (p95, own, behind, waits) =>
     `${own} of its own${behind ? `, ${waits} behind ${behind}` : ""}; in 95 % of the runs at most ${p95}`,
-  spread: (from, to, planned) => `Flowtime of the runs: ${from} to ${to}; planned: ${planned}`,
+  spread: (from, to, planned) =>
+    `Sum of arrivals of the runs: ${from} to ${to}; planned: ${planned}`,
   waits: "Who waits, and why",
   waitsOf: (name) => `Why ${name} waits`,
   noWaits: "No robot waits for another one.",
