@@ -45,6 +45,7 @@ SLOW = (
     "laws/test_untimed_lacam.py",
     "laws/test_workbook_fuzz.py",
     "planners/test_limits.py",  # limits of time, and interrupts
+    "studio/test_accessibility.py",  # a browser
     "studio/test_attacks.py",  # thousands of requests
     "studio/test_bombs.py",  # a studio, and a browser
     "studio/test_documents.py",  # a process for each studio
@@ -55,6 +56,7 @@ SLOW = (
     "studio/test_runs.py",  # plans
     "studio/test_streams.py",  # a browser
     "studio/test_stories.py",  # a browser
+    "studio/test_studies_page.py",  # a browser
     "studio/test_survival.py",  # starts the command as a process, and kills it
     "studio/test_worker.py",  # starts processes
     "viewer/",  # a browser

@@ -329,9 +329,8 @@ def test_plans_of_different_scenarios_are_compared_on_one_page(client: httpx.Cli
 def test_what_changed_since_the_run_before_is_said(client: httpx.Client) -> None:
     first, *others = DOOR["robots"]
     faster = {**DOOR, "robots": [{**first, "speed": 2}, *others]}
-    numbers = []
-    for document in (DOOR, faster, faster):
-        numbers.append(planned(client, document, source="changing.yaml")["number"])
+    documents = (DOOR, faster, faster)
+    numbers = [planned(client, each, source="changing.yaml")["number"] for each in documents]
     found = [client.get(f"/runs/{number}/changes").json() for number in numbers]
     assert found[0] == {"before": None, "changes": []}
     assert found[1]["before"] == numbers[0]

@@ -174,7 +174,7 @@ def test_delays_show_their_spread_and_replay_any_run(studio: StudioPage) -> None
     rank.press("Home")
     best = report["ranks"]["run"][0]
     studio.wait_for(f"studio.runs.replayed === {best}")
-    assert f"Run {best}: flowtime" in str(rank.get_attribute("aria-valuetext"))
+    assert f"Run {best}: sum of arrivals" in str(rank.get_attribute("aria-valuetext"))
     picture = studio.page.locator(".spread svg")
     box = picture.bounding_box()
     assert box is not None

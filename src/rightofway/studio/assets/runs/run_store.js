@@ -117,8 +117,7 @@ export class RunStore extends Observable {
     if (turn !== this.#wanted) return;
     if (this.shown !== number && this.payload)
       this.former = { number: this.shown, payload: this.payload };
-    if (this.shown !== number)
-      Object.assign(this, { losses: null, report: null, command: "" });
+    if (this.shown !== number) Object.assign(this, { losses: null, report: null, command: "" });
     Object.assign(this, { shown: number, payload });
     this.tell("payload");
     const run = this.find(number);
