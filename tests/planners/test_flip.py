@@ -1,0 +1,97 @@
+"""A robot that waits goes first instead: on the same routes, on others, or not, with a reason."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+import rightofway
+from rightofway.check import check
+from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.model import Plan, Rules, Tick, completions_of
+from rightofway.planners import registered
+from rightofway.planners.flip import Flipped, flipped
+from tests.builders.fleets import grid_fleet, random_fleet
+from tests.builders.mixed import mixed
+from tests.builders.seeds import seeds
+from tests.builders.sizes import sized, sized_on_lanes, zoned
+from tests.oracles.judge import faults
+
+
+def longest_wait(plan: Plan) -> tuple[int, int, Tick]:
+    """Return the robot of the longest wait for another one, that one, and when the wait ends."""
+    losses = [loss for one in plan.lost_time for loss in one.losses if loss.for_robot is not None]
+    loss = max(losses, key=lambda loss: loss.ticks)
+    assert loss.for_robot is not None
+    return loss.robot, loss.for_robot, loss.end
+
+
+def answered(plan: Plan, waits: int, goes_first: int, end: Tick) -> Flipped | None:
+    """Return the answer; None where it is a reason."""
+    try:
+        return flipped(plan, waits, goes_first, end)
+    except GaveUp:
+        return None
+
+
+def test_where_both_share_a_door_the_routes_stay() -> None:
+    """Both need four moves through the middle; who goes second comes a move later."""
+    rows, rules = ["...", "@.@", "..."], Rules(ends="none")
+    fleet = grid_fleet(rows, [("N0", "N6"), ("N2", "N8")], rules=rules)
+    plan = rightofway.solve(fleet, "two-level")
+    waits, goes_first, end = longest_wait(plan)
+    answer = flipped(plan, waits, goes_first, end)
+    assert answer.keeps_routes
+    before, after = (completions_of(fleet, one) for one in (plan.tracks, answer.tracks))
+    assert (before[waits], before[goes_first]) == (5, 4)
+    assert (after[waits], after[goes_first]) == (4, 5)
+
+
+def test_a_robot_that_starts_or_ends_in_the_way_is_named_where_there_is_no_other_way() -> None:
+    """R1 follows the slow R2 along a line: out of N0, and on to N3, which R2 passes."""
+    fleet = grid_fleet(
+        ["....."],
+        [("N0", "N3"), ("N1", "N4")],
+        rules=Rules(ends="none"),
+        speeds=(Fraction(1), Fraction(1, 3)),
+    )
+    plan = rightofway.solve(fleet, "two-level")
+    why = "R1 cannot go before R2: R2 starts in its way, and no other way brings R1 home sooner"
+    with pytest.raises(GaveUp, match=why):
+        flipped(plan, 0, 1, Tick(0))
+    with pytest.raises(GaveUp, match="R1 ends in the way of R2"):
+        flipped(plan, *longest_wait(plan))
+
+
+def test_a_plan_with_swaps_is_refused() -> None:
+    plan = rightofway.solve(grid_fleet(["....", "...."], [("N0", "N3"), ("N3", "N0")]), "paper")
+    assert not check(plan).ok
+    with pytest.raises(GaveUp, match=r"the plan has .* swap conflict"):
+        flipped(plan, 0, 1, Tick(1))
+
+
+@pytest.mark.parametrize("planner", sorted(registered()))
+@pytest.mark.parametrize("seed", seeds(60, 5))
+def test_answers_are_plans_that_keep_all_rules(planner: str, seed: int) -> None:
+    makers = (lambda seed: random_fleet(seed, robots=8), mixed, sized, sized_on_lanes, zoned)
+    few = {"iterations": 10} if planner in {"auto", "lns"} else {}
+    try:
+        plan = rightofway.solve(makers[seed % 5](seed), planner, options=few)
+    except (NoPlanExists, GaveUp, InputError) as reason:
+        pytest.skip(f"no plan: {reason}")
+    for one in plan.lost_time:
+        for loss in one.losses:
+            if loss.for_robot is None:
+                continue
+            answer = answered(plan, loss.robot, loss.for_robot, loss.end)
+            if answer is None:
+                continue
+            found = Plan(scenario=plan.scenario, tracks=answer.tracks, run=plan.run)
+            assert check(found).ok
+            assert faults(found) == set()
+            is_same = all(
+                len(new) == len(old) and (new.vertices == old.vertices).all()
+                for new, old in zip(answer.tracks, plan.tracks, strict=True)
+            )
+            assert is_same or not answer.keeps_routes
