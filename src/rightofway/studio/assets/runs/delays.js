@@ -5,6 +5,7 @@ import { fraction, Quantities } from "../viewer/quantities.js";
 import { words } from "../words.js";
 
 const MOST = 6; // robots, and places in a run, that are listed
+const LEAST = 0.05; // share of a lateness from which on the robot behind it is named
 const [WIDTH, HEIGHT] = [300, 84];
 
 export function Delays({ studio, report }) {
@@ -13,8 +14,8 @@ export function Delays({ studio, report }) {
   const begin = Math.max(run.indexOf(report.played), 0);
   const [at, setAt] = useState(begin); // index into the ranks
   const quantities = new Quantities(report.units, fraction(report.tick));
-  const ticks = (value) => quantities.duration(Math.round(value));
-  const short = (value) => quantities.short(Math.round(value));
+  const ticks = (value) => quantities.duration(value.toFixed(1));
+  const short = (value) => quantities.short(value.toFixed(1));
   const middle = run.length > 1 ? (run.length - 1) >> 1 : 0;
   const play = (index) => {
     setAt(index);
@@ -76,6 +77,8 @@ function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, 
     );
   };
   const chosen = flowtime[at];
+  const isInside = from <= planned && planned <= to;
+  const ends = [Math.min(from, planned), ...(isInside ? [planned] : []), Math.max(to, planned)];
   return html`
     <figure class="spread"><svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" preserveAspectRatio="none" onClick=${press} aria-label=${words.spread(text.from, text.to, text.planned)}>
       ${counts.map((count, i) => {
@@ -90,7 +93,7 @@ function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, 
         return html`<rect class=${isChosen ? "chosen" : ""} x=${x(from) + i * width} y=${HEIGHT - height} width=${width * 0.88} height=${height} />`;
       })}
       <path class=${planned < first || planned > last ? "far" : ""} d="M${x(Math.min(Math.max(planned, first), last))} 0V${HEIGHT}" /></svg>
-      <figcaption><span>${short(from)}</span><span class="planned">${words.plannedSum(short(planned))}</span><span>${short(to)}</span></figcaption></figure>`;
+      <figcaption>${ends.map((end) => (end === planned ? html`<span class="planned">${words.plannedSum(short(end))}</span>` : html`<span>${short(end)}</span>`))}</figcaption></figure>`;
 }
 
 /** Where robots were held up in the run that plays, beyond the plan; each is a press away. */
@@ -147,6 +150,6 @@ function Sufferers({ studio, report, ticks, short }) {
       return html`<li><button type="button" class="watch" onClick=${() => stage.choice.chooseRobot(index)}>
         <i class="dot" style=${`background: ${stage.plan?.robots?.[index]?.colour}`}></i><b>${name}</b><span class="bar" aria-hidden="true"><i style=${`width: ${(100 * itself) / most}%`}></i><i class="others" style=${`width: ${(100 * (mean - itself)) / most}%`}></i></span>
         <span>${words.laterBy(ticks(mean))}</span>
-        <small>${words.suffers(short(p95), short(itself), behind && behind[1] >= 0.5 ? behind[0] : "", behind ? short(behind[1]) : "")}</small></button></li>`;
+        <small>${words.suffers(short(p95), short(itself), behind && behind[1] >= LEAST * mean ? behind[0] : "", behind ? short(behind[1]) : "")}</small></button></li>`;
     })}</ul>`;
 }

@@ -23,15 +23,11 @@ const HOUR = [3600n, 1n];
 const MOST_ROBOTS = 4; // of the critical circle that have sliders without being chosen
 const PAUSE = 350; // between two steps of a key after which a value counts as given [ms]
 
-/** The group of robots that is looked at: that of the robot chosen, else the largest one that repeats. */
-function groupOf({ groups }, chosen) {
-  const repeating = groups.filter(({ period }) => period !== null);
-  const most = (one, other) => (other.robots.length > one.robots.length ? other : one);
-  return (
-    repeating.find(({ robots }) => robots.includes(chosen)) ??
-    (repeating.length ? repeating.reduce(most) : null)
+const largest = (groups) =>
+  groups.reduce(
+    (most, each) => (each.robots.length > (most?.robots.length ?? 0) ? each : most),
+    null,
   );
-}
 
 /** Times and speeds in the units of the scenario; the report has exact times, not ticks. */
 class Said {
@@ -63,11 +59,18 @@ const asText = ([top, bottom]) => `${top}/${bottom}`;
 const lapsIn = ({ laps_per_period: laps }) =>
   Object.values(laps).reduce((sum, count) => sum + count, 0);
 
+/** The group of the robot that is chosen, or the largest one that repeats; and the largest that does not. */
 export function Laps({ studio, report }) {
+  const { groups } = report;
   const chosen = studio.stage.isPlan ? studio.stage.choice.robot?.name : undefined;
-  const group = groupOf(report, chosen);
-  if (!group) return html`<p class="pace">${words.noPeriod}</p>`;
-  return html`<${Pace} key=${`${studio.runs.shown} ${group.robots[0]}`} studio=${studio} report=${report} group=${group} chosen=${chosen} />`;
+  const own = groups.find(({ robots }) => robots.includes(chosen));
+  const group = own ?? largest(groups.filter(({ period }) => period !== null));
+  const open = own?.period === null ? own : largest(groups.filter(({ period }) => period === null));
+  const isAlone = groups.length === 1;
+  return html`
+    ${open && html`<p class="open-group">${words.openGroup(several(open.robots), open.robots.length, open.why)}</p>`}
+    ${group && !isAlone && html`<p class="hint">${words.groupOf(several(group.robots), groups.length)}</p>`}
+    ${group && group.period !== null && html`<${Pace} key=${`${studio.runs.shown} ${group.robots[0]}`} studio=${studio} report=${report} group=${group} chosen=${chosen} />`}`;
 }
 
 /** The period, now and with one value changed; the circle that sets it; and the sliders. */

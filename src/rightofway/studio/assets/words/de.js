@@ -249,7 +249,9 @@ export const GERMAN = {
   period: "Periode",
   throughput: (isTimed) => (isTimed ? "Umläufe je Stunde" : "Umläufe in 3600"),
   orders: { now: "wie es ist", same: "gleiche Reihenfolge", anew: "neue Reihenfolge" },
-  noPeriod: "Keine Gruppe von Robotern wiederholt sich; der Bericht sagt, warum.",
+  openGroup: (names, count, why) =>
+    `${names}${count > 1 ? " teilen sich Plätze" : ""}: ${why}. Mehr Zeit oder die Regel timetable kann helfen.`,
+  groupOf: (names, count) => `Eine von ${count} Gruppen, die keinen Platz teilen: ${names}.`,
   moveSlider: "Ein Regler zeigt, was ein anderer Wert bewirkt.",
   sameOrder: (period, before) => `In gleicher Reihenfolge ${period} statt ${before}.`,
   newOrder: (period) => `Mit neuer Reihenfolge ${period}.`,

@@ -234,7 +234,9 @@ export const ENGLISH = {
   period: "period",
   throughput: (isTimed) => (isTimed ? "laps per hour" : "laps in 3600"),
   orders: { now: "as it is", same: "same order", anew: "new order" },
-  noPeriod: "No group of robots repeats itself; the report says why.",
+  openGroup: (names, count, why) =>
+    `${names}${count > 1 ? " share places" : ""}: ${why}. More time or the rule timetable may help.`,
+  groupOf: (names, count) => `One of ${count} groups that share no place: ${names}.`,
   moveSlider: "Move a slider to see what another value does.",
   sameOrder: (period, before) => `In the same order ${period} instead of ${before}.`,
   newOrder: (period) => `With a new order ${period}.`,
