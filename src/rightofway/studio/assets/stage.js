@@ -167,14 +167,14 @@ export class Stage extends Observable {
 function keepView({ viewport: before, roadmap: old }, { viewport, roadmap }) {
   const isSame =
     old.width === roadmap.width && old.height === roadmap.height && old.unit === roadmap.unit;
-  if (before.fitted && isSame) return;
+  const { fitted } = before;
   const [x, y] = toDrawing(old, ...roadmap.toSite(0, 0));
   const { left, top, scale } = before;
   Object.assign(viewport, {
     left: left + x * scale,
     top: top + y * scale,
     scale: (scale * roadmap.unit) / old.unit,
-    fitted: false,
+    fitted: fitted && isSame,
   });
-  viewport.canvas.classList.add("zoomed");
+  viewport.canvas.classList.toggle("zoomed", !viewport.fitted);
 }

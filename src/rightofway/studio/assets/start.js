@@ -15,6 +15,7 @@ export function newFloor({ width, height, cell, isAdaptive }) {
     map: { floor: { size: [width, height], obstacles: [] }, ...cells },
     units: UNITS,
     robots: [],
+    rules: { walls: "strict" },
   };
 }
 

@@ -16,6 +16,9 @@ SMALLEST_CAP = {"many": 4.5, "few": 7.0}
 SMALLEST_RADIUS = 2.0
 """Of a robot that is drawn at its true size [pixels]."""
 
+IN_CELL = 0.35
+"""Of a cell's side: robots that follow each other round a corner do not touch."""
+
 LARGEST_RADIUS = {"grid": 44.0, "network": 20.0}
 """Of a robot that has no size [pixels]."""
 
@@ -82,7 +85,9 @@ def sizes_of(scene: Scene, scale: float) -> Sizes:
     spacing = math.sqrt(plane.width * plane.height / len(scene.trips)) * scale
     cap = max(SMALLEST_CAP["many"], min(SMALLEST_CAP["few"], spacing * 0.1), scale * 0.95)
     least = min(spacing * 0.16, READABLE_RADIUS, cap)
-    largest = LARGEST_RADIUS["grid" if is_grid else "network"]
+    largest = LARGEST_RADIUS["network"]
+    if is_grid:
+        largest = min(LARGEST_RADIUS["grid"], max(scale * IN_CELL, SMALLEST_CAP["many"]))
     point = min(max(scale * 0.31, least, 1.8), largest)
     radii = [float(robot.radius) / plane.unit * scale for robot in scene.plan.scenario.robots]
     robots = tuple(max(radius, SMALLEST_RADIUS) if radius else point for radius in radii)

@@ -209,6 +209,10 @@ export class PickTool {
     this.over = this.editor.roadmap.toSite(point.x, point.y);
   }
 
+  leave() {
+    this.over = null;
+  }
+
   release(point) {
     const { editor } = this;
     this.points.push(editor.roadmap.toSite(point.x, point.y));

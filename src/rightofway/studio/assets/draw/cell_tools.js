@@ -1,5 +1,6 @@
 /** Tools for walls: brush, box, line, door, eraser. They collect cells while they are drawn. */
 
+import { words } from "../words.js";
 import { cellsOfBox, cellsOfLine } from "./ground.js";
 import { lengthText } from "./readout.js";
 import { guidesOfCell, paintGuides } from "./snapping.js";
@@ -44,19 +45,29 @@ class CellTool {
     this.over = this.editor.ground?.cellAt(point.x, point.y) ?? null;
   }
 
+  leave() {
+    this.over = null;
+  }
+
   #reach(cell) {
-    const { ground } = this.editor;
-    if (!this.keeps) this.cells.clear();
-    for (const each of this.collect(this.end, cell))
-      if (ground.holds(each)) this.cells.set(each.join(), each);
+    const from = this.end;
     this.end = cell;
+    if (this.isWhole) return; // its cells are those between both ends
+    if (!this.keeps) this.cells.clear();
+    this.#add(this.collect(from, cell));
+  }
+
+  #add(cells) {
+    const { ground } = this.editor;
+    for (const each of cells) if (ground.holds(each)) this.cells.set(each.join(), each);
   }
 
   release() {
     if (!this.start) return;
     const { editor } = this;
-    const cells = [...this.cells.values()];
     const path = this.#path();
+    if (this.isWhole) this.#add(cellsOfBox(this.start, this.end));
+    const cells = [...this.cells.values()];
     this.cancel();
     const before = editor.document;
     editor.store.change((document) => this.apply(editor.ground, document, cells));
@@ -85,11 +96,24 @@ class CellTool {
     const { ground, stage } = this.editor;
     const path = new Path2D();
     const more = 0.5 / stage.view.viewport.scale; // no hairline between two cells
-    for (const cell of this.cells.values()) {
-      const [left, top, width, height] = ground.boxOf(cell);
+    const boxes = this.isWhole
+      ? [this.#corners(ground)]
+      : [...this.cells.values()].map((cell) => [cell, cell]);
+    for (const [from, to] of boxes) {
+      const [left, top, width, height] = ground.boxOf(from, to);
       path.rect(left, top, width + more, height + more);
     }
     return path;
+  }
+
+  /** The upper left and the lower right cell of what was dragged over, inside of the map. */
+  #corners({ columns, rows }) {
+    const [one, other] = [this.start, this.end];
+    const inside = (value, count) => Math.min(Math.max(value, 0), count - 1);
+    return [Math.min, Math.max].map((best) => [
+      inside(best(one[0], other[0]), columns),
+      inside(best(one[1], other[1]), rows),
+    ]);
   }
 
   #fill(context, path, opacity) {
@@ -124,10 +148,23 @@ export class BrushTool extends CellTool {
 export class EraseTool extends BrushTool {
   static called = "erase";
   frees = true;
+
+  /** Robots are no walls: who means to erase one is told how. */
+  release() {
+    const { editor, cells } = this;
+    const { roadmap, document } = editor;
+    super.release();
+    if (editor.document !== document) return editor.say("");
+    const isAt = (vertex) =>
+      vertex >= 0 && cells.has(editor.ground.cellAt(roadmap.x[vertex], roadmap.y[vertex]).join());
+    const isRobot = editor.hits.robots.some(({ home, stops }) => [home, ...stops].some(isAt));
+    editor.say(isRobot ? words.robotsStay : "");
+  }
 }
 
 export class BoxTool extends CellTool {
   static called = "box";
+  isWhole = true; // all between both ends
 
   /** With Shift a square. */
   aimed(cell, { isMore }) {
@@ -135,10 +172,6 @@ export class BoxTool extends CellTool {
     const way = cell.map((each, axis) => each - this.start[axis]);
     const side = Math.max(...way.map(Math.abs));
     return this.start.map((each, axis) => each + (way[axis] < 0 ? -side : side));
-  }
-
-  collect(_, cell) {
-    return cellsOfBox(this.start, cell);
   }
 
   get measure() {

@@ -94,6 +94,7 @@ export class Editor extends Observable {
   take(name) {
     if (!this.fitting.includes(name)) return;
     this.tool.cancel();
+    this.tool.leave?.();
     this.tool = this.tools.get(name);
     this.say("");
   }
@@ -146,14 +147,24 @@ export class Editor extends Observable {
     on("pointercancel", (event) => this.#drop(event));
     on("keydown", (event) => this.#key(event));
     on("contextmenu", (event) => this.#ask(event));
-    on("pointerleave", () => {
-      this.over = null;
-      this.stage.ask();
-    });
+    on("pointerleave", (event) => event.target === holder && this.#leave());
+    on("keyup", (event) => event.key === "Tab" && this.#showFocus(true));
     document.addEventListener(
       "keyup",
       (event) => event.code === "Space" && (this.#panning = false),
     );
+  }
+
+  /** Nothing is pointed at any more. */
+  #leave() {
+    this.over = null;
+    this.tool.leave?.();
+    this.stage.ask();
+  }
+
+  /** A frame round the map tells who works with keys that it has the focus. */
+  #showFocus(isShown) {
+    this.stage.holder.classList.toggle("by-keys", isShown);
   }
 
   /** Where an event is on the map: Shift for more of it, Ctrl for just there, Alt for a copy. */
@@ -224,6 +235,7 @@ export class Editor extends Observable {
     if (this.#touches.size > 1) return this.#abandon();
     this.#held = event.pointerId;
     this.cursor = null;
+    this.#showFocus(false);
     this.#rest(event);
     this.tool.press(this.#point(event));
     this.changed();
@@ -313,12 +325,16 @@ export class Editor extends Observable {
   escape() {
     if (this.tool.isBusy) this.tool.cancel();
     else if (this.selection.size) this.select([]);
-    else this.take("select");
+    else if (this.cursor) {
+      this.cursor = null;
+      this.#leave();
+    } else this.take("select");
     this.changed();
   }
 
   #moveCursor([right, down], isFar) {
     const { roadmap, stage } = this;
+    this.#showFocus(true);
     const side = this.ground?.side ?? 1;
     const step = isFar ? 5 * side : side;
     if (this.cursor)

@@ -124,17 +124,15 @@ class FloorGround {
       rect: this.#rectOf(from, to),
     }));
     const known = document.map.floor.obstacles ?? [];
-    const news = rects.filter(({ rect }) => !known.some((other) => covers(other.rect, rect)));
+    const there = known.map(({ rect }) => rect.map((length) => numberOf(length)));
+    const news = rects.filter(({ rect }) => !there.some((other) => covers(other, rect)));
     return news.length ? withObstacles(document, [...known, ...news]) : document;
   }
 
   free(document, cells) {
     const known = document.map.floor.obstacles ?? [];
-    let left = known;
-    for (const [from, to] of blocksOf(cells)) {
-      const hole = this.#rectOf(from, to);
-      left = left.flatMap((each) => without(each, hole));
-    }
+    const holes = blocksOf(cells).map(([from, to]) => this.#rectOf(from, to));
+    const left = known.flatMap((each) => without(each, holes));
     const isSame = left.length === known.length && left.every((each, i) => each === known[i]);
     return isSame ? document : withObstacles(document, left);
   }
@@ -142,7 +140,10 @@ class FloorGround {
   isBlocked(document, cell) {
     const [x, y, width, height] = this.#rectOf(cell, cell);
     return (document.map.floor.obstacles ?? []).some(({ rect }) =>
-      covers(rect, [x + width / 4, y + height / 4, width / 2, height / 2]),
+      covers(
+        rect.map((length) => numberOf(length)),
+        [x + width / 4, y + height / 4, width / 2, height / 2],
+      ),
     );
   }
 
@@ -164,8 +165,7 @@ export const withObstacles = (document, obstacles) => ({
 });
 
 /** Whether a rectangle holds another one. */
-function covers(rect, [x, y, width, height]) {
-  const [left, top, wide, high] = rect.map((length) => numberOf(length));
+function covers([left, top, wide, high], [x, y, width, height]) {
   return (
     x >= left - 1e-9 &&
     y >= top - 1e-9 &&
@@ -174,9 +174,19 @@ function covers(rect, [x, y, width, height]) {
   );
 }
 
-/** What is left of an obstacle round a hole: itself, or up to four pieces. */
-function without(obstacle, [x, y, width, height]) {
-  const [left, top, wide, high] = obstacle.rect.map((length) => numberOf(length));
+/** What is left of an obstacle round some holes: itself, or pieces of it. */
+function without(obstacle, holes) {
+  const whole = obstacle.rect.map((length) => numberOf(length));
+  let pieces = [whole];
+  for (const hole of holes) pieces = pieces.flatMap((piece) => piecesRound(piece, hole));
+  return pieces.length === 1 && pieces[0] === whole
+    ? [obstacle]
+    : pieces.map((rect) => ({ ...obstacle, rect: rect.map(rounded) }));
+}
+
+/** A rectangle without a hole: itself, or up to four pieces. */
+function piecesRound(rect, [x, y, width, height]) {
+  const [left, top, wide, high] = rect;
   const [right, bottom] = [left + wide, top + high];
   if (
     x >= right - 1e-9 ||
@@ -184,17 +194,14 @@ function without(obstacle, [x, y, width, height]) {
     x + width <= left + 1e-9 ||
     y + height <= top + 1e-9
   )
-    return [obstacle];
+    return [rect];
   const [from, to] = [Math.max(top, y), Math.min(bottom, y + height)];
-  const pieces = [
+  return [
     [left, top, wide, y - top],
     [left, y + height, wide, bottom - y - height],
     [left, from, x - left, to - from],
     [x + width, from, right - x - width, to - from],
-  ];
-  return pieces
-    .filter(([, , w, h]) => w > 1e-9 && h > 1e-9)
-    .map((rect) => ({ ...obstacle, rect: rect.map(rounded) }));
+  ].filter(([, , w, h]) => w > 1e-9 && h > 1e-9);
 }
 
 /** Cells as few blocks: runs in a row, joined with equal runs in the row below. */
@@ -213,12 +220,15 @@ function blocksOf(cells) {
       ]);
   }
   const blocks = [];
+  const latest = new Map(); // of each run of columns
   for (const [from, to] of runs) {
-    const above = blocks.find(
-      ([top, bottom]) => bottom[1] === from[1] - 1 && top[0] === from[0] && bottom[0] === to[0],
-    );
-    if (above) above[1] = to;
-    else blocks.push([from, to]);
+    const columns = `${from[0]} ${to[0]}`;
+    const above = latest.get(columns);
+    if (above?.[1][1] === from[1] - 1) above[1] = to;
+    else {
+      latest.set(columns, [from, to]);
+      blocks.push(latest.get(columns));
+    }
   }
   return blocks;
 }

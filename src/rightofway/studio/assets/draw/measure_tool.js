@@ -32,6 +32,10 @@ export class MeasureTool {
     this.over = this.#aimed(point);
   }
 
+  leave() {
+    this.over = null;
+  }
+
   release(point) {
     this.end = this.#aimed(point);
     this.isHeld = false;

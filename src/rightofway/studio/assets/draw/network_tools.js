@@ -34,6 +34,10 @@ class PointTool {
     this.over = point;
   }
 
+  leave() {
+    this.over = null;
+  }
+
   cancel() {
     this.isBusy = false;
   }

@@ -5,6 +5,7 @@ import { PlanButton } from "../header.js";
 import { html } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { BackdropPanel } from "./backdrop.js";
+import { withoutKey } from "./network.js";
 import { LanePanel, VertexPanel, ZoneList } from "./network_panel.js";
 import { withObstacles } from "./ground.js";
 import { numberOf } from "./places.js";
@@ -100,8 +101,24 @@ function Size({ studio }) {
         </select></label
       >
     </div>
+    ${(map.grid || map.floor) && html`<${StrictWalls} store=${store} />`}
     ${wrong.map(({ message }) => html`<p class="wrong">${message}</p>`)}
   </section>`;
+}
+
+/** Whether robots that are wider than a cell keep their distance from walls. */
+function StrictWalls({ store }) {
+  const { rules } = store.document;
+  if (typeof rules === "string") return null; // rules by name
+  const toggle = ({ target }) =>
+    store.change((document) => {
+      const { walls, ...rest } = document.rules ?? {};
+      if (target.checked) return { ...document, rules: { ...rest, walls: "strict" } };
+      return Object.keys(rest).length
+        ? { ...document, rules: rest }
+        : withoutKey(document, "rules");
+    });
+  return html`<label class="check" title=${words.strictWallsHint}><input type="checkbox" checked=${rules?.walls === "strict"} onChange=${toggle} /> ${words.strictWalls}</label>`;
 }
 
 /** What is selected on the map, and what can be done with it. */

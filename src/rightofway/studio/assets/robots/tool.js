@@ -33,6 +33,10 @@ export class RobotTool {
     this.over = this.editor.vertexAt(point);
   }
 
+  leave() {
+    this.over = -1;
+  }
+
   release(point) {
     const { editor } = this;
     const vertex = editor.vertexAt(point);

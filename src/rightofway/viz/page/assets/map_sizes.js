@@ -1,6 +1,7 @@
 const READABLE_RADIUS = 10; // pixels; a robot need not be larger to be seen from afar
 const SMALLEST_CAP = { many: 4.5, few: 7 }; // pixels; robots may be as large where cells are smaller
 const SMALLEST_RADIUS = 2; // pixels, of a robot that is drawn at its true size
+const IN_CELL = 0.35; // of a cell's side: robots that follow each other round a corner do not touch
 const LARGEST_RADIUS = { grid: 44, network: 20 }; // pixels
 
 /**
@@ -32,10 +33,10 @@ export class MapSizes {
     const apart = Math.sqrt((roadmap.width * roadmap.height) / robots.length) * scale; // on average
     const cap = Math.max(SMALLEST_CAP.many, Math.min(SMALLEST_CAP.few, apart * 0.1), scale * 0.95);
     const least = Math.min(apart * 0.16, READABLE_RADIUS, cap);
-    return Math.min(
-      Math.max(scale * 0.31, least, 1.8),
-      LARGEST_RADIUS[roadmap.hasCells ? "grid" : "network"],
-    );
+    const most = roadmap.hasCells
+      ? Math.min(LARGEST_RADIUS.grid, Math.max(scale * IN_CELL, SMALLEST_CAP.many))
+      : LARGEST_RADIUS.network;
+    return Math.min(Math.max(scale * 0.31, least, 1.8), most);
   }
 
   /** Half the side of a robot's home. */
@@ -51,7 +52,10 @@ export class MapSizes {
 
   /** Half the width of a stop's diamond. */
   get stop() {
-    return Math.max(Math.min(this.robot * 0.75, 17), 3);
+    const { robots, largestRadius } = this.plan;
+    const isSized = largestRadius && robots.every(({ radius }) => radius);
+    const size = isSized ? Math.min(this.robot, this.#point) : this.#point;
+    return Math.max(Math.min(size * 0.75, 17), 3);
   }
 
   /** Width of a lane of a roadmap that is driven both ways. */
