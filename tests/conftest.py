@@ -45,6 +45,7 @@ SLOW = (
     "laws/test_untimed_lacam.py",
     "laws/test_workbook_fuzz.py",
     "planners/test_limits.py",  # limits of time, and interrupts
+    "studio/test_accessibility.py",  # a browser
     "studio/test_attacks.py",  # thousands of requests
     "studio/test_bombs.py",  # a studio, and a browser
     "studio/test_documents.py",  # a process for each studio
