@@ -82,9 +82,10 @@ class Command:
         )
         assert self.process.stderr is not None, "it is a pipe"
         self.first_line = self.process.stderr.readline()
-        address = re.search(r"http://\S+?/", self.first_line)
+        address = re.search(r"https?://\S+?/", self.first_line)
         assert address, self.first_line + self.process.stderr.read()
-        self.client = httpx.Client(base_url=f"{address[0]}api/v1", timeout=PATIENCE)
+        root = address[0]
+        self.client = httpx.Client(base_url=f"{root}api/v1", timeout=PATIENCE, verify=False)  # noqa: S501 (a test's own certificate)
 
     def end(self, by: signal.Signals = signal.SIGINT) -> str:
         """End it by a signal, and return what it has written since its first line."""
@@ -105,9 +106,9 @@ class Command:
                 found.append(int(process.name))
         return found
 
-    def memory(self) -> int:
-        """Return the memory of the server itself [bytes]."""
-        status = Path(f"/proc/{self.process.pid}/status").read_text()
+    def memory(self, process: int | None = None) -> int:
+        """Return the memory of the server itself, or of a worker [bytes]."""
+        status = Path(f"/proc/{process or self.process.pid}/status").read_text()
         line = re.search(r"^VmRSS:\s+(\d+) kB", status, re.MULTILINE)
         assert line, status
         return int(line[1]) * 1024

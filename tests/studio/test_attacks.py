@@ -10,12 +10,17 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import httpx
 import pytest
 
 from rightofway.studio.connections import PATIENCE
+from tests.builders.browsers import needs_browser
 from tests.builders.studios import DOOR, Command, command, planned, sent
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 MALFORMED = 10_000
 FLAT = 60e6
@@ -156,6 +161,39 @@ def test_connections_that_send_nothing_keep_nobody_out(tmp_path: Path) -> None:
         for connection in flood:
             connection.close()
         assert studio.end() == ""
+
+
+@needs_browser
+def test_twenty_pages_hear_of_ten_plans_and_memory_stays_flat(
+    browser: Browser, tmp_path: Path
+) -> None:
+    """All plans are made at once, twice; each page shows the ends of all of them."""
+    from tests.builders.crowds import CROWD
+
+    (tmp_path / "crowd.yaml").write_text(json.dumps(CROWD))
+    context = browser.new_context(locale="en-GB", reduced_motion="reduce")
+    with command(tmp_path, "--no-history", "--planners", "10") as studio:
+        root = str(studio.client.base_url).removesuffix("api/v1/")
+        pages = [context.new_page() for _ in range(20)]
+        used = []
+        for _ in range(2):
+            body = {"document": CROWD, "planner": "lns", "time_limit": 4}
+            begun = {studio.client.post("/runs", json=body).json()["number"] for _ in range(10)}
+            for page in pages:
+                page.goto(root)
+            waiting, ends = list(pages), time.monotonic() + 60
+            while waiting and time.monotonic() < ends:
+                waiting = [page for page in waiting if not begun <= set(page.evaluate(DONE))]
+            assert not waiting
+            used.append([studio.memory(), *map(studio.memory, sorted(studio.workers()))])
+        assert len(used[0]) == len(used[1]) >= 11
+        assert max(after - before for before, after in zip(*used, strict=True)) < FLAT
+        assert studio.end() == ""
+    context.close()
+
+
+DONE = """() => (window.studio?.runs.runs ?? []).filter(({ state }) => state === "done")
+  .map(({ number }) => number)"""
 
 
 def test_twenty_browsers_watch_ten_plans_that_are_made_at_once(tmp_path: Path) -> None:

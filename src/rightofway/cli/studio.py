@@ -28,6 +28,10 @@ Examples:
               " in the printed address.")  # fmt: skip
 @click.option("--port", type=click.IntRange(1, 65535), metavar="PORT",
               help="Port to listen on; a free one by default.")  # fmt: skip
+@click.option("--certificate", type=click.Path(dir_okay=False), metavar="FILE",
+              help="Certificate in PEM format: the connection is encrypted (https).")  # fmt: skip
+@click.option("--key", type=click.Path(dir_okay=False), metavar="FILE",
+              help="Private key of the certificate, where it is in a file of its own.")  # fmt: skip
 @click.option("--planners", type=click.IntRange(1, 64), default=1, show_default=True, metavar="N",
               help="Plans to work on at once, each in a process of its own.")  # fmt: skip
 @click.option("--no-browser", is_flag=True, help="Do not open a browser.")
@@ -39,6 +43,8 @@ def studio(
     path: str,
     host: str,
     port: int | None,
+    certificate: str | None,
+    key: str | None,
     planners: int,
     no_browser: bool,
     api_only: bool,
@@ -61,6 +67,8 @@ def studio(
         Studio(folder, file=file, planners=planners, keeps=not no_history),
         host=host,
         port=port,
+        certificate=certificate,
+        key=key,
         has_page=not api_only,
         opens_browser=not (no_browser or api_only),
         say=complain,

@@ -253,6 +253,8 @@ class Guard:
             raise Refused("the token is wrong (use the address that the studio printed)", 401)
         rest = f"?{urlencode(query, doseq=True)}" if query else ""
         cookie = f"{COOKIE}={self._access.token}; HttpOnly; SameSite=Strict; Path=/"
+        if request.scope.get("scheme") == "https":
+            cookie += "; Secure"
         await answer.send(
             {
                 "type": "http.response.start",

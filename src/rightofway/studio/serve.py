@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import ipaddress
 import socket
+import ssl
 import threading
 import webbrowser
 from collections.abc import Callable
@@ -50,6 +51,8 @@ def serve(
     *,
     host: str,
     port: int | None,
+    certificate: str | None = None,
+    key: str | None = None,
     has_page: bool,
     opens_browser: bool,
     say: Callable[[str], None],
@@ -64,6 +67,8 @@ def serve(
         The address to listen on.
     port
         The port; None for a free one.
+    certificate, key
+        Files in PEM format for TLS; the key may be in the file of the certificate.
     has_page
         Whether the page is served, beside the API.
     opens_browser
@@ -74,14 +79,15 @@ def serve(
     Raises
     ------
     InputError
-        If the address cannot be listened on.
+        If the address cannot be listened on, or the certificate cannot be used.
     """
+    refuse_certificate(certificate, key)
     allow_descriptors()
     listener = bound(host, port)
     actual = listener.getsockname()[1]
     access = Access.on(host, actual)
     query = f"?token={access.token}" if access.token else ""
-    address = f"http://{_called(host)}:{actual}/{query}"
+    address = f"http{'s' if certificate else ''}://{_called(host)}:{actual}/{query}"
 
     def ready() -> None:
         say(f"studio: {address} (end it with Ctrl-C)")
@@ -95,6 +101,8 @@ def serve(
         http=Connection,
         ws="none",
         backlog=AT_ONCE,
+        ssl_certfile=certificate,
+        ssl_keyfile=key,
         log_level="critical",
         access_log=False,
         server_header=False,
@@ -103,6 +111,26 @@ def serve(
     )
     with contextlib.closing(listener), contextlib.suppress(KeyboardInterrupt):
         _Server(config, studio, ready).run(sockets=[listener])
+
+
+def refuse_certificate(certificate: str | None, key: str | None) -> None:
+    """Refuse what TLS cannot be served with; without either there is none."""
+    if certificate is None:
+        if key is not None:
+            raise InputError.at("--key", "is given without --certificate (give both)")
+        return
+
+    def password() -> str:
+        raise InputError.at("--key", f"{key or certificate} has a password (take it off)")
+
+    try:
+        context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+        context.load_cert_chain(certificate, key, password)
+    except OSError as error:  # that of TLS is one, too
+        reason = getattr(error, "reason", None) or error.strerror or str(error)
+        what = f"{certificate} and {key}" if key else certificate
+        message = f"{what} cannot be used: {reason} (give a certificate and its key in PEM format)"
+        raise InputError.at("--certificate", message) from None
 
 
 def bound(host: str, port: int | None) -> socket.socket:

@@ -15,7 +15,7 @@ import {
 import { columnOf } from "./columns.js";
 import { freeName, removeRobots, robotsOf, sortRobots } from "./fleet.js";
 
-const MOST_ROWS = 200; // that are written at once; the others on request
+const MOST_ROWS = 100; // that are written at once; the others on request
 
 /** The table; `columns` are those that are shown, `wanted` is what a robot has to say somewhere. */
 export function Sheet({ studio, columns, wanted }) {
