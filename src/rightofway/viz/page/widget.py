@@ -61,7 +61,7 @@ def in_notebook() -> bool:
 @cache
 def widget_module() -> str:
     """Return the JavaScript module of the widget: the page's markup, its scripts, and `render`."""
-    body = re.search(r"<body>(.*)<noscript>", asset("template.html"), re.DOTALL)
+    body = re.search(r"<body>(.*)<noscript", asset("template.html"), re.DOTALL)
     assert body is not None
     style = re.sub(r":root|\bbody\b", ".page", style_sheet())
     payload = '<script type="application/json" id="plan"></script>'

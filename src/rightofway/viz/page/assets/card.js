@@ -1,7 +1,7 @@
-import { element, facts, goTo, link, swatch } from "./dom.js";
+import { element, english, facts, goTo, link, swatch } from "./dom.js";
 import { texts, withKey } from "./language.js";
 import { BROKEN, WAIT } from "./phases.js";
-import { joined } from "./words.js";
+import { joined, languageOfFault } from "./words.js";
 
 const MOST_LINES = 200; // of stages or losses in a card
 
@@ -60,7 +60,7 @@ export class Card {
         [texts.speed, this.plan.quantities.speed(robot.speed)],
         [texts.radius, robot.radius ? this.plan.quantities.length(robot.radius) : ""],
         [texts.home, words.vertex(robot.home)],
-        [texts.anotherWay, rerouted?.because ?? ""],
+        [texts.anotherWay, english(rerouted?.because ?? "")],
       ]),
       element("h3", {}, texts.trip),
       this.#lines(robot.stages, (stage) => this.#stage(robot, stage)),
@@ -188,8 +188,12 @@ export class Card {
     const title = element("h2", {}, ...joined(names));
     return [
       this.#header(...robots.slice(0, 3).map(swatch), title),
-      element("p", { className: "name wrong" }, `${this.words.fault(fault)}.`),
-      element("p", {}, this.words.remedy(fault)),
+      element(
+        "p",
+        { className: "name wrong", lang: languageOfFault(fault) },
+        `${this.words.fault(fault)}.`,
+      ),
+      element("p", { lang: languageOfFault(fault) }, this.words.remedy(fault)),
       ...(fault.reason
         ? []
         : [

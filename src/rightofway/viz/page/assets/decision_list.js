@@ -1,6 +1,6 @@
 import { element } from "./dom.js";
 import { connectFind, matches } from "./find.js";
-import { texts } from "./language.js";
+import { language, texts } from "./language.js";
 import { VirtualList } from "./virtual_list.js";
 
 /** All resolved conflicts, and the robots that were sent another way. */
@@ -52,6 +52,7 @@ export class DecisionList {
     return {
       head: texts.rerouted(this.words.robot(reroute.robot)),
       detail: reroute.because,
+      isEnglish: true,
       isChosen: () => this.choice.decisionIndex < 0 && this.choice.robotIndex === reroute.robot,
       choose: () => this.choice.chooseRobot(reroute.robot),
     };
@@ -69,6 +70,9 @@ export function fillTwoLines(row, item) {
   if (row.filled === item) return;
   row.filled = item;
   row.title = `${item.head}\n${item.detail}`;
-  const head = element("span", { className: "text name" }, item.head);
-  row.replaceChildren(head, element("span", { className: "text name" }, item.detail));
+  const lines = [item.head, item.detail].map((text) =>
+    element("span", { className: "text name", lang: item.isEnglish ? "en" : language }, text),
+  );
+  row.lang = lines[0].lang; // of its title
+  row.replaceChildren(...lines);
 }

@@ -8,6 +8,11 @@ export function element(tag, properties = {}, ...children) {
   return made;
 }
 
+/** Words of the library that have no translation: marked, so that they are read out rightly. */
+export function english(text) {
+  return text && element("span", { lang: "en" }, text);
+}
+
 /** A dot in a robot's colour. */
 export function swatch(robot) {
   const dot = element("span", { className: "swatch" });

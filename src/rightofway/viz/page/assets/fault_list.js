@@ -2,6 +2,7 @@ import { fillTwoLines } from "./decision_list.js";
 import { connectFind, matches } from "./find.js";
 import { texts } from "./language.js";
 import { VirtualList } from "./virtual_list.js";
+import { languageOfFault } from "./words.js";
 
 const LINE = 36; // letters of a fault that surely fit in a line
 
@@ -34,6 +35,7 @@ export class FaultList {
 
   #item(fault, index) {
     return {
+      isEnglish: languageOfFault(fault) === "en",
       head: this.words.fault(fault),
       detail: fault.reason
         ? this.words.remedy(fault)

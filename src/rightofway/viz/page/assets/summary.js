@@ -1,4 +1,4 @@
-import { element, facts, link } from "./dom.js";
+import { element, english, facts, link } from "./dom.js";
 import { texts } from "./language.js";
 import { DONE, WAIT } from "./phases.js";
 import { several, upperFirst } from "./words.js";
@@ -220,7 +220,7 @@ export class Summary {
   /** What a search gained over its first plan; of other planners, what they report. */
   #method() {
     const { status, saved, tries } = this.plan.planner;
-    if (saved === undefined) return status;
+    if (saved === undefined) return english(status);
     const gain = saved > 0 ? texts.saved(this.words.duration(saved)) : texts.savedNothing;
     return texts.improvement(tries, gain);
   }
@@ -234,7 +234,7 @@ export class Summary {
     const gap = lowerBound ? this.words.percent(flowtime / lowerBound - 1) : "";
     const isUnit = tick.numerator === tick.denominator;
     const origin = [
-      [texts.planner, planner.name],
+      [texts.planner, english(planner.name)],
       [texts.method, this.#method()],
     ];
     if (this.plan.faultCount) return origin; // its times are worth nothing

@@ -1,6 +1,11 @@
-import { texts } from "./language.js";
+import { language, texts } from "./language.js";
 import { BROKEN } from "./phases.js";
 import { FOLLOWS, MAKES_ROOM } from "./robot.js";
+
+/** The language of what is said about a fault: a reason of the library is English. */
+export function languageOfFault({ reason }) {
+  return reason ? "en" : language;
+}
 
 /** "R1, R2 and R3"; the first few of many. */
 export function several(names) {

@@ -1,0 +1,53 @@
+"""Words of a language that must not stand on a page of another one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tests.builders.browsers import Viewer
+
+ENGLISH = (
+    "alone", "and", "are", "away", "before", "booking", "bookings", "by", "choose", "close",
+    "decision", "decisions", "done", "draw", "drives", "driving", "edges", "every", "faults",
+    "finding", "findings", "first", "floor", "for", "from", "goes", "home", "is", "it", "lane",
+    "lanes", "later", "lap", "laps", "leave", "length", "lines", "lost", "more", "no", "none",
+    "nothing", "of", "on", "one", "other", "over", "place", "places", "repeats", "robots",
+    "routes", "save", "show", "speed", "stop", "stops", "that", "the", "there", "they",
+    "time", "times", "to", "turning", "turns", "units", "vertices", "vertex", "wait", "waiting",
+    "waits", "way", "what", "when", "where", "which", "who", "why", "with", "work", "working",
+    "works",
+)  # fmt: skip
+"""Frequent English words of these pages that are no German ones."""
+
+SAID = """(words) => {
+  const found = [];
+  const isEnglish = (node) => {
+    const spoken = node.closest("[lang]")?.lang ?? document.documentElement.lang;
+    return spoken === "en" || node.closest("code, pre, script, style, [translate=no]") !== null;
+  };
+  const look = (text, node) => {
+    const said = (text ?? "").toLowerCase().match(/\\p{L}+/gu) ?? [];
+    const foreign = said.filter((word) => words.includes(word));
+    if (foreign.length && !isEnglish(node)) found.push(text.trim().slice(0, 90));
+  };
+  const tree = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = tree.nextNode(); node; node = tree.nextNode())
+    look(node.textContent, node.parentElement);
+  for (const node of document.querySelectorAll("*"))
+    for (const name of ["aria-label", "title", "placeholder", "alt", "aria-roledescription"])
+      look(node.getAttribute(name), node);
+  return [...new Set(found)];
+}"""
+
+
+def english_on(viewer: Viewer) -> list[str]:
+    """Return the texts of a page, hidden ones and names of elements too, that are English.
+
+    Parameters
+    ----------
+    viewer
+        The page. What it marks as English may be so.
+    """
+    found: list[str] = viewer.page.evaluate(SAID, list(ENGLISH))
+    return found

@@ -1,0 +1,79 @@
+"""Sentences that keep template and values; every one that pages translate has its German."""
+
+from __future__ import annotations
+
+import ast
+import copy
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from rightofway.errors import listed
+from rightofway.phrases import Phrase, counted, joined, parts_of
+from rightofway.viz.page.scripts import asset
+
+SOURCES = Path(__file__).parents[1] / "src" / "rightofway"
+ENTRY = re.compile(r'^  (?:"((?:[^"\\]|\\.)+)"|(\w+)):\s+"((?:[^"\\]|\\.)+)",$', re.MULTILINE)
+VALUE = re.compile(r"\{(\w+)\}")
+
+
+def templates() -> Iterator[str]:
+    """Yield the templates of all phrases in the library."""
+    for path in SOURCES.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)):
+                continue
+            texts = [each.value for each in node.args if isinstance(each, ast.Constant)]
+            if node.func.id == "Phrase":
+                yield from map(str, texts)
+            elif node.func.id == "counted" and len(texts) > 1:
+                yield from (f"{{number}} {text}" for text in texts)
+
+
+def german() -> dict[str, str]:
+    """Return the German of each template."""
+    entries = ENTRY.findall(asset("texts/library_de.js"))
+    return {quoted or bare: text for quoted, bare, text in entries}
+
+
+def test_every_phrase_of_the_library_has_its_german() -> None:
+    assert set(templates()) - set(german()) == set()
+
+
+def test_no_translation_is_left_of_a_phrase_that_is_gone() -> None:
+    assert set(german()) - set(templates()) == set()
+
+
+def test_a_translation_has_the_values_of_its_template() -> None:
+    for template, text in german().items():
+        assert sorted(VALUE.findall(template)) == sorted(VALUE.findall(text)), template
+
+
+def test_a_phrase_is_its_text_and_keeps_template_and_values() -> None:
+    phrase = Phrase("{place} holds {robots}", place="{N1}", robots=counted(2, "robot", "robots"))
+    assert phrase == "{N1} holds 2 robots"
+    assert json.loads(json.dumps(phrase)) == "{N1} holds 2 robots"
+    assert parts_of(phrase) == [
+        "{place} holds {robots}",
+        {"place": "{N1}", "robots": ["{number} robots", {"number": "2"}]},
+    ]
+
+
+def test_a_copy_of_a_phrase_keeps_its_values() -> None:
+    phrase = Phrase("station {name}", name="Dock")
+    assert parts_of(copy.deepcopy(phrase)) == parts_of(phrase)
+
+
+@pytest.mark.parametrize(
+    ("items", "text"),
+    [(["A"], "A"), (["A", "B"], "A and B"), (["A", "B", "C"], "A, B and C")],
+)
+def test_items_are_joined_as_in_a_sentence(items: list[str], text: str) -> None:
+    assert joined(items) == listed(items) == text
+
+
+def test_plain_text_has_no_parts() -> None:
+    assert parts_of("D1") == "D1"

@@ -1,0 +1,98 @@
+"""The page in the language of the browser, of the address, or that was chosen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from rightofway.errors import Blockage, NoPlanExists
+from rightofway.io.sites import Choice, read_sites
+from rightofway.metrics import inspect
+from rightofway.viz import write_inspection
+from tests.builders.browsers import Viewer, needs_browser
+from tests.builders.languages import english_on
+from tests.builders.plans import counter, counter_late, counter_steady, crowd, door, yard
+from tests.viewer.conftest import Opener
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = needs_browser
+
+GERMAN = {"locale": "de-DE"}
+
+EACH_CHOICE = """[
+  ...plan.robots.slice(0, 3).map((_, i) => () => choice.chooseRobot(i)),
+  ...plan.decisions.slice(0, 3).map((_, i) => () => choice.chooseDecision(i)),
+  ...plan.faults.slice(0, 3).map((_, i) => () => choice.chooseFault(i)),
+  () => choice.toggleHeat(), () => choice.toggleSpace(), () => choice.toggleCorridor(),
+  () => clock.seek(clock.end / 2), () => modeSwitch.next(), () => modeSwitch.next(),
+  () => paper.lay(true),
+]"""
+
+
+@pytest.mark.parametrize(
+    "opened",
+    [
+        lambda opener: opener(door(), title="door", **GERMAN),
+        lambda opener: opener(crowd(80, decisions=3), title="crowd", **GERMAN),
+        lambda opener: opener(yard(), title="yard", **GERMAN),
+        lambda opener: opener(counter(), steady=[counter_steady()], title="bay", **GERMAN),
+        lambda opener: opener(counter(), actual=counter_late(), title="bay", **GERMAN),
+    ],
+    ids=["decisions", "many", "sizes", "laps", "floor"],
+)
+def test_no_state_of_the_page_says_an_english_word_to_a_german(
+    show: Opener, opened: Callable[[Opener], Viewer]
+) -> None:
+    viewer = opened(show)
+    assert viewer.page.locator("html").get_attribute("lang") == "de"
+    assert english_on(viewer) == []
+    for state in range(viewer.ask(f"{EACH_CHOICE}.length")):
+        viewer.ask(f"{EACH_CHOICE}[{state}]()")
+        viewer.page.wait_for_timeout(60)
+        assert english_on(viewer) == [], state
+    assert viewer.complaints == []
+
+
+def test_reasons_of_the_library_are_marked_as_english(show: Opener) -> None:
+    blocked = Blockage(reason="no way leads from N0 to N2 (open one)", robots=("R1",), vertices=())
+    viewer = show(door(), no_plan=NoPlanExists([blocked]), title="door", **GERMAN)
+    assert english_on(viewer) == []
+    assert "no way leads" in viewer.text("#fault-list [lang=en]")
+
+
+def test_the_page_of_an_inspection_says_findings_in_german(
+    browser: Browser, tmp_path: Path
+) -> None:
+    (tmp_path / "nodes.csv").write_text("name,x,y\nA,0,0\nB,8,0\nC,4,-4\nD,4,4\nE,6,4\nF,9,9\n")
+    (tmp_path / "edges.csv").write_text("from,to,both_ways\nA,B,true\nC,D,true\nB,D,true\nE,D,0\n")
+    found = read_sites(tmp_path / "nodes.csv", Choice())
+    levels = [(name, site, inspect(site)) for name, site in found.sites]
+    write_inspection(levels, tmp_path / "site.html", title="hall", what=found.what)
+    context = browser.new_context(**GERMAN)
+    viewer = Viewer(context.new_page())
+    viewer.page.goto((tmp_path / "site.html").as_uri())
+    viewer.wait_for("inspectPage.frames > 0")
+    assert english_on(viewer) == []
+    assert "kreuzen sich ohne Knoten" in viewer.text("#finding-list")
+    context.close()
+
+
+def test_the_address_and_the_choice_say_the_language(show: Opener) -> None:
+    viewer = show(door(), "#tick=3", title="door", locale="en-GB")
+    assert viewer.text("#tab-robots").startswith("Robots")
+    with viewer.page.expect_navigation():
+        viewer.page.locator("#language").select_option("de")
+    viewer.wait_for("frames.count > 0")
+    assert viewer.text("#tab-robots").startswith("Roboter")
+    assert viewer.ask("clock.tick") == 3
+    assert "lang=de" in viewer.page.url
+
+
+def test_a_language_that_is_not_known_is_english(show: Opener) -> None:
+    viewer = show(door(), title="door", locale="fr-FR")
+    assert viewer.text("#tab-robots").startswith("Robots")
