@@ -314,7 +314,7 @@ export class Editor extends Observable {
     if (this.tool.isBusy) this.tool.cancel();
     else if (this.selection.size) this.select([]);
     else this.take("select");
-    this.changed();
+    this.say("");
   }
 
   #moveCursor([right, down], isFar) {
