@@ -32,8 +32,9 @@ export class Shelf {
     const file = this.files.find((each) => each.path === path);
     const open = () => this.studio.attempt(() => this.#open(path));
     if (!draft || draft.saved < file?.modified) return open();
-    this.studio.notices.say(words.draftIsNewer(path), words.openSaved, open);
-    return this.openDraft(path);
+    return this.openDraft(path).then(() =>
+      this.studio.notices.say(words.draftIsNewer(path), words.openSaved, open),
+    );
   }
 
   /** A plan is played, a layout becomes the map of a new scenario. */
@@ -105,8 +106,11 @@ export class Shelf {
         notices.say(text, words.replace, () => this.take(given, { replace: true }));
         return;
       }
-      notices.say(words.putIntoFolder(given.map(pathOf).join(", "), about.folder));
-      await this.#openTaken(given.find(({ name }) => !PICTURES.test(name)) ?? given[0], given);
+      try {
+        await this.#openTaken(given.find(({ name }) => !PICTURES.test(name)) ?? given[0], given);
+      } finally {
+        notices.say(words.putIntoFolder(given.map(pathOf).join(", "), about.folder));
+      }
     });
   }
 

@@ -134,10 +134,10 @@ export class Studio extends Observable {
     if (!robot) return;
     this.showTab("robots");
     this.editor.select([{ kind: "robot", id: Number(robot[1]) }]);
-    document
-      .querySelector(`table.robots tr[data-row="${robot[1]}"]`)
-      ?.querySelector("[aria-invalid=true], input")
-      ?.focus();
+    requestAnimationFrame(() => {
+      const row = document.querySelector(`table.robots tr[data-row="${robot[1]}"]`); // once it is drawn
+      (row?.querySelector("[aria-invalid=true]") ?? row?.querySelector("input"))?.focus();
+    });
   }
 
   showTab(tab) {

@@ -161,9 +161,11 @@ def _without(
 
 def _mended(robot: Any, wrong: set[str]) -> Any:
     """Return a robot without the keys that are wrong; it stays at home without a stop."""
-    if not isinstance(robot, dict) or wrong & {"", "name", "home"}:
+    if not isinstance(robot, dict) or wrong & {"name", "home"}:
         return robot if not wrong else None
     kept = {key: value for key, value in robot.items() if key not in wrong}
+    if "" in wrong:  # the keys do not fit each other
+        kept = {key: value for key, value in kept.items() if key in {"name", "home"}}
     if wrong and not kept.keys() & {"target", "stops"}:
         kept = {key: value for key, value in kept.items() if key != "work"}
         kept["target"] = kept.get("home")

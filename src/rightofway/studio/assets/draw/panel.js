@@ -41,7 +41,9 @@ function Size({ studio }) {
   const setMap = (change) =>
     store.change((document) => ({ ...document, map: { ...document.map, ...change } }));
   const unit = units.length ?? "";
-  const hasCells = map.layout ? Boolean(store.site?.map.rows ?? store.site?.map.sides) : !map.roadmap;
+  const hasCells = map.layout
+    ? Boolean(store.site?.map.rows ?? store.site?.map.sides)
+    : !map.roadmap;
   const place = map.floor ? "map.floor" : "map";
   const number = (
     text,

@@ -52,8 +52,11 @@ export function Sheet({ studio, columns, wanted }) {
     if (robots[at.row]) editor.select([{ kind: "robot", id: at.row }]);
   };
   const extend = (at) => cells && setCells({ from: cells.from, to: at });
-  const goTo = ({ row, column }) =>
-    sheet.current.querySelector(`[data-cell="${row} ${column}"]`)?.focus();
+  const goTo = ({ row, column }, from) => {
+    const cell = sheet.current.querySelector(`[data-cell="${row} ${column}"]`);
+    if (cell && cell !== from) cell.focus();
+    else from.blur(); // what was written counts all the same
+  };
 
   const paste = (event, at) => {
     const text = event.clipboardData.getData("text");
@@ -94,7 +97,7 @@ export function Sheet({ studio, columns, wanted }) {
       const place = rows.findIndex(({ row }) => row === at.row);
       const shown = [...rows.map(({ row }) => row), robots.length];
       const row = shown[clamped((place < 0 ? rows.length : place) + next[0], rows.length)];
-      goTo({ row, column: clamped(at.column + next[1], columns.length - 1) });
+      goTo({ row, column: clamped(at.column + next[1], columns.length - 1) }, event.target);
     }
     event.preventDefault();
     event.stopPropagation();
