@@ -215,6 +215,15 @@ def test_a_corridor_with_a_way_round_is_a_note() -> None:
     assert {each.severity for each in found(site, "corridor")} == {"note"}
 
 
+def test_a_corridor_that_few_routes_take_is_no_finding_where_there_is_a_way_round() -> None:
+    """Twelve homes drive straight on at the left; the thirteenth may take the three cells."""
+    rows = ["............", "............", "@@@@....@@@.", "@@@@...@...."]
+    roadmap = roadmap_of_grid(rows)
+    straight = [robot(f"R{at}", at, at + 12) for at in range(12)]
+    site = Site(roadmap=roadmap, robots=(*straight, robot("R", 32, 31)))
+    assert found(site, "corridor") == []
+
+
 def test_a_corridor_that_nobody_uses_is_no_finding() -> None:
     roadmap = roadmap_of_grid(["..@@@..", "......."])
     assert found(Site(roadmap=roadmap, robots=(robot("R1", 0, 1),)), "corridor") == []

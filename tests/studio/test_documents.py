@@ -216,6 +216,19 @@ def test_a_survey_has_the_faults_and_the_robots_without_one(client: httpx.Client
     assert [robot["index"] for robot in found["site"]["robots"]] == [1, 2]
 
 
+@pytest.mark.parametrize(
+    "wrong", [{"speed": "abc"}, {"speed": 0}, {"target": "N99"}, {"work": -1}, {"colour": "red"}]
+)
+def test_a_robot_with_one_wrong_key_is_still_drawn_at_home(
+    client: httpx.Client, wrong: dict[str, Any]
+) -> None:
+    first, second = DOOR["robots"]
+    document = {**DOOR, "robots": [{**first, **wrong}, second]}
+    found = client.post("/survey", json={"document": document}).json()
+    assert not found["ok"]
+    assert [robot["index"] for robot in found["site"]["robots"]] == [0, 1]
+
+
 def test_a_survey_of_a_map_without_robots_has_the_map(client: httpx.Client) -> None:
     found = client.post("/survey", json={"document": {**DOOR, "robots": []}}).json()
     assert found["site"]["map"]["rows"] == DOOR["map"]["grid"]

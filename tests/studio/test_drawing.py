@@ -134,7 +134,7 @@ def test_a_robot_is_dragged_and_a_wall_over_its_home_is_a_fault_on_the_map(
 
 def test_rows_of_a_spreadsheet_become_robots(floor: StudioPage) -> None:
     floor.tab("Robots")
-    floor.page.get_by_label("Paste rows of a spreadsheet here").evaluate(
+    floor.page.get_by_label("Name, new robot").evaluate(
         """(area) => {
           const clipboardData = new DataTransfer();
           clipboardData.setData("text", "name\\thome\\tstops\\twork\\tspeed\\n"
@@ -163,32 +163,31 @@ def test_rows_of_a_spreadsheet_become_robots(floor: StudioPage) -> None:
 def test_a_column_is_filled_down_and_sorted(floor: StudioPage) -> None:
     floor.tab("Robots")
     floor.page.get_by_text("Robots at random").click()
-    floor.button("Deal out").click()
+    floor.button("Add them").click()
     floor.wait_for("studio.store.document.robots.length === 5")
     floor.settle()
     speed = floor.page.get_by_label("Speed, R1", exact=True)
     speed.fill("2")
     speed.press("Enter")
-    floor.page.get_by_label("Speed, R1", exact=True).focus()
-    floor.button("Fill down").click()
+    floor.page.get_by_label("Speed, R1", exact=True).press("Control+d")
     floor.settle()
     assert [robot["speed"] for robot in floor.document["robots"]] == [2] * 5
     for _ in range(2):
-        floor.page.locator("table.robots").get_by_role("button", name="Name").click()
+        floor.page.locator("table.robots thead").get_by_role("button", name="Name").click()
     assert [robot["name"] for robot in floor.document["robots"]] == ["R5", "R4", "R3", "R2", "R1"]
 
 
 def test_a_random_fleet_is_the_same_for_the_same_seed(floor: StudioPage) -> None:
     floor.tab("Robots")
     floor.page.get_by_text("Robots at random").click()
-    floor.button("Deal out").click()
+    floor.button("Add them").click()
     floor.wait_for("studio.store.document.robots.length === 5")
     first = floor.document["robots"]
     floor.page.locator("h1").click()
     floor.page.keyboard.press("Control+z")
     floor.settle()
     floor.page.get_by_label("Seed").fill("1")
-    floor.button("Deal out").click()
+    floor.button("Add them").click()
     floor.wait_for("studio.store.document.robots.length === 5")
     assert floor.document["robots"] == first
     floor.settle()

@@ -60,7 +60,7 @@ def test_faults_of_a_file_stand_in_the_list_and_at_the_field(
     )
     studio.button("Files").click()
     studio.page.get_by_role("button", name="wrong.yaml").click()
-    fault = studio.page.locator(".findings").get_by_text("robots[0] (R1): home")
+    fault = studio.page.locator(".findings").get_by_text("R1: home")
     fault.click()
     field = studio.page.get_by_label("Home, R1")
     field.wait_for()

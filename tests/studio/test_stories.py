@@ -111,6 +111,10 @@ def test_a_ros_map_is_dropped_drawn_on_and_planned(studio: StudioPage) -> None:
     studio.page.keyboard.press("Control+z")
     studio.settle()
     assert studio.document["map"]["grid"] == rows
+    studio.tab("Robots")
+    studio.button("Add 3 at random").click()
+    studio.wait_for("studio.store.document.robots.length === 3")
+    studio.settle()
     studio.button("Plan").click()
     studio.planned()
     assert studio.ask("studio.stage.plan.end") > 0
@@ -128,6 +132,10 @@ def test_a_lif_file_is_dropped_drawn_on_and_planned(studio: StudioPage, tmp_path
     studio.press((3.5, -2.75))  # ... to C
     studio.page.keyboard.press("Escape")
     assert ["B", "C"] in studio.document["map"]["roadmap"]["edges"]
+    studio.tab("Robots")
+    studio.button("Add 3 between stations").click()
+    studio.wait_for("studio.store.document.robots.length === 3")
+    studio.settle()
     assert studio.ask("studio.store.faults") == []
     studio.button("Plan").click()
     studio.planned()

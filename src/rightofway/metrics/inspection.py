@@ -47,6 +47,9 @@ BITS = 10
 BUSY = Fraction(3, 10)
 """From this share of the shortest routes on, a vertex is a bottleneck."""
 
+AVOIDED = Fraction(1, 10)
+"""Below this share of the shortest routes, a corridor with a way round is no finding."""
+
 OUTSIDE_REMEDIES: dict[Kind, tuple[Phrase, Phrase]] = {
     "trap": (
         Phrase("add a lane back, or take it out"),
@@ -311,6 +314,8 @@ def _corridors(
                 robots=counted(len(site.robots), "robot", "robots"),
             )
         else:
+            if not is_only and use(corridor) < AVOIDED * total:
+                continue
             share = _percent(use(corridor) / total)
             users = Phrase("{share} of the shortest routes use it", share=share)
         yield Finding(

@@ -17,14 +17,15 @@ const UNKNOWN = Object.freeze({
 
 /**
  * A document is never changed: an edit makes another one that shares what stays. So undo is a list.
- * Events: `document` when another one is shown, then `open`, `edit` or `undo` if it is by these, `survey` when the library has looked at it, `findings` when
- * those of a large map come after that, `trouble`.
+ * Events: `document` when another one is shown, then `open`, `edit` or `undo` if it is by these;
+ * `survey` when the library has looked at it, `findings` when those of a large map come after that; `trouble`.
  */
 export class ScenarioStore extends Observable {
   document = null;
   folder = "";
   path = ""; // the file that it is saved to; empty until it has a name
   revision = null; // of that file; empty if there must be none
+  origin = null; // what it was made from, if that is something else: [kind, name]
   survey = UNKNOWN;
   site = null; // the last map that could be drawn
   isKept = false; // whether the draft has been written
@@ -41,15 +42,8 @@ export class ScenarioStore extends Observable {
   };
 
   /** Begin with a document; one that is not in a file yet counts as changed. */
-  open({ document, folder = "", path = "", revision = "", draft = "" }) {
-    Object.assign(this, {
-      document,
-      folder,
-      path,
-      revision,
-      survey: UNKNOWN,
-      site: null,
-    });
+  open({ document, folder = "", path = "", revision = "", draft = "", origin = null }) {
+    Object.assign(this, { document, folder, path, revision, origin, survey: UNKNOWN, site: null });
     this.opened++;
     this.#past = [];
     this.#future = [];
@@ -58,6 +52,7 @@ export class ScenarioStore extends Observable {
     this.tell("document");
     this.tell("open");
     this.#work.survey.ask();
+    if (!revision && !draft && !origin) this.#work.draft.ask(); // it is nowhere else
   }
 
   /** Change the document by a function; nothing happens if it returns what it was given. */
@@ -68,6 +63,11 @@ export class ScenarioStore extends Observable {
     this.#future = [];
     this.#show(next);
     this.tell("edit");
+  }
+
+  /** The name of the draft. */
+  get draft() {
+    return this.#draft;
   }
 
   /** The document before the last edit, or null. */

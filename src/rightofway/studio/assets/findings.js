@@ -6,67 +6,47 @@ import { words } from "./words.js";
 
 const FIRST = 3; // findings, the worst first; the others on request
 
+/** What a fault is about, for people: "R1: home", not "robots[0] (R1): home". */
+export const nameOf = ({ named, place }) =>
+  (named || place || "").replace(/^robots\[\d+\] \((.*?)\)/, "$1");
+
 export function Findings({ studio }) {
   const { store } = studio;
   const [isWhole, setWhole] = useState(false);
   const { findings } = store.survey;
   const shown = isWhole ? findings : findings.slice(0, FIRST);
-  return html` <section>
-    <h2 id="faults-title">${words.findings}</h2>
-    ${
-      store.faults.length > 0 &&
-      html`<ul class="findings" role="alert">
-        ${store.faults.map(
-          (fault) =>
-            html` <li>
-              <button type="button" onClick=${() => studio.goTo(fault.place)}>
-                <${Sign} severity="error" /><span
-                  ><b>${fault.named || fault.place}</b> <span lang="en">${fault.message}</span></span
-                >
-              </button>
-            </li>`,
-        )}
-      </ul>`
-    }
-    ${
-      shown.length > 0 &&
-      html`<ul class="findings" onMouseLeave=${() => studio.light([])}>
-        ${shown.map(
-          (finding) =>
-            html` <li>
-              <button
-                type="button"
-                onMouseEnter=${() => studio.light(finding.vertices)}
-                onFocus=${() => studio.light(finding.vertices)}
-                onClick=${() => show(studio, finding.vertices)}
-              >
-                <${Sign} severity=${finding.severity} /><span
-                  ><${Phrase} phrase=${finding.phrases.fact} /><br /><small
-                    ><${Phrase} phrase=${finding.phrases.remedy} /></small
-                ></span>
-              </button>
-            </li>`,
-        )}
-      </ul>`
-    }
-    ${findings.length > shown.length && html`<button type="button" class="link" onClick=${() => setWhole(true)}>${words.moreFindings(findings.length - shown.length)}</button>`}
-    ${!store.faults.length && !findings.length && html`<p class="hint">${words.nothingFound}</p>`}
-  </section>`;
+  const light = ({ vertices }) => studio.light(vertices);
+  return html`
+    <section>
+      <h2 id="faults-title">${words.findings}</h2>
+      ${
+        store.faults.length > 0 &&
+        html`<ul class="findings" role="alert">${store.faults.map(
+          (fault) => html`
+        <li><button type="button" onClick=${() => studio.goTo(fault.place)}><${Sign} severity="error" /><span><b>${nameOf(fault)}</b> <span lang="en">${fault.message}</span></span></button></li>`,
+        )}</ul>`
+      }
+      ${
+        shown.length > 0 &&
+        html`<ul class="findings" onMouseLeave=${() => studio.light([])}>${shown.map(
+          (finding) => html`
+        <li><button type="button" onMouseEnter=${() => light(finding)} onFocus=${() => light(finding)} onClick=${() => show(studio, finding)}>
+          <${Sign} severity=${finding.severity} /><span><${Phrase} phrase=${finding.phrases.fact} /><br /><small><${Phrase} phrase=${finding.phrases.remedy} /></small></span></button></li>`,
+        )}</ul>`
+      }
+      ${findings.length > shown.length && html`<button type="button" class="link" onClick=${() => setWhole(true)}>${words.moreFindings(findings.length - shown.length)}</button>`}
+      ${!store.faults.length && !findings.length && html`<p class="hint">${words.nothingFound}</p>`}
+    </section>`;
 }
 
 /** A phrase of the library, in the language of the page or marked as English. */
 const Phrase = ({ phrase }) => html`<span lang=${languageOf(phrase)}>${said(phrase)}</span>`;
 
 const Sign = ({ severity }) =>
-  html`<span
-    class=${`severity ${severity}`}
-    role="img"
-    aria-label=${words.severities[severity]}
-    >${{ error: "✕", warning: "!", note: "i" }[severity]}</span
-  >`;
+  html`<span class=${`severity ${severity}`} role="img" aria-label=${words.severities[severity]}>${{ error: "✕", warning: "!", note: "i" }[severity]}</span>`;
 
-/** Light vertices by their names, and bring them into sight. */
-function show(studio, names) {
+/** Light the places of a finding, and bring them into sight. */
+function show(studio, { vertices: names }) {
   const { plan, view } = studio.stage;
   const { roadmap } = plan;
   const vertices = names.map((name) => roadmap.vertexNamed(name)).filter((vertex) => vertex >= 0);
@@ -75,15 +55,10 @@ function show(studio, names) {
     view.viewport.showAll(vertices.map((vertex) => [roadmap.x[vertex], roadmap.y[vertex]]));
 }
 
-/** What the reader notes, and how large the map is: for those who want to know. */
+/** What the reader notes, and how large the map is; open where a file of another program was read. */
 export function AboutMap({ studio }) {
   const { notes, store } = studio;
-  const all = [...store.survey.phrases, ...new Set([...notes, ...store.survey.notes])];
+  const all = [...new Set([...notes, ...store.survey.notes]), ...store.survey.phrases];
   if (!all.length) return null;
-  return html`<details class="notes">
-    <summary>${words.notes}</summary>
-    <ul>
-      ${all.map((note) => html`<li><${Phrase} phrase=${note} /></li>`)}
-    </ul>
-  </details>`;
+  return html`<details class="notes" open=${notes.length > 0}><summary>${words.notes}</summary><ul>${all.map((note) => html`<li><${Phrase} phrase=${note} /></li>`)}</ul></details>`;
 }

@@ -25,27 +25,11 @@ function glance(source, name, revision) {
 /** A list of documents: `{ source, name, revision, title, note }`; `open` and perhaps `remove` take one. */
 export function Gallery({ documents, open, remove }) {
   const [most, setMost] = useState(FIRST);
-  return html` <ul class="gallery">
-      ${documents.slice(0, most).map(
-        (each) =>
-          html`<${Card}
-              key=${`${each.source} ${each.name}`}
-              document=${each}
-              open=${open}
-              remove=${remove}
-            />`,
-      )}
-    </ul>
-    ${
-      documents.length > most &&
-      html`<button
-        type="button"
-        class="framed"
-        onClick=${() => setMost(documents.length)}
-      >
-        ${words.moreFiles(documents.length - most)}
-      </button>`
-    }`;
+  const card = (each) =>
+    html`<${Card} key=${`${each.source} ${each.name}`} document=${each} open=${open} remove=${remove} />`;
+  return html`
+    <ul class="gallery">${documents.slice(0, most).map(card)}</ul>
+    ${documents.length > most && html`<button type="button" class="framed" onClick=${() => setMost(documents.length)}>${words.moreFiles(documents.length - most)}</button>`}`;
 }
 
 function Card({ document, open, remove }) {
@@ -54,15 +38,13 @@ function Card({ document, open, remove }) {
   const [seen, setSeen] = useState(null);
   useEffect(() => {
     let isGone = false;
-    const watcher = new IntersectionObserver(
-      async ([{ isIntersecting }]) => {
-        if (!isIntersecting) return;
-        watcher.disconnect();
-        const found = await glance(source, name, revision);
-        if (!isGone) setSeen(found);
-      },
-      { rootMargin: NEAR },
-    );
+    const look = async ([{ isIntersecting }]) => {
+      if (!isIntersecting) return;
+      watcher.disconnect();
+      const found = await glance(source, name, revision);
+      if (!isGone) setSeen(found);
+    };
+    const watcher = new IntersectionObserver(look, { rootMargin: NEAR });
     watcher.observe(card.current);
     return () => {
       isGone = true;
@@ -71,21 +53,15 @@ function Card({ document, open, remove }) {
   }, [source, name, revision]);
   const about = seen && !seen.trouble ? aboutOf(seen, !note) : "";
   const below = [about, note].filter(Boolean).join(" · ");
-  return html` <li class="document" ref=${card}>
-    <button
-      type="button"
-      class=${seen?.trouble ? "open foreign" : "open"}
-      title=${seen?.trouble ?? name}
-      onClick=${() => open(document)}
-    >
-      <span class="picture"
-        >${seen?.picture ? html`<img src=${seen.picture} alt="" />` : html`<span class=${seen ? "none" : "waiting"}></span>`}</span
-      >
-      <span class="name">${title}</span>
-      <small>${seen?.trouble ? words.notRead : below || " "}</small>
-    </button>
-    ${remove && html`<button type="button" class="quiet" aria-label=${`${words.remove}: ${title}`} title=${words.remove} onClick=${() => remove(document)}>✕</button>`}
-  </li>`;
+  return html`
+    <li class="document" ref=${card}>
+      <button type="button" class=${seen?.trouble ? "open foreign" : "open"} title=${seen?.trouble ?? name} onClick=${() => open(document)}>
+        <span class="picture">${seen?.picture ? html`<img src=${seen.picture} alt="" />` : html`<span class="none"></span>`}</span>
+        <span class="name">${title}</span>
+        <small>${seen?.trouble ? words.notRead : below || " "}</small>
+      </button>
+      ${remove && html`<button type="button" class="quiet" aria-label=${`${words.remove}: ${title}`} title=${words.remove} onClick=${() => remove(document)}>✕</button>`}
+    </li>`;
 }
 
 function aboutOf({ kind, robots, extent: [width, height], unit }, hasRoom) {

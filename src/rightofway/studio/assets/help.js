@@ -7,46 +7,16 @@ import { words } from "./words.js";
 export function Help({ studio }) {
   const pane = useRef(null);
   useEffect(() => pane.current.showPopover(), []);
-  const tools = studio.editor.fitting.map((tool) => [
-    TOOL_KEYS[tool].toUpperCase(),
-    words.tools[tool][0],
-  ]);
-  const lists = { tools, ...words.keyList };
-  return html` <div
-    popover="auto"
-    class="keys"
-    role="dialog"
-    ref=${pane}
-    aria-labelledby="keys-title"
-    onToggle=${({ newState }) => newState === "closed" && studio.help(false)}
-  >
-    <header>
-      <h2 id="keys-title">${words.keys}</h2>
-      <button
-        type="button"
-        class="quiet"
-        aria-label=${words.close}
-        onClick=${() => pane.current.hidePopover()}
-      >
-        ✕
-      </button>
-    </header>
-    <div class="groups">
-      ${Object.entries(words.keyGroups).map(
-        ([group, title]) =>
-          html` <section>
-            <h3>${title}</h3>
-            <dl>
-              ${lists[group].map(
-                ([key, text]) =>
-                  html`<div>
-                    <dt><kbd>${key}</kbd></dt>
-                    <dd>${text}</dd>
-                  </div>`,
-              )}
-            </dl>
-          </section>`,
-      )}
-    </div>
-  </div>`;
+  const toolRow = (tool) => [TOOL_KEYS[tool].toUpperCase(), words.tools[tool][0]];
+  const groups = studio.isStarting
+    ? { all: words.keyList.all }
+    : { tools: studio.editor.fitting.map(toolRow), ...words.keyList };
+  return html`
+    <div popover="auto" class="keys" role="dialog" ref=${pane} aria-labelledby="keys-title" onToggle=${({ newState }) => newState === "closed" && studio.help(false)}>
+      <header><h2 id="keys-title">${words.keys}</h2><button type="button" class="quiet" aria-label=${words.close} onClick=${() => pane.current.hidePopover()}>✕</button></header>
+      <div class="groups">${Object.entries(groups).map(
+        ([group, rows]) => html`
+        <section><h3>${words.keyGroups[group]}</h3><dl>${rows.map(([key, text]) => html`<div><dt><kbd>${key}</kbd></dt><dd>${text}</dd></div>`)}</dl></section>`,
+      )}</div>
+    </div>`;
 }

@@ -47,7 +47,7 @@ export function listenToKeys(studio) {
   for (const name of ["focusin", "change"])
     document.addEventListener(name, ({ target }) => (atFocus = target.value));
   document.addEventListener("keydown", (event) => {
-    if (studio.isStarting || event.defaultPrevented) return;
+    if (event.defaultPrevented || (studio.isStarting && event.key !== "?")) return;
     if (document.querySelector("dialog[open]")) return; // its keys are its own
     const isWriting = event.target.matches(
       "input:not(#slider), select, textarea, [contenteditable]",

@@ -38,36 +38,19 @@ function App() {
   }, []);
   const isStarting = !studio || studio.isStarting;
   const tab = studio?.tab ?? "map";
-  return html` ${studio && html`<${Header} studio=${studio} />`}
+  return html`
+    ${studio && html`<${Header} studio=${studio} />`}
     <main hidden=${isStarting}>
-      ${studio && !isStarting && html`<${Rail} studio=${studio} />`}
-      <section class="map" aria-label=${words.map}>
-        <div class="holder" ref=${holder}></div>
-      </section>
-      <div class="below" ref=${below} hidden=${!studio?.stage.isPlan}></div>
-      <section
-        class="time"
-        aria-label=${words.time}
-        ref=${time}
-        hidden=${!studio?.stage.isPlan}
-      ></section>
-      ${studio && !isStarting && html`<${Status} studio=${studio} />`}
+    ${studio && !isStarting && html`<${Rail} studio=${studio} />`}
+    <section class="map" aria-label=${words.map}><div class="holder" ref=${holder}></div></section>
+    <div class="below" ref=${below} hidden=${!studio?.stage.isPlan}></div>
+    <section class="time" aria-label=${words.time} ref=${time} hidden=${!studio?.stage.isPlan}></section>
+    ${studio && !isStarting && html`<${Status} studio=${studio} />`}
     </main>
     <aside class="side" aria-label=${words.side} hidden=${isStarting}>
       ${studio && html`<${Tabs} studio=${studio} />`}
-      <section
-        id="card"
-        class="card"
-        aria-live="polite"
-        ref=${card}
-        hidden
-      ></section>
-      <div
-        class="panel"
-        role="tabpanel"
-        id="panel"
-        aria-labelledby=${`tab-${tab}`}
-      >
+      <section id="card" class="card" aria-live="polite" ref=${card} hidden></section>
+      <div class="panel" role="tabpanel" id="panel" aria-labelledby=${`tab-${tab}`}>
         ${studio && !isStarting && html`<${PANELS[tab]} studio=${studio} />`}
       </div>
     </aside>
@@ -96,22 +79,13 @@ function Tabs({ studio }) {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (step) go(TABS[(TABS.indexOf(studio.tab) + step + TABS.length) % TABS.length]);
   };
-  return html` <div class="tabs" role="tablist" onKeyDown=${key}>
-    ${TABS.map(
-      (tab) =>
-        html` <button
-          type="button"
-          role="tab"
-          id=${`tab-${tab}`}
-          aria-controls="panel"
-          aria-selected=${String(studio.tab === tab)}
-          tabindex=${studio.tab === tab ? 0 : -1}
-          onClick=${() => studio.showTab(tab)}
-        >
-          ${words.tabs[tab]} <b>${counts[tab]}</b>
-        </button>`,
+  return html`
+    <div class="tabs" role="tablist" onKeyDown=${key}>${TABS.map(
+      (tab) => html`
+      <button type="button" role="tab" id=${`tab-${tab}`} aria-controls="panel" aria-selected=${String(studio.tab === tab)}
+        tabIndex=${studio.tab === tab ? 0 : -1} onClick=${() => studio.showTab(tab)}>${words.tabs[tab]} <b>${counts[tab]}</b></button>`,
     )}
-  </div>`;
+    </div>`;
 }
 
 /** Files can be dropped anywhere. */

@@ -56,21 +56,11 @@ export function Notice({ notices }) {
     notices.end();
     action();
   };
-  return html` <div class="notices" role="status">
-    ${
+  return html`
+    <div class="notices" role="status">${
       current &&
-      html`<p class="notice">
-        <span>${current.text}</span>
+      html`<p class="notice"><span>${current.text}</span>
         ${current.action && html`<button type="button" onClick=${act}>${current.label}</button>`}
-        <button
-          type="button"
-          class="quiet"
-          aria-label=${words.close}
-          onClick=${() => notices.end()}
-        >
-          ✕
-        </button>
-      </p>`
-    }
-  </div>`;
+        <button type="button" class="quiet" aria-label=${words.close} onClick=${() => notices.end()}>✕</button></p>`
+    }</div>`;
 }

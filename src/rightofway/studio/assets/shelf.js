@@ -26,11 +26,18 @@ export class Shelf {
     this.studio.tell("change");
   }
 
-  /** Open a file: a plan is played, a layout becomes the map of a new scenario. */
+  /** Open a file; where what was drawn on it since is newer, that is opened. */
   open(path) {
-    return this.studio.attempt(() => this.#open(path));
+    const draft = this.drafts.find(({ name }) => name === path);
+    const file = this.files.find((each) => each.path === path);
+    const open = () => this.studio.attempt(() => this.#open(path));
+    if (!draft || draft.saved < file?.modified) return open();
+    return this.openDraft(path).then(() =>
+      this.studio.notices.say(words.draftIsNewer(path), words.openSaved, open),
+    );
   }
 
+  /** A plan is played, a layout becomes the map of a new scenario. */
   async #open(path) {
     const { studio } = this;
     const found = await get(`/documents/${inAddress(path)}`);
@@ -38,7 +45,7 @@ export class Shelf {
     if (found.run) {
       studio.runs.add(found.run);
       const { document, folder } = await get(`/runs/${found.run.number}/document`);
-      studio.open({ document, folder, path: "" });
+      studio.open({ document, folder, origin: ["file", path] });
       await studio.runs.show(found.run.number);
       studio.showTab("plan");
       return;
@@ -46,17 +53,15 @@ export class Shelf {
     const isNew = found.kind === "layout";
     const stem = path.replace(/(\.[a-z]+)+$/i, "");
     const name = isNew ? await this.#freeName(`${stem}.scenario`) : path;
-    studio.open({
-      ...found,
-      path: name,
-      revision: isNew ? "" : found.revision,
-    });
+    const document = { ...found.document, robots: [] }; // of a layout: robots are for the user to place
+    const made = isNew ? { document, revision: "", origin: ["file", path] } : {};
+    studio.open({ ...found, ...made, path: name });
   }
 
   openExample(name) {
     return this.studio.attempt(async () => {
       const { document } = await get(`/examples/${inAddress(name)}`);
-      this.studio.open({ document, suggested: name });
+      this.studio.open({ document, suggested: name, origin: ["example", name] });
     });
   }
 
@@ -95,15 +100,17 @@ export class Shelf {
       const others = [];
       for (const file of given) if (!(await this.#put(file, replace))) others.push(file);
       await this.list();
+      const { notices, about } = this.studio;
       if (others.length) {
-        const names = others.map(({ name }) => name).join(", ");
-        this.studio.notices.say(words.otherContent(names), words.replace, () =>
-          this.take(given, { replace: true }),
-        );
+        const text = words.otherContent(others.map(pathOf).join(", "));
+        notices.say(text, words.replace, () => this.take(given, { replace: true }));
         return;
       }
-      const first = given.find(({ name }) => !PICTURES.test(name)) ?? given[0];
-      await this.#openTaken(first, given);
+      try {
+        await this.#openTaken(given.find(({ name }) => !PICTURES.test(name)) ?? given[0], given);
+      } finally {
+        notices.say(words.putIntoFolder(given.map(pathOf).join(", "), about.folder));
+      }
     });
   }
 

@@ -1,6 +1,7 @@
 /** How one begins: a new floor by its size, a file, what was left as a draft, an example. */
 
 import { html, useEffect, useRef, useState } from "./vendor/htm-preact.js";
+import { nameOf } from "./findings.js";
 import { Gallery, ago } from "./gallery.js";
 import { words } from "./words.js";
 
@@ -32,65 +33,40 @@ const newRoadmap = () => ({
 
 export function Start({ studio }) {
   const { complaints, about, shelf } = studio;
-  const { drafts, examples } = shelf;
-  const folders = byFolder(shelf.files);
-  return html` <main class="start">
-    <h2 class="title">${words.startTitle}</h2>
-    ${complaints.length > 0 && html`<div class="wrong" role="alert">${complaints.map(({ named, place, message }) => html`<p>${named || place ? html`<b>${named || place}</b>: ` : ""}${message}</p>`)}</div>`}
-    ${shelf.waiting && html`<p class="hint" role="status">${words.pictureMissing}</p>`}
-    <div class="choices">
-      <${NewFloor} studio=${studio} />
-      <section aria-labelledby="open-title">
-        <h3 id="open-title">${words.openTitle}</h3>
-        <label class="drop-zone"
-          ><span>${words.drop}</span><span class="framed">${words.choose}</span>
-          <input
-            type="file"
-            multiple
-            aria-label=${words.choose}
-            onChange=${(event) => shelf.take(event.target.files)}
-        /></label>
-        <p class="hint">${words.formats}</p>
-      </section>
-    </div>
-    ${
-      drafts.length > 0 &&
-      html`<section class="shelf" aria-labelledby="drafts-title">
-        <h3 id="drafts-title">${words.draftsTitle}</h3>
-        <${Gallery}
-          documents=${drafts.map(draftCard)}
-          open=${({ name }) => shelf.openDraft(name)}
-          remove=${({ name }) => shelf.removeDraft(name)}
-        />
-      </section>`
-    }
-    ${folders.map(
-      ([folder, files]) =>
-        html` <section
-          class="shelf"
-          key=${folder}
-          aria-label=${words.inFolder(folder || about.folder)}
-        >
-          <h3>
-            ${folder ? html`<span class="hint">${about.folder} / </span>${folder.replaceAll("/", " / ")}` : words.inFolder(about.folder)}
-          </h3>
-          <${Gallery}
-            documents=${files.map(fileCard)}
-            open=${({ name }) => shelf.open(name)}
-          />
-        </section>`,
-    )}
-    ${
-      examples.length > 0 &&
-      html`<section class="shelf" aria-labelledby="examples-title">
-        <h3 id="examples-title">${words.examplesTitle}</h3>
-        <${Gallery}
-          documents=${examples.map(exampleCard)}
-          open=${({ name }) => shelf.openExample(name)}
-        />
-      </section>`
-    }
-  </main>`;
+  const { drafts, examples, files, waiting } = shelf;
+  const titleOf = (folder) =>
+    folder
+      ? html`<span class="hint">${about.folder} / </span>${folder.replaceAll("/", " / ")}`
+      : words.inFolder(about.folder);
+  return html`
+    <main class="start">
+      <h2 class="title">${words.startTitle}</h2>
+      ${complaints.length > 0 && html`<div class="wrong" role="alert">${complaints.map((fault) => html`<p>${nameOf(fault) && html`<b>${nameOf(fault)}</b>: `}${fault.message}</p>`)}${waiting && html`<p>${words.pictureMissing}</p>`}</div>`}
+      <div class="choices">
+        <${NewFloor} studio=${studio} />
+        <section aria-labelledby="open-title">
+          <h3 id="open-title">${words.openTitle}</h3>
+          <label class="drop-zone"><span>${words.drop}</span><span class="framed">${words.choose}</span>
+            <input type="file" multiple aria-label=${words.choose} onChange=${(event) => shelf.take(event.target.files)} /></label>
+          <p class="hint">${words.formats}</p>
+        </section>
+      </div>
+      ${
+        drafts.length > 0 &&
+        html`<section class="shelf" aria-labelledby="drafts-title"><h3 id="drafts-title">${words.draftsTitle}</h3>
+        <${Gallery} documents=${drafts.map(draftCard)} open=${({ name }) => shelf.openDraft(name)} remove=${({ name }) => shelf.removeDraft(name)} /></section>`
+      }
+      ${byFolder(files).map(
+        ([folder, inside]) => html`
+      <section class="shelf" key=${folder} aria-label=${words.inFolder(folder || about.folder)}><h3>${titleOf(folder)}</h3>
+        <${Gallery} documents=${inside.map(fileCard)} open=${({ name }) => shelf.open(name)} /></section>`,
+      )}
+      ${
+        examples.length > 0 &&
+        html`<section class="shelf" aria-labelledby="examples-title"><h3 id="examples-title">${words.examplesTitle}</h3>
+        <${Gallery} documents=${examples.map(exampleCard)} open=${({ name }) => shelf.openExample(name)} /></section>`
+      }
+    </main>`;
 }
 
 const draftCard = ({ name, saved }) => ({
@@ -128,58 +104,25 @@ function byFolder(files) {
 }
 
 function NewFloor({ studio }) {
-  const [floor, setFloor] = useState({
-    width: 12,
-    height: 8,
-    cell: 0.5,
-    isAdaptive: false,
-  });
+  const [floor, setFloor] = useState({ width: 12, height: 8, cell: 0.5, isAdaptive: false });
   const button = useRef(null);
   useEffect(() => {
     if (document.activeElement === document.body) button.current.focus({ preventScroll: true });
   }, []);
-  const number = (key, text, least, hint = "") =>
-    html` <label title=${hint}
-      >${text}<span
-        ><input
-          type="number"
-          required
-          min=${least}
-          step="any"
-          value=${floor[key]}
-          onInput=${(event) => setFloor({ ...floor, [key]: Number(event.target.value) })}
-        />
-        m</span
-      ></label
-    >`;
+  const number = (key, text, least, hint = "") => html`
+    <label title=${hint}>${text}<span><input type="number" required min=${least} step="any" value=${floor[key]} onInput=${(event) => setFloor({ ...floor, [key]: Number(event.target.value) })} /> m</span></label>`;
   const create = (event) => {
     event.preventDefault();
     studio.open({ document: newFloor(floor), tool: "line" });
   };
-  return html` <section aria-labelledby="new-title">
-    <h3 id="new-title">${words.newFloor}</h3>
-    <form class="fields" onSubmit=${create}>
-      ${number("width", words.width, "0.1")}${number("height", words.height, "0.1")}${number("cell", words.cellSize, "0.01", words.cellHint)}
-      <label class="check"
-        ><input
-          type="checkbox"
-          checked=${floor.isAdaptive}
-          onChange=${(event) => setFloor({ ...floor, isAdaptive: event.target.checked })}
-        />
-        ${words.adaptive}</label
-      >
-      <div class="buttons">
-        <button type="submit" class="framed strong" ref=${button}>
-          ${words.create}
-        </button>
-        <button
-          type="button"
-          class="framed"
-          onClick=${() => studio.open({ document: newRoadmap(), tool: "lane" })}
-        >
-          ${words.newRoadmap}
-        </button>
-      </div>
-    </form>
-  </section>`;
+  return html`
+    <section aria-labelledby="new-title">
+      <h3 id="new-title">${words.newFloor}</h3>
+      <form class="fields" onSubmit=${create}>
+        ${number("width", words.width, "0.1")}${number("height", words.height, "0.1")}${number("cell", words.cellSize, "0.01", words.cellHint)}
+        <label class="check"><input type="checkbox" checked=${floor.isAdaptive} onChange=${(event) => setFloor({ ...floor, isAdaptive: event.target.checked })} /> ${words.adaptive}</label>
+        <div class="buttons"><button type="submit" class="framed strong" ref=${button}>${words.create}</button>
+        <button type="button" class="framed" onClick=${() => studio.open({ document: newRoadmap(), tool: "lane" })}>${words.newRoadmap}</button></div>
+      </form>
+    </section>`;
 }

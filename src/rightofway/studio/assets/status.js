@@ -1,30 +1,27 @@
 /** A line below the map: the one thing to do next; and how the plan has changed by the last change. */
 
 import { html } from "./vendor/htm-preact.js";
+import { nameOf } from "./findings.js";
 import { Change } from "./runs/change.js";
 import { words } from "./words.js";
 
 export function Status({ studio }) {
-  const { editor, store, complaints } = studio;
-  return html` <div class="status">
-    ${
-      complaints.length
-        ? html`<span class="wrong" role="alert"
-            >${complaints.map(({ named, place, message }) => html`${named || place ? html`<b>${named || place}</b>: ` : ""}${message} `)}</span
-          >`
-        : html`<span role="status"
-            >${editor.isOn ? html`<${ToolHint} editor=${editor} />` : html`<${PlanHint} studio=${studio} />`}</span
-          >`
-    }
-    ${studio.isLive && studio.tab !== "plan" && html`<${Change} studio=${studio} />`}
-    ${store.faults.length > 0 && html`<button type="button" class="link wrong" onClick=${() => studio.showFaults()}>${words.faultCount(store.faults.length)}</button>`}
-  </div>`;
+  const { editor, store, shelf, complaints } = studio;
+  return html`
+    <div class="status">
+      ${
+        complaints.length
+          ? html`<span class="wrong" role="alert">${complaints.map((fault) => html`${nameOf(fault) && html`<b>${nameOf(fault)}</b>: `}${fault.message} `)}${shelf.waiting && words.pictureMissing}</span>`
+          : html`<span role="status">${editor.isOn ? html`<${ToolHint} editor=${editor} />` : html`<${PlanHint} studio=${studio} />`}</span>`
+      }
+      ${studio.isLive && studio.tab !== "plan" && html`<${Change} studio=${studio} />`}
+      ${store.faults.length > 0 && html`<button type="button" class="link wrong" onClick=${() => studio.showFaults()}>${words.faultCount(store.faults.length)}</button>`}
+    </div>`;
 }
 
 function ToolHint({ editor }) {
   const name = [...editor.tools].find(([, tool]) => tool === editor.tool)[0];
-  return html`<b>${words.tools[name][0]}</b>
-    ${editor.message || words.tools[name][1]}`;
+  return html`<b>${words.tools[name][0]}</b> ${editor.message || words.tools[name][1]}`;
 }
 
 /** The longest wait of the plan, one press away from its reason. */
@@ -36,12 +33,5 @@ function PlanHint({ studio }) {
   const waits = losses.filter((loss) => loss.for);
   if (!waits.length) return losses.length ? words.watching : words.noWaitNext;
   const longest = waits.reduce((one, other) => (other.ticks > one.ticks ? other : one));
-  return html`${longest.sentence}
-    <button
-      type="button"
-      class="link"
-      onClick=${() => studio.watchLoss(longest)}
-    >
-      ${words.seeWhy}
-    </button>`;
+  return html`${longest.sentence} <button type="button" class="link" onClick=${() => studio.watchLoss(longest)}>${words.seeWhy}</button>`;
 }

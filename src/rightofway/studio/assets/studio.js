@@ -6,6 +6,7 @@ import { Backdrop } from "./draw/backdrop.js";
 import { Clipboard } from "./draw/clipboard.js";
 import { Editor } from "./draw/editor.js";
 import { Notices } from "./notices.js";
+import { PlaceInAddress } from "./place.js";
 import { FormerRoute } from "./runs/former.js";
 import { RunStore } from "./runs/run_store.js";
 import { Shelf } from "./shelf.js";
@@ -35,6 +36,7 @@ export class Studio extends Observable {
     this.backdrop = new Backdrop(this.store, this.stage);
     this.shelf = new Shelf(this);
     this.notices = new Notices();
+    this.place = new PlaceInAddress(this);
     this.notices.watch(this.store, () => this.editor.tool.frees);
     this.former = new FormerRoute(this.runs, this.stage);
     this.clipboard = new Clipboard(this.editor);
@@ -61,7 +63,7 @@ export class Studio extends Observable {
     return this.attempt(async () => {
       const [about] = await Promise.all([get("/"), this.runs.load(), this.shelf.list()]);
       this.about = about;
-      if (about.file) await this.shelf.open(about.file);
+      if (!this.place.go() && about.file) await this.shelf.open(about.file);
       this.tell("change");
     });
   }
@@ -115,6 +117,7 @@ export class Studio extends Observable {
   toStart() {
     return this.attempt(async () => {
       this.isStarting = true;
+      this.place.leave();
       await this.shelf.list();
     });
   }
@@ -131,15 +134,17 @@ export class Studio extends Observable {
     if (!robot) return;
     this.showTab("robots");
     this.editor.select([{ kind: "robot", id: Number(robot[1]) }]);
-    document
-      .querySelector(`table.robots tr[data-row="${robot[1]}"]`)
-      ?.querySelector("[aria-invalid=true], input")
-      ?.focus();
+    requestAnimationFrame(() => {
+      const row = document.querySelector(`table.robots tr[data-row="${robot[1]}"]`); // once it is drawn
+      (row?.querySelector("[aria-invalid=true]") ?? row?.querySelector("input"))?.focus();
+    });
   }
 
   showTab(tab) {
+    if (tab !== this.tab) this.complaints = [];
     this.tab = tab;
     const isPlan = tab === "plan" && this.runs.payload;
+    if (!isPlan && this.stage.isPlan) this.stage.choice.chooseNothing();
     this.editor.isOn = !isPlan;
     this.editor.tool.cancel();
     if (tab === "robots" && this.editor.tool !== this.editor.tools.get("robot"))

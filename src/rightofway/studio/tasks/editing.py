@@ -33,7 +33,7 @@ Result = tuple[Any, ...]
 SHOWN = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 """Endings of pictures that a browser shows as they are."""
 
-ROBOT = re.compile(r"robots\[(\d+)\]")
+ROBOT = re.compile(r"robots\[(\d+)\](?:\.(\w+))?")
 
 KEPT = 8
 """Sites whose findings a worker keeps: a change of a speed or of a work time changes none."""
@@ -135,19 +135,41 @@ def _robots(document: dict[str, Any]) -> range:
 def _without(
     document: dict[str, Any], folder: str, faults: Sequence[InputFault]
 ) -> tuple[Loaded | None, list[int]]:
-    """Return the scenario without what has faults, and which robots it has; or None, and none."""
-    wrong = {int(found[1]) for each in faults if (found := ROBOT.match(each.place))}
-    kept = [index for index in _robots(document) if index not in wrong]
-    if not kept:
-        return None, []
-    rest = {**document, "robots": [document["robots"][index] for index in kept]}
+    """Return the scenario without what has faults, and which robots it has; or None, and none.
+
+    A robot whose home is right stays, without the keys that have faults: it is seen where it is.
+    """
+    wrong: dict[int, set[str]] = {}
+    for each in faults:
+        if found := ROBOT.match(each.place):
+            wrong.setdefault(int(found[1]), set()).add(found[2] or "")
+    rest = dict(document)
     for key in ("closures", "rules"):
         if any(each.place.startswith(key) for each in faults):
             rest.pop(key, None)
-    try:
-        return loaded_of(rest, folder), kept
-    except InputError:
-        return None, []
+    drawn = [_mended(document["robots"][at], wrong.get(at, set())) for at in _robots(document)]
+    whole = [None if at in wrong else document["robots"][at] for at in _robots(document)]
+    for robots in (drawn, whole):
+        kept = [index for index, robot in enumerate(robots) if robot is not None]
+        if kept:
+            try:
+                return loaded_of({**rest, "robots": [robots[at] for at in kept]}, folder), kept
+            except InputError:
+                pass
+    return None, []
+
+
+def _mended(robot: Any, wrong: set[str]) -> Any:
+    """Return a robot without the keys that are wrong; it stays at home without a stop."""
+    if not isinstance(robot, dict) or wrong & {"name", "home"}:
+        return robot if not wrong else None
+    kept = {key: value for key, value in robot.items() if key not in wrong}
+    if "" in wrong:  # the keys do not fit each other
+        kept = {key: value for key, value in kept.items() if key in {"name", "home"}}
+    if wrong and not kept.keys() & {"target", "stops"}:
+        kept = {key: value for key, value in kept.items() if key != "work"}
+        kept["target"] = kept.get("home")
+    return kept
 
 
 def drawn_map(document: dict[str, Any], folder: str) -> Site | None:
@@ -177,5 +199,11 @@ def drawn_map(document: dict[str, Any], folder: str) -> Site | None:
 
 
 def inlined(_emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: str) -> Result:
-    """Return a document whose map and robots are in it, not in other files."""
-    return ({"document": plain(dump_scenario(loaded_of(document, folder).scenario))},)
+    """Return a document whose map and robots are in it, not in other files; a map may be alone."""
+    site = drawn_map(document, folder) if document.get("robots") == [] else None
+    if site is None:
+        return ({"document": plain(dump_scenario(loaded_of(document, folder).scenario))},)
+    place = site.roadmap.name(0)  # a scenario has a robot; this one stands there until it is dumped
+    stands = {**document, "robots": [{"name": "R1", "home": place, "target": place}]}
+    whole = plain(dump_scenario(loaded_of(stands, folder).scenario))
+    return ({"document": {**whole, "robots": []}},)

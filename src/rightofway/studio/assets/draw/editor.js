@@ -329,7 +329,7 @@ export class Editor extends Observable {
       this.cursor = null;
       this.#leave();
     } else this.take("select");
-    this.changed();
+    this.say("");
   }
 
   #moveCursor([right, down], isFar) {

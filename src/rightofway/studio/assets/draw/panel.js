@@ -14,41 +14,25 @@ export function MapPanel({ studio }) {
   const { store, editor } = studio;
   const { map } = store.document;
   const elsewhere = map.layout ?? map.file;
-  return html` <div class="scroll">
+  return html`
+    <div class="scroll">
       ${
         elsewhere &&
-        html`<div class="aside">
-          <p>${words.mapElsewhere(elsewhere)}</p>
-          <button
-            type="button"
-            class="framed"
-            onClick=${() => studio.shelf.inline()}
-            disabled=${!store.survey.ok}
-          >
-            ${words.drawOnIt}
-          </button>
-        </div>`
+        html`<div class="aside"><p>${words.mapElsewhere(elsewhere)}</p>
+        <button type="button" class="framed" onClick=${() => studio.shelf.inline()} disabled=${store.faults.length > 0}>${words.drawOnIt}</button></div>`
       }
       <${Selected} studio=${studio} />
       <${Size} studio=${studio} />
       ${editor.fitting.includes("lane") && html`<${ZoneList} studio=${studio} />`}
       <${Findings} studio=${studio} />
       <${BackdropPanel} studio=${studio} />
-      <${AboutMap} studio=${studio} />
+      <${AboutMap} key=${store.opened} studio=${studio} />
     </div>
-    <div class="next">
-      ${
-        Array.isArray(store.document.robots) && !store.document.robots.length
-          ? html`<button
-              type="button"
-              class="framed strong"
-              onClick=${() => studio.showTab("robots")}
-            >
-              ${words.nextRobots}
-            </button>`
-          : html`<${PlanButton} studio=${studio} text=${words.nextPlan} />`
-      }
-    </div>`;
+    <div class="next">${
+      Array.isArray(store.document.robots) && !store.document.robots.length
+        ? html`<button type="button" class="framed strong" onClick=${() => studio.showTab("robots")}>${words.nextRobots}</button>`
+        : html`<${PlanButton} studio=${studio} text=${words.nextPlan} />`
+    }</div>`;
 }
 
 /** Size and cells, where the document has them. */
@@ -56,54 +40,40 @@ function Size({ studio }) {
   const { store } = studio;
   const { map, units = {} } = store.document;
   const setMap = (change) =>
-    store.change((document) => ({
-      ...document,
-      map: { ...document.map, ...change },
-    }));
+    store.change((document) => ({ ...document, map: { ...document.map, ...change } }));
   const unit = units.length ?? "";
+  const hasCells = map.layout
+    ? Boolean(store.site?.map.rows ?? store.site?.map.sides)
+    : !map.roadmap;
   const place = map.floor ? "map.floor" : "map";
-  const number = (text, value, set) =>
-    html`<label
-      >${text}<span
-        ><input
-          type="number"
-          min="0.01"
-          step="any"
-          value=${numberOf(value) || ""}
-          placeholder=${Number.isNaN(numberOf(value, 0)) ? value : ""}
-          onChange=${({ target }) => target.value && target.reportValidity() && set(Number(target.value))}
-        />
-        ${unit}</span
-      ></label
-    >`;
+  const number = (
+    text,
+    value,
+    set,
+  ) => html`<label>${text}<span><input type="number" min="0.01" step="any" value=${numberOf(value) || ""} placeholder=${Number.isNaN(numberOf(value, 0)) ? value : ""}
+    onChange=${({ target }) => target.value && target.reportValidity() && set(Number(target.value))} /> ${unit}</span></label>`;
   const wrong = store.faultsAt(place).concat(store.faultsAt("map.cell_size"));
-  return html` <section>
-    <h2>${words.size}</h2>
-    <div class="fields">
-      ${
-        map.floor &&
-        html`${number(words.width, map.floor.size[0], (width) => setMap({ floor: { ...map.floor, size: [width, map.floor.size[1]] } }))}
-        ${number(words.height, map.floor.size[1], (height) => setMap({ floor: { ...map.floor, size: [map.floor.size[0], height] } }))}`
-      }
-      ${
-        map.cell_size === "adaptive"
-          ? number(words.smallest, map.smallest ?? "", (smallest) => setMap({ smallest }))
-          : !map.roadmap &&
-            number(words.cellSize, map.cell_size ?? 1, (size) => setMap({ cell_size: size }))
-      }
-      ${(map.roadmap || map.layout) && !map.cell_size && number(words.spacing, map.spacing ?? "", (spacing) => setMap({ spacing }))}
-      <label
-        >${words.units}<select
-          value=${unit}
-          onChange=${({ target }) => store.change((document) => ({ ...document, units: { ...document.units, length: target.value } }))}
-        >
-          ${["", "mm", "cm", "m"].map((name) => html`<option value=${name} disabled=${!name}>${name || words.noUnit}</option>`)}
-        </select></label
-      >
-    </div>
-    ${(map.grid || map.floor) && html`<${StrictWalls} store=${store} />`}
-    ${wrong.map(({ message }) => html`<p class="wrong">${message}</p>`)}
-  </section>`;
+  return html`
+    <section><h2>${words.size}</h2>
+      <div class="fields">
+        ${
+          map.floor &&
+          html`${number(words.width, map.floor.size[0], (width) => setMap({ floor: { ...map.floor, size: [width, map.floor.size[1]] } }))}
+          ${number(words.height, map.floor.size[1], (height) => setMap({ floor: { ...map.floor, size: [map.floor.size[0], height] } }))}`
+        }
+        ${
+          map.cell_size === "adaptive"
+            ? number(words.smallest, map.smallest ?? "", (smallest) => setMap({ smallest }))
+            : hasCells &&
+              number(words.cellSize, map.cell_size ?? 1, (size) => setMap({ cell_size: size }))
+        }
+        ${!hasCells && number(words.spacing, map.spacing ?? "", (spacing) => setMap({ spacing }))}
+        <label>${words.units}<select value=${unit} onChange=${({ target }) => store.change((document) => ({ ...document, units: { ...document.units, length: target.value } }))}>
+          ${["", "mm", "cm", "m"].map((name) => html`<option value=${name} disabled=${!name}>${name || words.noUnit}</option>`)}</select></label>
+      </div>
+      ${(map.grid || map.floor) && html`<${StrictWalls} store=${store} />`}
+      ${wrong.map(({ message }) => html`<p class="wrong">${message}</p>`)}
+    </section>`;
 }
 
 /** Whether robots that are wider than a cell keep their distance from walls. */

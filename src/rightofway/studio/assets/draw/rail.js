@@ -7,7 +7,11 @@ import { words } from "../words.js";
 
 export function Rail({ studio }) {
   const { editor, stage, store } = studio;
-  const fitting = editor.isOn && store.site ? editor.fitting : [];
+  const fitting = store.site ? editor.fitting : [];
+  const take = (name) => {
+    if (!editor.isOn) studio.showTab(name === "robot" ? "robots" : "map");
+    editor.take(name);
+  };
   const move = (event) => {
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (!step) return;
@@ -21,9 +25,9 @@ export function Rail({ studio }) {
     <div class="rail" role="toolbar" aria-label=${words.toolbar} aria-orientation="vertical" onKeyDown=${move}>
       ${fitting.map((name) => {
         const [text, hint] = words.tools[name];
-        const isTaken = editor.tool === editor.tools.get(name);
+        const isTaken = editor.isOn && editor.tool === editor.tools.get(name);
         return html`<button type="button" data-tool=${name} aria-label=${text} aria-pressed=${String(isTaken)} title=${`${text} (${TOOL_KEYS[name].toUpperCase()}): ${hint}`}
-          onClick=${() => editor.take(name)}><${Icon} name=${name} /></button>`;
+          onClick=${() => take(name)}><${Icon} name=${name} /><small aria-hidden="true">${words.toolNames[name] ?? text}</small></button>`;
       })}
       <span class="gap"></span>
       ${press("in", words.zoomIn, "+", () => stage.view.viewport.zoom(1.5))}

@@ -1,5 +1,6 @@
-/** The robots as a spreadsheet: typed, pasted, filled, sorted with the keyboard; faults stand below their row. */
+/** The robots as a spreadsheet: typed, pasted, filled, sorted with the keyboard; faults stand at their cells and below. */
 
+import { nameOf } from "../findings.js";
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import {
@@ -16,6 +17,7 @@ import { columnOf } from "./columns.js";
 import { freeName, removeRobots, robotsOf, sortRobots } from "./fleet.js";
 
 const MOST_ROWS = 100; // that are written at once; the others on request
+const MOST_FAULTS = 5; // that are listed below the table
 
 /** The table; `columns` are those that are shown, `wanted` is what a robot has to say somewhere. */
 export function Sheet({ studio, columns, wanted }) {
@@ -50,8 +52,11 @@ export function Sheet({ studio, columns, wanted }) {
     if (robots[at.row]) editor.select([{ kind: "robot", id: at.row }]);
   };
   const extend = (at) => cells && setCells({ from: cells.from, to: at });
-  const goTo = ({ row, column }) =>
-    sheet.current.querySelector(`[data-cell="${row} ${column}"]`)?.focus();
+  const goTo = ({ row, column }, from) => {
+    const cell = sheet.current.querySelector(`[data-cell="${row} ${column}"]`);
+    if (cell && cell !== from) cell.focus();
+    else from.blur(); // what was written counts all the same
+  };
 
   const paste = (event, at) => {
     const text = event.clipboardData.getData("text");
@@ -92,7 +97,7 @@ export function Sheet({ studio, columns, wanted }) {
       const place = rows.findIndex(({ row }) => row === at.row);
       const shown = [...rows.map(({ row }) => row), robots.length];
       const row = shown[clamped((place < 0 ? rows.length : place) + next[0], rows.length)];
-      goTo({ row, column: clamped(at.column + next[1], columns.length - 1) });
+      goTo({ row, column: clamped(at.column + next[1], columns.length - 1) }, event.target);
     }
     event.preventDefault();
     event.stopPropagation();
@@ -134,12 +139,21 @@ export function Sheet({ studio, columns, wanted }) {
         <tr key=${row} data-row=${row} aria-selected=${String(editor.selection.has({ kind: "robot", id: row }))} onClick=${(event) => select(event, row)} style=${{ "--robot": colours.get(row) ?? "transparent" }}>
           ${columns.map((column, at) => cell(robot, row, column, at))}
           <td class="do"><button type="button" class="quiet" tabindex="-1" aria-label=${`${words.remove} ${robot.name}`} title=${words.remove} onClick=${() => change((document) => removeRobots(document, [row]))}>✕</button></td>
-        </tr>
-        ${faults.has(row) && html`<tr key=${`fault ${row}`} class="fault"><td colspan=${columns.length + 1}>${faults.get(row).map(({ message }) => html`<span class="wrong">${message}</span>`)}</td></tr>`}`,
+        </tr>`,
       )}
       ${!wanted && html`<tr key="new" class="new">${columns.map((column, at) => cell(null, robots.length, column, at))}<td></td></tr>`}
       </tbody>
     </table></div>
+    ${
+      faults.size > 0 &&
+      html`<ul class="faults" role="alert">${[...faults.values()]
+        .flat()
+        .slice(0, MOST_FAULTS)
+        .map(
+          (fault) =>
+            html`<li><button type="button" onClick=${() => studio.goTo(fault.place)}><b>${nameOf(fault)}</b> ${fault.message}</button></li>`,
+        )}</ul>`
+    }
     ${rows.length > most && html`<button type="button" class="framed" onClick=${() => setMost(most + MOST_ROWS)}>${words.moreRows(rows.length - most)}</button>`}`;
 }
 

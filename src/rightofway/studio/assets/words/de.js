@@ -17,6 +17,9 @@ export const GERMAN = {
   unnamed: "Ohne Namen",
   replace: "Ersetzen",
   otherContent: (names) => `Im Ordner liegt schon eine andere Datei ${names}.`,
+  putIntoFolder: (names, folder) => `${names}: jetzt im Ordner ${folder}.`,
+  draftIsNewer: (name) => `Das ist neuer als ${name} und noch nicht gesichert.`,
+  openSaved: "Gesichertes öffnen",
   draftRemoved: "Der Entwurf ist gelöscht.",
   deleted: (what) => `Gelöscht: ${what}.`,
   counted: {
@@ -59,6 +62,18 @@ export const GERMAN = {
   mapAlone: "Karte",
   robotCount: (count) => `${count} Roboter`,
   planOf: (what) => `Plan für ${what}`,
+  toolNames: {
+    select: "Auswahl",
+    line: "Wand",
+    brush: "Pinsel",
+    box: "Block",
+    door: "Tür",
+    erase: "Löschen",
+    vertex: "Knoten",
+    lane: "Weg",
+    mark: "Station",
+    robot: "Roboter",
+  },
   tools: {
     pick: ["Punkt", "Einen Punkt auf dem Bild anklicken."],
     select: [
@@ -184,7 +199,7 @@ export const GERMAN = {
   noRobots:
     "Noch keine Roboter: auf der Karte einen Startplatz anklicken, dann einen Platz zum Arbeiten.",
   randomFleet: "Zufällige Roboter",
-  deal: "Verteilen",
+  deal: "Hinzufügen",
   dealFew: (count, between) =>
     between === "stations"
       ? `${count} zwischen Stationen verteilen`

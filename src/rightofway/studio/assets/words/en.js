@@ -19,6 +19,9 @@ export const ENGLISH = {
   unnamed: "Untitled",
   replace: "Replace",
   otherContent: (names) => `In the folder is another ${names}.`,
+  putIntoFolder: (names, folder) => `${names}: now in the folder ${folder}.`,
+  draftIsNewer: (name) => `This is newer than ${name} and not saved yet.`,
+  openSaved: "Open what was saved",
   draftRemoved: "The draft is deleted.",
   deleted: (what) => `Deleted: ${what}.`,
   counted: {
@@ -61,6 +64,18 @@ export const ENGLISH = {
   mapAlone: "map",
   robotCount: (count) => counted(count, "robot"),
   planOf: (what) => `plan of ${what}`,
+  toolNames: {
+    select: "Select",
+    line: "Wall",
+    brush: "Brush",
+    box: "Block",
+    door: "Door",
+    erase: "Erase",
+    vertex: "Vertex",
+    lane: "Lane",
+    mark: "Station",
+    robot: "Robots",
+  },
   tools: {
     pick: ["Pick", "Press a place on the picture."],
     select: [
@@ -176,9 +191,9 @@ export const ENGLISH = {
   moreRows: (count) => `Show ${count} more`,
   noRobots: "No robots yet: press a home on the map, then a place to work at.",
   randomFleet: "Robots at random",
-  deal: "Deal out",
+  deal: "Add them",
   dealFew: (count, between) =>
-    between === "stations" ? `Deal out ${count} between stations` : `Deal out ${count} at random`,
+    between === "stations" ? `Add ${count} between stations` : `Add ${count} at random`,
   betweenStations: "between stations",
   random: { count: "Robots", seed: "Seed", work: "Work", speed: "Speed" },
   planSummary: (planner, seconds) => `${planner}, up to ${seconds} s`,

@@ -1,0 +1,43 @@
+/** The address of what is shown: a reload, a bookmark and the way back lead to the same document. */
+
+export class PlaceInAddress {
+  constructor(studio) {
+    this.studio = studio;
+    const { store } = studio;
+    for (const event of ["open", "document"]) store.on(event, () => this.#follow());
+    addEventListener("popstate", () => this.go());
+  }
+
+  /** Open what the address names; false where it names nothing. */
+  go() {
+    const { studio } = this;
+    const [kind, ...rest] = decodeURIComponent(location.hash.slice(1)).split("=");
+    const name = rest.join("=");
+    if (kind === "file" && name) studio.shelf.open(name);
+    else if (kind === "draft" && name) studio.shelf.openDraft(name);
+    else if (kind === "example" && name) studio.shelf.openExample(name);
+    else if (!studio.isStarting) studio.toStart();
+    return Boolean(name);
+  }
+
+  /** Be at the start page. */
+  leave() {
+    if (location.hash) history.pushState(null, "", location.pathname + location.search);
+  }
+
+  /** Keep up with the document: another one is a step, another name of it is none. */
+  #follow() {
+    const { store } = this.studio;
+    const isOld = store.origin && !store.canUndo; // as it was opened: from a layout, an example, a plan
+    const [kind, name] = isOld
+      ? store.origin
+      : store.isSaved
+        ? ["file", store.path]
+        : ["draft", store.draft];
+    const hash = `#${kind}=${encodeURIComponent(name)}`;
+    if (location.hash === hash) return;
+    const isStep = store.opened !== this.opened;
+    this.opened = store.opened;
+    history[isStep ? "pushState" : "replaceState"](null, "", hash);
+  }
+}

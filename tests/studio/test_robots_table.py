@@ -1,0 +1,159 @@
+"""The table of robots as a spreadsheet: arrows, blocks, fill, faults, columns, many rows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.builders.browsers import needs_browser
+from tests.builders.drawing import StudioPage
+from tests.builders.studios import running
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Locator
+
+pytestmark = needs_browser
+
+PASTE = """(field, text) => {
+  const clipboardData = new DataTransfer();
+  clipboardData.setData("text", text);
+  field.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true }));
+}"""
+
+COPIED = """(field) => {
+  const clipboardData = new DataTransfer();
+  field.dispatchEvent(new ClipboardEvent("copy", { clipboardData, bubbles: true }));
+  return clipboardData.getData("text");
+}"""
+
+
+@pytest.fixture
+def table(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
+    """Return the page with a floor of 12 x 8 m and three robots, at their table."""
+    with running(tmp_path, keeps=False) as client:
+        context = browser.new_context(
+            locale="en-GB", reduced_motion="reduce", viewport={"width": 1280, "height": 760}
+        )
+        studio = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+        studio.button("Create the floor").click()
+        studio.opened()
+        studio.tab("Robots")
+        studio.button("Add 3 at random").click()
+        studio.wait_for("studio.store.document.robots.length === 3")
+        studio.settle()
+        yield studio
+        context.close()
+
+
+def field(table: StudioPage, column: str, robot: str) -> Locator:
+    """Return the field of a robot in a column."""
+    return table.page.get_by_label(f"{column}, {robot}", exact=True)
+
+
+def focused(table: StudioPage) -> str:
+    """Return which field has the focus."""
+    return str(table.ask("document.activeElement.getAttribute('aria-label')"))
+
+
+def test_arrows_and_enter_go_through_the_cells(table: StudioPage) -> None:
+    keys = table.page.keyboard
+    field(table, "Work", "R1").click()
+    keys.press("ArrowDown")
+    assert focused(table) == "Work, R2"
+    keys.press("End")
+    keys.press("ArrowRight")
+    assert focused(table) == "Speed, R2"
+    keys.type("2")
+    keys.press("Enter")
+    assert focused(table) == "Speed, R3"
+    keys.press("Shift+Enter")
+    assert focused(table) == "Speed, R2"
+
+
+def test_a_block_is_copied_pasted_and_cleared(table: StudioPage) -> None:
+    keys = table.page.keyboard
+    field(table, "Work", "R1").focus()
+    keys.press("Shift+ArrowDown")
+    keys.press("Shift+ArrowRight")
+    assert field(table, "Work", "R1").evaluate(COPIED) == "5\t1\n5\t1"
+    field(table, "Work", "R2").evaluate(PASTE, "7\t2\n8\t3\n")
+    table.settle()
+    robots = table.document["robots"]
+    assert [(robot["work"], robot["speed"]) for robot in robots] == [(5, 1), (7, 2), (8, 3)]
+    keys.press("Delete")
+    table.settle()
+    assert ["work" in robot for robot in table.document["robots"]] == [False, False, True]
+
+
+def test_a_value_is_dragged_down(table: StudioPage) -> None:
+    speed = field(table, "Speed", "R1")
+    speed.fill("2")
+    speed.press("Tab")
+    field(table, "Speed", "R1").focus()
+    table.page.locator(".handle").drag_to(field(table, "Speed", "R3"))
+    table.settle()
+    assert [robot["speed"] for robot in table.document["robots"]] == [2, 2, 2]
+
+
+def test_a_robot_is_added_in_the_last_row(table: StudioPage) -> None:
+    home = field(table, "Home", "new robot")
+    home.fill("0.25, 0.25")
+    home.press("Tab")
+    table.settle()
+    assert table.document["robots"][3] == {"name": "R4", "home": {"x": 0.25, "y": 0.25}}
+    fault = table.page.get_by_role("alert").get_by_text("nowhere to go")
+    fault.wait_for()
+    assert table.ask("studio.store.site.robots.length") == 4  # it stands at its home
+
+
+def test_a_wrong_number_is_marked_and_the_robot_stays_on_the_map(table: StudioPage) -> None:
+    speed = field(table, "Speed", "R2")
+    speed.fill("abc")
+    speed.press("Enter")
+    table.settle()
+    assert speed.get_attribute("aria-invalid") == "true"
+    assert table.ask("studio.store.site.robots.map(({ index }) => index)") == [0, 1, 2]
+    table.page.get_by_role("button", name="R2: speed").click()
+    table.wait_for("document.activeElement.getAttribute('aria-label') === 'Speed, R2'")
+
+
+def test_columns_come_when_they_are_asked_for(table: StudioPage) -> None:
+    assert not field(table, "Radius", "R1").is_visible()
+    table.button("+ Radius").click()
+    field(table, "Radius", "R1").fill("0.2")
+    field(table, "Radius", "R1").press("Enter")
+    table.settle()
+    assert table.document["robots"][0]["radius"] == 0.2
+
+
+def test_a_robot_that_was_deleted_is_taken_back(table: StudioPage) -> None:
+    before = table.document["robots"]
+    table.page.locator("tr[data-row='1']").hover()
+    table.page.get_by_label("Delete R2").click()
+    assert len(table.document["robots"]) == 2
+    table.page.locator(".notice").get_by_role("button", name="Undo").click()
+    table.settle()
+    assert table.document["robots"] == before
+
+
+def test_a_robot_is_found_among_many_and_its_row_stays_its_own(table: StudioPage) -> None:
+    table.page.get_by_text("Robots at random").click()
+    table.page.get_by_label("Robots", exact=True).fill("60")
+    table.button("Add them").click()
+    table.wait_for("studio.store.document.robots.length === 63")
+    table.settle()
+    table.page.get_by_label("Find a robot or place").fill("R42")
+    assert table.page.locator("tr[data-row]").count() == 1
+    speed = field(table, "Speed", "R42")
+    speed.fill("2")
+    speed.press("Enter")
+    table.settle()
+    assert [it["name"] for it in table.document["robots"] if it["speed"] == 2] == ["R42"]
+
+
+def test_no_table_is_wider_than_its_place(table: StudioPage) -> None:
+    sheet = ".sheet"
+    assert table.page.locator(sheet).evaluate("(it) => it.scrollWidth <= it.clientWidth")
