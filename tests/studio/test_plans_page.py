@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import random
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,6 +27,14 @@ robots:
   - {name: R1, home: N0, target: N17, work: 3}
   - {name: R2, home: N2, target: N17, work: 3}
   - {name: R3, home: N4, target: N17, work: 3}
+"""
+
+OPEN = """\
+format: rightofway-scenario/1
+map: {grid: [".....", ".....", ".....", "....."]}
+robots:
+  - {name: R1, home: N0, target: N19, work: 3}
+  - {name: R2, home: N4, target: N15, work: 1}
 """
 
 PARTS = """\
@@ -219,7 +228,11 @@ def test_a_change_of_a_robot_is_planned_at_once(opened: Opener) -> None:
     studio.wait_for("studio.runs.shown === 2 && Boolean(studio.runs.comparison)")
     assert studio.document["robots"][0]["speed"] == 2
     assert studio.ask("studio.runs.run.request.time_limit") == 1
+    assert "R1: speed 1 → 2" in studio.text(".change .edit")
     assert "R1" in studio.text(".change .gain")
+    assert "The same route as before: " in studio.text(".change")
+    assert studio.ask("studio.runs.run.request.start") == 1
+    assert "--start run-1.json" in studio.ask("studio.runs.command")
     assert studio.ask("studio.stage.choice.robot.name") == "R1"  # it stays chosen
     speed.fill("fast")
     speed.press("Tab")
@@ -250,6 +263,41 @@ def test_a_place_is_closed_planned_and_opened_again(opened: Opener) -> None:
     studio.page.get_by_role("button", name=f"Open again: {place}").click()
     studio.settle()
     assert "closures" not in studio.document
+
+
+def test_a_lane_is_closed_and_the_former_way_is_dashed(opened: Opener) -> None:
+    """No robot drives along a closed lane any more, and its sign is on the map."""
+    studio = opened(OPEN)
+    begin(studio)
+    studio.planned()
+    studio.ask("studio.stage.choice.chooseRobot(0)")
+    way = "Array.from(studio.stage.choice.robot.vertices, (v) => studio.stage.plan.roadmap.name(v))"
+    before = studio.ask(way)
+    tail, head = before[1:3]
+    studio.page.fill("#close-at", tail)
+    studio.page.fill("#close-to", head)
+    studio.button("Close it").click()
+    studio.wait_for("studio.runs.shown === 2 && studio.runs.comparison?.runs[1] === 2")
+    assert studio.document["closures"] == [{"edge": [tail, head]}]
+    after = studio.ask(way)
+    assert not {(tail, head), (head, tail)} & set(pairwise(after))
+    assert f"{tail} to {head}: closed" in studio.text(".change .edit")
+    assert studio.ask("studio.former.ways.length") > 0
+    assert "Dashed on the map" in studio.text(".change")
+    assert studio.complaints == []
+
+
+def test_what_cannot_be_closed_is_said_at_the_field(opened: Opener) -> None:
+    studio = opened(BAY)
+    begin(studio)
+    studio.planned()
+    studio.page.fill("#close-at", "N999")
+    studio.button("Close it").click()
+    studio.settle()
+    assert "closures[0].at" in studio.text(".ask [role=alert]")
+    studio.page.get_by_role("button", name="Open again: N999").click()
+    studio.settle()
+    assert studio.ask("studio.store.survey.ok")
 
 
 def test_everything_about_plans_has_a_name_and_is_reached_by_keys(opened: Opener) -> None:
