@@ -285,6 +285,26 @@ def test_a_changed_document_is_planned_at_once_beside_a_long_plan(client: httpx.
     assert changed["figures"]["makespan"] > first["figures"]["makespan"]
 
 
+def test_a_plan_of_a_changed_document_starts_from_the_plan_before(client: httpx.Client) -> None:
+    first = planned(client, planner="two-level")["number"]
+    document = client.get(f"/runs/{first}/document").json()["document"]
+    document["robots"][1]["work"] = 5
+    changed = planned(client, document, time_limit=1, start=first)
+    assert changed["figures"]["start"]["routes"] == 2
+    assert changed["figures"]["robots"] == 2
+    command = client.get(f"/runs/{changed['number']}/command").json()["command"]
+    assert f"--start run-{first}.json" in command
+    again = client.post(f"/runs/{changed['number']}/again").json()["number"]
+    assert over(client, again)["figures"] == changed["figures"]
+
+
+def test_a_planner_that_cannot_start_from_a_plan_says_so(client: httpx.Client) -> None:
+    first = planned(client, planner="two-level")["number"]
+    failed = planned(client, planner="paper", start=first)
+    assert failed["state"] == "failed"
+    assert "paper cannot start from a plan (choose auto" in failed["error"]["message"]
+
+
 def test_costs_are_compared_in_time_units_where_ticks_differ(client: httpx.Client) -> None:
     first, *others = DOOR["robots"]
     faster = {**DOOR, "robots": [{**first, "speed": 1.5}, *others]}

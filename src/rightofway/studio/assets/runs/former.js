@@ -67,5 +67,10 @@ function waysOf({ vertices }, at) {
   const points = Array.from(vertices, at);
   const key = (point) => point.map((coordinate) => coordinate.toFixed(4)).join();
   const ways = points.slice(1).map((head, i) => [points[i], head]);
-  return new Map(ways.map((way) => [way.map(key).sort().join(" "), way]));
+  const found = new Map();
+  for (const way of ways) {
+    const ends = way.map(key).sort().join(" ");
+    if (!found.has(ends)) found.set(ends, way);
+  }
+  return found;
 }

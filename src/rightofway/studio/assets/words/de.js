@@ -257,7 +257,7 @@ export const GERMAN = {
   whatIfOf: (name) => `Was wäre, wenn ${name} anders wäre`,
   chooseRobot: "Einen Roboter auf der Karte wählen, um Startplatz, Tempo oder Arbeit zu ändern.",
   closePlace: "Platz sperren",
-  closeTo: "oder die Strecke von dort nach",
+  closeTo: "oder die Strecke nach",
   closeIt: "Sperren",
   openAgain: "Sperrung aufheben",
   studies: "Umläufe und Verzögerungen",

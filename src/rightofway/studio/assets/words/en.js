@@ -242,7 +242,7 @@ export const ENGLISH = {
   whatIfOf: (name) => `What if ${name} were different`,
   chooseRobot: "Choose a robot on the map to change its home, speed or work.",
   closePlace: "Close the place",
-  closeTo: "or the lane from it to",
+  closeTo: "or the lane to",
   closeIt: "Close it",
   openAgain: "Open again",
   studies: "Laps and delays",
