@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import json
 import random
+import shlex
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import openpyxl  # type: ignore[import-untyped]  # it ships no types
 import pytest
+from PIL import Image
 
-from tests.builders.browsers import needs_browser
+from rightofway import load_plan
+from tests.builders.browsers import Viewer, needs_browser
 from tests.builders.drawing import StudioPage
 from tests.builders.studios import running
 
@@ -147,13 +153,24 @@ def test_what_is_proven_impossible_lights_its_places(opened: Opener) -> None:
     assert studio.ask(lit) == ["N0", "N2"]
 
 
-def test_runs_are_named_compared_and_deleted(opened: Opener) -> None:
+def planned_by(studio: StudioPage, *planners: str) -> None:
+    """Plan with one planner after the other."""
+    for count, planner in enumerate(planners, 1):
+        begin(studio, planner=planner)
+        studio.wait_for(f"studio.runs.shown === {count}")
+        studio.planned()
+
+
+def check(studio: StudioPage, *numbers: int, shift: bool = False) -> None:
+    """Press the boxes of runs in the list."""
+    for number in numbers:
+        modifiers = ["Shift"] if shift else []
+        studio.page.locator(f"[data-run='{number}'] [type=checkbox]").click(modifiers=modifiers)  # type: ignore[arg-type]
+
+
+def test_runs_are_named_in_place(opened: Opener) -> None:
     studio = opened(BAY)
-    begin(studio, planner="prioritized")
-    studio.planned()
-    begin(studio)
-    studio.wait_for("studio.runs.shown === 2")
-    studio.planned()
+    planned_by(studio, "prioritized", "auto")
     name = studio.page.get_by_label("Name of the plan 1")
     name.fill("first try")
     name.press("Tab")
@@ -161,42 +178,205 @@ def test_runs_are_named_compared_and_deleted(opened: Opener) -> None:
     assert "prioritized" in row(studio, 1)
     assert "%" in row(studio, 1)
     assert " s" in row(studio, 1)
-    studio.page.get_by_role("button", name="Compare: 1 first try").click()
-    studio.wait_for("Boolean(studio.runs.comparison)")
-    assert "first try" in studio.text(".comparison")
-    studio.button("Show side by side").click()
-    frame = studio.page.frame_locator("dialog.beside iframe")
-    frame.get_by_role("tab", name="Compared").wait_for()
-    assert studio.page.frames[1].evaluate("origin") == "null"
-    studio.page.keyboard.press("Escape")
-    studio.page.locator("dialog.beside").wait_for(state="detached")
-    studio.page.locator("[data-run='1'] .show").click()
-    studio.wait_for("studio.runs.shown === 1")
-    studio.page.get_by_role("button", name="Delete: 1 first try").click()
-    studio.wait_for("studio.runs.runs.length === 1")
-    assert studio.ask("studio.stage.isPlan") is False
     assert studio.complaints == []
 
 
-def test_a_plan_is_exported_with_the_command_that_gives_the_same(opened: Opener) -> None:
+def test_runs_that_are_selected_are_compared_and_shown_side_by_side(opened: Opener) -> None:
+    studio = opened(BAY)
+    planned_by(studio, "prioritized", "two-level", "auto")
+    check(studio, 1)
+    assert "Select another plan" in studio.text(".selection")
+    check(studio, 3, shift=True)
+    studio.wait_for("studio.runs.compared?.runs.length === 3")
+    heads = studio.page.locator(".compared-figures thead button").all_inner_texts()
+    assert heads == ["#1", "#2", "#3"]
+    robots = studio.page.locator(".robots-compared .row:visible").all_inner_texts()
+    assert {text.split("\n")[0] for text in robots} == {"R1", "R2", "R3"}
+    assert studio.page.locator(".plot .reached").count() >= 3
+    studio.page.locator(".robots-compared .row", has_text="R2").click()
+    assert studio.ask("studio.stage.choice.robot.name") == "R2"
+    studio.button("Show side by side").click()
+    frame = studio.page.frame_locator("dialog.beside iframe")
+    frame.get_by_role("tab", name="Compared").wait_for()
+    assert frame.locator("section.map").count() == 3
+    assert studio.page.frames[1].evaluate("origin") == "null"
+    studio.keep("studio-compare")
+    studio.page.keyboard.press("Escape")
+    studio.page.locator("dialog.beside").wait_for(state="detached")
+    check(studio, 2)
+    studio.wait_for("studio.runs.compared?.runs.length === 2")
+    studio.button("End").click()
+    studio.page.locator(".comparison").wait_for(state="detached")
+    assert studio.complaints == []
+
+
+def test_a_what_if_with_another_speed_is_shown_side_by_side(opened: Opener) -> None:
+    """The ticks of both plans differ."""
+    studio = opened(BAY)
+    planned_by(studio, "auto")
+    studio.ask("studio.stage.choice.chooseRobot(0)")
+    speed = studio.page.locator(".ask").get_by_label("Speed", exact=True)
+    speed.fill("1.5")
+    speed.press("Tab")
+    studio.wait_for("studio.runs.shown === 2 && Boolean(studio.runs.comparison)")
+    changed = studio.page.locator(".comparison .compared-changes li").all_inner_texts
+    studio.wait_for("Boolean(document.querySelector('.compared-changes'))")
+    assert changed() == ["R1: speed 1 \u2192 1.5"]
+    studio.button("Show side by side").click()
+    frame = studio.page.frame_locator("dialog.beside iframe")
+    frame.get_by_role("tab", name="Compared").wait_for()
+    assert frame.locator("section.map").count() == 2
+
+
+def test_a_run_that_is_deleted_is_had_back(opened: Opener) -> None:
+    studio = opened(BAY)
+    planned_by(studio, "prioritized", "auto")
+    studio.page.get_by_role("button", name="Delete: 2 floor.yaml").click()
+    assert studio.page.locator("[data-run]").count() == 1
+    assert studio.ask("studio.stage.isPlan") is False
+    studio.page.locator(".notice").get_by_role("button", name="Undo").click()
+    studio.wait_for("studio.runs.shown === 2 && studio.stage.isPlan")
+    assert studio.page.locator("[data-run]").count() == 2
+    check(studio, 1, 2)
+    studio.wait_for("Boolean(studio.runs.compared)")
+    studio.page.locator(".selection").get_by_role("button", name="Delete").click()
+    assert studio.page.locator("[data-run], .comparison").count() == 0
+    studio.page.reload()  # leaving the page ends the undo
+    studio.wait_for("Boolean(window.studio?.about.version)")
+    studio.wait_for("studio.runs.runs.length === 0")
+    assert studio.complaints == []
+
+
+def test_runs_are_sorted_and_say_what_is_new_in_each(opened: Opener) -> None:
+    studio = opened(BAY)
+    planned_by(studio, "prioritized", "prioritized")
+    studio.ask(
+        "studio.store.change((document) => ({ ...document, robots: document.robots.map("
+        "(robot, i) => (i ? robot : { ...robot, speed: 2 })) }))"
+    )
+    studio.settle()
+    begin(studio, planner="prioritized")
+    studio.wait_for("studio.runs.shown === 3")
+    studio.planned()
+    studio.wait_for("studio.runs.notesOn({ number: 3 }).length > 0")
+    assert "as good as 1" in row(studio, 2)
+    assert "R1: speed 1 \u2192 2" in row(studio, 3)
+    order = "[...document.querySelectorAll('tr[data-run]')].map((row) => Number(row.dataset.run))"
+    assert studio.ask(order) == [3, 2, 1]
+    costs = studio.ask("studio.runs.runs.map(({ number, figures: { flowtime, tick } }) =>"
+                       " [flowtime * tick[0] / tick[1], -number]).sort((a, b) => a[0] - b[0] ||"
+                       " a[1] - b[1]).map(([, number]) => -number)")  # fmt: skip
+    studio.page.locator("th.flowtime button").click()
+    assert studio.ask(order) == costs
+
+
+def test_the_list_is_of_this_floor_and_others_on_request(opened: Opener) -> None:
+    studio = opened(BAY)
+    planned_by(studio, "auto")
+    assert studio.page.get_by_label("Whose plans are listed").count() == 0
+    studio.ask("studio.open({ document: { ...studio.store.document, units: { time: 's' } } })")
+    studio.settle()
+    studio.tab("Plan")
+    assert studio.page.locator("[data-run]").count() == 0
+    assert studio.text("#tab-plan").strip() == "Plan"
+    studio.page.get_by_label("Whose plans are listed").select_option("floor.yaml")
+    assert studio.page.locator("[data-run]").count() == 1
+    begin(studio)
+    studio.wait_for("studio.runs.shown === 2")
+    studio.planned()
+    studio.page.get_by_label("Whose plans are listed").select_option("*")
+    check(studio, 1, 2)
+    studio.wait_for("studio.complaints.length > 0")
+    assert "times are in s, those of the first plan in no unit" in studio.text(".status")
+
+
+def test_the_curve_has_axes_and_says_the_same_in_words(opened: Opener) -> None:
+    studio = opened(crowd())
+    begin(studio, seconds=2)
+    studio.wait_for("studio.runs.shown === 1")
+    studio.planned()
+    plot = studio.page.locator(".plot")
+    first, best = studio.ask("[studio.runs.run.points[0][1], studio.runs.run.points.at(-1)[1]]")
+    assert best < first
+    said = plot.get_attribute("aria-label") or ""
+    assert f"from {first} at" in said
+    assert f"to {best} at" in said
+    assert f"lower bound {studio.ask('studio.runs.run.figures.lower_bound')}" in said
+    assert studio.text(".plot .label >> nth=0") == str(first)
+    assert studio.text(".seconds.last").endswith(" s")
+
+
+def exported(studio: StudioPage, name: str, folder: Path) -> Path:
+    """Download what a link exports, under the name that it is given."""
+    with studio.page.expect_download() as download:
+        studio.page.get_by_role("link", name=name, exact=True).click()
+    path = folder / download.value.suggested_filename
+    download.value.save_as(path)
+    return path
+
+
+def test_what_is_exported_opens_in_the_programs_it_is_for(
+    opened: Opener, browser: Browser, tmp_path: Path
+) -> None:
     studio = opened(BAY)
     begin(studio)
     studio.planned()
-    for name, start in (
-        ("Plan file", b"{"),
-        ("Workbook", b"PK"),
-        ("Picture", b"\x89PNG"),
-        ("Film", b"GIF8"),
-        ("Page as file", b"<!doctype html>"),
-    ):
-        with studio.page.expect_download() as download:
-            studio.page.get_by_role("link", name=name, exact=True).click()
-        assert Path(download.value.path()).read_bytes().lower().startswith(start.lower()), name
+    studio.page.locator(".exports summary").click()
+    flowtime = studio.ask("studio.runs.run.figures.flowtime")
+    plan = exported(studio, "Plan file", tmp_path)
+    assert plan.name == "floor-plan-1.json"
+    assert load_plan(plan).flowtime == flowtime
+    book = openpyxl.load_workbook(exported(studio, "Workbook", tmp_path))
+    assert {"R1", "R2", "R3"} <= {
+        str(cell.value) for sheet in book for line in sheet.iter_rows() for cell in line
+    }
+    with Image.open(exported(studio, "Film", tmp_path)) as film:
+        assert getattr(film, "n_frames", 1) > 10
+    with Image.open(exported(studio, "Picture", tmp_path)) as picture:
+        assert min(picture.size) > 100
+    page = Viewer(browser.new_context(offline=True).new_page())
+    page.page.goto(exported(studio, "Web page", tmp_path).as_uri())
+    page.wait_for("clock.playing && clock.tick > 0")
+    assert "floor.yaml #1" in page.text("#headline")
+    assert page.complaints == []
+    page.page.context.close()
+
+
+def test_the_command_line_gives_the_same_flowtime(opened: Opener, tmp_path: Path) -> None:
+    studio = opened(BAY)
+    begin(studio)
+    studio.planned()
+    studio.page.locator(".exports summary").click()
     command = "rightofway plan floor.yaml --planner auto --seed 0 --time-limit 1"
     assert studio.text(".command code") == command
     studio.button("Copy the command line").click()
     studio.wait_for("document.querySelector('.command button').textContent === 'Copied'")
-    assert studio.ask("navigator.clipboard.readText()") == command
+    copied = studio.ask("navigator.clipboard.readText()")
+    assert copied == command
+    program = Path(sys.executable).with_name("rightofway")
+    words = [str(program), *shlex.split(copied)[1:], "--json", "-o", "again.json"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=True)
+    report = json.loads(done.stdout)
+    assert report["metrics"]["flowtime"] == studio.ask("studio.runs.run.figures.flowtime")
+
+
+def test_the_page_of_a_comparison_is_a_file_too(
+    opened: Opener, browser: Browser, tmp_path: Path
+) -> None:
+    studio = opened(BAY)
+    planned_by(studio, "prioritized", "auto")
+    check(studio, 1, 2)
+    studio.wait_for("Boolean(studio.runs.compared)")
+    with studio.page.expect_download() as download:
+        studio.page.locator(".comparison").get_by_role("link", name="Web page").click()
+    assert download.value.suggested_filename == "floor-plan-1-2.html"
+    path = tmp_path / "both.html"
+    download.value.save_as(path)
+    page = Viewer(browser.new_context(offline=True).new_page())
+    page.page.goto(path.as_uri())
+    page.wait_for("clock.playing && comparison.plans.length === 2")
+    assert page.complaints == []
+    page.page.context.close()
 
 
 def test_the_other_robot_goes_first_and_the_difference_is_shown(opened: Opener) -> None:

@@ -325,7 +325,7 @@ def test_plans_of_different_scenarios_are_compared_on_one_page(client: httpx.Cli
     alone = {**DOOR, "robots": [first]}
     runs = [planned(client, document)["number"] for document in (DOOR, faster, alone)]
     found = client.get("/compare", params={"run": runs}).json()
-    assert found["titles"] == [f"run {number}" for number in runs]
+    assert found["titles"] == [f"#{number}" for number in runs]
     plans = found["comparison"]["plans"]
     assert [[change["text"] for change in plan["changes"]] for plan in plans] == [
         [],
@@ -337,7 +337,7 @@ def test_plans_of_different_scenarios_are_compared_on_one_page(client: httpx.Cli
     assert (
         f'filename="run-{runs[0]}-{runs[1]}-{runs[2]}.html"' in page.headers["content-disposition"]
     )
-    assert f'"others":[{{"title":"run {runs[1]}"' in page.text
+    assert f'"others":[{{"title":"#{runs[1]}"' in page.text
     payload = client.get(f"/runs/{runs[0]}/payload", params={"other": runs[1:]}).json()
     assert [other["title"] for other in payload["others"]] == found["titles"][1:]
     refused = client.get(f"/runs/{runs[0]}/export/png", params={"other": runs[1]})

@@ -59,7 +59,7 @@ def drop(studio: StudioPage, *files: Path) -> None:
 def exported(studio: StudioPage) -> bytes:
     """Return the page that the studio exports."""
     with studio.page.expect_download() as download:
-        studio.page.get_by_role("link", name="Page as file").click()
+        studio.page.get_by_role("link", name="Web page").click()
     return Path(download.value.path()).read_bytes()
 
 

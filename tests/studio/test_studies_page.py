@@ -81,6 +81,7 @@ def test_laps_say_their_period_and_light_the_bottleneck(studio: StudioPage) -> N
     assert sum(times) == 32  # what the steps take is the period
     studio.page.get_by_text("Report", exact=True).click()
     assert "period 32 time units" in studio.text(".report")
+    studio.page.locator(".exports summary").click()
     command = studio.text(".command code")
     assert command.startswith("rightofway laps bay.yaml --rule first-come")
 

@@ -17,6 +17,7 @@ export async function request(method, path, body) {
     method,
     headers,
     body: body === undefined ? undefined : JSON.stringify(body),
+    keepalive: method === "DELETE", // also while the page is being left
   });
   const data = await answer.json();
   if (!answer.ok) throw new Refusal(data.error);

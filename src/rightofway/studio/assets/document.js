@@ -30,6 +30,7 @@ export class ScenarioStore extends Observable {
   site = null; // the last map that could be drawn
   isKept = false; // whether the draft has been written
   opened = 0; // how many documents have been opened
+  names = new Set(); // that the document has had since then: runs of it are under one of them
 
   #past = [];
   #future = [];
@@ -49,6 +50,7 @@ export class ScenarioStore extends Observable {
     this.#future = [];
     this.#saved = revision ? document : null;
     this.#draft = draft || path || `new ${new Date().toISOString().slice(0, 19).replace("T", " ")}`;
+    this.names = new Set([this.#draft, this.name]);
     this.tell("document");
     this.tell("open");
     this.#work.survey.ask();
@@ -115,10 +117,16 @@ export class ScenarioStore extends Observable {
     this.tell("document");
   }
 
+  /** Its file, or the name of its draft. */
+  get name() {
+    return this.path || this.#draft;
+  }
+
   /** Save to another file from now on, which must not be there yet. */
   rename(path) {
     if (path === this.path) return;
     Object.assign(this, { path, revision: "" });
+    this.names.add(path);
     this.#saved = null;
     this.tell("document");
   }

@@ -69,7 +69,7 @@ function Tabs({ studio }) {
       store.faults.length +
         store.survey.findings.filter(({ severity }) => severity !== "note").length || "",
     robots: Array.isArray(robots) ? robots.length : "",
-    plan: runs.runs.length || "",
+    plan: runs.listed(store, null).length || "",
   };
   const go = (tab) => {
     studio.showTab(tab);

@@ -19,6 +19,8 @@ const LEGENDS = `<div class="legends">
 <div id="bottleneck-legend" class="lit-legend" hidden><span class="lit"></span><span class="name"></span></div></div>
 <div id="hover" class="hover" aria-live="off" hidden></div>`;
 
+const LEAST_IN_SIGHT = 0.2; // of a map, to keep the view of another one
+
 /** Events: `show` when another map is drawn, `choice`, `overlay` to paint above the map (with `context`). */
 export class Stage extends Observable {
   /** All that is in `holder`, `below` and `time` is of the stage. */
@@ -177,4 +179,14 @@ function keepView({ viewport: before, roadmap: old }, { viewport, roadmap }) {
     fitted: fitted && isSame,
   });
   viewport.canvas.classList.toggle("zoomed", !viewport.fitted);
+  if (shareInSight(viewport, roadmap) < LEAST_IN_SIGHT) viewport.fit(); // it is another place
+}
+
+/** How much of a map is on its canvas: 1 for all of it. */
+function shareInSight({ left, top, scale, canvas }, { width, height }) {
+  const inside = (from, length, room) =>
+    Math.max(Math.min(from + length, room) - Math.max(from, 0), 0) / length;
+  const [across, down] = [width * scale, height * scale];
+  const [right, below] = [left - scale / 2, top - scale / 2];
+  return inside(right, across, canvas.clientWidth) * inside(below, down, canvas.clientHeight);
 }

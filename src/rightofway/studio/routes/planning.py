@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import json
+import re
 import shlex
 from collections.abc import AsyncGenerator, AsyncIterator, Sequence
 from contextlib import aclosing
+from pathlib import PurePosixPath
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query, Request, Response
@@ -41,6 +43,9 @@ EXPORTS = {
     "gif": "image/gif",
 }
 """Endings of exports, and their media types."""
+
+NAME_IN_FILE = 40
+"""Characters of a run's name in the name of a file."""
 
 ALONE = "sandbox allow-scripts allow-downloads; frame-ancestors 'self'"
 """Beside the page's own policy: it is an origin of its own, so its scripts cannot use the API."""
@@ -264,15 +269,31 @@ async def _played(studio: Studio, task: str, run: Run, others: Sequence[int]) ->
 def shown_of(runs: Sequence[Run]) -> list[dict[str, Any]]:
     """Return what a page says of runs: titles, different for each of several, and seconds."""
     if len(runs) == 1:
-        titles = [runs[0].name or runs[0].source or f"run {runs[0].number}"]
+        titles = [runs[0].name or f"{file_of(runs[0])} #{runs[0].number}".lstrip()]
     else:
-        titles = [run.name or f"run {run.number}" for run in runs]
+        titles = [run.name or f"#{run.number}" for run in runs]
         if len(set(titles)) < len(titles):
-            titles = [f"{run.number} {run.name}".rstrip() for run in runs]
+            titles = [f"#{run.number} {run.name}".rstrip() for run in runs]
     return [
         {"title": title, "seconds": seconds_of(run)}
         for title, run in zip(titles, runs, strict=True)
     ]
+
+
+def file_of(run: Run) -> str:
+    """Return the file that a run was made from; empty for a draft, whose name has no ending."""
+    return run.source if PurePosixPath(run.source).suffix else ""
+
+
+def file_name(runs: Sequence[Run], ending: str) -> str:
+    """Return how a file of plans is called: ``floor-plan-3-first-try.html``."""
+    stem = PurePosixPath(file_of(runs[0])).name.split(".")[0]
+    numbers = "-".join(str(run.number) for run in runs)
+    name = runs[0].name if len(runs) == 1 else ""
+    words = (re.sub(r"[^A-Za-z0-9_]+", "-", part).strip("-") for part in (stem, name))
+    first, last = words
+    parts = [first, f"plan-{numbers}", last[:NAME_IN_FILE]]
+    return f"{'-'.join(filter(None, parts))}.{ending}"
 
 
 def seconds_of(run: Run) -> float | None:
@@ -304,9 +325,10 @@ async def export_run(
     else:
         plan = await studio.runs.blob(number, "plan")
         content = (await studio.ask("export", plan, form=form))[1][0]
-    ending, numbers = form if form in EXPORTS else "txt", "-".join(map(str, [number, *other]))
+    runs = list(map(studio.runs.get, [number, *other]))
+    name = file_name(runs, form if form in EXPORTS else f"{form}.txt")
     headers = {
-        "content-disposition": f'attachment; filename="run-{numbers}.{ending}"',
+        "content-disposition": f'attachment; filename="{name}"',
         "content-security-policy": ALONE,
     }
     media = EXPORTS.get(form, "text/plain; charset=utf-8")
@@ -348,7 +370,7 @@ def command_of(run: Run) -> str:
     if run.kind in {"opened", "flip"}:
         raise Refused(f"run {run.number} was not made by a command (export its plan)", 404)
     unnamed = "scenario.yaml" if run.kind in {"plan", "laps"} else "plan.json"
-    source = run.source or unnamed
+    source = file_of(run) or unnamed
     words.append(f"./{source}" if source.startswith("-") else source)
     if run.kind in {"plan", "improve"}:
         default = DEFAULT if run.kind == "plan" else IMPROVER

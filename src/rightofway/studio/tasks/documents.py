@@ -150,6 +150,8 @@ def figures(plan: Plan) -> dict[str, Any]:
     }
     text = {key: duration(ticks) for key, ticks in costs.items()}
     text["gap"] = f"{metrics.gap:.1%}" if metrics.lower_bound else ""
+    tick, units = plan.scenario.problem.clock.tick, plan.scenario.units
+    found = {**costs, "text": text, "tick": tick.as_integer_ratio(), "units": asdict(units)}
     if plan.run.start is None:
-        return {**costs, "text": text}
-    return {**costs, "text": text, "start": asdict(plan.run.start), "robots": len(plan.tracks)}
+        return found
+    return {**found, "start": asdict(plan.run.start), "robots": len(plan.tracks)}

@@ -2,6 +2,7 @@
 
 import { html } from "../vendor/htm-preact.js";
 import { Quantities } from "../viewer/quantities.js";
+import { changeInWords } from "../viewer/compared_table.js";
 import { words } from "../words.js";
 import { Term } from "./term.js";
 
@@ -29,7 +30,7 @@ export function Change({ studio }) {
   return html`
     <section class="change" role="status" aria-busy=${String(comparison.runs[1] !== runs.shown)}>
       ${runs.run?.kind === "flip" && html`<p class="edit">${words.goesBefore(runs.run.request)}</p>`}
-      ${changes.map(({ text }) => html`<p class="edit">${text}</p>`)}
+      ${changes.map((change) => html`<p class="edit">${changeInWords(change)}</p>`)}
       <p><${Term} of="flowtime" /> <b>${after}</b>${before === after ? ` ${words.asBefore}` : `, ${words.wasBefore(before)}`}</p>
       <${Robots} studio=${studio} className="gain" label=${words.gains} found=${found.filter(({ by }) => by < 0)} />
       <${Robots} studio=${studio} className="lose" label=${words.losesTime} found=${found.filter(({ by }) => by > 0).reverse()} />

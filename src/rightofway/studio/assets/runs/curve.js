@@ -1,34 +1,122 @@
-/** How the flowtime of a run came down over time, above the lower bound; while it runs, as it comes. */
+/** How the flowtime of runs came down over time, towards the lower bound; while one runs, as it comes. */
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
+import { Quantities } from "../viewer/quantities.js";
 import { words } from "../words.js";
+import { secondsOf } from "./list.js";
 import { isOver } from "./run_store.js";
 import { Term } from "./term.js";
 
-const [WIDTH, HEIGHT] = [300, 90];
+const [WIDTH, HEIGHT] = [300, 90]; // of the drawing, which is stretched to the room that there is
+const ROOM = 1.12; // how much higher than the first plan the axis ends
 const PERIOD = 200; // between two looks at the time while a run goes on [ms]
+const DASHES = ["", "6 3", "2 3", "8 3 2 3"]; // of runs that are compared, again from the fifth on
 
-export function Curve({ run }) {
+/** The curve of a run, or of several that are compared; `quantities` write the flowtimes of the run. */
+export function Curve({ run, others = [], quantities = null }) {
   const seconds = useSeconds(run);
-  const { points, figures } = run;
+  const drawn = [run, ...others.map((each) => inTicksOf(run, each))].filter(
+    ({ points }) => points.length,
+  );
+  const { figures } = run;
   const bound = figures?.lower_bound ?? run.bound;
   const limit = run.request?.time_limit ?? 1;
+  const isLive = !isOver(run);
+  const last = Math.max(
+    ...drawn.map((each) => endOf(each, seconds, run)),
+    isLive ? seconds : 0,
+    0.01,
+  );
+  const flowtimes = drawn.flatMap(({ points }) => points.map(([, flowtime]) => flowtime));
+  const floor = Math.min(bound ?? Infinity, ...flowtimes);
+  const most = floor + Math.max(Math.max(...flowtimes) - floor, floor * 0.01, 1) * ROOM;
+  const place = {
+    x: (at) => (at / last) * WIDTH,
+    y: (flowtime) => HEIGHT - 2 - ((flowtime - floor) / (most - floor)) * (HEIGHT - 4),
+  };
+  const time = quantities && ((ticks) => quantities.short(ticks));
+  const isDrawn = drawn.length > 0 && (isLive || flowtimes.length > 1 || others.length > 0);
+  const line = (i, d) => html`<path class=${i ? "reached beside" : "reached"}
+    stroke-dasharray=${DASHES[i % DASHES.length]} d=${d} />`;
+  const legend = (each, i) => html`<li>
+    <svg viewBox="0 0 24 8" aria-hidden="true">${line(i, "M0 4H24")}</svg>${each.number}</li>`;
+  const level = bound !== undefined && drawn.length > 0 && place.y(bound).toFixed(1);
+  const plot = html`
+    <div class="plot" role="img" aria-label=${inWords(drawn, bound, time)}>
+      <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" preserveAspectRatio="none" aria-hidden="true">
+        ${level && html`<path class="bound" d="M0 ${level}H${WIDTH}" />`}
+        ${drawn.map((each, i) => line(i, steps(each.points, place, endOf(each, seconds, run))))}
+      </svg>
+      ${
+        drawn.length > 0 &&
+        time &&
+        html`<${Labels} most=${Math.max(...flowtimes)} floor=${floor} bound=${bound}
+          place=${place} time=${time} last=${last} />`
+      }
+      ${others.length > 0 && html`<ul class="legend">${drawn.map(legend)}</ul>`}
+    </div>`;
   return html`
     <figure class="curve" data-state=${run.state}>
+      ${(isDrawn || isLive) && plot}
       ${
-        (points.length > 0 || !isOver(run)) &&
-        html`<svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${words.curve} preserveAspectRatio="none">
-        ${bound !== undefined && html`<path class="bound" d="M0 ${HEIGHT - 2}H${WIDTH}" />`}
-        ${bound !== undefined && points.length > 0 && html`<path class="reached" d=${steps(points, bound, seconds)} />`}
-      </svg>
-      <progress aria-label=${words.timeUsed} max=${limit} value=${isOver(run) ? limit : Math.min(seconds, limit)}></progress>`
+        isLive &&
+        html`<progress aria-label=${words.timeUsed} max=${limit}
+          value=${Math.min(seconds, limit)}></progress>`
       }
-      <figcaption>
-        ${!isOver(run) && html`<span role="status">${words.states[run.state]}</span>${run.state === "running" && ` ${seconds.toFixed(1)} s`} `}
-        ${figures && html`<${Term} of="flowtime" /> <b>${figures.text.flowtime}</b>, <${Term} of="bound" /> ${figures.text.lower_bound}${figures.flowtime > bound && ` (+${figures.text.gap})`}`}
-        ${isOver(run) && run.status && html` <span class="hint">${run.status}</span>`}
-      </figcaption>
+      <${Caption} run=${run} bound=${bound} seconds=${seconds} />
     </figure>`;
+}
+
+/** What has been reached, in figures. */
+function Caption({ run: { state, figures, status }, bound, seconds }) {
+  const isLive = !isOver({ state });
+  const text = figures?.text;
+  return html`<figcaption>
+    ${isLive && html`<span role="status">${words.states[state]}</span> `}
+    ${state === "running" && `${seconds.toFixed(1)} s `}
+    ${text && html`<${Term} of="flowtime" /> <b>${text.flowtime}</b>, `}
+    ${text && html`<${Term} of="bound" /> ${text.lower_bound}`}
+    ${figures?.flowtime > bound && ` (+${text.gap})`}
+    ${!isLive && status && html` <span class="hint">${status}</span>`}
+  </figcaption>`;
+}
+
+/** Another run with flowtimes in the ticks of a run. */
+function inTicksOf({ figures }, other) {
+  const [top, bottom] = figures?.tick ?? [1, 1];
+  const [otherTop, otherBottom] = other.figures?.tick ?? [1, 1];
+  const scale = (otherTop * bottom) / (otherBottom * top);
+  return { ...other, points: other.points.map(([at, flowtime]) => [at, flowtime * scale]) };
+}
+
+/** What the axes mean: the first flowtime and the bound at the left, seconds below. */
+function Labels({ most, floor, bound, place, time, last }) {
+  const isApart = place.y(floor) - place.y(most) > 20;
+  const at = (flowtime) => ({ top: `${(100 * place.y(flowtime)) / HEIGHT}%` });
+  const lowest = floor === bound ? `${time(floor)} (${words.bound})` : time(floor);
+  return html`
+    <span class="label" style=${at(most)}>${time(most)}</span>
+    ${isApart && html`<span class="label" style=${at(floor)} title=${words.bound}>${lowest}</span>`}
+    <span class="seconds first">0</span>
+    <span class="seconds last">${last.toPrecision(2) / 1} s</span>`;
+}
+
+/** The same for who does not see it. */
+function inWords(drawn, bound, time) {
+  if (!drawn.length || !time) return words.curve;
+  const parts = drawn.map(({ number, points }) => {
+    const [[start, first], [end, best]] = [points[0], points.at(-1)];
+    return words.curveOf(number, time(first), start.toFixed(1), time(best), end.toFixed(1));
+  });
+  return [words.curve, ...parts, bound === undefined ? "" : `${words.bound} ${time(bound)}`]
+    .filter(Boolean)
+    .join(". ");
+}
+
+/** When a run ended, or how long it has been going on [s]. */
+function endOf(run, seconds, current) {
+  const last = run.points.at(-1)?.[0] ?? 0;
+  return Math.max(last, run === current ? seconds : secondsOf(run) || 0);
 }
 
 /** How long a run has been going on, or has taken [s]. */
@@ -40,19 +128,24 @@ function useSeconds(run) {
     const timer = setInterval(() => look((count) => count + 1), PERIOD);
     return () => clearInterval(timer);
   }, [isRunning]);
-  if (isRunning) return (performance.now() - run.since) / 1000;
-  return run.started && run.ended ? run.ended - run.started : 0;
+  return isRunning ? (performance.now() - run.since) / 1000 : secondsOf(run) || 0;
 }
 
-/** A line that goes down in steps, up to now. */
-function steps(points, bound, seconds) {
-  const most = Math.max(...points.map(([, flowtime]) => flowtime), bound + 1);
-  const last = Math.max(points.at(-1)[0], seconds, 0.001);
-  const x = (at) => ((at / last) * WIDTH).toFixed(1);
-  const y = (flowtime) =>
-    (HEIGHT - ((flowtime - bound) / (most - bound)) * (HEIGHT - 8) - 2).toFixed(1);
+/** A line that goes down in steps, up to its end. */
+function steps(points, { x, y }, end) {
   const corners = points.map(
-    ([at, flowtime], i) => `${i ? `H${x(at)}V` : `M${x(at)} `}${y(flowtime)}`,
+    ([at, flowtime], i) =>
+      `${i ? `H${x(at).toFixed(1)}V` : `M${x(at).toFixed(1)} `}${y(flowtime).toFixed(1)}`,
   );
-  return `${corners.join("")}H${x(last)}`;
+  return `${corners.join("")}H${x(end).toFixed(1)}`;
+}
+
+/** How flowtimes of a run are written: as those of the plan that is shown, or of the map that is drawn. */
+export function quantitiesOf(run, { store, stage }) {
+  const { tick, units } = run.figures ?? {};
+  if (tick) return new Quantities(units, tick);
+  return (
+    (stage.isPlan ? stage.plan.quantities : null) ??
+    (store.site && new Quantities(store.site.units, store.site.tick))
+  );
 }

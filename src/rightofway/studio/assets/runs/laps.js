@@ -189,8 +189,8 @@ function take(studio, { kind, robot, stop }, value) {
     const index = robotsOf(document).findIndex(({ name }) => name === robot);
     return changeRobots(document, [index], edit);
   });
-  const { document, folder, path } = store;
-  studio.study({ kind: "laps", document, folder, source: path, ...request }, document);
+  const { document, folder, name } = store;
+  studio.study({ kind: "laps", document, folder, source: name, ...request }, document);
 }
 
 /** A value that is made once for each of what it is made of. */

@@ -1,65 +1,166 @@
-/** All runs: shown, compared, named, forgotten. */
+/** The runs of a document: shown, named, sorted, selected to be compared, forgotten; others on request. */
 
-import { html, useState } from "../vendor/htm-preact.js";
+import { html, useEffect, useState } from "../vendor/htm-preact.js";
+import { Quantities } from "../viewer/quantities.js";
 import { words } from "../words.js";
 import { canBeShown, isOver } from "./run_store.js";
-import { Term } from "./term.js";
 
-const MOST = 30; // that are listed at once; the others on request
+const MOST = 12; // that are listed at once; the others on request
 
-export const titleOf = (run) => run.name || run.source || words.runKinds[run.kind] || run.kind;
+/** What a run is called: its own name, its file, or what it is. */
+export const titleOf = (run) => run.name || fileOf(run) || words.runKinds[run.kind] || run.kind;
+
+/** The file that a run was made from; a draft has a name without an ending. */
+const fileOf = ({ source }) => (/\.\w+$/.test(source) ? source : "");
+
+/** How long a run took [s], or NaN. */
+export const secondsOf = ({ started, ended }) =>
+  started && ended > started ? ended - started : NaN;
+
+const SORTS = {
+  number: ({ number }) => -number,
+  flowtime: ({ figures }) => {
+    const [numerator, denominator] = figures?.tick ?? [1, 1];
+    return figures ? (figures.flowtime * numerator) / denominator : Infinity;
+  },
+  took: (run) => secondsOf(run) || Infinity,
+};
 
 export function RunList({ studio }) {
-  const { runs } = studio;
+  const { runs, store } = studio;
   const [listed, setListed] = useState(MOST);
+  const [sort, setSort] = useState("number");
+  const [file, setFile] = useState(null); // null for this document, "*" for all
+  const found = runs.listed(store, file).sort((a, b) => SORTS[sort](a) - SORTS[sort](b));
+  const shown = found.slice(0, listed);
+  useEffect(() => {
+    runs.describe(shown.map(({ number }) => number));
+  }, [shown.map(({ number, state }) => `${number} ${state}`).join()]);
   if (!runs.runs.length) return null;
+  const head = (key, text, hint = "") => {
+    const way = key === "number" ? "descending" : "ascending";
+    return html`<th scope="col" class=${key} aria-sort=${sort === key ? way : undefined}>
+      <button type="button" class="quiet" title=${hint} onClick=${() => setSort(key)}>
+        ${text}</button></th>`;
+  };
+  const row = (run) => html`<${Row} key=${run.number} studio=${studio} run=${run}
+    order=${shown} isOwn=${file === null} />`;
+  const left = found.length - listed;
   return html`
-    <section aria-labelledby="runs-title"><h2 id="runs-title">${words.runs}</h2>
-      <table class="runs">
-        <thead><tr><th scope="col"><span class="unseen">${words.show}</span></th><th scope="col">${words.name}</th><th scope="col"><${Term} of="flowtime" /></th>
-          <th scope="col"><${Term} of="gap" /></th><th scope="col">${words.took}</th><th scope="col"><span class="unseen">${words.compare}, ${words.remove}</span></th></tr></thead>
-        <tbody>${runs.runs.slice(0, listed).map((run) => html`<${Row} key=${run.number} studio=${studio} run=${run} />`)}</tbody>
+    <section class="run-list" aria-labelledby="runs-title">
+      <header><h2 id="runs-title">${words.runs}</h2>
+        <${Files} studio=${studio} file=${file} setFile=${setFile} /></header>
+      <${Selection} studio=${studio} />
+      <table class="runs" hidden=${!found.length}>
+        <thead><tr><td></td>${head("number", words.number)}
+          <th scope="col" class="title">${words.name}</th>
+          ${head("flowtime", words.flowtime, words.terms.flowtime)}
+          ${head("took", words.took)}<td></td></tr></thead>
+        <tbody>${shown.map(row)}</tbody>
       </table>
-      ${runs.runs.length > listed && html`<button type="button" class="framed" onClick=${() => setListed(listed + MOST)}>${words.moreRows(runs.runs.length - listed)}</button>`}
+      ${!found.length && html`<p class="hint">${words.noRuns}</p>`}
+      ${
+        left > 0 &&
+        html`<button type="button" class="framed" onClick=${() => setListed(listed + MOST)}>
+          ${words.moreRows(left)}</button>`
+      }
     </section>`;
 }
 
-function Row({ studio, run }) {
+/** Whose runs are listed, where there are others than those of this document. */
+function Files({ studio, file, setFile }) {
+  const { runs, store } = studio;
+  const own = runs.listed(store, null).length;
+  if (own === runs.runs.length) return null;
+  const others = [...new Set(runs.runs.map(fileOf))].filter(
+    (each) => each && !store.names.has(each),
+  );
+  return html`<select aria-label=${words.whoseRuns} value=${file ?? ""}
+      onChange=${({ target }) => setFile(target.value || null)}>
+    <option value="">${words.ownRuns(own)}</option>
+    <option value="*">${words.allRuns(runs.runs.length)}</option>
+    ${others.map((each) => html`<option value=${each}>${each}</option>`)}</select>`;
+}
+
+/** What can be done with the runs that are selected. */
+function Selection({ studio }) {
+  const { runs } = studio;
+  const { selected } = runs;
+  if (!selected.length) return null;
+  const count = selected.length;
+  const none = () => studio.attempt(() => runs.select([]));
+  return html`<p class="selection">
+    <span role="status">${count === 1 ? words.selectMore : words.plansSelected(count)}</span>
+    <button type="button" class="framed" onClick=${() => forget(studio, selected)}>
+      ${words.remove}</button>
+    <button type="button" class="framed" onClick=${none}>${words.selectNone}</button></p>`;
+}
+
+/** Forget runs, with an undo while the notice stands. */
+function forget({ runs, notices }, numbers) {
+  const text =
+    numbers.length === 1 ? words.runDeleted(numbers[0]) : words.runsDeleted(numbers.length);
+  const undo = runs.forgetSoon(numbers);
+  notices.say(text, words.undo, undo);
+}
+
+function Row({ studio, run, order, isOwn }) {
   const { runs } = studio;
   const { number, figures } = run;
   const isShown = number === runs.shown;
+  const isSelected = runs.selected.includes(number);
   const named = (action) => `${action}: ${number} ${titleOf(run)}`;
   const method =
     run.request?.planner ??
     run.request?.rule ??
     (run.kind === "plan" ? runs.planners.default : words.runKinds[run.kind]);
-  const took =
-    run.started && run.ended && run.ended > run.started
-      ? `${(run.ended - run.started).toFixed(1)} s`
-      : "";
+  const took = secondsOf(run);
+  const title = isOwn ? method : titleOf(run);
+  const rest = [run.name || !isOwn ? method : "", words.states[run.state], ...runs.notesOn(run)];
+  const about = rest.filter(Boolean).join(" · ");
+  const flowtime = figures?.tick
+    ? new Quantities(figures.units, figures.tick).short(figures.flowtime)
+    : figures?.text.flowtime;
+  const select = (event) =>
+    studio.attempt(() => runs.toggle(number, event.shiftKey ? order : null));
+  const rename = ({ target }) => studio.attempt(() => runs.rename(number, target.value.trim()));
+  const remove = html`<button type="button" class="quiet" title=${words.remove}
+    aria-label=${named(words.remove)} onClick=${() => forget(studio, [number])}>✕</button>`;
   return html`
     <tr class=${isShown ? "chosen" : ""} data-run=${number} data-state=${run.state}>
-      <td><button type="button" class="show" disabled=${!canBeShown(run)} aria-pressed=${String(isShown)} aria-label=${named(words.show)} title=${words.show} onClick=${() => studio.showRun(number)}>${number}</button></td>
-      <td class="title"><input value=${run.name} placeholder=${titleOf(run)} maxlength="200" spellcheck="false" aria-label=${`${words.runName} ${number}`}
-          onChange=${({ target }) => studio.attempt(() => runs.rename(number, target.value.trim()))} />
-        <small>${[method, words.states[run.state]].filter(Boolean).join(", ")}</small></td>
-      <td>${figures?.text.flowtime}</td><td class="short">${figures?.text.gap}</td><td class="short">${took}</td>
-      <td class="do">
-        ${
-          run.has_plan &&
-          runs.run?.has_plan &&
-          !isShown &&
-          html`<button type="button" class="quiet" aria-pressed=${String(runs.beside === number)} aria-label=${named(words.compare)} title=${words.compare}
-          onClick=${() => studio.attempt(() => runs.compare(runs.beside === number ? null : number))}>⇄</button>`
-        }
-        ${isOver(run) && html`<button type="button" class="quiet" aria-label=${named(words.remove)} title=${words.remove} onClick=${() => studio.attempt(() => runs.forget(number))}>✕</button>`}</td>
+      <td><input type="checkbox" checked=${isSelected} disabled=${!run.has_plan}
+        aria-label=${named(words.compare)} title=${words.compareHint} onClick=${select} /></td>
+      <td><button type="button" class="show" disabled=${!canBeShown(run)} title=${words.show}
+        aria-pressed=${String(isShown)} aria-label=${named(words.show)}
+        onClick=${() => studio.showRun(number)}>${number}</button></td>
+      <td class="title"><input value=${run.name} placeholder=${title} maxlength="200"
+        spellcheck="false" aria-label=${`${words.runName} ${number}`} onChange=${rename} />
+        <small title=${about}>${about}</small></td>
+      <td class="short">${flowtime}${figures?.text.gap && html`<${Gap} figures=${figures} />`}</td>
+      <td class="short">${took ? `${took.toFixed(1)} s` : ""}</td>
+      <td class="do">${isOver(run) && remove}</td>
     </tr>
-    ${run.error && html`<tr class="why"><td></td><td colspan="5"><${Failure} studio=${studio} error=${run.error} /></td></tr>`}`;
+    ${
+      run.error &&
+      html`<tr class="why"><td></td>
+        <td colspan="5"><${Failure} studio=${studio} error=${run.error} /></td></tr>`
+    }`;
+}
+
+/** How far the flowtime is above the bound: a bar, full from twice the bound on, and a figure. */
+function Gap({ figures: { flowtime, lower_bound: bound, text } }) {
+  const share = Math.min(flowtime / bound - 1, 1);
+  return html`<small title=${`${words.gap} ${text.gap}`}>
+    <span class="gap-bar" style=${{ "--gap": share }}></span>+${text.gap}</small>`;
 }
 
 /** Why a run failed, as the library says it; each proven reason lights its places on the map. */
 function Failure({ studio, error }) {
   const reasons = error.reasons?.filter(({ vertices }) => vertices.length) ?? [];
   if (!reasons.length) return html`<p class="wrong">${error.message}</p>`;
-  return html`${reasons.map(({ reason, vertices }) => html`<button type="button" class="watch wrong" onClick=${() => studio.light(vertices)}>${reason}</button>`)}`;
+  return reasons.map(
+    ({ reason, vertices }) =>
+      html`<button type="button" class="watch wrong" onClick=${() => studio.light(vertices)}>
+        ${reason}</button>`,
+  );
 }

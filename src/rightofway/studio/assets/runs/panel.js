@@ -5,7 +5,7 @@ import { words } from "../words.js";
 import { Ask } from "./ask.js";
 import { Change } from "./change.js";
 import { Comparison } from "./comparison.js";
-import { Curve } from "./curve.js";
+import { Curve, quantitiesOf } from "./curve.js";
 import { Exports } from "./exports.js";
 import { RunList } from "./list.js";
 import { Settings } from "./settings.js";
@@ -23,15 +23,15 @@ export function PlanPanel({ studio }) {
   return html`
     <div class="scroll">
       <${Settings} studio=${studio} />
-      ${current && html`<${Curve} key=${current.number} run=${current} />`}
+      ${current && html`<${Curve} key=${current.number} run=${current} others=${running ? [] : runs.besides(current)} quantities=${quantitiesOf(current, studio)} />`}
       ${run && !runs.isOf(store.document) && html`<p class="aside">${words.changedSince} <button type="button" class="framed" onClick=${() => studio.takeBack()}>${words.takeBack}</button></p>`}
-      <${Change} studio=${studio} />
+      ${!runs.compared && html`<${Change} studio=${studio} />`}
+      ${runs.payload && html`<${Exports} studio=${studio} />`}
       ${isChosen && questions}
       <${RunList} studio=${studio} />
-      <${Report} studio=${studio} />
       <${Comparison} studio=${studio} />
+      <${Report} studio=${studio} />
       ${!isChosen && questions}
-      ${runs.payload && html`<${Exports} studio=${studio} />`}
       <${Studies} studio=${studio} />
     </div>`;
 }

@@ -2,11 +2,15 @@
 
 import { Observable } from "../viewer/observable.js";
 import { get, listen, post, remove, request } from "../api.js";
+import { words } from "../words.js";
+import { changeInWords } from "../viewer/compared_table.js";
 
 export const isOver = (run) => !["queued", "running"].includes(run.state);
 export const canBeShown = (run) => run.has_plan || run.has_payload;
 
 const NO_COMMAND = ["flip", "opened"]; // kinds of runs that no command makes
+const MOST_COMPARED = 8; // as the library has it
+const UNDO = 8500; // how long runs that are forgotten can be had back [ms], a little longer than the notice
 const NO_CHOICES = { rules: {}, delays: { default: "", examples: {} }, formats: {} };
 const NOTHING_SHOWN = {
   former: null,
@@ -32,6 +36,11 @@ export class RunStore extends Observable {
   losses = null; // of the plan that is shown, once they are known
   report = null; // of laps or a simulation that is shown
   command = ""; // that gives the same as the run that is shown; empty where none does
+  selected = []; // numbers of the runs that are compared, where there are two or more
+  compared = null; // those plans beside each other
+  #last = null; // the run that was selected last, where Shift begins
+  #notes = new Map(); // what is said of each run beside the one before it
+  #going = new Set(); // runs that are forgotten as soon as no undo is possible
   #documents = new Map(); // that each run of this page was made from
   #wanted = 0;
   #live = 0; // the last run that was made by a change
@@ -82,8 +91,8 @@ export class RunStore extends Observable {
     return run.number;
   }
 
-  plan({ document, folder, path }, settings) {
-    return this.begin({ kind: "plan", document, folder, source: path, ...settings }, document);
+  plan({ document, folder, name }, settings) {
+    return this.begin({ kind: "plan", document, folder, source: name, ...settings }, document);
   }
 
   /**
@@ -183,12 +192,110 @@ export class RunStore extends Observable {
     this.#keep(await request("PATCH", `/runs/${number}`, { name }));
   }
 
-  async forget(number) {
-    await remove(`/runs/${number}`);
-    this.runs = this.runs.filter((run) => run.number !== number);
-    if (this.beside === number) Object.assign(this, { beside: null, comparison: null });
-    if (this.shown === number) this.hide();
+  /** The runs of a document, of a file, or all for "*"; the latest first. */
+  listed(store, file) {
+    const there = this.runs.filter(({ number }) => !this.#going.has(number));
+    if (file === "*") return there;
+    const isOf = (run) =>
+      file === null
+        ? store.names.has(run.source) ||
+          (!run.source &&
+            (run.number === this.shown || isOf(this.find(run.based_on) ?? { source: "*" })))
+        : run.source === file;
+    return there.filter(isOf);
+  }
+
+  /** The runs that are compared with another one. */
+  besides({ number }) {
+    const numbers = this.compared?.runs ?? [];
+    return numbers.includes(number)
+      ? numbers
+          .filter((each) => each !== number)
+          .map((each) => this.find(each))
+          .filter(Boolean)
+      : [];
+  }
+
+  /** Select a run or no more; with the runs in their order, all from the last one that was selected. */
+  toggle(number, order) {
+    const numbers = (order ?? []).filter(({ has_plan }) => has_plan).map((run) => run.number);
+    const ends = [this.#last, number].map((each) => numbers.indexOf(each)).sort((a, b) => a - b);
+    this.#last = number;
+    if (ends[0] >= 0)
+      return this.select([...new Set([...this.selected, ...numbers.slice(ends[0], ends[1] + 1)])]);
+    const isSelected = this.selected.includes(number);
+    return this.select(
+      isSelected ? this.selected.filter((each) => each !== number) : [...this.selected, number],
+    );
+  }
+
+  /** Select runs; two or more are compared. */
+  async select(wanted) {
+    if (wanted.length > MOST_COMPARED) throw new Error(words.mostCompared(MOST_COMPARED));
+    const numbers = wanted.toSorted((one, other) => one - other);
+    Object.assign(this, { selected: numbers, compared: null });
     this.tell("runs");
+    if (numbers.length > 1) {
+      const found = await get(`/compare?${numbers.map((each) => `run=${each}`).join("&")}`);
+      if (this.selected === numbers) this.compared = found;
+    }
+    this.tell("runs");
+  }
+
+  /** Compare nothing any more. */
+  async endComparison() {
+    await this.select([]);
+    await this.compare(null);
+  }
+
+  /** Find out in what runs differ from those before them. */
+  async describe(numbers) {
+    for (const run of numbers.map((number) => this.find(number))) {
+      if (!run?.has_plan || !isOver(run) || this.#notes.has(run.number)) continue;
+      this.#notes.set(run.number, []);
+      try {
+        const { before, changes } = await get(`/runs/${run.number}/changes`);
+        const earlier = this.find(before);
+        if (earlier)
+          this.#notes.set(run.number, notesBetween(earlier, run, changes.map(changeInWords)));
+        this.tell("runs");
+      } catch {
+        // it is forgotten: there is nothing to say
+      }
+    }
+  }
+
+  /** What is said of a run. */
+  notesOn({ number }) {
+    return this.#notes.get(number) ?? [];
+  }
+
+  /** Forget runs unless the function that is returned is called within seconds. */
+  forgetSoon(numbers) {
+    this.#forgetNow();
+    for (const number of numbers) this.#going.add(number);
+    const { shown } = this;
+    this.selected = this.selected.filter((each) => !this.#going.has(each));
+    if (this.compared?.runs.some((each) => this.#going.has(each))) this.compared = null;
+    if (this.#going.has(this.beside)) Object.assign(this, { beside: null, comparison: null });
+    if (this.#going.has(shown)) this.hide();
+    this.tell("runs");
+    const timer = setTimeout(() => this.#forgetNow(), UNDO);
+    addEventListener("pagehide", () => this.#forgetNow(), { once: true });
+    return () => {
+      clearTimeout(timer);
+      this.#going.clear();
+      this.tell("runs");
+      if (numbers.includes(shown)) this.#try(() => this.show(shown));
+    };
+  }
+
+  #forgetNow() {
+    for (const number of this.#going) {
+      this.#try(() => remove(`/runs/${number}`));
+      this.runs = this.runs.filter((run) => run.number !== number);
+    }
+    this.#going.clear();
   }
 
   /** Take in a run that was made elsewhere. */
@@ -241,4 +348,17 @@ export class RunStore extends Observable {
     this.refusal = refusal;
     this.tell("refusal");
   }
+}
+
+/** In what a run differs from the one before it, in words; "as good as 3" where nothing does. */
+function notesBetween(before, run, edits) {
+  const settings = ["seed", "time_limit"]
+    .filter((key) => before.request[key] !== undefined && run.request[key] !== undefined)
+    .filter((key) => before.request[key] !== run.request[key])
+    .map((key) => words.settingChanged[key](before.request[key], run.request[key]));
+  const found = [...edits, ...settings];
+  const isSame = ["flowtime", "makespan"].every(
+    (key) => before.figures?.[key] === run.figures?.[key],
+  );
+  return isSame && !edits.length ? [...found, words.asGoodAs(before.number)] : found;
 }

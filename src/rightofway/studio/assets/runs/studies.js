@@ -32,13 +32,13 @@ export function Studies({ studio }) {
       <details class="laps"><summary>${words.lapsTitle}</summary>
         <form class="fields" onSubmit=${(event) => {
           event.preventDefault();
-          const { document, folder, path } = store;
+          const { document, folder, name } = store;
           study(
             {
               kind: "laps",
               document,
               folder,
-              source: path,
+              source: name,
               rule,
               seed: Number(seed),
               time_limit: Number(time_limit),

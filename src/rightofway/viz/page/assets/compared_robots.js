@@ -22,7 +22,7 @@ export class ComparedRobots {
     box.replaceChildren(sheet);
     this.list = new VirtualList(list, {
       rowHeight: 30,
-      className: "change",
+      className: "compared-row",
       none: texts.noRobotNamed,
       fill: (row, robot) => this.#fill(row, robot),
       choose: ({ name }) => choose(name),

@@ -60,7 +60,7 @@ export class ComparedTable {
     return others
       .filter(({ changes }) => changes.length)
       .map(({ title, changes }) => {
-        const shown = changes.slice(0, MOST_CHANGES).map(({ text }) => text);
+        const shown = changes.slice(0, MOST_CHANGES).map(changeInWords);
         const left = changes.length - shown.length;
         const list = [...shown, ...(left ? [texts.andMore(left)] : [])].map((text) =>
           element("li", { className: "name" }, text),
@@ -81,4 +81,13 @@ export class ComparedTable {
       head.firstChild.setAttribute("aria-pressed", isBase);
     });
   }
+}
+
+/** A change of a scenario: "R2: speed 1 m/s → 2 m/s". */
+export function changeInWords({ what, key, before, after }) {
+  const { whats, keys } = texts.compared;
+  const [, count] = /^(\d+) robots$/.exec(what) ?? [];
+  const whose = count ? texts.robots(count) : (whats[what] ?? what);
+  const values = before || after ? `${before} → ${after}` : "";
+  return `${whose}: ${[keys[key] ?? key, values].filter(Boolean).join(" ")}`;
 }
