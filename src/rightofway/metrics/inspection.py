@@ -191,6 +191,11 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
         for piece in sorted(pieces, key=lambda each: (-len(each), each[0])):
             own = [vertex for vertex in piece if vertex in site.places]
             what = listed([site.name(vertex) for vertex in own or piece])
+            if site.roadmap.has_cells and not own and len(piece) > 1:
+                cells = counted(len(piece), "cell", "cells")
+                what = Phrase(
+                    "{cells} around {place}", cells=cells, place=site.name(piece[len(piece) // 2])
+                )
             others = len(piece) - len(own) if own else 0
             if others:
                 around = counted(others, "vertex", "vertices")
@@ -198,7 +203,9 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
             yield Finding(
                 kind=kind,
                 severity="error" if own else "note" if kind == "cut off" else "warning",
-                fact=_outside_fact(kind, what),
+                fact=Phrase("No way leads to {places}", places=what)
+                if kind == "cut off" and site.roadmap.has_cells
+                else _outside_fact(kind, what),
                 remedy=Phrase("make a way wide enough for a cell, or ignore it")
                 if site.roadmap.has_cells
                 else OUTSIDE_REMEDIES[kind][len(piece) > 1],

@@ -13,7 +13,7 @@ export function Help({ studio }) {
     : { tools: studio.editor.fitting.map(toolRow), ...words.keyList };
   return html`
     <div popover="auto" class="keys" role="dialog" ref=${pane} aria-labelledby="keys-title" onToggle=${({ newState }) => newState === "closed" && studio.help(false)}>
-      <header><h2 id="keys-title">${words.keys}</h2><button type="button" class="quiet" aria-label=${words.close} onClick=${() => pane.current.hidePopover()}>✕</button></header>
+      <header><h2 id="keys-title">${words.keys}</h2><button type="button" class="quiet" autofocus aria-label=${words.close} onClick=${() => pane.current.hidePopover()}>✕</button></header>
       <div class="groups">${Object.entries(groups).map(
         ([group, rows]) => html`
         <section><h3>${words.keyGroups[group]}</h3><dl>${rows.map(([key, text]) => html`<div><dt><kbd>${key}</kbd></dt><dd>${text}</dd></div>`)}</dl></section>`,

@@ -49,6 +49,7 @@ export function listenToKeys(studio) {
   document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || (studio.isStarting && event.key !== "?")) return;
     if (document.querySelector("dialog[open]")) return; // its keys are its own
+    if (event.key === "Escape" && document.querySelector(":popover-open")) return; // it closes
     const isWriting = event.target.matches(
       "input:not(#slider), select, textarea, [contenteditable]",
     );

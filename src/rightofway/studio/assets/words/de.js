@@ -68,7 +68,7 @@ export const GERMAN = {
     brush: "Pinsel",
     box: "Block",
     door: "Tür",
-    erase: "Löschen",
+    erase: "Radierer",
     vertex: "Knoten",
     lane: "Weg",
     mark: "Station",

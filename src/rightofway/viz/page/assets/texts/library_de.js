@@ -49,6 +49,8 @@ export const GERMAN_OF = {
   "add a lane, or give it another home or stop":
     "eine Strecke ergänzen oder ihm einen anderen Startplatz oder ein anderes Ziel geben",
   "{places} and {vertices} around": "{places} und {vertices} ringsum",
+  "{cells} around {place}": "{cells} um {place}",
+  "No way leads to {places}": "Zu {places} führt kein Weg",
   "{places} can be entered and not left again": "Nach {places} führt ein Weg, aber keiner zurück",
   "{places} can be left and not reached": "Von {places} führt ein Weg weg, aber keiner hin",
   "No lane joins {places} to the largest part":
