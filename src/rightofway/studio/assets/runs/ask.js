@@ -2,6 +2,7 @@
 
 import { html, useState } from "../vendor/htm-preact.js";
 import { placeOfText } from "../draw/places.js";
+import { pressedPlace } from "../draw/press_place.js";
 import { COLUMNS, columnOf } from "../robots/columns.js";
 import { changeRobots, robotsOf } from "../robots/fleet.js";
 import { words } from "../words.js";
@@ -43,6 +44,7 @@ function Close({ studio }) {
   const { store } = studio;
   const [at, setAt] = useState("");
   const [to, setTo] = useState("");
+  const [isPressing, setIsPressing] = useState(false);
   const close = (event) => {
     event.preventDefault();
     const places = [at, to].map(placeOfText);
@@ -51,7 +53,14 @@ function Close({ studio }) {
     setAt("");
     setTo("");
   };
+  const press = async () => {
+    setIsPressing(true);
+    const places = await pressedPlace(studio);
+    setIsPressing(false);
+    if (places.length) studio.whatIf((document) => withClosure(document, ...places));
+  };
   return html`
+    <button type="button" class="framed" disabled=${isPressing} onClick=${press}>${isPressing ? words.pressToClose : words.closeByPress}</button>
     <form class="close-place" onSubmit=${close}>
       <label>${words.closePlace}<input id="close-at" value=${at} placeholder="N3" spellcheck="false" onInput=${({ target }) => setAt(target.value)} /></label>
       <label>${words.closeTo}<input id="close-to" value=${to} placeholder="–" spellcheck="false" onInput=${({ target }) => setTo(target.value)} /></label>

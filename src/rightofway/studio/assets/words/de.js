@@ -258,6 +258,8 @@ export const GERMAN = {
   whatIf: "Was wäre, wenn",
   whatIfOf: (name) => `Was wäre, wenn ${name} anders wäre`,
   chooseRobot: "Einen Roboter auf der Karte wählen, um Startplatz, Tempo oder Arbeit zu ändern.",
+  closeByPress: "Platz auf der Karte sperren",
+  pressToClose: "Den Platz auf der Karte drücken",
   closePlace: "Platz sperren",
   closeTo: "oder die Strecke nach",
   closeIt: "Sperren",

@@ -243,6 +243,8 @@ export const ENGLISH = {
   whatIf: "What if",
   whatIfOf: (name) => `What if ${name} were different`,
   chooseRobot: "Choose a robot on the map to change its home, speed or work.",
+  closeByPress: "Close a place on the map",
+  pressToClose: "Press the place on the map",
   closePlace: "Close the place",
   closeTo: "or the lane to",
   closeIt: "Close it",

@@ -1,0 +1,56 @@
+/** A place or a lane that somebody presses on the map that is shown, a plan's too. */
+
+import { placeOf } from "./places.js";
+
+const STILL = 4; // pixels that a press may move
+const REACH = 12; // pixels round a lane
+
+/**
+ * Wait for one press; resolves with the places as a document names them: one, both ends of a lane, or
+ * none for Escape.
+ */
+export function pressedPlace({ stage, store }) {
+  const { holder } = stage;
+  const waiting = new AbortController();
+  const on = (target, name, action) =>
+    target.addEventListener(name, action, { capture: true, signal: waiting.signal });
+  holder.classList.add("picking");
+  return new Promise((resolve) => {
+    let began = null;
+    const end = (places) => {
+      waiting.abort();
+      holder.classList.remove("picking");
+      resolve(places);
+    };
+    on(holder, "pointerdown", (event) => (began = event));
+    on(holder, "pointerup", (event) => {
+      const way = began
+        ? Math.hypot(event.clientX - began.clientX, event.clientY - began.clientY)
+        : 0;
+      if (way > STILL) return; // the map was moved
+      const places = placesAt(stage, event);
+      if (places.length)
+        end(places.map((vertex) => placeOf(vertex, stage.plan.roadmap, store.document)));
+    });
+    on(document, "keydown", (event) => event.key === "Escape" && end([]));
+  });
+}
+
+/** The vertex at an event, or both ends of the lane there. */
+function placesAt({ holder, view, plan: { roadmap } }, { clientX, clientY }) {
+  const { left, top } = holder.getBoundingClientRect();
+  const { viewport } = view;
+  const [x, y] = [viewport.toX(clientX - left), viewport.toY(clientY - top)];
+  const vertex = roadmap.near(x, y);
+  if (vertex >= 0) return [vertex];
+  const lanes = roadmap.lanes ? [...roadmap.lanes.bothWays, ...roadmap.lanes.oneWay] : [];
+  return lanes.find((ends) => distanceTo(roadmap, ends, x, y) * viewport.scale < REACH) ?? [];
+}
+
+function distanceTo({ x, y }, [tail, head], px, py) {
+  const [right, down] = [x[head] - x[tail], y[head] - y[tail]];
+  const along =
+    ((px - x[tail]) * right + (py - y[tail]) * down) / (right * right + down * down || 1);
+  const share = Math.min(Math.max(along, 0), 1);
+  return Math.hypot(px - x[tail] - right * share, py - y[tail] - down * share);
+}
