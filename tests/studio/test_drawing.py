@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,33 +18,6 @@ if TYPE_CHECKING:
 pytestmark = needs_browser
 
 LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
-
-
-@pytest.fixture
-def studio(browser: Browser, folder: Path) -> Iterator[StudioPage]:
-    """Return the page of a studio at its start."""
-    with running(folder, keeps=False) as client:
-        context = browser.new_context(
-            locale="en-GB", reduced_motion="reduce", viewport={"width": 1440, "height": 900}
-        )
-        yield StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
-        context.close()
-
-
-@pytest.fixture
-def floor(studio: StudioPage) -> StudioPage:
-    """Return the page with a floor of 12 x 8 m in cells of 0.5 m."""
-    studio.button("Create the floor").click()
-    studio.opened()
-    return studio
-
-
-@pytest.fixture
-def lanes(studio: StudioPage) -> StudioPage:
-    """Return the page with a roadmap of one lane: V1 at (0, 0), V2 at (4, 0)."""
-    studio.button("Draw lanes instead").click()
-    studio.opened()
-    return studio
 
 
 def obstacles(studio: StudioPage) -> list[list[float]]:
