@@ -17,6 +17,9 @@ export const GERMAN = {
   unnamed: "Ohne Namen",
   replace: "Ersetzen",
   otherContent: (names) => `Im Ordner liegt schon eine andere Datei ${names}.`,
+  changedElsewhere: "In einem anderen Tab wurde weitergezeichnet.",
+  loadOther: "Das laden",
+  keepCopy: "Meines als Kopie behalten",
   draftRemoved: "Der Entwurf ist gelöscht.",
   deleted: (what) => `Gelöscht: ${what}.`,
   counted: {

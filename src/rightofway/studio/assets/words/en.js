@@ -19,6 +19,9 @@ export const ENGLISH = {
   unnamed: "Untitled",
   replace: "Replace",
   otherContent: (names) => `In the folder is another ${names}.`,
+  changedElsewhere: "Another tab has drawn on this floor.",
+  loadOther: "Load that",
+  keepCopy: "Keep mine as a copy",
   draftRemoved: "The draft is deleted.",
   deleted: (what) => `Deleted: ${what}.`,
   counted: {
