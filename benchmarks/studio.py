@@ -1,24 +1,23 @@
 """The studio with 1000 robots in a real browser: how soon it answers, how smoothly it plays.
 
-``python -m benchmarks.studio [ROBOTS]`` opens the warehouse of the examples in a headless Chromium
-of 1280 x 800 pixels and prints a table; it takes less than a minute. Figures of requests are what a
-client waits, the median of three. *Longest task* is the longest time in which the page answers
-nobody, from the press on; the browser reports those of 50 ms and more. Frames are counted while a
-plan plays at eight times its usual speed.
+``python -m benchmarks.studio`` opens the warehouse of the examples in a headless Chromium of 1280 x
+800 pixels and writes the table of docs/studio.md; it takes less than a minute. Figures of requests
+are what a client waits, the median of three. *Longest task* is the longest time in which the page
+answers nobody, from the press on; the browser reports those of 50 ms and more. Frames are counted
+while a plan plays at eight times its usual speed.
 """
 
 from __future__ import annotations
 
 import shutil
 import statistics
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from benchmarks.common import table
+from benchmarks.common import DOCS, table, write_tables
 from tests.builders.browsers import Viewer, chromium
 from tests.builders.drawing import StudioPage
 from tests.builders.studios import Command, command, planned
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
 
 MAPS = Path(__file__).parents[1] / "examples" / "maps"
 MAP = "warehouse-10-20-10-2-1"
+ROBOTS = 1000
 SIZE = {"width": 1280, "height": 800}
 SECONDS = 5
 """How long the plan is searched for, and how long it is played [s]."""
@@ -177,16 +177,16 @@ def rows(studio: Command, browser: Browser) -> Iterator[Row]:
     yield from of_page(browser, root, number)
 
 
-def main(robots: int) -> None:
-    """Print the table."""
+def main() -> None:
+    """Write the table."""
     with tempfile.TemporaryDirectory() as folder, chromium() as browser:
         shutil.copy(MAPS / f"{MAP}.map", folder)
-        lines = (MAPS / f"{MAP}-random-1.scen").read_text().splitlines()[: robots + 1]
+        lines = (MAPS / f"{MAP}-random-1.scen").read_text().splitlines()[: ROBOTS + 1]
         Path(folder, f"{MAP}.scen").write_text("\n".join(lines) + "\n")
         with command(Path(folder), "--no-history") as studio:
-            heads = (f"{robots} robots", "")
-            print(table(heads, rows(studio, browser)), end="")  # noqa: T201
+            figures = table((f"{ROBOTS} robots", "figure"), rows(studio, browser))
+    write_tables(DOCS / "studio.md", "studio", {"figures": figures})
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 1000)
+    main()

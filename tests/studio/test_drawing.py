@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -219,6 +219,57 @@ def test_what_is_not_saved_is_there_after_the_page_was_closed(floor: StudioPage)
     floor.page.locator("section[aria-labelledby=drafts-title] button").first.click()
     floor.opened()
     assert floor.document == drawn
+
+
+DRAFTS = """async () => {
+  const get = async (path) => (await fetch("/api/v1/drafts" + path)).json();
+  const { drafts } = await get("");
+  return Promise.all(drafts.map(async ({ name }) => [name, (await get("/" + name)).document]));
+}"""
+
+
+def drafts(studio: StudioPage) -> dict[str, Any]:
+    """Return the documents of all drafts that are kept."""
+    return dict(studio.page.evaluate(DRAFTS))
+
+
+def test_two_pages_on_one_draft_lose_nothing(floor: StudioPage) -> None:
+    """The second page draws first; the first one is asked, keeps its own, then loads the other."""
+    floor.drag((1.25, 1.25), (3.25, 1.25))
+    floor.wait_for("studio.store.isKept")
+    (name,) = drafts(floor)
+    other = StudioPage(floor.page.context.new_page(), floor.page.url)
+    other.ask(f"studio.shelf.openDraft('{name}')")
+    other.opened()
+    other.page.locator("[data-tool=line]").click()
+    other.drag((1.25, 3.25), (3.25, 3.25))
+    other.wait_for("studio.store.isKept")
+    floor.drag((1.25, 5.25), (3.25, 5.25))
+    choice = floor.page.get_by_role("alert")
+    choice.wait_for()
+    floor.button("Keep mine as a copy").click()
+    choice.wait_for(state="detached")
+    floor.page.wait_for_timeout(300)
+    kept = drafts(floor)
+    assert len(kept) == 2
+    assert kept[name] == other.document
+    assert floor.document in kept.values()
+    other.drag((1.25, 6.25), (3.25, 6.25))
+    assert not other.page.get_by_role("alert").count()
+    floor.ask(f"studio.shelf.openDraft('{name}')")
+    floor.wait_for("studio.store.document.map.floor.obstacles.length === 3")
+
+
+def test_saving_leaves_the_draft_of_another_page(floor: StudioPage) -> None:
+    floor.drag((1.25, 1.25), (3.25, 1.25))
+    floor.wait_for("studio.store.isKept")
+    (name,) = drafts(floor)
+    other = {"map": {"grid": ["..."]}}
+    address = f"{floor.ask('location.origin')}/api/v1/drafts/{name}"
+    floor.page.request.put(address, data={"document": other})
+    floor.button("Save").click()
+    floor.wait_for("studio.store.isSaved")
+    assert drafts(floor) == {name: other}
 
 
 def test_a_floor_is_saved_under_a_name(floor: StudioPage, folder: Path) -> None:

@@ -3,6 +3,7 @@
 import { Observable } from "./viewer/observable.js";
 import { inAddress, post, put, remove } from "./api.js";
 
+const CHANGED = 412; // the status of a draft that another page has changed
 const MANY = 2000; // vertices from which on findings come after the map
 
 const UNKNOWN = Object.freeze({
@@ -29,6 +30,7 @@ export class ScenarioStore extends Observable {
   survey = UNKNOWN;
   site = null; // the last map that could be drawn
   isKept = false; // whether the draft has been written
+  elsewhere = ""; // the name of the draft, if another page has changed it; nothing is kept until that is decided
   opened = 0; // how many documents have been opened
   names = new Set(); // that the document has had since then: runs of it are under one of them
 
@@ -36,6 +38,7 @@ export class ScenarioStore extends Observable {
   #future = [];
   #saved = null;
   #draft = "";
+  #known = ""; // revision of the draft that this page has read or written; empty if there must be none
   #work = {
     survey: new Latest(() => this.#look()),
     findings: new Latest(() => this.#inspect()),
@@ -43,14 +46,16 @@ export class ScenarioStore extends Observable {
   };
 
   /** Begin with a document; one that is not in a file yet counts as changed. */
-  open({ document, folder = "", path = "", revision = "", draft = "", origin = null }) {
+  open({ document, folder = "", path = "", revision = "", draft = "", origin = null, known = "" }) {
     Object.assign(this, { document, folder, path, revision, origin, survey: UNKNOWN, site: null });
     this.opened++;
     this.#past = [];
     this.#future = [];
     this.#saved = revision ? document : null;
-    this.#draft = draft || path || `new ${new Date().toISOString().slice(0, 19).replace("T", " ")}`;
+    this.#draft = draft || path || unnamedDraft();
     this.names = new Set([this.#draft, this.name]);
+    this.#known = known;
+    this.elsewhere = "";
     this.tell("document");
     this.tell("open");
     this.#work.survey.ask();
@@ -112,8 +117,11 @@ export class ScenarioStore extends Observable {
     });
     this.revision = saved.revision;
     this.#saved = document;
-    await remove(`/drafts/${inAddress(this.#draft)}`).catch(() => {});
+    await this.#work.draft.idle();
+    const mine = `/drafts/${inAddress(this.#draft)}?revision=${this.#known}`;
+    if (this.#known) await remove(mine).catch(() => {}); // that of another page stays
     this.#draft = path;
+    this.#known = this.elsewhere = "";
     this.tell("document");
   }
 
@@ -129,6 +137,16 @@ export class ScenarioStore extends Observable {
     this.names.add(path);
     this.#saved = null;
     this.tell("document");
+  }
+
+  /** Go on with a copy, without a file: what another page has drawn stays as it is. */
+  keepCopy() {
+    this.#draft = unnamedDraft();
+    this.#known = this.elsewhere = "";
+    this.#saved = null;
+    Object.assign(this, { path: "", revision: "" });
+    this.tell("document");
+    this.#work.draft.ask();
   }
 
   /** Faults at a place of the document and below it; an empty fleet is no fault while one draws. */
@@ -193,17 +211,23 @@ export class ScenarioStore extends Observable {
   }
 
   async #keep() {
+    if (this.elsewhere) return;
+    const { document, opened } = this;
+    const [name, before] = [this.#draft, this.#known];
     try {
-      await put(`/drafts/${inAddress(this.#draft)}`, {
-        document: this.document,
-      });
+      const kept = await put(`/drafts/${inAddress(name)}`, { document, revision: before });
+      if (opened !== this.opened) return;
+      this.#known = kept.revision;
       this.isKept = true;
     } catch (trouble) {
+      if (opened === this.opened && trouble.status === CHANGED) this.elsewhere = name;
       this.trouble = trouble;
-      this.tell("trouble");
+      this.tell(this.elsewhere ? "document" : "trouble");
     }
   }
 }
+
+const unnamedDraft = () => `new ${new Date().toISOString().slice(0, 23).replace("T", " ")}`;
 
 /** How many vertices a map has, at most. */
 const sizeOf = ({ rows, names }) => (rows ? rows.length * rows[0].length : names.length);

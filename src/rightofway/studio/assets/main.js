@@ -1,6 +1,7 @@
 /** The page: a head, tools at the left, the map in the middle, what is said about it at the right. */
 
 import { html, render, useEffect, useReducer, useRef, useState } from "./vendor/htm-preact.js";
+import { Elsewhere } from "./elsewhere.js";
 import { Header } from "./header.js";
 import { Help } from "./help.js";
 import { listenToKeys } from "./keys.js";
@@ -56,6 +57,7 @@ function App() {
     </aside>
     ${studio && isStarting && html`<${Start} studio=${studio} />`}
     ${studio && html`<${Notice} notices=${studio.notices} />`}
+    ${!isStarting && studio.store.elsewhere && html`<${Elsewhere} studio=${studio} />`}
     ${studio?.editor.menu && html`<${ContextMenu} studio=${studio} />`}
     ${studio?.isHelping && html`<${Help} studio=${studio} />`}`;
 }

@@ -67,7 +67,7 @@ export class Shelf {
 
   openDraft(name) {
     return this.studio.attempt(async () => {
-      const { document } = await get(`/drafts/${inAddress(name)}`);
+      const { document, revision: known } = await get(`/drafts/${inAddress(name)}`);
       const isFile = this.files.some(({ path }) => path === name);
       const folder = name.includes("/") ? name.slice(0, name.lastIndexOf("/")) : "";
       this.studio.open({
@@ -76,6 +76,7 @@ export class Shelf {
         path: /^new /.test(name) ? "" : name,
         revision: isFile ? null : "",
         draft: name,
+        known,
       });
     });
   }

@@ -22,6 +22,9 @@ export const ENGLISH = {
   putIntoFolder: (names, folder) => `${names}: now in the folder ${folder}.`,
   draftIsNewer: (name) => `This is newer than ${name} and not saved yet.`,
   openSaved: "Open what was saved",
+  changedElsewhere: "Another tab has drawn on this floor.",
+  loadOther: "Load that",
+  keepCopy: "Keep mine as a copy",
   draftRemoved: "The draft is deleted.",
   deleted: (what) => `Deleted: ${what}.`,
   counted: {
