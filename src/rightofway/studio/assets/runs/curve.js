@@ -26,7 +26,7 @@ export function Curve({ run }) {
       <figcaption>
         ${!isOver(run) && html`<span role="status">${words.states[run.state]}</span>${run.state === "running" && ` ${seconds.toFixed(1)} s`} `}
         ${figures && html`<${Term} of="flowtime" /> <b>${figures.text.flowtime}</b>, <${Term} of="bound" /> ${figures.text.lower_bound}${figures.flowtime > bound && ` (+${figures.text.gap})`}`}
-        ${isOver(run) && run.status && html` <span class="hint">${run.status}</span>`}
+        ${isOver(run) && run.status && html` <span class="hint" lang="en">${run.status}</span>`}
       </figcaption>
     </figure>`;
 }

@@ -24,7 +24,7 @@ export function Exports({ studio }) {
         choices.formats,
       ).map(
         ([form, summary]) => html`
-        <li><a href=${studio.exportAddress(form)} download>${form}</a> <small>${summary}</small></li>`,
+        <li><a href=${studio.exportAddress(form)} download>${form}</a> <small lang="en">${summary}</small></li>`,
       )}</ul></details>
       ${
         command &&

@@ -60,6 +60,6 @@ function Row({ studio, run }) {
 /** Why a run failed, as the library says it; each proven reason lights its places on the map. */
 function Failure({ studio, error }) {
   const reasons = error.reasons?.filter(({ vertices }) => vertices.length) ?? [];
-  if (!reasons.length) return html`<p class="wrong">${error.message}</p>`;
-  return html`${reasons.map(({ reason, vertices }) => html`<button type="button" class="watch wrong" onClick=${() => studio.light(vertices)}>${reason}</button>`)}`;
+  if (!reasons.length) return html`<p class="wrong" lang="en">${error.message}</p>`;
+  return html`${reasons.map(({ reason, vertices }) => html`<button type="button" class="watch wrong" lang="en" onClick=${() => studio.light(vertices)}>${reason}</button>`)}`;
 }
