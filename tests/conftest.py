@@ -52,6 +52,7 @@ SLOW = (
     "studio/test_plans_page.py",  # a browser
     "studio/test_page.py",  # a browser
     "studio/test_drawing.py",  # a browser
+    "studio/test_languages.py",  # a browser
     "studio/test_guard.py",  # bodies of 100 MB
     "studio/test_runs.py",  # plans
     "studio/test_streams.py",  # a browser

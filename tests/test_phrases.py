@@ -26,9 +26,9 @@ def templates() -> Iterator[str]:
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
             if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)):
                 continue
-            texts = [each.value for each in node.args if isinstance(each, ast.Constant)]
+            texts = [str(each.value) for each in node.args if isinstance(each, ast.Constant)]
             if node.func.id == "Phrase":
-                yield from map(str, texts)
+                yield from texts
             elif node.func.id == "counted" and len(texts) > 1:
                 yield from (f"{{number}} {text}" for text in texts)
 

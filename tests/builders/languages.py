@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 ENGLISH = (
     "alone", "and", "are", "away", "before", "booking", "bookings", "by", "choose", "close",
     "decision", "decisions", "done", "draw", "drives", "driving", "edges", "every", "faults",
-    "finding", "findings", "first", "floor", "for", "from", "goes", "home", "is", "it", "lane",
+    "finding", "findings", "first", "for", "from", "goes", "home", "is", "it", "lane",
     "lanes", "later", "lap", "laps", "leave", "length", "lines", "lost", "more", "no", "none",
     "nothing", "of", "on", "one", "other", "over", "place", "places", "repeats", "robots",
     "routes", "save", "show", "speed", "stop", "stops", "that", "the", "there", "they",

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
 pytestmark = needs_browser
 
-GERMAN = {"locale": "de-DE"}
-
 EACH_CHOICE = """[
   ...plan.robots.slice(0, 3).map((_, i) => () => choice.chooseRobot(i)),
   ...plan.decisions.slice(0, 3).map((_, i) => () => choice.chooseDecision(i)),
@@ -37,11 +35,11 @@ EACH_CHOICE = """[
 @pytest.mark.parametrize(
     "opened",
     [
-        lambda opener: opener(door(), title="door", **GERMAN),
-        lambda opener: opener(crowd(80, decisions=3), title="crowd", **GERMAN),
-        lambda opener: opener(yard(), title="yard", **GERMAN),
-        lambda opener: opener(counter(), steady=[counter_steady()], title="bay", **GERMAN),
-        lambda opener: opener(counter(), actual=counter_late(), title="bay", **GERMAN),
+        lambda opener: opener(door(), title="door", locale="de-DE"),
+        lambda opener: opener(crowd(80, decisions=3), title="crowd", locale="de-DE"),
+        lambda opener: opener(yard(), title="yard", locale="de-DE"),
+        lambda opener: opener(counter(), steady=[counter_steady()], title="bay", locale="de-DE"),
+        lambda opener: opener(counter(), actual=counter_late(), title="bay", locale="de-DE"),
     ],
     ids=["decisions", "many", "sizes", "laps", "floor"],
 )
@@ -60,7 +58,7 @@ def test_no_state_of_the_page_says_an_english_word_to_a_german(
 
 def test_reasons_of_the_library_are_marked_as_english(show: Opener) -> None:
     blocked = Blockage(reason="no way leads from N0 to N2 (open one)", robots=("R1",), vertices=())
-    viewer = show(door(), no_plan=NoPlanExists([blocked]), title="door", **GERMAN)
+    viewer = show(door(), no_plan=NoPlanExists([blocked]), title="door", locale="de-DE")
     assert english_on(viewer) == []
     assert "no way leads" in viewer.text("#fault-list [lang=en]")
 
@@ -73,7 +71,7 @@ def test_the_page_of_an_inspection_says_findings_in_german(
     found = read_sites(tmp_path / "nodes.csv", Choice())
     levels = [(name, site, inspect(site)) for name, site in found.sites]
     write_inspection(levels, tmp_path / "site.html", title="hall", what=found.what)
-    context = browser.new_context(**GERMAN)
+    context = browser.new_context(locale="de-DE")
     viewer = Viewer(context.new_page())
     viewer.page.goto((tmp_path / "site.html").as_uri())
     viewer.wait_for("inspectPage.frames > 0")

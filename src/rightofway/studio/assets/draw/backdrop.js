@@ -283,7 +283,7 @@ export function BackdropPanel({ studio }) {
         </div>
         ${points && html`<${Distance} unit=${store.document.units?.length ?? ""} onGiven=${rescale} />`}`
       }
-      ${wrong.map(({ message }) => html`<p class="wrong" role="alert">${message}</p>`)}
+      ${wrong.map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}
     </section>`;
 }
 

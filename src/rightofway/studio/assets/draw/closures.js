@@ -65,5 +65,5 @@ export function ClosureFields({ studio, place }) {
   return html`
     <label class="check"><input type="checkbox" checked=${Boolean(closure)} onChange=${toggle} /> ${words.closed}</label>
     ${closure && html`<div class="times">${field("from")}${field("until")}</div>`}
-    ${closure && store.faultsAt(`closures[${index}]`).map(({ message }) => html`<p class="wrong" role="alert">${message}</p>`)}`;
+    ${closure && store.faultsAt(`closures[${index}]`).map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}`;
 }

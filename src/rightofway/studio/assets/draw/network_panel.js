@@ -63,7 +63,7 @@ export function LanePanel({ studio, lanes }) {
       <${ClosureFields} studio=${studio} place=${{ edge: endsOf(first) }} />
     </div>
     ${known.length === 1 && html`<p class="hint">${words.bendHint}</p>`}
-    ${wrong.map(({ message }) => html`<p class="wrong">${message}</p>`)}`;
+    ${wrong.map(({ message }) => html`<p class="wrong" lang="en">${message}</p>`)}`;
 }
 
 const BEND = 0.5; // how far control points are beside the straight line, in parts of its length

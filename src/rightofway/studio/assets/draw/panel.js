@@ -72,7 +72,7 @@ function Size({ studio }) {
           ${["", "mm", "cm", "m"].map((name) => html`<option value=${name} disabled=${!name}>${name || words.noUnit}</option>`)}</select></label>
       </div>
       ${(map.grid || map.floor) && html`<${StrictWalls} store=${store} />`}
-      ${wrong.map(({ message }) => html`<p class="wrong">${message}</p>`)}
+      ${wrong.map(({ message }) => html`<p class="wrong" lang="en">${message}</p>`)}
     </section>`;
 }
 

@@ -34,7 +34,7 @@ export function RobotPanel({ studio }) {
         <${FewRobots} studio=${studio} />
         ${robots.length > MANY && html`<input type="search" class="find" placeholder=${words.findRobot} aria-label=${words.findRobot} value=${wanted} onInput=${({ target }) => setWanted(target.value)} />`}
       </div>
-      ${faults.map(({ message }) => html`<p class="wrong" role="alert">${message}</p>`)}
+      ${faults.map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}
       ${!robots.length && html`<p class="hint">${words.noRobots}</p>`}
       <${Sheet} studio=${studio} columns=${columns} wanted=${wanted.trim().toLowerCase()} />
       <div class="buttons under">

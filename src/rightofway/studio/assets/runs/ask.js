@@ -34,7 +34,7 @@ export function Ask({ studio }) {
           spellcheck="false" aria-invalid=${String(isWrong(column))} onChange=${({ target }) => write(column, target.value)} /></label>`,
             )}</div>`
       }
-      ${faults.map(({ named, place, message }) => html`<p class="wrong" role="alert">${named || place}: ${message}</p>`)}
+      ${faults.map(({ named, place, message }) => html`<p class="wrong" role="alert" lang="en">${named || place}: ${message}</p>`)}
       <${Close} studio=${studio} />
     </section>`;
 }
@@ -66,7 +66,7 @@ function Close({ studio }) {
       <label>${words.closeTo}<input id="close-to" value=${to} placeholder="–" spellcheck="false" onInput=${({ target }) => setTo(target.value)} /></label>
       <button type="submit" class="framed" disabled=${!at.trim()}>${words.closeIt}</button>
     </form>
-    ${store.faultsAt("closures").map(({ named, place, message }) => html`<p class="wrong" role="alert">${named || place}: ${message}</p>`)}
+    ${store.faultsAt("closures").map(({ named, place, message }) => html`<p class="wrong" role="alert" lang="en">${named || place}: ${message}</p>`)}
     ${
       store.document.closures?.length > 0 &&
       html`<ul class="closures">${store.document.closures.map((closure, index) => {

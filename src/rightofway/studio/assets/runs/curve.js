@@ -77,7 +77,7 @@ function Caption({ run: { state, figures, status }, bound, seconds }) {
     ${text && html`<${Term} of="flowtime" /> <b>${text.flowtime}</b>, `}
     ${text && html`<${Term} of="bound" /> ${text.lower_bound}`}
     ${figures?.flowtime > bound && ` (+${text.gap})`}
-    ${!isLive && status && html` <span class="hint">${status}</span>`}
+    ${!isLive && status && html` <span class="hint" lang="en">${status}</span>`}
   </figcaption>`;
 }
 

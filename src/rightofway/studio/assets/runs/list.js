@@ -157,10 +157,10 @@ function Gap({ figures: { flowtime, lower_bound: bound, text } }) {
 /** Why a run failed, as the library says it; each proven reason lights its places on the map. */
 function Failure({ studio, error }) {
   const reasons = error.reasons?.filter(({ vertices }) => vertices.length) ?? [];
-  if (!reasons.length) return html`<p class="wrong">${error.message}</p>`;
+  if (!reasons.length) return html`<p class="wrong" lang="en">${error.message}</p>`;
   return reasons.map(
     ({ reason, vertices }) =>
-      html`<button type="button" class="watch wrong" onClick=${() => studio.light(vertices)}>
+      html`<button type="button" class="watch wrong" lang="en" onClick=${() => studio.light(vertices)}>
         ${reason}</button>`,
   );
 }

@@ -1,7 +1,7 @@
 /** Which planner with which options, how long, and the buttons that begin and end a run. */
 
 import { html } from "../vendor/htm-preact.js";
-import { words } from "../words.js";
+import { language, words } from "../words.js";
 
 export function Settings({ studio }) {
   const { settings, runs, store } = studio;
@@ -20,11 +20,11 @@ export function Settings({ studio }) {
       <details open=${!runs.payload && !runs.running}><summary>${words.planSummary(chosen, settings.time_limit)}</summary>
       <div class="fields">
         <label>${words.planner}<select id="planner" aria-describedby="planner-summary" value=${chosen} onChange=${({ target }) => set({ planner: target.value, options: {} })}>
-          ${planners.planners.map(({ name, summary }) => html`<option value=${name} title=${summary}>${name}</option>`)}</select></label>
+          ${planners.planners.map(({ name, summary }) => html`<option value=${name} title=${summary} lang="en">${name}</option>`)}</select></label>
         <label>${words.limit}<input type="number" id="limit" required min="0.1" max=${studio.about.limits?.seconds} step="any" value=${settings.time_limit} onInput=${({ target }) => set({ time_limit: target.value })} /></label>
         <label>${words.seed}<input type="number" id="seed" required min="0" max="4294967295" step="1" value=${settings.seed} onInput=${({ target }) => set({ seed: target.value })} /></label>
       </div>
-      <p id="planner-summary" class="hint">${spec?.summary}</p>
+      <p id="planner-summary" class="hint" lang="en">${spec?.summary}</p>
       ${spec?.options.length > 0 && html`<details><summary>${words.options}</summary><${Options} spec=${spec} given=${settings.options} set=${(options) => set({ options })} /></details>`}
       </details>
       <label class="check"><input type="checkbox" checked=${studio.isLive} onChange=${({
@@ -38,7 +38,7 @@ export function Settings({ studio }) {
         <button type="button" class="framed" disabled=${!runs.running} onClick=${() => studio.attempt(() => runs.stop())}>${words.stop}</button>
         <button type="button" class="framed" disabled=${!runs.running} onClick=${() => studio.attempt(() => runs.cancel())}>${words.cancel}</button>
       </div>
-      ${!store.survey.ok && html`<p class="wrong">${store.faults[0] ? `${store.faults[0].named || store.faults[0].place}: ${store.faults[0].message}` : words.noRobots}</p>`}
+      ${!store.survey.ok && html`<p class="wrong" lang=${store.faults[0] ? "en" : language}>${store.faults[0] ? `${store.faults[0].named || store.faults[0].place}: ${store.faults[0].message}` : words.noRobots}</p>`}
     </form>`;
 }
 
@@ -50,10 +50,10 @@ function Options({ spec, given, set }) {
   };
   const field = ({ name, choices, least, default: usual }) =>
     choices.length
-      ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option>${each}</option>`)}</select>`
+      ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option lang="en">${each}</option>`)}</select>`
       : html`<input aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${String(usual ?? "")} inputmode=${least === null ? "text" : "numeric"} onChange=${({ target }) => write(name, target.value.trim())} />`;
   return html`<div class="options">${spec.options.map(
     (option) => html`
-    <label>${option.name}${field(option)}</label><p id=${`option-${option.name}`} class="hint">${option.summary}</p>`,
+    <label><span lang="en">${option.name}</span>${field(option)}</label><p id=${`option-${option.name}`} class="hint" lang="en">${option.summary}</p>`,
   )}</div>`;
 }

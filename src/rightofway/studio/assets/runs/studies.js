@@ -46,9 +46,9 @@ export function Studies({ studio }) {
             document,
           );
         }}>
-          <label>${words.rule}<select id="rule" aria-describedby="rule-summary" value=${rule} onChange=${({ target }) => setRule(target.value)}>${Object.keys(choices.rules).map((name) => html`<option>${name}</option>`)}</select></label>
+          <label>${words.rule}<select id="rule" aria-describedby="rule-summary" value=${rule} onChange=${({ target }) => setRule(target.value)}>${Object.keys(choices.rules).map((name) => html`<option lang="en">${name}</option>`)}</select></label>
           <button type="submit" class="framed" disabled=${Boolean(runs.running) || !store.survey.ok}>${words.runLaps}</button>
-        </form><p id="rule-summary" class="hint">${choices.rules[rule]}</p></details>
+        </form><p id="rule-summary" class="hint" lang="en">${choices.rules[rule]}</p></details>
       ${
         run?.has_plan &&
         html`<details class="delays"><summary>${words.delaysTitle}</summary>
@@ -59,8 +59,8 @@ export function Studies({ studio }) {
           <label>${words.delays}<input id="delays" list="delay-examples" aria-describedby="delay-summary" spellcheck="false" value=${delays} placeholder=${choices.delays.default} onInput=${({ target }) => setDelays(target.value)} /></label>
           <label>${words.runCount}<input type="number" id="run-count" required min="1" max="100000" step="1" value=${count} onInput=${({ target }) => setCount(target.value)} /></label>
           <button type="submit" class="framed" disabled=${Boolean(runs.running)}>${words.simulate}</button>
-          <datalist id="delay-examples">${Object.entries(choices.delays.examples).map(([example, means]) => html`<option value=${example}>${means}</option>`)}</datalist>
-        </form><p id="delay-summary" class="hint">${choices.delays.examples[given || choices.delays.default]}</p></details>`
+          <datalist id="delay-examples">${Object.entries(choices.delays.examples).map(([example, means]) => html`<option value=${example} lang="en">${means}</option>`)}</datalist>
+        </form><p id="delay-summary" class="hint" lang="en">${choices.delays.examples[given || choices.delays.default]}</p></details>`
       }
     </section>`;
 }
@@ -80,6 +80,6 @@ export function Report({ studio }) {
       ${report.groups && html`<${Laps} studio=${studio} report=${report} />`}
       ${report.ranks && html`<${Delays} key=${run.number} studio=${studio} report=${report} />`}
       <details><summary>${words.report}</summary>
-      <pre class="report" tabindex="0" aria-labelledby="report-title">${report.text}</pre></details>
+      <pre class="report" lang="en" tabindex="0" aria-labelledby="report-title">${report.text}</pre></details>
     </section>`;
 }

@@ -3,14 +3,13 @@ import { element } from "./dom.js";
 import { connectFind, matches } from "./find.js";
 import {
   askedLanguage,
-  languageOf,
   offerLanguages,
-  said,
   setLanguage,
   texts,
   withKey,
   writeMarkup,
 } from "./language.js";
+import { languageOf, said } from "./library.js";
 import { MapView } from "./map_view.js";
 import { Site } from "./site.js";
 import { Theme } from "./theme.js";

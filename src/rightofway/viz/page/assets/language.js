@@ -1,15 +1,11 @@
 import { EMBEDDED } from "./dom.js";
 import { GERMAN } from "./texts/de.js";
 import { ENGLISH } from "./texts/en.js";
-import { GERMAN_OF } from "./texts/library_de.js";
 
-/**
- * Each language by its code: its own name, its texts, and for each English template of the library a
- * template of its own, or a function of the values. Another language is two files and a line.
- */
+/** Each language by its code: its own name, and its texts. */
 export const LANGUAGES = {
-  en: { name: "English", texts: ENGLISH, library: {} },
-  de: { name: "Deutsch", texts: GERMAN, library: GERMAN_OF },
+  en: { name: "English", texts: ENGLISH },
+  de: { name: "Deutsch", texts: GERMAN },
 };
 
 /** The language that is spoken, and its texts; all modules read them here at the time of writing. */
@@ -27,24 +23,6 @@ export function setLanguage(code) {
 export function askedLanguage() {
   const asked = new URLSearchParams(document.isPart ? "" : location.search).get("lang");
   return asked ?? navigator.language.slice(0, 2);
-}
-
-/** A phrase of the library, as `phrases.py` hands it over: a template with its values, or plain English. */
-export function said(phrase) {
-  if (typeof phrase === "string") return phrase;
-  const [english, values] = phrase;
-  const own = LANGUAGES[language].library[english] ?? english;
-  const given = Object.fromEntries(
-    Object.entries(values).map(([name, value]) => [name, said(value)]),
-  );
-  if (typeof own === "function") return own(given);
-  return own.replace(/\{(\w+)\}/g, (all, name) => given[name] ?? all);
-}
-
-/** The language in which a phrase of the library is said: English where it has no translation. */
-export function languageOf(phrase) {
-  const isKnown = typeof phrase !== "string" && phrase[0] in LANGUAGES[language].library;
-  return isKnown ? language : "en";
 }
 
 /** Texts, with those of another language where there are none. */

@@ -1,0 +1,74 @@
+"""The studio in German: no state of its page says an English word that is not marked as such."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.builders.browsers import needs_browser
+from tests.builders.drawing import StudioPage
+from tests.builders.languages import english_on
+from tests.builders.studios import running
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = needs_browser
+
+
+@pytest.fixture
+def german(browser: Browser, folder: Path) -> Iterator[StudioPage]:
+    """Return the page of a studio in a German browser, with a floor that has findings."""
+    with running(folder, file="floor.yaml", keeps=False) as client:
+        context = browser.new_context(
+            locale="de-DE", reduced_motion="reduce", viewport={"width": 1280, "height": 720}
+        )
+        page = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+        page.opened()
+        yield page
+        context.close()
+
+
+def plan(studio: StudioPage) -> None:
+    studio.tab("Plan")
+    studio.page.fill("#limit", "1")
+    studio.button("Planen").click()
+    studio.planned()
+
+
+def test_map_robots_and_help_are_german(german: StudioPage) -> None:
+    for tab in ("Karte", "Roboter", "Plan"):
+        german.tab(tab)
+        german.settle()
+        german.keep(f"german-{tab.lower()}")
+        assert english_on(german) == [], tab
+    german.ask("studio.help(true)")
+    assert not english_on(german), "\n".join(english_on(german))
+    german.ask("studio.help(false)")
+    german.button("Dateien").click()
+    german.page.get_by_text("Neuer Grundriss").wait_for()
+    assert not english_on(german), "\n".join(english_on(german))
+
+
+def test_a_plan_its_robots_and_its_waits_are_german(german: StudioPage) -> None:
+    plan(german)
+    assert not english_on(german), "\n".join(english_on(german))
+    for robot in range(german.ask("studio.stage.plan.robots.length")):
+        german.ask(f"studio.stage.choice.chooseRobot({robot})")
+        german.page.wait_for_timeout(100)
+        assert english_on(german) == [], robot
+    german.ask("studio.stage.choice.toggleHeat(); studio.stage.clock.seek(9)")
+    german.page.wait_for_timeout(100)
+    german.keep("german-heat")
+    assert not english_on(german), "\n".join(english_on(german))
+
+
+def test_another_language_is_spoken_at_once(german: StudioPage) -> None:
+    plan(german)
+    german.page.get_by_label("Sprache").select_option("en")
+    german.page.get_by_text("Who waits, and why").wait_for()
+    assert "driving" in german.text("#states")
+    assert "sum of arrivals" in german.text(".curve")
