@@ -46,12 +46,9 @@ export class ComparedTable {
       cell.append(element("span", { className: "unseen" }, ` (${texts.compared.isBest})`));
       return cell;
     });
-    return element(
-      "tr",
-      {},
-      element("th", { scope: "row" }, texts.compared.figures[key]),
-      ...cells,
-    );
+    const { figures, terms } = texts.compared;
+    const head = element("th", { scope: "row", title: terms[key] ?? "" }, figures[key]);
+    return element("tr", {}, head, ...cells);
   }
 
   /** In what the scenario of a plan differs from that of the first one, where it does. */
