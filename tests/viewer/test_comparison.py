@@ -75,6 +75,8 @@ def test_a_table_has_the_figures_and_marks_the_best(both: Viewer) -> None:
 
 def test_the_list_says_which_robots_gain_or_lose_the_largest_change_first(both: Viewer) -> None:
     assert rows(both) == [["R1", "10", "+1"], ["R2", "9", "="]]
+    said = both.page.locator("#compared-list .row:visible").first.get_attribute("aria-label")
+    assert said == "R1: A.json 10, B.json 1 later"
     bars = both.ask(
         "[...document.querySelectorAll('#compared-list .row:not([hidden]) .amount')]"
         ".map((bar) => bar.style.getPropertyValue('--by'))"

@@ -80,6 +80,12 @@ export class ComparedRobots {
     if (row.written === written && row.filled === robot) return;
     Object.assign(row, { written, filled: robot });
     const before = robot.completion[compared.base];
+    const said = compared.others.map(
+      (place) => `${compared.plans[place].title} ${this.#inWords(robot, place)}`,
+    );
+    const { title } = compared.plans[compared.base];
+    const time = before === null ? texts.compared.isMissing : compared.time(before);
+    row.setAttribute("aria-label", [`${robot.name}: ${title} ${time}`, ...said].join(", "));
     const dot = element("span", { className: "swatch" });
     dot.style.setProperty("--robot", this.colourOf(robot.name));
     row.replaceChildren(
@@ -97,7 +103,7 @@ export class ComparedRobots {
   #change(robot, place) {
     const { compared } = this;
     const by = compared.change(robot, place);
-    const way = by < 0 ? "gain" : by > 0 ? "lose" : "none";
+    const way = by < 0 ? "gain" : by > 0 ? "lose" : "equal";
     const bar = element("span", { className: "amount" });
     bar.style.setProperty("--by", Math.abs(by || 0) / this.most);
     const after = robot.completion[place];
