@@ -1,6 +1,7 @@
 /** A map that is drawn, a plan that is played on it, and room above it for what is being drawn. */
 
 import { toDrawing } from "./draw/places.js";
+import { RULER } from "./draw/readout.js";
 import { Player } from "./runs/player.js";
 import { fitCanvas } from "./viewer/canvas.js";
 import { Choice } from "./viewer/choice.js";
@@ -68,6 +69,7 @@ export class Stage extends Observable {
     });
     this.view = view;
     this.player?.begin(view);
+    view.viewport.border = this.isPlan ? 0 : RULER;
     view.viewport.fit();
     if (!keeps) this.isMoved = false;
     if (keeps && old && (this.isMoved || wasPlan === this.isPlan)) keepView(old, view);

@@ -44,6 +44,9 @@ EXPORTS = {
 }
 """Endings of exports, and their media types."""
 
+DRAWN_BY = {"layout", "picture"}
+"""Keys of a map whose picture and curves a plan file has not, or in another folder."""
+
 NAME_IN_FILE = 40
 """Characters of a run's name in the name of a file."""
 
@@ -258,12 +261,30 @@ async def _played(studio: Studio, task: str, run: Run, others: Sequence[int]) ->
 
     async def make() -> bytes:
         plans = [await studio.runs.blob(each.number, "plan") for each in runs]
-        _, blobs = await studio.ask(task, *plans, shown=shown)
+        origins = [await origin_of(studio, each) for each in runs]
+        drawn = [{**each, "origin": it} for each, it in zip(shown, origins, strict=True)]
+        _, blobs = await studio.ask(task, *plans, shown=drawn)
         return blobs[0]
 
     titles = [each["title"] for each in shown]
     key = (task, *((each.number, each.revision) for each in runs), *titles)
     return await studio.played.get(key, make)
+
+
+async def origin_of(studio: Studio, run: Run) -> dict[str, Any] | None:
+    """Return the document that a plan was made from, where it draws more than a plan file does."""
+    while run.kind not in {"plan", "laps"}:
+        if run.based_on is None:
+            return None
+        try:
+            run = studio.runs.get(run.based_on)
+        except Refused:  # it was deleted
+            return None
+    found = json.loads(await studio.runs.blob(run.number, "arguments"))
+    shape = found["document"].get("map")
+    if not isinstance(shape, dict) or not shape.keys() & DRAWN_BY:
+        return None
+    return {"document": found["document"], "folder": found["folder"]}
 
 
 def shown_of(runs: Sequence[Run]) -> list[dict[str, Any]]:
@@ -324,7 +345,8 @@ async def export_run(
         content = await _played(studio, "page", studio.runs.get(number), other)
     else:
         plan = await studio.runs.blob(number, "plan")
-        content = (await studio.ask("export", plan, form=form))[1][0]
+        origin = await origin_of(studio, studio.runs.get(number))
+        content = (await studio.ask("export", plan, form=form, origin=origin))[1][0]
     runs = list(map(studio.runs.get, [number, *other]))
     name = file_name(runs, form if form in EXPORTS else f"{form}.txt")
     headers = {

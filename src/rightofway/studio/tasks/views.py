@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any, NotRequired, TypedDict
 
 from rightofway.cli.plan_report import summary_data
 from rightofway.errors import InputError
@@ -18,6 +18,7 @@ from rightofway.metrics import changes, compare
 from rightofway.model import Plan
 from rightofway.studio.messages import Blobs, Emit, zipped
 from rightofway.studio.tasks.documents import figures
+from rightofway.studio.tasks.drawings import Origin, as_drawn
 from rightofway.viz import page_of, write_gif, write_page, write_png
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import payload_of
@@ -31,6 +32,7 @@ class Shown(TypedDict):
 
     title: str
     seconds: float | None
+    origin: NotRequired[Origin | None]
 
 
 TIMES = ("flowtime", "makespan")
@@ -44,6 +46,10 @@ WRITERS: dict[str, Callable[[Plan, Path], object]] = {
     "gif": write_gif,
 }
 """For each ending of an export, what writes it."""
+
+
+PICTURES = {"png", "gif"}
+"""Endings of exports that show the map."""
 
 
 @lru_cache(maxsize=2)
@@ -72,17 +78,18 @@ def page(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
 
 
 def _titled(blobs: Blobs, shown: Sequence[Shown]) -> list[tuple[Plan, str]]:
-    """Return plans with their titles, and with the seconds that files do not keep."""
-    plans = list(map(read, blobs))
-    return [
-        (replace(plan, run=replace(plan.run, seconds=each["seconds"])), each["title"])
-        for plan, each in zip(plans, shown, strict=True)
-    ]
+    """Return plans with their titles, and with the seconds and drawings that files do not keep."""
+    found = []
+    for blob, each in zip(blobs, shown, strict=True):
+        plan = as_drawn(read(blob), each.get("origin"))
+        timed = replace(plan, run=replace(plan.run, seconds=each["seconds"]))
+        found.append((timed, each["title"]))
+    return found
 
 
-def exported(_emit: Emit, blobs: Blobs, *, form: str) -> Result:
+def exported(_emit: Emit, blobs: Blobs, *, form: str, origin: Origin | None = None) -> Result:
     """Return a plan as a file: an ending of `WRITERS`, or a format of other programs."""
-    plan = read(blobs[0])
+    plan = as_drawn(read(blobs[0]), origin if form in PICTURES else None)
     if form in FOREIGN_FORMATS:
         return (None, foreign_text(plan, form).encode())
     if form not in WRITERS:

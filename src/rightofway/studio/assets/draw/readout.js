@@ -2,7 +2,7 @@
 
 import { rounded } from "./places.js";
 
-const RULER = 18; // pixels
+export const RULER = 18; // pixels that a ruler is wide
 const GAP = 64; // pixels between two numbers of a ruler, at least
 const LARGE = 2000; // pixels of a map from which on its texts are larger
 

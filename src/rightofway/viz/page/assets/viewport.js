@@ -19,6 +19,7 @@ export class Viewport extends Observable {
     this.left = 0; // pixels from the canvas to the map's origin
     this.top = 0;
     this.fitted = true;
+    this.border = 0; // pixels round the map that something else lies on
     this.pointer = { x: NaN, y: NaN };
     this.#touches = new Map();
     this.#listen();
@@ -41,7 +42,7 @@ export class Viewport extends Observable {
     const { rows, width: columns, height: lines } = this.roadmap;
     const beyond = 2 * Math.max(this.reach, rows ? 0.5 : 0);
     const [across, down] = [columns - 1 + beyond, lines - 1 + beyond];
-    const margin = rows ? 16 : 26;
+    const margin = (rows ? 16 : 26) + this.border;
     const title = this.canvas.parentElement.querySelector(".map-title");
     const above = Math.max(
       1.25 * margin,
