@@ -2,7 +2,7 @@
 
 import { html } from "./vendor/htm-preact.js";
 import { Icon } from "./icons.js";
-import { LANGUAGES, language, setLanguage, words } from "./words.js";
+import { LANGUAGES, language, words } from "./words.js";
 
 const SAVED = /\.(ya?ml|json|xlsx)$/i; // endings of files that documents are saved in
 

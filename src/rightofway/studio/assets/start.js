@@ -41,7 +41,7 @@ export function Start({ studio }) {
   return html`
     <main class="start">
       <h2 class="title">${words.startTitle}</h2>
-      ${complaints.length > 0 && html`<div class="wrong" role="alert">${complaints.map((fault) => html`<p>${nameOf(fault) && html`<b>${nameOf(fault)}</b>: `}${fault.message}</p>`)}${waiting && html`<p>${words.pictureMissing}</p>`}</div>`}
+      ${complaints.length > 0 && html`<div class="wrong" role="alert">${complaints.map((fault) => html`<p>${nameOf(fault) && html`<b>${nameOf(fault)}</b>: `}<span lang="en">${fault.message}</span></p>`)}${waiting && html`<p>${words.pictureMissing}</p>`}</div>`}
       <div class="choices">
         <${NewFloor} studio=${studio} />
         <section aria-labelledby="open-title">

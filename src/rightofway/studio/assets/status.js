@@ -11,7 +11,7 @@ export function Status({ studio }) {
     <div class="status">
       ${
         complaints.length
-          ? html`<span class="wrong" role="alert">${complaints.map((fault) => html`${nameOf(fault) && html`<b>${nameOf(fault)}</b>: `}${fault.message} `)}${shelf.waiting && words.pictureMissing}</span>`
+          ? html`<span class="wrong" role="alert">${complaints.map((fault) => html`${nameOf(fault) && html`<b>${nameOf(fault)}</b>: `}<span lang="en">${fault.message}</span> `)}${shelf.waiting && words.pictureMissing}</span>`
           : html`<span role="status">${editor.isOn ? html`<${ToolHint} editor=${editor} />` : html`<${PlanHint} studio=${studio} />`}</span>`
       }
       ${studio.isLive && studio.tab !== "plan" && html`<${Change} studio=${studio} />`}

@@ -151,7 +151,7 @@ export function Sheet({ studio, columns, wanted }) {
         .slice(0, MOST_FAULTS)
         .map(
           (fault) =>
-            html`<li><button type="button" onClick=${() => studio.goTo(fault.place)}><b>${nameOf(fault)}</b> ${fault.message}</button></li>`,
+            html`<li><button type="button" onClick=${() => studio.goTo(fault.place)}><b>${nameOf(fault)}</b> <span lang="en">${fault.message}</span></button></li>`,
         )}</ul>`
     }
     ${rows.length > most && html`<button type="button" class="framed" onClick=${() => setMost(most + MOST_ROWS)}>${words.moreRows(rows.length - most)}</button>`}`;
