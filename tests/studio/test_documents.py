@@ -251,3 +251,52 @@ def test_a_survey_without_inspection_has_the_map_and_no_findings(client: httpx.C
     assert len(found["site"]["robots"]) == 2
     assert found["findings"] == []
     assert client.post("/survey", json={"document": DOOR}).json()["findings"] != []
+
+
+def test_every_example_is_a_document_that_names_no_other_file(client: httpx.Client) -> None:
+    names = [each["name"] for each in client.get("/examples").json()["examples"]]
+    assert {"door", "floor", "warehouse"} <= set(names)
+    for name in names:
+        document = client.get(f"/examples/{name}").json()["document"]
+        assert client.post("/validate", json={"document": document}).json()["ok"], name
+    assert client.get("/examples/secret").status_code == 404
+
+
+def test_a_glance_has_robots_extent_and_a_picture(client: httpx.Client) -> None:
+    found = client.get("/glances/files/floor.yaml").json()
+    about = {key: found[key] for key in ("kind", "robots", "extent", "unit")}
+    assert about == {"kind": "scenario", "robots": 4, "extent": ["12", "8"], "unit": "m"}
+    assert found["picture"].startswith("data:image/png;base64,")
+    dark = client.get("/glances/files/floor.yaml", params={"dark": True}).json()
+    assert dark["picture"] != found["picture"]
+
+
+def test_a_glance_at_a_draft_without_robots_and_at_a_layout(
+    client: httpx.Client, folder: Path
+) -> None:
+    client.put("/drafts/hall", json={"document": {**DOOR, "robots": []}})
+    assert client.get("/glances/drafts/hall").json()["robots"] == 0
+    (folder / "gate.map").write_text("type octile\nheight 1\nwidth 3\nmap\n...\n")
+    assert client.get("/glances/files/gate.map").json()["kind"] == "layout"
+    (folder / "gate.map").unlink()
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["files/../secret.yaml", "files/link.yaml", "files/none.yaml", "drafts/no", "examples/x"],
+)
+def test_a_glance_at_nothing_is_refused(client: httpx.Client, path: str) -> None:
+    assert client.get(f"/glances/{path}").status_code in {400, 403, 404}
+
+
+def test_robots_are_dealt_out_between_stations(client: httpx.Client) -> None:
+    roadmap = {
+        "vertices": {"P": [0, 0], "A": [4, 0], "S": [8, 0], "T": [8, 4]},
+        "edges": [["P", "A"], ["A", "S"], ["A", "T"]],
+        "stations": {"Press": "S", "Oven": "T"},
+        "parking": ["P"],
+    }
+    body = {"document": {"map": {"roadmap": roadmap}}, "robots": 2, "between": "stations"}
+    robots = client.post("/deal", json=body).json()["robots"]
+    assert [robot["home"] for robot in robots] == ["P", "A"]
+    assert {robot["target"] for robot in robots} == {"S", "T"}
