@@ -47,16 +47,19 @@ SLOW = (
     "planners/test_limits.py",  # limits of time, and interrupts
     "studio/test_accessibility.py",  # a browser
     "studio/test_attacks.py",  # thousands of requests
+    "studio/test_beginning.py",  # a browser
     "studio/test_bombs.py",  # a studio, and a browser
     "studio/test_documents.py",  # a process for each studio
-    "studio/test_plans_page.py",  # a browser
-    "studio/test_page.py",  # a browser
     "studio/test_drawing.py",  # a browser
-    "studio/test_languages.py",  # a browser
+    "studio/test_editing.py",  # a browser
     "studio/test_guard.py",  # bodies of 100 MB
+    "studio/test_languages.py",  # a browser
+    "studio/test_page.py",  # a browser
+    "studio/test_plans_page.py",  # a browser
+    "studio/test_robots_table.py",  # a browser
     "studio/test_runs.py",  # plans
-    "studio/test_streams.py",  # a browser
     "studio/test_stories.py",  # a browser
+    "studio/test_streams.py",  # a browser
     "studio/test_studies_page.py",  # a browser
     "studio/test_survival.py",  # starts the command as a process, and kills it
     "studio/test_worker.py",  # starts processes
