@@ -14,7 +14,7 @@ from rightofway.model import Plan, Scenario, cost_of
 from rightofway.planners import registered
 from tests.builders.changes import CHANGES
 from tests.builders.fleets import random_fleet
-from tests.builders.mixed import mixed
+from tests.builders.mixed import mixed, nudged
 from tests.builders.seeds import seeds
 from tests.builders.sizes import sized, sized_on_lanes, zoned
 from tests.oracles.judge import faults
@@ -87,3 +87,13 @@ def test_the_unit_of_speed_and_work_does_not_matter(seed: int) -> None:
 def test_the_same_seed_gives_the_same_plan_from_the_same_start(change: str, seed: int) -> None:
     one, other = (changed_plan(change, seed, "auto") for _ in range(2))
     assert one.tracks == other.tracks
+
+
+@pytest.mark.parametrize("seed", seeds(200, 5))
+def test_an_old_plan_with_faults_does_no_harm(seed: int) -> None:
+    """Other vertices, other times: whatever the old plan is, the new one keeps all rules."""
+    old = some_plan(seed)
+    draw = random.Random(seed)  # noqa: S311
+    for _ in range(4):
+        plan = rightofway.solve(old.scenario, "lns", iterations=5, start=nudged(old, draw))
+        assert faults(plan) == set()

@@ -384,7 +384,7 @@ def test_the_other_robot_goes_first_and_the_difference_is_shown(opened: Opener) 
     begin(studio)
     studio.planned()
     loss = studio.ask("studio.runs.losses.find((loss) => loss.for)")
-    assert loss["sentence"] in studio.text(".waits")
+    assert f"{loss['robot']} waits" in studio.text(".waits")
     studio.button(f"Let {loss['robot']} go first").click()
     studio.wait_for("Boolean(studio.runs.comparison)")
     assert studio.ask("[studio.runs.run.kind, studio.runs.beside]") == ["flip", 1]

@@ -291,9 +291,10 @@ def _timetable(
     try:
         routes = [kept[robot].route for robot in robots]
         graph = graph_on(part, routes, headway=planning_headway(scenario))
+        is_possible = graph.keeps_order([kept[robot].when for robot in robots])
     except ValueError:
-        return None  # closures leave a route no times
-    if not graph.keeps_order([kept[robot].when for robot in robots]):
+        return None  # closures leave a route no times, or the old plan has times that fall
+    if not is_possible:
         return None
     return dict(zip(robots, graph.tracks(), strict=True))
 
