@@ -79,8 +79,8 @@ def test_laps_say_their_period_and_light_the_bottleneck(studio: StudioPage) -> N
     studio.button("Show 6 more steps").click()
     times = [Fraction(text) for text in steps.locator("small").all_inner_texts()]
     assert sum(times) == 32  # what the steps take is the period
-    studio.page.get_by_text("Report", exact=True).click()
-    assert "period 32 time units" in studio.text(".report")
+    rows = studio.page.locator(".lap-robots tbody tr").all_inner_texts()
+    assert rows[1].split() == ["R2", "1", "32", "72", "%", "23", "for", "R1"]
     studio.page.locator(".exports summary").click()
     command = studio.text(".command code")
     assert command.startswith("rightofway laps bay.yaml --rule first-come")
@@ -186,6 +186,25 @@ def test_delays_show_their_spread_and_replay_any_run(studio: StudioPage) -> None
     assert studio.page.locator("#card").is_visible()
     assert studio.page.locator(".sufferers .watch").count() == 3
     assert studio.complaints == []
+
+
+def test_causes_of_delay_are_fields(studio: StudioPage) -> None:
+    studio.page.locator(".settings [type=submit]").click()
+    studio.planned()
+    studio.page.locator("details.delays summary").click()
+    studio.button("Another cause").click()
+    kinds = studio.page.get_by_role("combobox", name="Cause of delay")
+    studio.page.get_by_label("on average by").fill("12,5")
+    kinds.nth(1).select_option("One robot stands still")
+    studio.page.locator(".causes label select").select_option("R3")
+    studio.page.get_by_label("from time").fill("4")
+    studio.page.fill("#run-count", "50")
+    studio.button("Simulate").click()
+    studio.wait_for("Boolean(studio.runs.report?.ranks)")
+    assert studio.ask("studio.runs.report.delays") == ["exponential:0.125", "stop:R3@4+30"]
+    studio.page.locator(".exports summary").click()
+    assert "--delays exponential:0.125 --delays stop:R3@4+30" in studio.text(".command code")
+    assert studio.page.locator(".sufferers b").first.inner_text() == "R3"
 
 
 def test_a_simulation_that_is_stopped_keeps_the_runs_that_were_made(studio: StudioPage) -> None:

@@ -51,6 +51,7 @@ export function Delays({ studio, report }) {
           html`<button type="button" class="framed" aria-pressed=${String(at === index)} onClick=${() => play(index)}>${name}</button>`,
       )}
     </div>
+    <p class="hint">${words.byClock((100 * report.by_clock.share_of_runs).toFixed(0), report.collisions)}</p>
     <${HeldUp} studio=${studio} />
     <${Sufferers} studio=${studio} report=${report} ticks=${ticks} short=${short} />`;
 }
@@ -134,12 +135,13 @@ export function heldUp(plan) {
 
 /** The robots that are latest on average, and how much of that is waiting for others. */
 function Sufferers({ studio, report, ticks, short }) {
+  const [isWhole, setWhole] = useState(false);
   const { stage } = studio;
-  const robots = report.lateness.robots
+  const late = report.lateness.robots
     .map((robot, index) => ({ ...robot, index }))
     .filter(({ mean }) => mean > 0)
-    .sort((one, other) => other.mean - one.mean)
-    .slice(0, MOST);
+    .sort((one, other) => other.mean - one.mean);
+  const robots = isWhole ? late : late.slice(0, MOST);
   if (!robots.length) return null;
   const most = robots[0].mean;
   return html`
@@ -151,5 +153,6 @@ function Sufferers({ studio, report, ticks, short }) {
         <i class="dot" style=${`background: ${stage.plan?.robots?.[index]?.colour}`}></i><b>${name}</b><span class="bar" aria-hidden="true"><i style=${`width: ${(100 * itself) / most}%`}></i><i class="others" style=${`width: ${(100 * (mean - itself)) / most}%`}></i></span>
         <span>${words.laterBy(ticks(mean))}</span>
         <small>${words.suffers(short(p95), short(itself), behind && behind[1] >= LEAST * mean ? behind[0] : "", behind ? short(behind[1]) : "")}</small></button></li>`;
-    })}</ul>`;
+    })}</ul>
+    ${late.length > robots.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreRows(late.length - robots.length)}</button>`}`;
 }

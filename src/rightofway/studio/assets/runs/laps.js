@@ -21,6 +21,7 @@ import {
 const SECONDS = { ms: [1n, 1000n], s: [1n, 1n], min: [60n, 1n], h: [3600n, 1n] };
 const HOUR = [3600n, 1n];
 const MOST_ROBOTS = 4; // of the critical circle that have sliders without being chosen
+const MOST_ROWS = 8; // robots in the table at first
 const PAUSE = 350; // between two steps of a key after which a value counts as given [ms]
 
 const largest = (groups) =>
@@ -132,6 +133,7 @@ function Pace({ studio, report, group, chosen }) {
     </div>
     <h3>${robots.length ? words.setsThePace(several(robots)) : words.circleTooLong}</h3>
     <${Circle} studio=${studio} pieces=${pieces} said=${said} isNow=${!moved} />
+    <${Robots} said=${said} group=${group} studio=${studio} />
     <h3>${words.whatHelps}</h3>
     ${shown.map(
       (
@@ -140,6 +142,34 @@ function Pace({ studio, report, group, chosen }) {
         position=${moved?.curve === curve ? moved.position : 0} move=${move} release=${release} />`,
     )}
     <p class="hint">${[group.curves?.why, curves.length > shown.length && words.moreSliders, group.curves?.exact === false && words.rounded].filter(Boolean).join(" ")}</p>`;
+}
+
+/** Laps of each robot, how much of its time it waits, and whom it waits for most. */
+function Robots({ said, group, studio }) {
+  const [isWhole, setWhole] = useState(false);
+  const shown = isWhole ? group.robots : group.robots.slice(0, MOST_ROWS);
+  const behind = (name) => {
+    const sums = new Map();
+    for (const { waits, robots, for: time } of group.conflicts ?? []) {
+      const other = robots.find((each) => each !== waits);
+      if (waits === name) sums.set(other, plus(sums.get(other) ?? [0n, 1n], fraction(time)));
+    }
+    const [most] = [...sums].sort(([, one], [, other]) => compared(other, one));
+    return most ? words.behind(most[0], said.short(most[1])) : "";
+  };
+  const choose = (name) =>
+    studio.stage.choice.chooseRobot(
+      studio.stage.plan.planned.findIndex((one) => one.name === name),
+    );
+  return html`<h3>${words.lapsOfEach}</h3>
+    <table class="lap-robots"><thead><tr><th scope="col">${words.robot}</th><th scope="col">${words.lapsCount}</th><th scope="col">${words.meanLap}</th><th scope="col">${words.waitsShare}</th></tr></thead>
+    <tbody>${shown.map((name) => {
+      const [mean, waits] = [group.mean_lap[name], group.waiting_share[name]];
+      return html`<tr><th scope="row"><button type="button" class="watch" onClick=${() => choose(name)}>${name}</button></th>
+        <td>${group.laps_per_period[name]}</td><td>${mean === null ? words.never : said.short(fraction(mean))}</td>
+        <td>${waits === null ? "" : `${(100 * number(fraction(waits))).toFixed(0)} %`}<small>${behind(name)}</small></td></tr>`;
+    })}</tbody></table>
+    ${group.robots.length > shown.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreRows(group.robots.length - shown.length)}</button>`}`;
 }
 
 /** The robots of the circle that have sliders. */
