@@ -290,6 +290,16 @@ def test_the_list_is_of_this_floor_and_others_on_request(opened: Opener) -> None
     assert "times are in s, those of the first plan in no unit" in studio.text(".status")
 
 
+def test_a_plan_that_is_opened_is_in_the_list(opened: Opener, tmp_path: Path) -> None:
+    studio = opened(BAY)
+    planned_by(studio, "auto")
+    exported(studio, "Plan file", tmp_path)
+    studio.ask("studio.shelf.open('floor-plan-1.json')")
+    studio.wait_for("studio.runs.shown === 2 && studio.runs.losses !== null")
+    assert studio.page.locator("[data-run]").count() == 1
+    assert "opened" in row(studio, 2)
+
+
 def test_the_curve_has_axes_and_says_the_same_in_words(opened: Opener) -> None:
     studio = opened(crowd())
     begin(studio, seconds=2)

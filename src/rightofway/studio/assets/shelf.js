@@ -46,6 +46,7 @@ export class Shelf {
       studio.runs.add(found.run);
       const { document, folder } = await get(`/runs/${found.run.number}/document`);
       studio.open({ document, folder, origin: ["file", path] });
+      studio.store.names.add(found.run.source);
       await studio.runs.show(found.run.number);
       studio.showTab("plan");
       return;

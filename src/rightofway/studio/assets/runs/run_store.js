@@ -199,8 +199,8 @@ export class RunStore extends Observable {
     const isOf = (run) =>
       file === null
         ? store.names.has(run.source) ||
-          (!run.source &&
-            (run.number === this.shown || isOf(this.find(run.based_on) ?? { source: "*" })))
+          run.number === this.shown ||
+          (!run.source && isOf(this.find(run.based_on) ?? { source: "*" }))
         : run.source === file;
     return there.filter(isOf);
   }
