@@ -57,15 +57,15 @@ export function ContextMenu({ studio }) {
       ${vertex >= 0 && Array.isArray(store.document.robots) && item(words.robotFromHere, () => editor.startRobot(vertex))}
       ${
         selection.size > 0 &&
-        html`<hr />${item(words.copy, () => clipboard.copy(), "Ctrl+C")}
-        ${item(words.cut, () => clipboard.cut(), "Ctrl+X")}
-        ${item(words.duplicate, () => select.duplicate(), "Ctrl+D")}`
+        html`<hr />${item(words.copy, () => clipboard.copy(), `${words.control}+C`)}
+        ${item(words.cut, () => clipboard.cut(), `${words.control}+X`)}
+        ${item(words.duplicate, () => select.duplicate(), `${words.control}+D`)}`
       }
-      ${item(words.paste, () => clipboard.paste(menu.point), "Ctrl+V")}
+      ${item(words.paste, () => clipboard.paste(menu.point), `${words.control}+V`)}
       ${
         selection.size > 0 &&
         html`${item(words.turn, () => select.turn("turn"))}
-        ${item(words.remove, () => editor.remove(), "Del")}`
+        ${item(words.remove, () => editor.remove(), words.deleteKey)}`
       }
     </div>`;
 }

@@ -4,6 +4,7 @@ import { ring } from "../viewer/shapes.js";
 import { cellOf } from "./ground.js";
 
 const MOST_SIGNS = 300;
+const MOST_OF_ONE = 8; // places of a finding; more of them say nothing of where it hurts
 const SIGNS = { error: "✕", warning: "!", fault: "✕" };
 
 /** Rings round what is selected, boxes round obstacles, bands along lanes. */
@@ -41,8 +42,8 @@ export function paintFaults(context, { store, hits, roadmap, stage }, scale) {
     if (box && hits.obstacles[box[1]]) context.strokeRect(...hits.obstacles[box[1]]);
   }
   for (const { severity, vertices } of store.survey.findings) {
-    if (SIGNS[severity])
-      signs.push(...vertices.slice(0, 4).map((name) => [roadmap.vertexNamed(name), severity]));
+    if (SIGNS[severity] && vertices.length <= MOST_OF_ONE)
+      signs.push(...vertices.map((name) => [roadmap.vertexNamed(name), severity]));
   }
   const marked = new Set();
   for (const [vertex, kind] of signs.slice(0, MOST_SIGNS)) {

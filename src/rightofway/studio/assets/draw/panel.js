@@ -103,6 +103,7 @@ function Selected({ studio }) {
   const [obstacle] = obstacles;
   const isOne = selection.size === 1;
   const select = editor.tools.get("select");
+  const canTurn = !isOne || ["obstacle", "lane"].includes(selection.items[0].kind);
   const button = (text, action) =>
     html`<button type="button" class="framed" onClick=${action}>${text}</button>`;
   return html`
@@ -125,9 +126,9 @@ function Selected({ studio }) {
       ${lanes.length > 0 && html`<${LanePanel} studio=${studio} lanes=${lanes} />`}
       <div class="buttons">
         ${button(words.duplicate, () => select.duplicate())}
-        ${button(words.turn, () => select.turn("turn"))}
-        ${button(words.mirror, () => select.turn("mirror"))}
-        ${button(words.flip, () => select.turn("flip"))}
+        ${canTurn && button(words.turn, () => select.turn("turn"))}
+        ${canTurn && button(words.mirror, () => select.turn("mirror"))}
+        ${canTurn && button(words.flip, () => select.turn("flip"))}
         ${vertices.length > 1 && button(words.alignRow, () => select.align(1))}
         ${vertices.length > 1 && button(words.alignColumn, () => select.align(0))}
         ${button(words.remove, () => editor.remove())}

@@ -1,11 +1,13 @@
 /** Select, move, copy and delete what is on the map: one thing, several with Shift, all in a box. */
 
 import { changeRobots, removeRobots, stopsOf, withStops } from "../robots/fleet.js";
+import { ring } from "../viewer/shapes.js";
 import { words } from "../words.js";
 import { arranged, boundsOf, movedCells, turnOf } from "./arrange.js";
 import { cellOf, withObstacles } from "./ground.js";
 import { Handles } from "./handles.js";
 import { positionOf, removeLanes, removeVertices } from "./network.js";
+import { radiusAt } from "./overlay.js";
 import { isEmpty, middleOf, pieceOf, withPiece } from "./piece.js";
 import { toDrawing } from "./places.js";
 import { lengthText, wayText } from "./readout.js";
@@ -265,11 +267,17 @@ export class SelectTool {
 
   /** Frames of what is selected where it would come to lie. */
   #ghosts(context, [right, down]) {
-    const { selection, hits, roadmap, ground } = this.editor;
+    const { selection, hits, roadmap, ground, stage } = this.editor;
+    const { scale } = stage.view.viewport;
     for (const { kind, id } of selection.items) {
       if (kind === "lane") continue;
       const vertex = hits.vertexOf({ kind, id });
       if (kind !== "cell" && kind !== "obstacle" && vertex < 0) continue;
+      if (vertex >= 0 && !roadmap.hasCells) {
+        const radius = radiusAt(roadmap, vertex, scale);
+        ring(context, roadmap.x[vertex] + right, roadmap.y[vertex] + down, radius);
+        continue;
+      }
       const [x, y, wide, high] =
         kind === "cell"
           ? ground.boxOf(cellOf(id))

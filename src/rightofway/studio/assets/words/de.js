@@ -147,6 +147,8 @@ export const GERMAN = {
   selected: (count) => `${count} ausgewählt`,
   name: "Name",
   duplicate: "Daneben kopieren",
+  control: "Strg",
+  deleteKey: "Entf",
   cut: "Ausschneiden",
   paste: "Einfügen",
   turn: "Drehen",

@@ -140,6 +140,8 @@ export const ENGLISH = {
   selected: (count) => counted(count, "thing") + " selected",
   name: "Name",
   duplicate: "Copy beside",
+  control: "Ctrl",
+  deleteKey: "Del",
   cut: "Cut",
   paste: "Paste",
   turn: "Turn",
