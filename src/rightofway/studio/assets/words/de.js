@@ -254,6 +254,7 @@ export const GERMAN = {
   sideBySide: "Nebeneinander zeigen",
   endComparison: "Beenden",
   takeBack: "Den Stand dieses Plans bearbeiten",
+  exportMore: "Befehlszeile, andere Formate",
   otherPrograms: "Für andere Programme",
   copy: "Kopieren",
   copyCommand: "Befehlszeile kopieren",
