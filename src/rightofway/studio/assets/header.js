@@ -13,12 +13,7 @@ export function Header({ studio }) {
       <h1><b>rightofway</b> <span>studio</span></h1>
       ${!isStarting && html`<${File} studio=${studio} />`}
       <div class="actions last">
-        <select class="language" aria-label=${words.language} value=${language} onChange=${(
-          event,
-        ) => {
-          setLanguage(event.target.value);
-          studio.tell("change");
-        }}>${LANGUAGES.map(([code, name]) => html`<option value=${code}>${name}</option>`)}</select>
+        <select class="language" aria-label=${words.language} value=${language} onChange=${({ target }) => studio.speak(target.value)}>${LANGUAGES.map(([code, name]) => html`<option value=${code}>${name}</option>`)}</select>
         <button type="button" aria-label=${words.keys} title=${`${words.keys} (?)`} onClick=${() => studio.help(true)}><${Icon} name="help" /></button>
         ${!isStarting && html`<${PlanButton} studio=${studio} />`}
       </div>

@@ -221,7 +221,7 @@ export const GERMAN = {
   limit: "Zeitgrenze [s]",
   seed: "Startwert",
   options: "Optionen",
-  stop: "Anhalten, besten Plan behalten",
+  stop: "Stopp, besten behalten",
   live: "Bei jeder Änderung neu planen",
   flowtime: "Summe der Ankünfte",
   makespan: "letzte Ankunft",

@@ -444,7 +444,7 @@ export const GERMAN = {
   every: (time) => `alle ${time}`,
   period: (time) => [`Periode 1: ${time}`, "Periode 1", "1"],
   rows: {
-    title: "Roboter über der Zeit: Linien fahren, Rahmen warten, Blöcke arbeiten oder drehen",
+    title: "Linien fahren, Rahmen warten, Blöcke arbeiten oder drehen",
     floor: "Roboter über der Zeit; rot: aufgehalten, orange: wartet auf einen verspäteten Roboter",
     grey: (isEndOnly) => `, grau: ${isEndOnly ? "fertig im Plan" : "der Plan"}`,
   },
@@ -455,7 +455,7 @@ export const GERMAN = {
   wayBetween: (from, to, length) => `${from} bis ${to}, ${length}`,
   signs: {
     decision: (names) => `${names}, Felder sind Belegungen`,
-    route: "Steigungen sind Geschwindigkeiten, Felder Belegungen",
+    route: "Steigung: Tempo, Felder: Belegungen",
     fleet: "Linien sind Roboter, Felder ihre Belegungen",
     floor: "Streifen: aufgehalten, orange: wartet auf einen verspäteten Roboter",
     thin: "dünne Linien: der Plan",
