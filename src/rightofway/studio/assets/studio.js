@@ -9,6 +9,7 @@ import { Notices } from "./notices.js";
 import { PlaceInAddress } from "./place.js";
 import { FormerRoute } from "./runs/former.js";
 import { RunStore } from "./runs/run_store.js";
+import { lossOn } from "./runs/waits.js";
 import { Shelf } from "./shelf.js";
 import { Stage } from "./stage.js";
 import { Observable } from "./viewer/observable.js";
@@ -221,11 +222,12 @@ export class Studio extends Observable {
   }
 
   /** Show the moment at which a robot begins to lose time, and why. */
-  watchLoss({ robot, tick }) {
+  watchLoss(loss) {
     const { clock, choice, plan } = this.stage;
     clock.pause();
-    clock.seek(tick);
-    choice.chooseRobot(plan.robots.findIndex(({ name }) => name === robot));
+    clock.seek(loss.tick);
+    choice.chooseRobot(plan.robots.findIndex(({ name }) => name === loss.robot));
+    choice.light(lossOn(this.stage, loss)?.places ?? []);
   }
 
   #search() {

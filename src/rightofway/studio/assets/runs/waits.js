@@ -11,18 +11,13 @@ export function Waits({ studio }) {
   const chosen = stage.isPlan ? stage.choice.robot?.name : undefined;
   const found = runs.losses.filter(({ robot }) => chosen === undefined || robot === chosen);
   if (chosen !== undefined && !found.length) return null; // the card says that it loses no time
-  const watch = ({ robot, tick }) => {
-    stage.clock.pause();
-    stage.clock.seek(tick);
-    stage.choice.chooseRobot(stage.plan.robots.findIndex(({ name }) => name === robot));
-  };
   return html`
     <section aria-labelledby="waits-title"><h2 id="waits-title">${chosen ? words.waitsOf(chosen) : words.waits}</h2>
       ${
         found.length
           ? html`<ol class="waits">${found.slice(0, MOST).map(
               (loss) => html`<li>
-        <button type="button" class="watch" onClick=${() => watch(loss)}>${sentenceOn(stage, loss)}</button>
+        <button type="button" class="watch" onClick=${() => studio.watchLoss(loss)}>${sentenceOn(stage, loss)}</button>
         ${loss.because && html`<p><small>${reasonOf(stage, loss)}</small></p>`}
         ${loss.for && html`<button type="button" class="framed" onClick=${() => studio.attempt(() => runs.flip(loss))}>${words.letGoFirst(loss.robot)}</button>`}
       </li>`,
@@ -34,12 +29,18 @@ export function Waits({ studio }) {
 }
 
 /** How a robot loses time, as the viewer says it; the server and the viewer list the same losses. */
-function sentenceOn({ plan, words: said }, { robot, tick, vertex, sentence }) {
-  const own = plan.planned?.find(({ name }) => name === robot);
-  const loss = own?.losses.find(
-    (each) => each.tick === tick && said.vertex(each.vertex) === vertex,
-  );
-  return loss ? `${robot} ${said.loss(loss, own)}, ${texts.at(said.moment(tick))}.` : sentence;
+function sentenceOn(stage, { robot, tick, vertex, sentence }) {
+  const loss = lossOn(stage, { robot, tick, vertex });
+  if (!loss) return sentence;
+  const { plan, words: said } = stage;
+  return `${robot} ${said.loss(loss, plan.planned[loss.robot])}, ${texts.at(said.moment(tick))}.`;
+}
+
+/** What the viewer knows of a loss that the server lists. */
+export function lossOn({ plan, words: said }, { robot, tick, vertex }) {
+  return plan.planned
+    ?.find(({ name }) => name === robot)
+    ?.losses.find((each) => each.tick === tick && said.vertex(each.vertex) === vertex);
 }
 
 /** The decision behind it, and why it was taken. */

@@ -161,7 +161,7 @@ export class Card {
   #losses(robot) {
     if (!robot.losses.length) return [];
     const lines = this.#lines(robot.losses, (loss) =>
-      this.#moment(loss.tick, this.words.loss(loss, robot)),
+      this.#moment(loss.tick, this.words.loss(loss, robot), loss.places),
     );
     return [element("h3", {}, robot.planned ? texts.waits : texts.losesTime), lines];
   }
@@ -173,10 +173,11 @@ export class Card {
     return list;
   }
 
-  #moment(tick, text) {
+  #moment(tick, text, places = []) {
     return goTo(this.words.time(tick), text, () => {
       this.clock.pause();
       this.clock.seek(tick);
+      this.choice.light(places);
     });
   }
 

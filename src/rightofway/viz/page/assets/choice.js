@@ -20,7 +20,7 @@ export class Choice extends Observable {
     this.corridor = null; // the vertices of the way whose distances are the axis of the diagram
     this.space = false; // whether bookings and the room that robots need are shown
     this.pair = -1; // the robot whose distance to the one chosen is shown; -1 for the nearest one
-    this.lit = []; // the vertices that a finding is about
+    this.lit = []; // the vertices that a finding or a wait is about
     this.picked = null; // the ends of the next corridor that are chosen so far
   }
 
@@ -143,6 +143,7 @@ export class Choice extends Observable {
     if (robot === this.robotIndex && decision === this.decisionIndex && fault === this.faultIndex)
       return;
     if (robot !== this.robotIndex) this.pair = -1;
+    this.lit = [];
     this.faultIndex = fault;
     this.robotIndex = robot;
     this.decisionIndex = decision;

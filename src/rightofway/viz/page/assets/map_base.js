@@ -61,7 +61,7 @@ export class MapBase {
     context.lineCap = "butt";
   }
 
-  /** The places that a finding is about, and the lanes between them. */
+  /** The places that a finding or a wait is about, and the lanes between them. */
   #lit(context, vertices) {
     if (!vertices.length) return;
     const { x, y, lanes, rows } = this.plan.roadmap;

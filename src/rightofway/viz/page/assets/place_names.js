@@ -86,7 +86,7 @@ export class PlaceNames {
     const inSight = [...this.#named(marks)].filter(isInSight);
     const spots = [];
     for (const vertex of inSight.length > MOST_VERTICES
-      ? inSight.filter((it) => marks.has(it))
+      ? inSight.filter((it) => marks.has(it) || this.choice.lit.includes(it))
       : inSight) {
       const mark = marks.get(vertex);
       const font = this.theme.font(PLACE_TYPE, mark ? 600 : 400);
@@ -256,7 +256,7 @@ export class PlaceNames {
       const shown = [...marks.keys()].filter(
         (vertex) => this.plan.robots.length <= FEW_MARKS || isChosen(vertex),
       );
-      return new Set([...(this.choice.decision?.vertices ?? []), ...shown]);
+      return new Set([...this.choice.lit, ...(this.choice.decision?.vertices ?? []), ...shown]);
     }
     const chosenFirst = [...marks.keys()].sort((one, other) => isChosen(other) - isChosen(one));
     return new Set([...chosenFirst, ...Array(roadmap.size).keys()]);

@@ -65,6 +65,12 @@ class Loss {
   constructor([kind, robot, forRobot, vertex, until, towards, freed, tick, end, ticks]) {
     Object.assign(this, { kind, robot, forRobot, vertex, until, towards, freed, tick, end, ticks });
   }
+
+  /** The places that a sentence about it names. */
+  get places() {
+    const other = this.kind === FOLLOWS ? this.until : this.freed;
+    return other >= 0 && this.kind !== MAKES_ROOM ? [this.vertex, other] : [this.vertex];
+  }
 }
 
 export function giveLosses(robots, rows) {
