@@ -66,7 +66,8 @@ def slider(studio: StudioPage, name: str) -> Locator:
 
 
 def lit(studio: StudioPage) -> set[int]:
-    """Return the vertices that are lit as the circle."""
+    """Return the vertices that are lit as the circle, once the page is painted."""
+    studio.page.wait_for_timeout(150)
     return set(studio.ask("studio.stage.plan.steady.largest.circuit.map(({vertex}) => vertex)"))
 
 
