@@ -14,7 +14,15 @@ from rightofway.metrics import inspect
 from rightofway.viz import write_inspection
 from tests.builders.browsers import Viewer, needs_browser
 from tests.builders.languages import english_on
-from tests.builders.plans import counter, counter_late, counter_steady, crowd, door, yard
+from tests.builders.plans import (
+    counter,
+    counter_late,
+    counter_steady,
+    crowd,
+    door,
+    door_shifted,
+    yard,
+)
 from tests.viewer.conftest import Opener
 
 if TYPE_CHECKING:
@@ -40,8 +48,9 @@ EACH_CHOICE = """[
         lambda opener: opener(yard(), title="yard", locale="de-DE"),
         lambda opener: opener(counter(), steady=[counter_steady()], title="bay", locale="de-DE"),
         lambda opener: opener(counter(), actual=counter_late(), title="bay", locale="de-DE"),
+        lambda opener: opener(door(), title="A", others=[(door_shifted(2), "B")], locale="de-DE"),
     ],
-    ids=["decisions", "many", "sizes", "laps", "floor"],
+    ids=["decisions", "many", "sizes", "laps", "floor", "compared"],
 )
 def test_no_state_of_the_page_says_an_english_word_to_a_german(
     show: Opener, opened: Callable[[Opener], Viewer]

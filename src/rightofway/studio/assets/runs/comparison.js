@@ -5,7 +5,7 @@ import { address } from "../api.js";
 import { Compared } from "../viewer/compared.js";
 import { ComparedRobots } from "../viewer/compared_robots.js";
 import { ComparedTable } from "../viewer/compared_table.js";
-import { words } from "../words.js";
+import { language, words } from "../words.js";
 
 export function Comparison({ studio }) {
   const { runs } = studio;
@@ -52,6 +52,6 @@ function SideBySide({ page, close }) {
   return html`
     <dialog class="beside" aria-label=${words.sideBySide} onClose=${close} ref=${(dialog) => dialog && !dialog.open && dialog.showModal()}>
       <form method="dialog"><button class="framed">${words.close}</button></form>
-      <iframe title=${words.sideBySide} src=${page}></iframe>
+      <iframe title=${words.sideBySide} src=${`${page}&lang=${language}`}></iframe>
     </dialog>`;
 }
