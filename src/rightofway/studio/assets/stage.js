@@ -47,6 +47,7 @@ export class Stage extends Observable {
    */
   show(raw, { keeps = false } = {}) {
     const { clock: before, view: old, isPlan: wasPlan } = this;
+    const wasPlaying = before?.playing; // the player stops it when it ends
     this.raw = raw;
     const chosen = this.choice?.robot?.name;
     const plan = raw.metrics ? new Plan(raw) : new Site(raw);
@@ -83,7 +84,7 @@ export class Stage extends Observable {
     });
     if (keeps && before && this.isPlan) {
       clock.seek(Math.min(before.tick, clock.end));
-      if (before.playing) clock.play();
+      if (wasPlaying) clock.play();
     }
     if (keeps && chosen !== undefined)
       choice.chooseRobot(plan.robots.findIndex(({ name }) => name === chosen));
