@@ -47,7 +47,7 @@ export class Stage extends Observable {
    */
   show(raw, { keeps = false } = {}) {
     const { clock: before, view: old, isPlan: wasPlan } = this;
-    const wasPlaying = before?.playing; // the player that ends stops it
+    const wasPlaying = before?.playing; // the player stops it when it ends
     this.raw = raw;
     const chosen = this.choice?.robot?.name;
     const plan = raw.metrics ? new Plan(raw) : new Site(raw);

@@ -213,6 +213,16 @@ export class Studio extends Observable {
     });
   }
 
+  /** Give up what has been tried: the document and the plan of a run before it are back. */
+  putBack(number) {
+    return this.attempt(async () => {
+      const document = await this.runs.documentOf(number);
+      this.#replanned = document;
+      this.store.change(() => document);
+      await this.runs.show(number);
+    });
+  }
+
   /** Light vertices by their names on the map that is shown. */
   light(names) {
     const { plan, choice } = this.stage;

@@ -36,6 +36,7 @@ export function Change({ studio }) {
       <${Robots} studio=${studio} className="lose" label=${words.losesTime} found=${found.filter(({ by }) => by > 0).reverse()} />
       ${start && html`<p class="hint">${words.keptRoutes(start.routes, robots)}</p>`}
       ${studio.former.ways.length > 0 && html`<p class="hint">${words.formerRoute}</p>`}
+      ${runs.run?.request.start === comparison.runs[0] && html`<button type="button" class="framed" onClick=${() => studio.putBack(comparison.runs[0])}>${words.putBack}</button>`}
     </section>`;
 }
 

@@ -19,7 +19,7 @@ export function Waits({ studio }) {
               (loss) => html`<li>
         <button type="button" class="watch" onClick=${() => studio.watchLoss(loss)}>${sentenceOn(stage, loss)}</button>
         ${loss.because && html`<p><small>${reasonOf(stage, loss)}</small></p>`}
-        ${loss.for && html`<button type="button" class="framed" onClick=${() => studio.attempt(() => runs.flip(loss))}>${words.letGoFirst(loss.robot)}</button>`}
+        ${loss.for && !isOnlyChoice(stage, loss) && html`<button type="button" class="framed" onClick=${() => studio.attempt(() => runs.flip(loss))}>${words.letGoFirst(loss.robot)}</button>`}
       </li>`,
             )}</ol>`
           : html`<p class="hint">${words.noWaits}</p>`
@@ -42,6 +42,9 @@ export function lossOn({ plan, words: said }, { robot, tick, vertex }) {
     ?.find(({ name }) => name === robot)
     ?.losses.find((each) => each.tick === tick && said.vertex(each.vertex) === vertex);
 }
+
+/** Whether the other robot could not have gone first: then that is not offered. */
+const isOnlyChoice = ({ plan }, { because }) => plan.decisions[because?.index]?.level === "only";
 
 /** The decision behind it, and why it was taken. */
 function reasonOf({ plan, words: said }, { because }) {

@@ -245,6 +245,7 @@ export const GERMAN = {
   gains: "Früher:",
   losesTime: "Später:",
   andMore: (count) => `und ${count} weitere`,
+  putBack: "Zurücknehmen",
   keptRoutes: (kept, robots) => `Die gleiche Route wie zuvor: ${kept} von ${robots} Robotern.`,
   formerRoute: "Gestrichelt auf der Karte: die Route zuvor.",
   goesBefore: ({ waits, goes_first }) => `${waits} fährt vor ${goes_first}`,

@@ -229,6 +229,7 @@ export const ENGLISH = {
   gains: "Earlier:",
   losesTime: "Later:",
   andMore: (count) => `and ${count} more`,
+  putBack: "Put it back",
   keptRoutes: (kept, robots) => `The same route as before: ${kept} of ${counted(robots, "robot")}.`,
   formerRoute: "Dashed on the map: the route before.",
   goesBefore: ({ waits, goes_first }) => `${waits} goes before ${goes_first}`,
