@@ -214,8 +214,7 @@ def test_what_is_not_saved_is_there_after_the_page_was_closed(floor: StudioPage)
     floor.drag((1.25, 1.25), (3.25, 1.25))
     drawn = floor.document
     floor.wait_for("studio.store.isKept")
-    floor.page.reload()
-    floor.wait_for("Boolean(window.studio?.shelf.drafts.length)")
+    floor.page.goto(floor.ask("location.origin"))
     floor.page.locator("section[aria-labelledby=drafts-title] button").first.click()
     floor.opened()
     assert floor.document == drawn

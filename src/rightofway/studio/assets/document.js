@@ -142,6 +142,7 @@ export class ScenarioStore extends Observable {
   /** Go on with a copy, without a file: what another page has drawn stays as it is. */
   keepCopy() {
     this.#draft = unnamedDraft();
+    this.names.add(this.#draft);
     this.#known = this.elsewhere = "";
     this.#saved = null;
     Object.assign(this, { path: "", revision: "" });

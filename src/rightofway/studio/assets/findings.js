@@ -21,10 +21,10 @@ export function Findings({ studio }) {
       <h2 id="faults-title">${words.findings}</h2>
       ${
         store.faults.length > 0 &&
-        html`<ul class="findings" role="alert">${store.faults.map(
+        html`<div role="alert"><ul class="findings">${store.faults.map(
           (fault) => html`
         <li><button type="button" onClick=${() => studio.goTo(fault.place)}><${Sign} severity="error" /><span><b>${nameOf(fault)}</b> <span lang="en">${fault.message}</span></span></button></li>`,
-        )}</ul>`
+        )}</ul></div>`
       }
       ${
         shown.length > 0 &&

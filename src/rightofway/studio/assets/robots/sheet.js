@@ -146,13 +146,13 @@ export function Sheet({ studio, columns, wanted }) {
     </table></div>
     ${
       faults.size > 0 &&
-      html`<ul class="faults" role="alert">${[...faults.values()]
+      html`<div role="alert"><ul class="faults">${[...faults.values()]
         .flat()
         .slice(0, MOST_FAULTS)
         .map(
           (fault) =>
             html`<li><button type="button" onClick=${() => studio.goTo(fault.place)}><b>${nameOf(fault)}</b> <span lang="en">${fault.message}</span></button></li>`,
-        )}</ul>`
+        )}</ul></div>`
     }
     ${rows.length > most && html`<button type="button" class="framed" onClick=${() => setMost(most + MOST_ROWS)}>${words.moreRows(rows.length - most)}</button>`}`;
 }

@@ -20,9 +20,9 @@ export const GERMAN = {
   putIntoFolder: (names, folder) => `${names}: jetzt im Ordner ${folder}.`,
   draftIsNewer: (name) => `Das ist neuer als ${name} und noch nicht gesichert.`,
   openSaved: "Gesichertes öffnen",
-  changedElsewhere: "In einem anderen Tab wurde weitergezeichnet.",
-  loadOther: "Das laden",
-  keepCopy: "Meines als Kopie behalten",
+  changedElsewhere: "Von diesem Boden gibt es einen anderen Entwurf.",
+  loadOther: "Den laden",
+  keepCopy: "Meinen als Kopie behalten",
   draftRemoved: "Der Entwurf ist gelöscht.",
   deleted: (what) => `Gelöscht: ${what}.`,
   counted: {
