@@ -18,7 +18,7 @@ export const GERMAN = {
   replace: "Ersetzen",
   otherContent: (names) => `Im Ordner liegt schon eine andere Datei ${names}.`,
   putIntoFolder: (names, folder) => `${names}: jetzt im Ordner ${folder}.`,
-  draftIsNewer: (name) => `Das ist neuer als ${name} und noch nicht gesichert.`,
+  draftIsNewer: (name) => `Das ist neuer als ${name} und noch nicht gespeichert.`,
   openSaved: "Gesichertes öffnen",
   changedElsewhere: "Von diesem Boden gibt es einen anderen Entwurf.",
   loadOther: "Den laden",
