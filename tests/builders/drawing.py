@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import base64
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tests.builders.browsers import Viewer
+from tests.builders.studios import running
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Locator, Page
+    from playwright.sync_api import Browser, Locator, Page
 
 PICTURES = os.environ.get("RIGHTOFWAY_PICTURES", "")
 """A folder that pictures of the page are written to, for the documentation; empty for none."""
@@ -23,6 +27,16 @@ WHERE = """([x, y]) => {
   const [right, down] = [(x - frame.x) / unit, (frame.yUp ? frame.y - y : y - frame.y) / unit];
   const { scale } = viewport;
   return [left + viewport.left + right * scale, top + viewport.top + down * scale];
+}"""
+
+
+DROP = """([files]) => {
+  const transfer = new DataTransfer();
+  for (const [name, content] of files) {
+    const bytes = Uint8Array.from(atob(content), (character) => character.charCodeAt(0));
+    transfer.items.add(new File([bytes], name));
+  }
+  document.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true }));
 }"""
 
 
@@ -55,6 +69,11 @@ class StudioPage(Viewer):
         for key in keys:
             self.page.keyboard.up(key)
         self.settle()
+
+    def drop(self, *files: Path) -> None:
+        """Drop files onto the page."""
+        given = [[file.name, base64.b64encode(file.read_bytes()).decode()] for file in files]
+        self.page.evaluate(DROP, [given])
 
     def drag(self, start: Point, end: Point) -> None:
         """Drag from a place of the site to another one."""
@@ -90,3 +109,27 @@ class StudioPage(Viewer):
         self.wait_for(
             "studio.runs.runs.length && !studio.runs.running && studio.runs.losses !== null"
         )
+
+
+@contextmanager
+def studio_page(
+    browser: Browser, folder: Path, *, size: tuple[int, int] = (1280, 760), **more: Any
+) -> Iterator[StudioPage]:
+    """Yield the page of a studio of its own.
+
+    Parameters
+    ----------
+    browser
+        The browser.
+    folder, more
+        As for `running`.
+    size
+        Width and height of the page [pixels].
+    """
+    width, height = size
+    with running(folder, **more) as client:
+        context = browser.new_context(
+            locale="en-GB", reduced_motion="reduce", viewport={"width": width, "height": height}
+        )
+        yield StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+        context.close()

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import httpx
 import pytest
 
-from tests.builders.drawing import StudioPage
+from tests.builders.drawing import StudioPage, studio_page
 from tests.builders.studios import running
 
 if TYPE_CHECKING:
@@ -44,12 +44,8 @@ def client(folder: Path) -> Iterator[httpx.Client]:
 @pytest.fixture
 def studio(browser: Browser, folder: Path) -> Iterator[StudioPage]:
     """Return the page of a studio at its start."""
-    with running(folder, keeps=False) as client:
-        context = browser.new_context(
-            locale="en-GB", reduced_motion="reduce", viewport={"width": 1440, "height": 900}
-        )
-        yield StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
-        context.close()
+    with studio_page(browser, folder, size=(1440, 900), keeps=False) as studio:
+        yield studio
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,8 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.builders.browsers import needs_browser
-from tests.builders.drawing import StudioPage
-from tests.builders.studios import running
+from tests.builders.drawing import StudioPage, studio_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -20,31 +18,12 @@ pytestmark = needs_browser
 
 LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
 
-DROP = """([files]) => {
-  const transfer = new DataTransfer();
-  for (const [name, content] of files) {
-    const bytes = Uint8Array.from(atob(content), (character) => character.charCodeAt(0));
-    transfer.items.add(new File([bytes], name));
-  }
-  document.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true }));
-}"""
-
 
 @pytest.fixture
 def studio(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
     """Return the start page of a studio in an empty folder."""
-    with running(tmp_path) as client:
-        context = browser.new_context(
-            locale="en-GB", reduced_motion="reduce", viewport={"width": 1280, "height": 760}
-        )
-        yield StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
-        context.close()
-
-
-def drop(studio: StudioPage, *files: Path) -> None:
-    """Drop files onto the page."""
-    given = [[file.name, base64.b64encode(file.read_bytes()).decode()] for file in files]
-    studio.page.evaluate(DROP, [given])
+    with studio_page(browser, tmp_path) as studio:
+        yield studio
 
 
 def wall(studio: StudioPage) -> None:
@@ -130,11 +109,11 @@ def test_a_draft_is_deleted_and_taken_back(studio: StudioPage) -> None:
 
 
 def test_a_ros_map_waits_for_its_picture(studio: StudioPage) -> None:
-    drop(studio, LAYOUTS / "room.yaml")
+    studio.drop(LAYOUTS / "room.yaml")
     alert = studio.page.get_by_role("alert")
     alert.get_by_text("there is no picture 'room.pgm'").wait_for()
     alert.get_by_text("Drop the picture here, too").wait_for()
-    drop(studio, LAYOUTS / "room.pgm")
+    studio.drop(LAYOUTS / "room.pgm")
     studio.opened()
     assert studio.document["map"]["layout"] == "room.yaml"
     assert studio.document["robots"] == []
@@ -144,7 +123,7 @@ def test_another_file_of_the_same_name_is_replaced_on_request_only(
     studio: StudioPage, tmp_path: Path
 ) -> None:
     (tmp_path / "room.yaml").write_text("mine: true\n")
-    drop(studio, LAYOUTS / "room.pgm", LAYOUTS / "room.yaml")
+    studio.drop(LAYOUTS / "room.pgm", LAYOUTS / "room.yaml")
     studio.button("Replace").wait_for()
     assert (tmp_path / "room.yaml").read_text() == "mine: true\n"
     studio.button("Replace").click()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.builders.browsers import Viewer, needs_browser
-from tests.builders.drawing import StudioPage
+from tests.builders.drawing import StudioPage, studio_page
 from tests.builders.studios import running
 
 if TYPE_CHECKING:
@@ -21,12 +21,9 @@ pytestmark = needs_browser
 @pytest.fixture
 def studio(browser: Browser, folder: Path) -> Iterator[StudioPage]:
     """Return the page of a studio that opens a door."""
-    with running(folder, file="door.yaml", keeps=False) as client:
-        context = browser.new_context(locale="en-GB", reduced_motion="reduce")
-        studio = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+    with studio_page(browser, folder, file="door.yaml", keeps=False) as studio:
         studio.opened()
         yield studio
-        context.close()
 
 
 def plan(studio: StudioPage, seconds: str = "1") -> None:

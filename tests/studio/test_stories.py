@@ -5,17 +5,15 @@ With ``RIGHTOFWAY_PICTURES=docs/images`` the pictures of docs/studio.md are writ
 
 from __future__ import annotations
 
-import base64
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.builders.browsers import needs_browser
-from tests.builders.drawing import StudioPage
-from tests.builders.studios import running
+from tests.builders.drawing import StudioPage, studio_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -25,35 +23,12 @@ pytestmark = needs_browser
 LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
 TWO_MINUTES = 120
 
-DROP = """([files]) => {
-  const transfer = new DataTransfer();
-  for (const [name, content] of files) {
-    const bytes = Uint8Array.from(atob(content), (character) => character.charCodeAt(0));
-    transfer.items.add(new File([bytes], name));
-  }
-  document.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true }));
-}"""
-
-
-Opener = Callable[..., StudioPage]
-
 
 @pytest.fixture
 def studio(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
     """Return the page of a studio in an empty folder."""
-    with running(tmp_path, keeps=False) as client:
-        context = browser.new_context(
-            locale="en-GB", reduced_motion="reduce", viewport={"width": 1280, "height": 760}
-        )
-        yield StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
-        context.close()
-
-
-def drop(studio: StudioPage, *files: Path) -> None:
-    """Drop files onto the page."""
-    given = [[file.name, base64.b64encode(file.read_bytes()).decode()] for file in files]
-    studio.page.evaluate(DROP, [given])
-    studio.opened()
+    with studio_page(browser, tmp_path, keeps=False) as studio:
+        yield studio
 
 
 def exported(studio: StudioPage) -> bytes:
@@ -99,7 +74,8 @@ def test_a_floor_is_drawn_planned_watched_understood_and_exported(studio: Studio
 
 
 def test_a_ros_map_is_dropped_drawn_on_and_planned(studio: StudioPage) -> None:
-    drop(studio, LAYOUTS / "room.yaml", LAYOUTS / "room.pgm")
+    studio.drop(LAYOUTS / "room.yaml", LAYOUTS / "room.pgm")
+    studio.opened()
     assert studio.document["map"]["layout"] == "room.yaml"
     studio.button("Draw on a copy of it").click()
     studio.wait_for("Boolean(studio.store.document.map.grid)")
@@ -122,7 +98,8 @@ def test_a_ros_map_is_dropped_drawn_on_and_planned(studio: StudioPage) -> None:
 
 
 def test_a_lif_file_is_dropped_drawn_on_and_planned(studio: StudioPage, tmp_path: Path) -> None:
-    drop(studio, LAYOUTS / "hall.lif.json")
+    studio.drop(LAYOUTS / "hall.lif.json")
+    studio.opened()
     before = (tmp_path / "hall.lif.json").read_bytes()
     studio.button("Draw on a copy of it").click()
     studio.wait_for("Boolean(studio.store.document.map.roadmap)")

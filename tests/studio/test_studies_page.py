@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from tests.builders.browsers import needs_browser
-from tests.builders.drawing import StudioPage
-from tests.builders.studios import running
+from tests.builders.drawing import StudioPage, studio_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator
@@ -29,15 +28,10 @@ BAY = Path(__file__).parents[2] / "examples" / "bay.yaml"
 def studio(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
     """Yield a studio that shows three robots and one bay, at its tab of plans."""
     shutil.copy(BAY, tmp_path)
-    with running(tmp_path, keeps=False, file="bay.yaml") as client:
-        context = browser.new_context(
-            locale="en-GB", reduced_motion="reduce", viewport={"width": 1280, "height": 760}
-        )
-        studio = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+    with studio_page(browser, tmp_path, file="bay.yaml", keeps=False) as studio:
         studio.opened()
         studio.tab("Plan")
         yield studio
-        context.close()
 
 
 def repeat(studio: StudioPage) -> Any:
