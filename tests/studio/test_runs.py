@@ -335,7 +335,7 @@ def test_plans_of_different_scenarios_are_compared_on_one_page(client: httpx.Cli
     assert all(plan["seconds"] > 0 for plan in plans)
     page = client.get(f"/runs/{runs[0]}/export/html", params={"other": runs[1:]})
     assert (
-        f'filename="run-{runs[0]}-{runs[1]}-{runs[2]}.html"' in page.headers["content-disposition"]
+        f'filename="plan-{runs[0]}-{runs[1]}-{runs[2]}.html"' in page.headers["content-disposition"]
     )
     assert f'"others":[{{"title":"#{runs[1]}"' in page.text
     payload = client.get(f"/runs/{runs[0]}/payload", params={"other": runs[1:]}).json()

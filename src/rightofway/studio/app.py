@@ -16,7 +16,7 @@ from rightofway.io.faults import checked
 from rightofway.studio.errors import StudioError
 from rightofway.studio.guard import Access, Guard, error_body
 from rightofway.studio.messages import as_error
-from rightofway.studio.routes import documents, glances, pages, planning
+from rightofway.studio.routes import documents, glances, pages, planners, plans, questions, runs
 from rightofway.studio.routes.models import kind_of
 from rightofway.studio.session import Studio
 
@@ -62,8 +62,9 @@ def create_app(studio: Studio, access: Access, *, has_page: bool = True) -> Fast
         lifespan=life,
     )
     app.state.studio = studio
-    for router in (pages.about, documents.router, glances.router, planning.router):
-        app.include_router(router, prefix=API)
+    app.include_router(pages.about, prefix=API)
+    for routes in (documents, glances, planners, runs, plans, questions):
+        app.include_router(routes.router, prefix=API)
     if has_page:
         app.include_router(pages.router)
     app.add_exception_handler(StudioError, _refused)

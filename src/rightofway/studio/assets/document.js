@@ -228,7 +228,7 @@ export class ScenarioStore extends Observable {
   }
 }
 
-const unnamedDraft = () => `new ${new Date().toISOString().slice(0, 23).replace("T", " ")}`;
+const unnamedDraft = () => `new ${new Date().toISOString().slice(0, 23).replace(/[T.]/g, " ")}`;
 
 /** How many vertices a map has, at most. */
 const sizeOf = ({ rows, names }) => (rows ? rows.length * rows[0].length : names.length);

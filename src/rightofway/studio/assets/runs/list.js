@@ -11,7 +11,7 @@ const MOST = 12; // that are listed at once; the others on request
 export const titleOf = (run) => run.name || fileOf(run) || words.runKinds[run.kind] || run.kind;
 
 /** The file that a run was made from; a draft has a name without an ending. */
-const fileOf = ({ source }) => (/\.[a-z]+$/i.test(source) ? source : "");
+const fileOf = ({ source }) => (/\.\w+$/.test(source) ? source : "");
 
 /** How long a run took [s], or NaN. */
 export const secondsOf = ({ started, ended }) =>

@@ -1,0 +1,57 @@
+"""Questions about a plan: why robots wait, what if one went first, what if a value were another."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query, Request, Response
+
+from rightofway.studio.errors import Refused
+from rightofway.studio.routes.models import (
+    Flip,
+    InStudio,
+    OtherLaps,
+    RunNumber,
+    unzipped,
+)
+from rightofway.studio.runs import Run, Runs
+
+router = APIRouter()
+
+
+@router.get("/runs/{number}/losses", tags=["questions"], response_class=Response)
+async def run_losses(
+    studio: InStudio,
+    request: Request,
+    number: RunNumber,
+    robot: Annotated[str | None, Query(max_length=200)] = None,
+) -> Response:
+    """Tell why robots lose time: each wait in a sentence, with the decision behind it."""
+    plan = await studio.runs.blob(number, "plan")
+    _, blobs = await studio.ask("losses", plan, robot=robot)
+    return unzipped(request, blobs[0])
+
+
+@router.post("/runs/{number}/laps", tags=["questions"])
+async def other_laps(studio: InStudio, number: RunNumber, asked: OtherLaps) -> dict[str, Any]:
+    """Let robots repeat their trips in a new order, with another speed, work time or headway."""
+    run = studio.runs.get(number)
+    if run.kind != "laps":
+        raise Refused(f"run {number} has no laps (queue a run of the kind laps)", 404)
+    arguments = json.loads(await studio.runs.blob(number, "arguments"))
+    settings = {**run.request, **arguments, **asked.model_dump(), "value": str(asked.value)}
+    result, _ = await studio.ask("laps_if", **settings)
+    return dict(result)
+
+
+@router.post("/runs/{number}/flip", tags=["questions"])
+async def flip(studio: InStudio, number: RunNumber, flipped: Flip) -> dict[str, Any]:
+    """Let a robot that waits go first, and keep the timetable that follows as a run."""
+    plan = await studio.runs.blob(number, "plan")
+    request = flipped.model_dump(exclude={"name"})
+    result, blobs = await studio.ask("flip", plan, **request)
+    name = flipped.name or f"{flipped.waits} before {flipped.goes_first}"
+    run = Run(kind="flip", name=name, based_on=number, request=request)
+    run.figures, run.status = result["figures"], result["status"]
+    return {"before": result["before"], "run": Runs.data(await studio.runs.add_done(run, blobs[0]))}

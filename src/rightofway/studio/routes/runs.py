@@ -1,0 +1,140 @@
+"""Runs: queued, listed, named, stopped; and their events."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import AsyncGenerator, AsyncIterator
+from contextlib import aclosing
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body
+from fastapi.responses import StreamingResponse
+
+from rightofway.planners import DEFAULT, IMPROVER, find
+from rightofway.studio.events import Event
+from rightofway.studio.routes.models import (
+    InStudio,
+    NewImprovement,
+    NewLaps,
+    NewPlan,
+    NewRun,
+    NewSimulation,
+    Rename,
+    RunNumber,
+)
+from rightofway.studio.runs import Run, Runs
+from rightofway.studio.session import checked_json
+
+router = APIRouter()
+
+
+@router.get("/runs", tags=["runs"])
+async def list_runs(studio: InStudio) -> dict[str, Any]:
+    """List the runs, the latest first."""
+    return {"runs": [Runs.data(run) for run in studio.runs.all()], "are_kept": studio.store.is_kept}
+
+
+@router.post("/runs", tags=["runs"], status_code=202)
+async def create_run(studio: InStudio, new: Annotated[NewRun, Body()]) -> dict[str, Any]:
+    """Queue a run: a plan, an improvement, laps, or a simulation."""
+    match new:
+        case NewPlan():
+            request = new.settings()
+            if new.start is not None:
+                request["start"] = new.start
+            run = Run(kind="plan", source=new.source, based_on=new.based_on, request=request)
+        case NewImprovement():
+            run = Run(kind="improve", based_on=new.based_on, request=new.settings())
+        case NewLaps():
+            request = new.model_dump(include={"rule", "routes", "time_limit", "seed"})
+            run = Run(kind="laps", source=new.source, request=request)
+        case NewSimulation():
+            keys = {"delays", "runs", "run", "seed", "switch", "replan", "time_limit"}
+            run = Run(kind="simulate", based_on=new.based_on, request=new.model_dump(include=keys))
+    run.name = new.name
+    if isinstance(new, NewPlan | NewImprovement):
+        default = DEFAULT if isinstance(new, NewPlan) else IMPROVER
+        find(new.planner or default).settle(new.options)
+    arguments: dict[str, Any] = {}
+    given_by = new.start if isinstance(new, NewPlan) else None
+    if isinstance(new, NewPlan | NewLaps):
+        arguments = {"document": new.document, "folder": studio.place(new.folder)}
+        checked_json(arguments)
+    else:
+        given_by = new.based_on
+    blobs = {} if given_by is None else {"given": await studio.runs.blob(given_by, "plan")}
+    return Runs.data(await studio.runs.submit(run, arguments, blobs))
+
+
+@router.get("/runs/{number}", tags=["runs"])
+async def get_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Return a run."""
+    return Runs.data(studio.runs.get(number))
+
+
+@router.patch("/runs/{number}", tags=["runs"])
+async def rename_run(studio: InStudio, number: RunNumber, rename: Rename) -> dict[str, Any]:
+    """Name a run."""
+    return Runs.data(await studio.runs.rename(number, rename.name))
+
+
+@router.delete("/runs/{number}", tags=["runs"])
+async def delete_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Cancel a run where it is not over, and forget it."""
+    await studio.runs.delete(number)
+    return {"number": number}
+
+
+@router.post("/runs/{number}/stop", tags=["runs"])
+async def stop_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Ask a run to end with the best plan that it has; its state changes when it has."""
+    return Runs.data(await studio.runs.stop(number))
+
+
+@router.post("/runs/{number}/cancel", tags=["runs"])
+async def cancel_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """End a run at once."""
+    return Runs.data(await studio.runs.cancel(number))
+
+
+@router.post("/runs/{number}/again", tags=["runs"], status_code=202)
+async def repeat_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Queue the same as a new run, for example after the studio went down."""
+    return Runs.data(await studio.runs.again(number))
+
+
+@router.get("/runs/{number}/events", tags=["runs"], response_class=StreamingResponse)
+async def run_events(studio: InStudio, number: RunNumber) -> StreamingResponse:
+    """Send the events of a run as they come, as server-sent events.
+
+    ``run``: the run, at first and whenever its state changes. ``progress``: seconds, flowtime,
+    lower bound or a message. ``plan``: there is a better plan so far; get its payload. The stream
+    ends when the run is over.
+    """
+    return await _stream(studio.runs.listen(number))
+
+
+@router.get("/events", tags=["runs"], response_class=StreamingResponse)
+async def all_events(studio: InStudio) -> StreamingResponse:
+    """Send the events of all runs, each with the ``number`` of its run, for ever.
+
+    First come ``runs``, the list; then ``run``, ``progress`` and ``plan`` as for one run, and
+    ``deleted``. A page needs no other stream: browsers have six connections to a server.
+    """
+    return await _stream(studio.runs.listen_to_all())
+
+
+async def _stream(events: AsyncGenerator[Event | None]) -> StreamingResponse:
+    first = await anext(events)
+
+    async def lines() -> AsyncIterator[str]:
+        async with aclosing(events):
+            yield _line(first)
+            async for event in events:
+                yield _line(event)
+
+    return StreamingResponse(lines(), media_type="text/event-stream")
+
+
+def _line(event: Event | None) -> str:
+    return ":\n\n" if event is None else f"event: {event[0]}\ndata: {json.dumps(event[1])}\n\n"
