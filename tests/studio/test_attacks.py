@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import random
 import resource
 import socket
@@ -22,12 +23,12 @@ from tests.builders.studios import DOOR, Command, command, planned, sent
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
-MALFORMED = 10_000
+MALFORMED = 10_000 if "ALL_SEEDS" in os.environ else 2_000
 FLAT = 60e6
 """What the server may grow by [bytes]: a body of 20 MB is in memory a few times."""
 
 
-def test_ten_thousand_malformed_requests_are_refused_without_a_word(tmp_path: Path) -> None:
+def test_thousands_of_malformed_requests_are_refused_without_a_word(tmp_path: Path) -> None:
     """Each is a request of a client that means harm, or that is broken, drawn at random."""
     (tmp_path / "door.yaml").write_text("format: rightofway-scenario/1\n")
     with command(tmp_path, "--no-history") as studio:
@@ -177,7 +178,7 @@ def test_twenty_pages_hear_of_ten_plans_and_memory_stays_flat(
         pages = [context.new_page() for _ in range(20)]
         used = []
         for _ in range(2):
-            body = {"document": CROWD, "planner": "lns", "time_limit": 4}
+            body = {"document": CROWD, "planner": "lns", "time_limit": 3}
             begun = {studio.client.post("/runs", json=body).json()["number"] for _ in range(10)}
             for page in pages:
                 page.goto(root)
@@ -200,7 +201,7 @@ def test_twenty_browsers_watch_ten_plans_that_are_made_at_once(tmp_path: Path) -
     from tests.builders.crowds import CROWD
 
     with command(tmp_path, "--no-history", "--planners", "10") as studio:
-        body = {"document": CROWD, "planner": "lns", "time_limit": 8}
+        body = {"document": CROWD, "planner": "lns", "time_limit": 4}
         numbers = [studio.client.post("/runs", json=body).json()["number"] for _ in range(10)]
 
         def watch(browser: int) -> tuple[str, int]:
