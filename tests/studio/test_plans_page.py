@@ -43,6 +43,13 @@ robots:
   - {name: R2, home: N4, target: N15, work: 1}
 """
 
+CORRIDOR = """\
+format: rightofway-scenario/1
+map: {grid: ["....."]}
+robots: [{name: R1, home: N0, target: N4}]
+closures: [{at: N2, until: 9}]
+"""
+
 PARTS = """\
 format: rightofway-scenario/1
 map: {grid: [".@.", ".@."]}
@@ -122,7 +129,7 @@ def test_a_run_that_is_stopped_keeps_its_best_plan(opened: Opener) -> None:
     studio.wait_for("studio.runs.running?.points.length > 1")
     studio.wait_for("Boolean(document.querySelector('.curve .reached'))")
     studio.wait_for("studio.stage.isPlan")  # the plan so far is there to be played
-    assert "running" in studio.text(".curve")
+    assert "Running" in studio.text(".curve")
     assert studio.page.locator(".settings .buttons").bounding_box() == before  # nothing moves
     studio.button("Stop, keep the best").click()
     studio.planned()
@@ -454,6 +461,13 @@ def test_a_place_is_closed_planned_and_opened_again(opened: Opener) -> None:
     studio.page.get_by_role("button", name=f"Open again: {place}").click()
     studio.settle()
     assert "closures" not in studio.document
+
+
+def test_a_robot_that_waits_for_a_closed_place_says_so(opened: Opener) -> None:
+    studio = opened(CORRIDOR)
+    begin(studio)
+    studio.planned()
+    assert "N2 is closed until time 9" in studio.text(".waits")
 
 
 def test_a_lane_is_closed_and_the_former_way_is_dashed(opened: Opener) -> None:

@@ -157,3 +157,18 @@ def test_a_robot_is_found_among_many_and_its_row_stays_its_own(table: StudioPage
 def test_no_table_is_wider_than_its_place(table: StudioPage) -> None:
     sheet = ".sheet"
     assert table.page.locator(sheet).evaluate("(it) => it.scrollWidth <= it.clientWidth")
+
+
+def test_what_is_typed_stays_until_it_is_done_or_given_up(table: StudioPage) -> None:
+    """Events write the page anew at any time: a plan that becomes better, an answer that comes."""
+    speed = table.page.get_by_label("Speed, R1")
+    for end, expected in (("Escape", 1), ("Enter", 2)):
+        speed.focus()
+        speed.press("Control+a")
+        table.page.keyboard.type("2")
+        for _ in range(3):
+            table.ask("studio.tell('change')")
+        assert speed.input_value() == "2"
+        speed.press(end)
+        table.settle()
+        assert table.document["robots"][0]["speed"] == expected

@@ -1,6 +1,7 @@
 /** The head of the page: the file, back and forth, save, language, plan. */
 
 import { html } from "./vendor/htm-preact.js";
+import { Field } from "./field.js";
 import { Icon } from "./icons.js";
 import { LANGUAGES, language, words } from "./words.js";
 
@@ -37,7 +38,7 @@ function File({ studio }) {
   return html`
     <div class="actions file">
       <button type="button" class="with-icon" title=${words.toFiles} onClick=${() => studio.toStart()}><${Icon} name="files" /><span>${words.files}</span></button>
-      <input class="file-name" aria-label=${words.fileName} title=${store.path || words.fileName} placeholder=${words.unnamed} value=${store.path} spellcheck="false" onChange=${rename} onKeyDown=${enter} />
+      <${Field} class="file-name" aria-label=${words.fileName} title=${store.path || words.fileName} placeholder=${words.unnamed} value=${store.path} spellcheck="false" onChange=${rename} onKeyDown=${enter} />
       <button type="button" class="framed" title=${`${words.save} (Ctrl+S)`} onClick=${() => shelf.save()}>${words.save}</button>
       <span class="state" role="status" title=${store.isSaved ? "" : words.draftHint}>${store.isSaved ? words.saved : words.keptAsDraft}</span>
     </div>

@@ -238,6 +238,21 @@ export class Studio extends Observable {
     clock.seek(loss.tick);
     choice.chooseRobot(plan.robots.findIndex(({ name }) => name === loss.robot));
     choice.light(lossOn(this.stage, loss)?.places ?? []);
+    this.reveal("#waits-title", "start");
+  }
+
+  /** Let the robot that waits go first, and show what that costs. */
+  flip(loss) {
+    return this.attempt(async () => {
+      await this.runs.flip(loss);
+      this.reveal(".change");
+    });
+  }
+
+  /** Bring a part of the side panel into view, once it is written. */
+  reveal(selector, block = "nearest") {
+    const look = () => document.querySelector(selector)?.scrollIntoView({ block });
+    requestAnimationFrame(() => requestAnimationFrame(look));
   }
 
   #search() {

@@ -1,6 +1,7 @@
 /** Closed places and lanes: found, closed for a while or for ever, opened again. */
 
 import { html } from "../vendor/htm-preact.js";
+import { Field } from "../field.js";
 import { words } from "../words.js";
 import { endsOf, lanesOf, withoutKey } from "./network.js";
 import { placeOf, vertexOf } from "./places.js";
@@ -60,7 +61,7 @@ export function ClosureFields({ studio, place }) {
     store.change((document) => closed(document, place, roadmap, Object.fromEntries(given)));
   };
   const field = (key) =>
-    html`<label>${words[key]}<span><input type="number" min="0" step="any" value=${closure[key] ?? ""} placeholder=${words.always[key]}
+    html`<label>${words[key]}<span><${Field} type="number" min="0" step="any" value=${closure[key] ?? ""} placeholder=${words.always[key]}
       onChange=${({ target }) => target.reportValidity() && write(key, target.value)} /> ${unit}</span></label>`;
   return html`
     <label class="check"><input type="checkbox" checked=${Boolean(closure)} onChange=${toggle} /> ${words.closed}</label>

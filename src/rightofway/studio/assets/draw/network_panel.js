@@ -1,6 +1,7 @@
 /** Vertices, lanes, zones and closures of a roadmap, as fields. */
 
 import { html } from "../vendor/htm-preact.js";
+import { Field } from "../field.js";
 import { words } from "../words.js";
 import { ClosureFields } from "./closures.js";
 import {
@@ -32,8 +33,8 @@ export function VertexPanel({ studio, name }) {
   };
   return html`
     <div class="fields">
-      <label>${words.name}<input value=${name} onChange=${rename} /></label>
-      <label>${words.station}<input value=${station} onChange=${({ target }) => store.change((document) => nameStation(document, name, target.value.trim()))} /></label>
+      <label>${words.name}<${Field} value=${name} onChange=${rename} /></label>
+      <label>${words.station}<${Field} value=${station} onChange=${({ target }) => store.change((document) => nameStation(document, name, target.value.trim()))} /></label>
       ${check(words.parking, parking.includes(name), (document) => toggleUse(document, "parking", name))}
       ${check(words.charging, charging.includes(name), (document) => toggleUse(document, "charging", name))}
       <${ClosureFields} studio=${studio} place=${{ at: name }} />
@@ -57,7 +58,7 @@ export function LanePanel({ studio, lanes }) {
       .join(", ")}</p>
     <div class="fields">
       <label class="check"><input type="checkbox" checked=${first.both_ways ?? true} onChange=${({ target }) => set("both_ways", target.checked ? undefined : false)} /> ${words.bothWays}</label>
-      <label>${words.maxSpeed}<input type="number" min="0.01" step="any" value=${first.max_speed ?? ""} onChange=${({ target }) => set("max_speed", target.value === "" ? undefined : Number(target.value))} /></label>
+      <label>${words.maxSpeed}<${Field} type="number" min="0.01" step="any" value=${first.max_speed ?? ""} onChange=${({ target }) => set("max_speed", target.value === "" ? undefined : Number(target.value))} /></label>
       <label>${words.shape}<select value=${String(first.curve?.length ?? 0)} onChange=${({ target }) => store.change((document) => bent(document, known, Number(target.value)))}>
         ${words.shapes.map((name, bends) => html`<option value=${String(bends)}>${name}</option>`)}</select></label>
       <${ClosureFields} studio=${studio} place=${{ edge: endsOf(first) }} />

@@ -3,6 +3,7 @@
 import { AboutMap, Findings } from "../findings.js";
 import { PlanButton } from "../header.js";
 import { html } from "../vendor/htm-preact.js";
+import { Field } from "../field.js";
 import { words } from "../words.js";
 import { BackdropPanel } from "./backdrop.js";
 import { withoutKey } from "./network.js";
@@ -50,7 +51,7 @@ function Size({ studio }) {
     text,
     value,
     set,
-  ) => html`<label>${text}<span><input type="number" min="0.01" step="any" value=${numberOf(value) || ""} placeholder=${Number.isNaN(numberOf(value, 0)) ? value : ""}
+  ) => html`<label>${text}<span><${Field} type="number" min="0.01" step="any" value=${numberOf(value) || ""} placeholder=${Number.isNaN(numberOf(value, 0)) ? value : ""}
     onChange=${({ target }) => target.value && target.reportValidity() && set(Number(target.value))} /> ${unit}</span></label>`;
   const wrong = store.faultsAt(place).concat(store.faultsAt("map.cell_size"));
   return html`
@@ -111,7 +112,7 @@ function Selected({ studio }) {
       ${
         isOne &&
         known[obstacle] &&
-        html`<label class="wide">${words.name}<input value=${known[obstacle].name ?? ""}
+        html`<label class="wide">${words.name}<${Field} value=${known[obstacle].name ?? ""}
         onChange=${({ target }) =>
           store.change((document) =>
             withObstacles(

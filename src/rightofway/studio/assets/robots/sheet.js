@@ -2,6 +2,7 @@
 
 import { nameOf } from "../findings.js";
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
+import { Field } from "../field.js";
 import { words } from "../words.js";
 import {
   blockOf,
@@ -82,10 +83,8 @@ export function Sheet({ studio, columns, wanted }) {
       fill(isMany ? block.bottom : robots.length - 1);
     else if (isMany && ["Delete", "Backspace"].includes(event.key))
       change((document) => cleared(document, columns, block));
-    else if (event.key === "Escape") {
-      event.target.value = robots[at.row] ? columns[at.column].text(robots[at.row]) : "";
-      setCells({ from: at, to: at });
-    } else if (event.shiftKey && ARROWS[event.key] && stepFrom(event)) {
+    else if (event.key === "Escape") setCells({ from: at, to: at });
+    else if (event.shiftKey && ARROWS[event.key] && stepFrom(event)) {
       const [down, right] = ARROWS[event.key];
       extend({
         row: clamped(cells.to.row + down, robots.length - 1),
@@ -108,7 +107,7 @@ export function Sheet({ studio, columns, wanted }) {
     const fault = faults.get(row)?.find(({ place: where }) => columnOf(where) === column.key);
     const [title, , usual = ""] = words.columns[column.key];
     return html`<td key=${column.key} class=${`${column.key} ${holds(block, row, at) && !isSingle(block) ? "in" : ""}`}>
-      <input value=${robot ? column.text(robot) : ""} data-cell=${`${row} ${at}`} spellcheck="false"
+      <${Field} value=${robot ? column.text(robot) : ""} data-cell=${`${row} ${at}`} spellcheck="false"
         aria-label=${robot ? `${title}, ${robot.name}` : `${title}, ${words.newRow}`} aria-invalid=${String(Boolean(fault))} title=${fault?.message ?? ""}
         placeholder=${robot ? usual : column.key === "name" ? freeName(robots) : ""}
         onFocus=${() => enter(place)} onChange=${({ target }) => write(place, target.value)}

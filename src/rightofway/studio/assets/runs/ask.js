@@ -1,6 +1,7 @@
 /** What if: a robot of the plan is faster, works longer or has another home, or a place is closed. */
 
 import { html, useState } from "../vendor/htm-preact.js";
+import { Field } from "../field.js";
 import { placeOfText } from "../draw/places.js";
 import { pressedPlace } from "../draw/press_place.js";
 import { COLUMNS, columnOf } from "../robots/columns.js";
@@ -30,7 +31,7 @@ export function Ask({ studio }) {
           ? html`<p class="hint">${words.chooseRobot}</p>`
           : html`<div class="fields">${ASKED.map(
               (column) => html`
-        <label title=${words.columns[column.key][1]}>${words.columns[column.key][0]}<input key=${`${name} ${column.key}`} value=${column.text(robots[index])} placeholder=${words.columns[column.key][2] ?? ""}
+        <label title=${words.columns[column.key][1]}>${words.columns[column.key][0]}<${Field} key=${`${name} ${column.key}`} value=${column.text(robots[index])} placeholder=${words.columns[column.key][2] ?? ""}
           spellcheck="false" aria-invalid=${String(isWrong(column))} onChange=${({ target }) => write(column, target.value)} /></label>`,
             )}</div>`
       }

@@ -13,5 +13,8 @@ export function withoutClosure({ closures, ...rest }, index) {
   return left.length ? { ...rest, closures: left } : rest;
 }
 
-/** "N3", or "A – B" for a lane. */
-export const textOfClosure = ({ at, edge }) => (edge ?? [at]).map(textOfPlace).join(" – ");
+/** "N3", or "A – B" for a lane; with the times of one that ends: "N3, 0–12". */
+export function textOfClosure({ at, edge, from = 0, until }) {
+  const what = (edge ?? [at]).map(textOfPlace).join(" – ");
+  return until === undefined ? what : `${what}, ${from}–${until}`;
+}

@@ -23,7 +23,7 @@ export function Delays({ studio, report }) {
   };
   const says = (index) => {
     const found = flowtime[index];
-    const share = report.runs > 1 ? Math.round((100 * rank[index]) / (report.runs - 1)) : 0;
+    const share = Math.floor((100 * rank[index]) / report.runs);
     return found === null
       ? words.runNeverEnds(run[index])
       : words.runSays(run[index], ticks(found), share);

@@ -1,6 +1,7 @@
 /** The runs of a document: shown, named, sorted, selected to be compared, forgotten; others on request. */
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
+import { Field } from "../field.js";
 import { Quantities } from "../viewer/quantities.js";
 import { words } from "../words.js";
 import { canBeShown, isOver } from "./run_store.js";
@@ -133,7 +134,7 @@ function Row({ studio, run, order, isOwn }) {
       <td><button type="button" class="show" disabled=${!canBeShown(run)} title=${words.show}
         aria-pressed=${String(isShown)} aria-label=${named(words.show)}
         onClick=${() => studio.showRun(number)}>${number}</button></td>
-      <td class="title"><input value=${run.name} placeholder=${title} maxlength="200"
+      <td class="title"><${Field} value=${run.name} placeholder=${title} maxlength="200"
         spellcheck="false" aria-label=${`${words.runName} ${number}`} onChange=${rename} />
         <small title=${about}>${about}</small></td>
       <td class="short">${flowtime}${figures?.text.gap && html`<${Gap} figures=${figures} />`}</td>

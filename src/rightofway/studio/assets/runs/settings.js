@@ -1,6 +1,7 @@
 /** Which planner with which options, how long, and the buttons that begin and end a run. */
 
 import { html } from "../vendor/htm-preact.js";
+import { Field } from "../field.js";
 import { language, words } from "../words.js";
 
 export function Settings({ studio }) {
@@ -51,7 +52,7 @@ function Options({ spec, given, set }) {
   const field = ({ name, choices, least, default: usual }) =>
     choices.length
       ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option lang="en">${each}</option>`)}</select>`
-      : html`<input aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${String(usual ?? "")} inputmode=${least === null ? "text" : "numeric"} onChange=${({ target }) => write(name, target.value.trim())} />`;
+      : html`<${Field} aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${String(usual ?? "")} inputmode=${least === null ? "text" : "numeric"} onChange=${({ target }) => write(name, target.value.trim())} />`;
   return html`<div class="options">${spec.options.map(
     (option) => html`
     <label><span lang="en">${option.name}</span>${field(option)}</label><p id=${`option-${option.name}`} class="hint" lang="en">${option.summary}</p>`,

@@ -19,7 +19,7 @@ export function Waits({ studio }) {
               (loss) => html`<li>
         <button type="button" class="watch" onClick=${() => studio.watchLoss(loss)}>${sentenceOn(stage, loss)}</button>
         ${loss.because && html`<p><small>${reasonOf(stage, loss)}</small></p>`}
-        ${loss.for && !isOnlyChoice(stage, loss) && html`<button type="button" class="framed" onClick=${() => studio.attempt(() => runs.flip(loss))}>${words.letGoFirst(loss.robot)}</button>`}
+        ${loss.for && !isOnlyChoice(stage, loss) && html`<button type="button" class="framed" onClick=${() => studio.flip(loss)}>${words.letGoFirst(loss.robot)}</button>`}
       </li>`,
             )}</ol>`
           : html`<p class="hint">${words.noWaits}</p>`

@@ -96,13 +96,29 @@ export class Words {
     return behind ? texts.stuckBehind(behind.name, behind.ending === BROKEN) : texts.never;
   }
 
-  #loss({ kind, forRobot, vertex, until, towards, freed, ticks }) {
+  #loss({ kind, forRobot, vertex, until, towards, freed, tick, ticks }) {
     const [here, lasts] = [this.vertex(vertex), this.duration(ticks)];
     const other = forRobot === null ? null : this.robot(forRobot);
     if (kind === MAKES_ROOM) return texts.loss.makesRoom(here, other, lasts);
     if (kind === FOLLOWS) return texts.loss.follows(other, here, this.vertex(until), lasts);
-    if (other === null) return texts.loss.waitsAlone(lasts, here);
+    if (other === null) {
+      const closure = this.#closureAhead(vertex, towards, tick);
+      if (!closure) return texts.loss.waitsAlone(lasts, here);
+      const place = closure.vertices.map((each) => this.vertex(each)).join(" – ");
+      return texts.loss.waitsClosed(lasts, here, place, this.moment(closure.until));
+    }
     return texts.loss.waits(lasts, here, other, this.vertex(freed), freed === towards);
+  }
+
+  /** What is closed after a tick of what a robot drives to next, for a while. */
+  #closureAhead(vertex, towards, tick) {
+    return this.plan.closures.find(
+      ({ vertices, until }) =>
+        until > tick &&
+        until < Infinity &&
+        vertices.includes(towards) &&
+        (vertices.length === 1 || vertices.includes(vertex)),
+    );
   }
 
   /** How late a robot is. */

@@ -206,6 +206,8 @@ export const GERMAN = {
       `verlässt ${here}${other ? `, um ${other} Platz zu machen,` : ""} und kommt zurück, verliert ${lost}`,
     follows: (other, from, to, lost) => `folgt ${other} von ${from} bis ${to}, verliert ${lost}`,
     waitsAlone: (lost, here) => `wartet ${lost} in ${here}, obwohl kein Roboter im Weg ist`,
+    waitsClosed: (lost, here, place, until) =>
+      `wartet ${lost} in ${here}: ${place} ist bis ${until} gesperrt`,
     waits: (lost, here, other, freed, isNext) =>
       `wartet ${lost} in ${here}, bis ${other} ${freed}${isNext ? "" : " weiter vorn auf dem Weg"} verlässt`,
     more: (loss, time) => `${loss}, ${time} mehr als geplant`,

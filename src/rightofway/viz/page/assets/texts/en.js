@@ -212,6 +212,8 @@ export const ENGLISH = {
       `leaves ${here}${other ? ` to make room for ${other}` : ""} and comes back, loses ${lost}`,
     follows: (other, from, to, lost) => `follows ${other} from ${from} to ${to}, loses ${lost}`,
     waitsAlone: (lost, here) => `waits ${lost} in ${here}, though no robot is in its way`,
+    waitsClosed: (lost, here, place, until) =>
+      `waits ${lost} in ${here}: ${place} is closed until ${until}`,
     waits: (lost, here, other, freed, isNext) =>
       `waits ${lost} in ${here} for ${other} to leave ${freed}${isNext ? "" : ", further on its way"}`,
     more: (loss, time) => `${loss}, ${time} more than planned`,

@@ -1,0 +1,20 @@
+/** A field of text that keeps what is typed until it is done, however often the page is written anew. */
+
+import { html, useState } from "./vendor/htm-preact.js";
+
+/** As an `input` with `onChange`; Escape gives up what is typed, and so does another `value`. */
+export function Field({ value, onChange, onBlur, onKeyDown, ...rest }) {
+  const [typed, setTyped] = useState(null); // text, and the value that it was typed over
+  const shown = typed?.over === value ? typed.text : value;
+  const give = (action) => (event) => {
+    action?.(event);
+    setTyped(null);
+  };
+  return html`<input ...${rest} value=${shown}
+    onInput=${({ target }) => setTyped({ text: target.value, over: value })}
+    onChange=${give(onChange)} onBlur=${give(onBlur)}
+    onKeyDown=${(event) => {
+      if (event.key === "Escape") setTyped(null);
+      onKeyDown?.(event);
+    }} />`;
+}
