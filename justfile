@@ -33,7 +33,7 @@ test *args:
 
 # The thorough lane: browser, processes, every example of the documentation, the long laws
 thorough *args:
-    pytest -m slow -n 2 {{ args }}
+    pytest -m slow -n 3 {{ args }}
 
 # The thorough lane with all seeds of random cases: an hour or more
 all-seeds *args:

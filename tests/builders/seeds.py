@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-MOST_IN_LANE = 8
+MOST_IN_LANE = 4
 """Cases of a test in the slow lane, at most; `just all-seeds` runs all."""
 
 

@@ -180,7 +180,7 @@ def test_twenty_pages_hear_of_ten_plans_and_memory_stays_flat(
         for _ in range(2):
             body = {"document": CROWD, "planner": "lns", "time_limit": 3}
             begun = {studio.client.post("/runs", json=body).json()["number"] for _ in range(10)}
-            for page in pages:
+            for page in pages if not used else ():
                 page.goto(root)
             waiting, ends = list(pages), time.monotonic() + 60
             while waiting and time.monotonic() < ends:
