@@ -33,7 +33,11 @@ test *args:
 
 # The thorough lane: browser, processes, every example of the documentation, the long laws
 thorough *args:
-    pytest -m slow -n 3 {{ args }}
+    pytest -m "slow and not long" -n 3 {{ args }}
+
+# What the thorough lane leaves out: load, attacks in numbers, walks through every state of a page
+long *args:
+    pytest -m long -n 2 {{ args }}
 
 # The thorough lane with all seeds of random cases: an hour or more
 all-seeds *args:

@@ -1,8 +1,8 @@
-"""Two lanes: plain ``pytest`` runs the quick one, ``pytest -m slow`` the rest; CI runs both."""
+"""Lanes: plain ``pytest`` runs the quick one, ``-m slow`` the rest; CI leaves ``long`` out."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -69,9 +69,19 @@ SLOW = (
 """Files and folders of the slow lane: what takes more than about two seconds."""
 
 
-def slow_files() -> set[Path]:
-    """Return the test files of the slow lane."""
-    named = (TESTS / name for name in SLOW)
+LONG = (
+    "studio/test_accessibility.py",
+    "studio/test_attacks.py",
+    "studio/test_languages.py",
+    "viewer/test_large_fleet.py",
+    "viewer/test_languages.py",
+)
+"""Those of them that CI leaves out."""
+
+
+def files_of(lane: Iterable[str]) -> set[Path]:
+    """Return the test files of a lane."""
+    named = (TESTS / name for name in lane)
     return {
         file for path in named for file in (path.rglob("test_*.py") if path.is_dir() else [path])
     }
@@ -79,11 +89,13 @@ def slow_files() -> set[Path]:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests of the slow lane, before any are deselected."""
-    slow = slow_files()
+    """Mark the tests of the lanes, before any are deselected."""
+    slow, long = files_of(SLOW), files_of(LONG)
     for item in items:
         if item.path in slow:
             item.add_marker(pytest.mark.slow)
+        if item.path in long:
+            item.add_marker(pytest.mark.long)
 
 
 @pytest.fixture(scope="module")
