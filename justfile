@@ -33,7 +33,7 @@ test *args:
 
 # The thorough lane: browser, processes, every example of the documentation, the long laws
 thorough *args:
-    pytest -m "slow and not long" -n 3 {{ args }}
+    pytest -m "slow and not long" -n 2 {{ args }}
 
 # What the thorough lane leaves out: load, attacks in numbers, walks through every state of a page
 long *args:
