@@ -79,6 +79,10 @@ LONG = (
 """Those of them that CI leaves out."""
 
 
+PAGES = ("studio", "viewer")
+"""Folders of tests that wait for a browser: one that fails is tried twice more, and counted."""
+
+
 def files_of(lane: Iterable[str]) -> set[Path]:
     """Return the test files of a lane."""
     named = (TESTS / name for name in lane)
@@ -96,6 +100,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.slow)
         if item.path in long:
             item.add_marker(pytest.mark.long)
+        if item.path.parent.name in PAGES and item.config.pluginmanager.hasplugin("rerunfailures"):
+            item.add_marker(pytest.mark.flaky(reruns=2))
 
 
 @pytest.fixture(scope="module")

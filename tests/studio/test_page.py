@@ -60,8 +60,7 @@ def test_faults_of_a_file_stand_in_the_list_and_at_the_field(
     fault = studio.page.locator(".findings").get_by_text("R1: home")
     fault.click()
     field = studio.page.get_by_label("Home, R1")
-    field.wait_for()
-    assert field.get_attribute("aria-invalid") == "true"
+    field.and_(studio.page.locator("[aria-invalid=true]")).wait_for()
     assert "outside the map" in (field.get_attribute("title") or "")
 
 
