@@ -176,7 +176,7 @@ def test_twenty_pages_hear_of_ten_plans_and_memory_stays_flat(
     with command(tmp_path, "--no-history", "--planners", "10") as studio:
         root = str(studio.client.base_url).removesuffix("api/v1/")
         pages = [context.new_page() for _ in range(20)]
-        used = []
+        used: list[list[int]] = []
         for _ in range(2):
             body = {"document": CROWD, "planner": "lns", "time_limit": 3}
             begun = {studio.client.post("/runs", json=body).json()["number"] for _ in range(10)}
