@@ -72,11 +72,21 @@ SLOW = (
 LONG = (
     "studio/test_accessibility.py",
     "studio/test_attacks.py",
+    "studio/test_beginning.py",
+    "studio/test_bombs.py",
+    "studio/test_drawing.py",
+    "studio/test_editing.py",
     "studio/test_languages.py",
+    "studio/test_page.py",
+    "studio/test_plans_page.py",
+    "studio/test_robots_table.py",
+    "studio/test_runs.py",
+    "studio/test_streams.py",
+    "studio/test_studies_page.py",
     "viewer/test_large_fleet.py",
     "viewer/test_languages.py",
 )
-"""Those of them that CI leaves out."""
+"""Those of them that CI leaves out: minutes of pages, load and attacks."""
 
 
 PAGES = ("studio", "viewer")
