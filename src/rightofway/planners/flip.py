@@ -60,8 +60,8 @@ def flipped(
     -------
     Flipped
         The earliest timetable on the same routes, with conflicts that follow from the flip resolved
-        one after the other by what they cost. Where that is impossible, other routes on which the
-        robot completes sooner than in the plan.
+        one after the other by what they cost. Where that is impossible, both robots planned again
+        around the others, if the robot that waited completes sooner than in the plan.
 
     Raises
     ------

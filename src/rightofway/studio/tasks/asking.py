@@ -79,7 +79,7 @@ def flip(
     answer = flipped(plan, *pair, Tick(tick), time_limit=time_limit)
     status = f"{waits} goes before {goes_first}"
     if not answer.keeps_routes:
-        status = f"{status}; both on new routes"
+        status = f"{status}; both planned again"
     run = replace(plan.run, status=status, seconds=None, decisions=())
     found = Plan(scenario=plan.scenario, tracks=answer.tracks, run=run)
     report = check(found)
