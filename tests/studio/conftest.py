@@ -1,4 +1,4 @@
-"""One studio for all tests that leave it as it was, in a folder with examples."""
+"""One studio for all tests of its API, in a folder with examples; a page has a studio of its own."""
 
 from __future__ import annotations
 
@@ -19,10 +19,8 @@ if TYPE_CHECKING:
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
-@pytest.fixture(scope="session")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def furnished(outside: Path) -> Path:
     """Return a folder with scenarios, a workbook's neighbour, and a secret beside it."""
-    outside = tmp_path_factory.mktemp("site")
     (outside / "secret.yaml").write_text("format: secret\n")
     folder = outside / "floor"
     folder.mkdir()
@@ -35,6 +33,18 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder that all tests of the API share."""
+    return furnished(tmp_path_factory.mktemp("site"))
+
+
+@pytest.fixture
+def own_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of one test."""
+    return furnished(tmp_path_factory.mktemp("site"))
+
+
+@pytest.fixture(scope="session")
 def client(folder: Path) -> Iterator[httpx.Client]:
     """Return a client of a studio on that folder."""
     with running(folder) as client:
@@ -42,9 +52,9 @@ def client(folder: Path) -> Iterator[httpx.Client]:
 
 
 @pytest.fixture
-def studio(browser: Browser, folder: Path) -> Iterator[StudioPage]:
+def studio(browser: Browser, own_folder: Path) -> Iterator[StudioPage]:
     """Return the page of a studio at its start."""
-    with studio_page(browser, folder, size=(1440, 900), keeps=False) as studio:
+    with studio_page(browser, own_folder, size=(1440, 900), keeps=False) as studio:
         yield studio
 
 

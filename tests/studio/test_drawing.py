@@ -271,12 +271,12 @@ def test_saving_leaves_the_draft_of_another_page(floor: StudioPage) -> None:
     assert drafts(floor) == {name: other}
 
 
-def test_a_floor_is_saved_under_a_name(floor: StudioPage, folder: Path) -> None:
+def test_a_floor_is_saved_under_a_name(floor: StudioPage, own_folder: Path) -> None:
     floor.page.get_by_label("Name of the file").fill("drawn.yaml")
     floor.page.get_by_label("Name of the file").press("Enter")
     floor.button("Save").click()
     floor.wait_for("studio.store.isSaved")
-    assert "size: [12, 8]" in (folder / "drawn.yaml").read_text()
+    assert "size: [12, 8]" in (own_folder / "drawn.yaml").read_text()
 
 
 def test_findings_are_listed_and_lit_on_the_map(studio: StudioPage) -> None:
@@ -310,9 +310,9 @@ def test_a_picture_below_a_roadmap_gets_scale_and_origin_by_presses(lanes: Studi
 
 
 def test_a_plan_file_is_opened_played_and_its_scenario_changed(
-    studio: StudioPage, folder: Path
+    studio: StudioPage, own_folder: Path
 ) -> None:
-    write_plan(solve(load(folder / "door.yaml"), time_limit=2), folder / "door-plan.json")
+    write_plan(solve(load(own_folder / "door.yaml"), time_limit=2), own_folder / "door-plan.json")
     studio.page.reload()
     studio.page.get_by_role("button", name="door-plan.json").click()
     studio.wait_for("studio.runs.losses !== null && studio.stage.isPlan")
@@ -323,9 +323,9 @@ def test_a_plan_file_is_opened_played_and_its_scenario_changed(
 
 
 def test_a_finger_draws_and_a_floor_in_cells_of_the_paper_is_erased(
-    browser: Browser, folder: Path
+    browser: Browser, own_folder: Path
 ) -> None:
-    with running(folder, file="floor.yaml", keeps=False) as client:
+    with running(own_folder, file="floor.yaml", keeps=False) as client:
         context = browser.new_context(
             locale="en-GB", has_touch=True, viewport={"width": 1024, "height": 768}
         )

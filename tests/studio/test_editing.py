@@ -60,7 +60,7 @@ def test_a_curve_goes_with_its_ends_and_is_split_by_a_vertex(lanes: StudioPage) 
 
 
 def test_a_picture_is_saved_with_the_floor_and_is_there_in_another_browser(
-    floor: StudioPage, folder: Path, browser: Browser, tmp_path: Path
+    floor: StudioPage, own_folder: Path, browser: Browser, tmp_path: Path
 ) -> None:
     picture = tmp_path / "hall plan.png"
     Image.new("L", (240, 160), 180).save(picture)
@@ -71,7 +71,7 @@ def test_a_picture_is_saved_with_the_floor_and_is_there_in_another_browser(
     floor.ask("studio.store.rename('pictured.yaml')")
     floor.ask("studio.shelf.save()")
     floor.wait_for("studio.store.isSaved")
-    assert (folder / "hall plan.png").read_bytes() == picture.read_bytes()
+    assert (own_folder / "hall plan.png").read_bytes() == picture.read_bytes()
     other = StudioPage(browser.new_context(locale="en-GB").new_page(), floor.page.url)
     other.ask("studio.shelf.open('pictured.yaml')")
     other.opened()
@@ -186,9 +186,9 @@ def touched(session: CDPSession, kind: str, *points: tuple[float, float]) -> Non
 
 @pytest.mark.parametrize(("width", "height"), [(1024, 768), (768, 1024)])
 def test_fingers_draw_zoom_and_rest_for_the_menu(
-    browser: Browser, folder: Path, width: int, height: int
+    browser: Browser, own_folder: Path, width: int, height: int
 ) -> None:
-    with running(folder, keeps=False) as client:
+    with running(own_folder, keeps=False) as client:
         context = browser.new_context(
             locale="en-GB", has_touch=True, viewport={"width": width, "height": height}
         )

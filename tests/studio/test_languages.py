@@ -20,9 +20,10 @@ pytestmark = needs_browser
 
 
 @pytest.fixture
-def german(browser: Browser, folder: Path) -> Iterator[StudioPage]:
+def german(browser: Browser, own_folder: Path) -> Iterator[StudioPage]:
     """Return the page of a studio in a German browser, with a floor that has findings."""
-    with running(folder, file="floor.yaml", keeps=False) as client:
+    (own_folder / "broken.yaml").write_text("a: [1\n")
+    with running(own_folder, file="floor.yaml", keeps=False) as client:
         context = browser.new_context(
             locale="de-DE", reduced_motion="reduce", viewport={"width": 1280, "height": 720}
         )
@@ -50,6 +51,7 @@ def test_map_robots_and_help_are_german(german: StudioPage) -> None:
     german.ask("studio.help(false)")
     german.button("Dateien").click()
     german.page.get_by_text("Neuer Grundriss").wait_for()
+    german.page.get_by_text("lässt sich nicht öffnen").wait_for()
     assert not english_on(german), "\n".join(english_on(german))
 
 

@@ -19,9 +19,9 @@ pytestmark = needs_browser
 
 
 @pytest.fixture
-def studio(browser: Browser, folder: Path) -> Iterator[StudioPage]:
+def studio(browser: Browser, own_folder: Path) -> Iterator[StudioPage]:
     """Return the page of a studio that opens a door."""
-    with studio_page(browser, folder, file="door.yaml", keeps=False) as studio:
+    with studio_page(browser, own_folder, file="door.yaml", keeps=False) as studio:
         studio.opened()
         yield studio
 
@@ -50,9 +50,9 @@ def test_another_file_is_opened_from_the_list(studio: StudioPage) -> None:
 
 
 def test_faults_of_a_file_stand_in_the_list_and_at_the_field(
-    studio: StudioPage, folder: Path
+    studio: StudioPage, own_folder: Path
 ) -> None:
-    (folder / "wrong.yaml").write_text(
+    (own_folder / "wrong.yaml").write_text(
         "format: rightofway-scenario/1\nmap: {grid: ['...']}\nrobots: [{name: R1, home: N9}]\n"
     )
     studio.button("Files").click()
@@ -110,9 +110,9 @@ def test_everything_is_the_studios_own(studio: StudioPage) -> None:
 
 
 def test_the_page_speaks_german_to_a_german_browser_and_english_on_request(
-    browser: Browser, folder: Path
+    browser: Browser, own_folder: Path
 ) -> None:
-    with running(folder, keeps=False) as client:
+    with running(own_folder, keeps=False) as client:
         context = browser.new_context(locale="de-DE")
         page = context.new_page()
         page.goto(str(client.base_url).removesuffix("api/v1/"))

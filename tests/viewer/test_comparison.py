@@ -58,8 +58,7 @@ def test_the_head_compares_both_plans(both: Viewer) -> None:
 def test_all_maps_show_the_same_moment(many: Viewer) -> None:
     """At tick 3 R1 is in N4 in the first plan, in N1 in the second; both clocks of C go on."""
     many.page.fill("#slider", "3")
-    many.wait_for(f"{BESIDE}.motion.y[0] === 0 && clock.tick === 3")
-    assert many.ask("motion.y[0]") == 1
+    many.wait_for(f"clock.tick === 3 && motion.y[0] === 1 && {BESIDE}.motion.y[0] === 0")
     assert many.ask("comparison.beside.map(({ clock }) => clock.tick)") == [3, 6]
     assert many.ask("comparison.plans.map(({ end }) => end)") == [11, 11, 22]
 

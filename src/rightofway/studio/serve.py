@@ -137,7 +137,9 @@ def bound(host: str, port: int | None) -> socket.socket:
     """Return a socket that listens on an address; on a free port where none is given."""
     for candidate in (PORT, 0) if port is None else (port,):
         family = socket.AF_INET6 if ":" in host else socket.AF_INET
-        listener = socket.socket(family, socket.SOCK_STREAM)
+        # The protocol is named, because only then asyncio sends the parts of an answer at once; the
+        # second part would wait for an acknowledgement of the first, 40 ms (Nagle's algorithm).
+        listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listener.bind((host.strip("[]"), candidate))

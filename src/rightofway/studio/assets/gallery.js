@@ -53,12 +53,13 @@ function Card({ document, open, remove }) {
   }, [source, name, revision]);
   const about = seen && !seen.trouble ? aboutOf(seen, !note) : "";
   const below = [about, note].filter(Boolean).join(" · ");
+  const why = seen?.trouble && { title: seen.trouble, lang: "en" }; // in the library's words
   return html`
     <li class="document" ref=${card}>
-      <button type="button" class=${seen?.trouble ? "open foreign" : "open"} title=${seen?.trouble ?? name} onClick=${() => open(document)}>
-        <span class="picture">${seen?.picture ? html`<img src=${seen.picture} alt="" />` : html`<span class="none"></span>`}</span>
-        <span class="name">${title}</span>
-        <small>${seen?.trouble ? words.notRead : below || " "}</small>
+      <button type="button" class=${why ? "open foreign" : "open"} title=${why ? null : name} onClick=${() => open(document)}>
+        <span class="picture" ...${why}>${seen?.picture ? html`<img src=${seen.picture} alt="" />` : html`<span class="none"></span>`}</span>
+        <span class="name" ...${why}>${title}</span>
+        <small>${why ? words.notRead : below || " "}</small>
       </button>
       ${remove && html`<button type="button" class="quiet" aria-label=${`${words.remove}: ${title}`} title=${words.remove} onClick=${() => remove(document)}>✕</button>`}
     </li>`;

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cache
 from importlib.resources import files
 from pathlib import PurePosixPath
 from typing import Any
+from zlib import crc32
 
-from fastapi import APIRouter, Response
+from fastapi import APIRouter, Request, Response
 
 from rightofway import __version__
 from rightofway.io import schema
@@ -14,6 +16,7 @@ from rightofway.studio.errors import Refused
 from rightofway.studio.guard import MAX_BODY
 from rightofway.studio.routes.models import MAX_SECONDS, InStudio
 from rightofway.viz.page.document import style_sheet
+from rightofway.viz.page.scripts import scripts_of
 
 MEDIA = {
     ".css": "text/css; charset=utf-8",
@@ -28,26 +31,54 @@ about = APIRouter()
 
 
 @router.get("/")
-def index() -> Response:
+async def index(request: Request) -> Response:
     """Return the page."""
-    return asset("index.html")
+    return _file(request, "index.html")
 
 
 @router.get("/assets/{path:path}")
-def asset(path: str) -> Response:
+async def asset(request: Request, path: str) -> Response:
     """Return a file of the page; the modules of the viewer stand in a folder of their own."""
-    suffix = PurePosixPath(path).suffix
+    return _file(request, path)
+
+
+def _file(request: Request, path: str) -> Response:
+    """Return a file, or that the browser has it already."""
+    content = page_file(path)
+    headers = {"cache-control": "no-cache", "etag": f'"{crc32(content):08x}-{__version__}"'}
+    if request.headers.get("if-none-match") == headers["etag"]:
+        return Response(status_code=304, headers=headers)
+    return Response(content, media_type=MEDIA[PurePosixPath(path).suffix], headers=headers)
+
+
+@cache
+def page_file(path: str) -> bytes:
+    """Return a file of the page; `Refused` if there is none.
+
+    Parameters
+    ----------
+    path
+        The path under ``/assets/``.
+    """
+    if path == "viewer.css":
+        return style_sheet().encode()
+    text = _text(path)
+    if path == "index.html":  # a browser would ask for modules after those that import them
+        modules = scripts_of("main", _text)
+        links = (f'<link rel="modulepreload" href="/assets/{each}.js">' for each in modules)
+        text = text.replace("</head>", "\n".join([*links, "</head>"]))
+    return text.encode()
+
+
+def _text(path: str) -> str:
     name = path.removeprefix("viewer/")
     parts = name.split("/")
     package = "rightofway.studio" if name == path else "rightofway.viz.page"
     found = files(package).joinpath("assets", *parts)
-    if path == "viewer.css":
-        content = style_sheet()
-    elif suffix in MEDIA and not {"", ".", ".."} & {*parts} and found.is_file():
-        content = found.read_text("utf-8")
-    else:
+    is_asset = PurePosixPath(path).suffix in MEDIA and not {"", ".", ".."} & {*parts}
+    if not is_asset or not found.is_file():
         raise Refused(f"there is no asset {path[:100]!r} (open the studio at /)", 404)
-    return Response(content, media_type=MEDIA[suffix], headers={"cache-control": "no-cache"})
+    return found.read_text("utf-8")
 
 
 @about.get("", tags=["studio"])

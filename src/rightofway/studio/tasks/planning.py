@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from rightofway.check import check
@@ -91,7 +92,8 @@ def _searched(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
     except KeyboardInterrupt:
         if progress.best is None:
             raise
-        found = progress.best
+        ended = "interrupted: the best plan that was made"
+        found = replace(progress.best, run=replace(progress.best.run, status=ended))
     status = {"status": found.run.status, "seconds": found.run.seconds}
     return ({"figures": figures(found), **status}, plan_text(found).encode())
 

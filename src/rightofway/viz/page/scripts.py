@@ -8,11 +8,12 @@ other file has them as classic scripts that share one scope, so names are unique
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from functools import cache
 from importlib.resources import files
 from posixpath import dirname, join, normpath
 
-IMPORT = re.compile(r'^import [^;]*? from "(\.{1,2}/[\w/]+)\.js";\n', re.MULTILINE)
+IMPORT = re.compile(r'^import [^;]*? from "(\.{1,2}/[\w/-]+)\.js";\n', re.MULTILINE)
 EXPORT = re.compile(r"^export (?!default)", re.MULTILINE)
 NOTES = re.compile(r"(?ms)^\s*((/\*\*.*?\*/|//[^\n]*)\s*)*")
 """Comments that fill lines, and indentation: a fifth of a script."""
@@ -25,13 +26,15 @@ def asset(name: str) -> str:
 
 
 @cache
-def scripts_of(entry: str) -> tuple[str, ...]:
+def scripts_of(entry: str, text_of: Callable[[str], str] = asset) -> tuple[str, ...]:
     """Return a module and all that it imports, each after what it imports, as a browser runs them.
 
     Parameters
     ----------
     entry
         Name of the module, without ``.js``.
+    text_of
+        Returns the text of a file.
     """
     found: dict[str, None] = {}
     entered = set[str]()
@@ -39,7 +42,7 @@ def scripts_of(entry: str) -> tuple[str, ...]:
     def enter(name: str) -> None:
         if name not in entered:
             entered.add(name)
-            for imported in IMPORT.findall(asset(f"{name}.js")):
+            for imported in IMPORT.findall(text_of(f"{name}.js")):
                 enter(normpath(join(dirname(name), imported)))
             found[name] = None
 

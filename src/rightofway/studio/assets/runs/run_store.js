@@ -1,7 +1,8 @@
 /** The runs of this studio: begun, heard, shown, compared; and what a plan says about waits. */
 
 import { Observable } from "../viewer/observable.js";
-import { get, listen, post, remove, request } from "../api.js";
+import { get, post, remove, request } from "../api.js";
+import { listen, listenToAll } from "../events.js";
 import { words } from "../words.js";
 import { changeInWords } from "../viewer/compared_table.js";
 
@@ -41,6 +42,7 @@ export class RunStore extends Observable {
   #last = null; // the run that was selected last, where Shift begins
   #notes = new Map(); // what is said of each run beside the one before it
   #going = new Set(); // runs that are forgotten as soon as no undo is possible
+  #heard = new Set(); // runs that are shown as soon as they have a plan
   #documents = new Map(); // that each run of this page was made from
   #wanted = 0;
   #live = 0; // the last run that was made by a change
@@ -53,12 +55,17 @@ export class RunStore extends Observable {
     ]);
     Object.assign(this, { planners, runs, choices });
     for (const run of runs) if (!isOver(run)) this.#hear(run.number);
+    listenToAll({
+      runs: ({ runs: all }) => this.#keepAll(all),
+      run: (run) => this.#keep(run),
+      deleted: ({ number }) => this.#drop([number]),
+    });
     this.tell("runs");
   }
 
-  /** The latest run that is queued or running. */
+  /** The latest run of this page that is queued or running. */
   get running() {
-    return this.runs.find((run) => !isOver(run));
+    return this.runs.find((run) => !isOver(run) && this.#heard.has(run.number));
   }
 
   get run() {
@@ -273,13 +280,9 @@ export class RunStore extends Observable {
   /** Forget runs unless the function that is returned is called within seconds. */
   forgetSoon(numbers) {
     this.#forgetNow();
-    for (const number of numbers) this.#going.add(number);
     const { shown } = this;
-    this.selected = this.selected.filter((each) => !this.#going.has(each));
-    if (this.compared?.runs.some((each) => this.#going.has(each))) this.compared = null;
-    if (this.#going.has(this.beside)) Object.assign(this, { beside: null, comparison: null });
-    if (this.#going.has(shown)) this.hide();
-    this.tell("runs");
+    for (const number of numbers) this.#going.add(number);
+    this.#leave(numbers);
     const timer = setTimeout(() => this.#forgetNow(), UNDO);
     addEventListener("pagehide", () => this.#forgetNow(), { once: true });
     return () => {
@@ -291,11 +294,24 @@ export class RunStore extends Observable {
   }
 
   #forgetNow() {
-    for (const number of this.#going) {
-      this.#try(() => remove(`/runs/${number}`));
-      this.runs = this.runs.filter((run) => run.number !== number);
-    }
+    for (const number of this.#going) this.#try(() => remove(`/runs/${number}`));
+    this.#drop([...this.#going]);
     this.#going.clear();
+  }
+
+  /** Take runs out of the list. */
+  #drop(numbers) {
+    this.runs = this.runs.filter(({ number }) => !numbers.includes(number));
+    this.#leave(numbers);
+  }
+
+  /** Show and compare some runs no more. */
+  #leave(numbers) {
+    this.selected = this.selected.filter((each) => !numbers.includes(each));
+    if (this.compared?.runs.some((each) => numbers.includes(each))) this.compared = null;
+    if (numbers.includes(this.beside)) Object.assign(this, { beside: null, comparison: null });
+    if (numbers.includes(this.shown)) this.hide();
+    this.tell("runs");
   }
 
   /** Take in a run that was made elsewhere. */
@@ -304,17 +320,26 @@ export class RunStore extends Observable {
   }
 
   #keep(run) {
-    const before = this.find(run.number);
-    const points = run.points?.length || !before ? run.points : before.points;
-    const since = run.state === "running" ? (before?.since ?? performance.now()) : undefined; // clocks of server and browser may differ
-    const kept = { ...run, points: points ?? [], since };
-    this.runs = [kept, ...this.runs.filter(({ number }) => number !== run.number)].sort(
-      (a, b) => b.number - a.number,
-    );
+    this.#keepAll([run, ...this.runs.filter(({ number }) => number !== run.number)]);
+  }
+
+  /** Take in all runs there are. */
+  #keepAll(runs) {
+    this.runs = runs.map((run) => this.#grown(run)).sort((a, b) => b.number - a.number);
     this.tell("runs");
   }
 
+  /** A run with what this page knows of it: the curve so far, and since when it is going on. */
+  #grown(run) {
+    const before = this.find(run.number);
+    if (before === run) return run;
+    const points = run.points?.length || !before ? run.points : before.points;
+    const since = run.state === "running" ? (before?.since ?? performance.now()) : undefined; // clocks of server and browser may differ
+    return { ...run, points: points ?? [], since };
+  }
+
   #hear(number) {
+    this.#heard.add(number);
     listen(number, {
       run: (run) => {
         this.#keep(run);

@@ -1,0 +1,55 @@
+/** What the server says of runs, told to those that want to hear of a run, or of all. */
+
+import { get } from "./api.js";
+import { hear } from "./hear.js";
+
+const heard = new Map(); // the hearers of each run that is not over
+let listener = {}; // hears of all runs
+let stream = null; // of this page, where the browser shares none
+
+/**
+ * Hear of all runs, also those of other pages: `{ runs, run, deleted }` are functions. A browser that cannot
+ * share a connection among its pages hears only while a run of this page goes on.
+ */
+export function listenToAll(hearer) {
+  listener = hearer;
+  if (!globalThis.SharedWorker) return;
+  connect();
+  addEventListener("pageshow", ({ persisted }) => persisted && connect()); // it had been left
+}
+
+/** Hear of a run until it is over: `{ run, progress, plan }` are functions. */
+export function listen(number, hearer) {
+  if (!heard.has(number)) heard.set(number, new Set());
+  heard.get(number).add(hearer);
+  if (!globalThis.SharedWorker) stream ??= hear(tell);
+  get(`/runs/${number}`).then(
+    (run) => tellHearers("run", run), // it may be over already
+    () => forget(number),
+  );
+}
+
+function connect() {
+  const { port } = new SharedWorker("/assets/stream.js", { type: "module" });
+  port.onmessage = ({ data }) => tell(...data);
+  addEventListener("pagehide", () => port.postMessage("bye"), { once: true });
+}
+
+function tell(name, data) {
+  listener[name]?.(data);
+  if (name === "runs") for (const run of data.runs) tellHearers("run", run);
+  else tellHearers(name, data);
+}
+
+function tellHearers(name, data) {
+  for (const hearer of heard.get(data.number) ?? []) hearer[name]?.(data);
+  const isOver = name === "run" && !["queued", "running"].includes(data.state);
+  if (isOver || name === "deleted") forget(data.number);
+}
+
+function forget(number) {
+  heard.delete(number);
+  if (heard.size) return;
+  stream?.close();
+  stream = null;
+}
