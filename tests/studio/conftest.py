@@ -1,4 +1,4 @@
-"""One studio for all tests of its API, in a folder with examples; a page has a studio of its own."""
+"""One studio for all tests of its API, in a folder with examples; each page has one of its own."""
 
 from __future__ import annotations
 
