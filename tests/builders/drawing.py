@@ -10,13 +10,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tests.builders.browsers import Viewer
-from tests.builders.studios import running
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator, Page
 
+    from tests.builders.studios import Client
+
 PICTURES = os.environ.get("RIGHTOFWAY_PICTURES", "")
 """A folder that pictures of the page are written to, for the documentation; empty for none."""
+
+BROWSER: dict[str, Any] = {
+    "locale": "en-GB",
+    "reduced_motion": "reduce",
+    "viewport": {"width": 1280, "height": 760},
+}
+"""A small window in English."""
 
 Point = tuple[float, float]
 
@@ -112,24 +120,17 @@ class StudioPage(Viewer):
 
 
 @contextmanager
-def studio_page(
-    browser: Browser, folder: Path, *, size: tuple[int, int] = (1280, 760), **more: Any
-) -> Iterator[StudioPage]:
-    """Yield the page of a studio of its own.
+def studio_page(browser: Browser, client: Client, **more: Any) -> Iterator[StudioPage]:
+    """Yield the page of a studio, in a browser of its own.
 
     Parameters
     ----------
-    browser
-        The browser.
-    folder, more
-        As for `running`.
-    size
-        Width and height of the page [pixels].
+    browser, client
+        The browser, and a client of the studio.
+    more
+        Options of the browser, instead of those of `BROWSER`.
     """
-    width, height = size
-    with running(folder, **more) as client:
-        context = browser.new_context(
-            locale="en-GB", reduced_motion="reduce", viewport={"width": width, "height": height}
-        )
-        yield StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
-        context.close()
+    context = browser.new_context(**{**BROWSER, **more})
+    context.grant_permissions(["clipboard-read", "clipboard-write"], origin=client.address)
+    yield StudioPage(context.new_page(), client.address)
+    context.close()

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
+import shutil
 import signal
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Coroutine, Iterator
 from contextlib import closing, contextmanager
 from http.client import HTTPConnection
 from pathlib import Path
@@ -16,10 +18,12 @@ from typing import Any
 
 import httpx
 import uvicorn
+from fastapi import FastAPI
 
 from rightofway.studio.app import create_app
 from rightofway.studio.connections import Connection
 from rightofway.studio.guard import Access
+from rightofway.studio.runs import Runs
 from rightofway.studio.serve import bound
 from rightofway.studio.session import Studio
 
@@ -38,9 +42,60 @@ PATIENCE = 30.0
 
 
 class Client(httpx.Client):
-    """A client that knows the studio behind the server, in the same process."""
+    """A client that knows the studio behind the server, in the same process.
 
-    studio: Any
+    Attributes
+    ----------
+    app, server
+        What serves.
+    studio
+        What is served.
+    """
+
+    app: FastAPI
+    server: uvicorn.Server
+
+    @property
+    def studio(self) -> Studio:
+        studio: Studio = self.app.state.studio
+        return studio
+
+    @property
+    def folder(self) -> Path:
+        """The folder of the studio."""
+        return self.studio.workspace.folder
+
+    @property
+    def address(self) -> str:
+        """Where the page is."""
+        return str(self.base_url).removesuffix("api/v1/")
+
+    def renew(self, *, file: str | None = None, keeps: bool = False) -> None:
+        """Serve another studio on the same folder, emptied, with the same workers.
+
+        Parameters
+        ----------
+        file, keeps
+            As for `Studio`.
+        """
+        self.do(self.studio.runs.close())
+        self.studio.store.close()
+        for path in self.folder.iterdir():
+            if path.is_dir() and not path.is_symlink():
+                shutil.rmtree(path)
+            else:
+                path.unlink()
+        studio = Studio(self.folder, file=file, keeps=keeps)
+        studio._scratch.cleanup()  # the workers have one
+        studio.desk, studio.planners = self.studio.desk, self.studio.planners
+        studio.runs = Runs(studio.store, studio.planners, studio.desk)
+        self.app.state.studio = studio
+        self.do(studio.runs.start())
+
+    def do(self, work: Coroutine[Any, Any, None]) -> None:
+        """Do something where the server does its work."""
+        loop = self.server.servers[0].get_loop()
+        asyncio.run_coroutine_threadsafe(work, loop).result()
 
 
 @contextmanager
@@ -57,8 +112,9 @@ def running(folder: Path, access: Access | None = None, **settings: Any) -> Iter
         try:
             base = f"http://127.0.0.1:{port}/api/v1"
             with Client(base_url=base, timeout=PATIENCE) as client:
-                client.studio = studio
+                client.app, client.server = app, server
                 yield client
+                client.do(client.studio.runs.close())  # it may be another studio by now
         finally:
             server.should_exit = True
             thread.join()

@@ -7,11 +7,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import httpx
 import pytest
 
 from tests.builders.drawing import StudioPage, studio_page
-from tests.builders.studios import running
+from tests.builders.studios import Client, running
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -19,42 +18,60 @@ if TYPE_CHECKING:
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
-def furnished(outside: Path) -> Path:
-    """Return a folder with scenarios, a workbook's neighbour, and a secret beside it."""
+def furnish(folder: Path) -> None:
+    """Put examples into a folder, and a secret beside it that links lead to."""
+    outside = folder.parent
     (outside / "secret.yaml").write_text("format: secret\n")
-    folder = outside / "floor"
-    folder.mkdir()
     for name in ("door.yaml", "bay.yaml", "floor.yaml"):
         shutil.copy(EXAMPLES / name, folder)
     (folder / "link.yaml").symlink_to(outside / "secret.yaml")
     (folder / "out").symlink_to(outside)
     (folder / ".hidden.yaml").write_text("format: hidden\n")
-    return folder
 
 
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the folder that all tests of the API share."""
-    return furnished(tmp_path_factory.mktemp("site"))
-
-
-@pytest.fixture
-def own_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder of one test."""
-    return furnished(tmp_path_factory.mktemp("site"))
+    folder = tmp_path_factory.mktemp("site") / "floor"
+    folder.mkdir()
+    furnish(folder)
+    return folder
 
 
 @pytest.fixture(scope="session")
-def client(folder: Path) -> Iterator[httpx.Client]:
+def client(folder: Path) -> Iterator[Client]:
     """Return a client of a studio on that folder."""
     with running(folder) as client:
         yield client
 
 
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Client]:
+    """Return a client of the server that pages share; they begin with `empty` or `site`."""
+    folder = tmp_path_factory.mktemp("pages") / "floor"
+    folder.mkdir()
+    with running(folder, keeps=False) as client:
+        yield client
+
+
 @pytest.fixture
-def studio(browser: Browser, own_folder: Path) -> Iterator[StudioPage]:
+def empty(server: Client) -> Client:
+    """Return a client of a studio without files, drafts and runs."""
+    server.renew()
+    return server
+
+
+@pytest.fixture
+def site(empty: Client) -> Client:
+    """Return a client of a studio on a folder with examples."""
+    furnish(empty.folder)
+    return empty
+
+
+@pytest.fixture
+def studio(browser: Browser, site: Client) -> Iterator[StudioPage]:
     """Return the page of a studio at its start."""
-    with studio_page(browser, own_folder, size=(1440, 900), keeps=False) as studio:
+    with studio_page(browser, site, viewport={"width": 1440, "height": 900}) as studio:
         yield studio
 
 

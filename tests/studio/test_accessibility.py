@@ -13,12 +13,13 @@ from rightofway.io import load
 from rightofway.solve import solve
 from rightofway.viz import write_page
 from tests.builders.browsers import Viewer, needs_browser
-from tests.builders.drawing import StudioPage
+from tests.builders.drawing import studio_page
 from tests.builders.states import EXAMPLES, examples, states
-from tests.builders.studios import running
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
+
+    from tests.builders.studios import Client
 
 PACKAGE = "axe_playwright_python"
 pytestmark = [
@@ -46,19 +47,11 @@ def serious(viewer: Viewer) -> Any:
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("theme", THEMES)
 def test_no_state_of_the_studio_has_a_serious_fault(
-    browser: Browser, tmp_path: Path, theme: Any, language: str
+    browser: Browser, empty: Client, theme: Any, language: str
 ) -> None:
-    examples(tmp_path)
-    with running(tmp_path, keeps=False) as client:
-        context = browser.new_context(
-            locale=language,
-            color_scheme=theme,
-            reduced_motion="reduce",
-            viewport={"width": 1280, "height": 800},
-        )
-        studio = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+    examples(empty.folder)
+    with studio_page(browser, empty, locale=language, color_scheme=theme) as studio:
         found = {state: serious(studio) for state in states(studio)}
-        context.close()
     assert {state: faults for state, faults in found.items() if faults} == {}
     assert len(found) == 12
     assert studio.complaints == []
@@ -104,12 +97,10 @@ def test_axe_sees_a_fault_that_is_there(browser: Browser, tmp_path: Path) -> Non
 
 
 def test_a_floor_is_drawn_planned_and_exported_with_the_keyboard_alone(
-    browser: Browser, tmp_path: Path
+    browser: Browser, empty: Client
 ) -> None:
     """A wall of two metres, two robots that pass it; no pointer is moved."""
-    with running(tmp_path, keeps=False) as client:
-        context = browser.new_context(locale="en-GB", reduced_motion="reduce")
-        studio = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+    with studio_page(browser, empty) as studio:
         keyboard = studio.page.keyboard
 
         def press(*keys: str) -> None:
@@ -145,4 +136,3 @@ def test_a_floor_is_drawn_planned_and_exported_with_the_keyboard_alone(
             press("Enter")
         assert Path(download.value.path()).read_bytes().startswith(b"<!doctype html>")
         assert studio.complaints == []
-        context.close()

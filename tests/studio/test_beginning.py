@@ -14,15 +14,17 @@ from tests.builders.drawing import StudioPage, studio_page
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
+    from tests.builders.studios import Client
+
 pytestmark = needs_browser
 
 LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
 
 
 @pytest.fixture
-def studio(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
+def studio(browser: Browser, empty: Client) -> Iterator[StudioPage]:
     """Return the start page of a studio in an empty folder."""
-    with studio_page(browser, tmp_path) as studio:
+    with studio_page(browser, empty) as studio:
         yield studio
 
 
@@ -55,11 +57,11 @@ def test_the_first_press_of_enter_makes_a_floor(studio: StudioPage) -> None:
 
 
 def test_files_stand_under_their_folders_with_pictures_of_their_maps(
-    studio: StudioPage, tmp_path: Path
+    studio: StudioPage, empty: Client
 ) -> None:
-    (tmp_path / "hall").mkdir()
-    (tmp_path / "hall" / "gate.map").write_text("type octile\nheight 1\nwidth 3\nmap\n...\n")
-    (tmp_path / "notes.yaml").write_text("just: notes\n")
+    (empty.folder / "hall").mkdir()
+    (empty.folder / "hall" / "gate.map").write_text("type octile\nheight 1\nwidth 3\nmap\n...\n")
+    (empty.folder / "notes.yaml").write_text("just: notes\n")
     studio.page.reload()
     hall = studio.page.get_by_label("In the folder hall")
     hall.get_by_role("button", name="gate.map map").locator("img").wait_for()
@@ -120,15 +122,15 @@ def test_a_ros_map_waits_for_its_picture(studio: StudioPage) -> None:
 
 
 def test_another_file_of_the_same_name_is_replaced_on_request_only(
-    studio: StudioPage, tmp_path: Path
+    studio: StudioPage, empty: Client
 ) -> None:
-    (tmp_path / "room.yaml").write_text("mine: true\n")
+    (empty.folder / "room.yaml").write_text("mine: true\n")
     studio.drop(LAYOUTS / "room.pgm", LAYOUTS / "room.yaml")
     studio.button("Replace").wait_for()
-    assert (tmp_path / "room.yaml").read_text() == "mine: true\n"
+    assert (empty.folder / "room.yaml").read_text() == "mine: true\n"
     studio.button("Replace").click()
     studio.opened()
-    assert (tmp_path / "room.yaml").read_bytes() == (LAYOUTS / "room.yaml").read_bytes()
+    assert (empty.folder / "room.yaml").read_bytes() == (LAYOUTS / "room.yaml").read_bytes()
 
 
 def test_the_plan_button_says_what_is_missing_and_leads_there(studio: StudioPage) -> None:
@@ -142,14 +144,14 @@ def test_the_plan_button_says_what_is_missing_and_leads_there(studio: StudioPage
 
 
 def test_a_name_without_an_ending_is_saved_as_yaml_with_enter(
-    studio: StudioPage, tmp_path: Path
+    studio: StudioPage, empty: Client
 ) -> None:
     wall(studio)
     field = studio.page.get_by_label("Name of the file")
     field.fill("floor one")
     field.press("Enter")
     studio.wait_for("studio.store.isSaved")
-    assert (tmp_path / "floor one.yaml").is_file()
+    assert (empty.folder / "floor one.yaml").is_file()
 
 
 def test_the_keys_stand_beside_the_page_which_stays_usable(studio: StudioPage) -> None:

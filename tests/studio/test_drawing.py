@@ -9,11 +9,12 @@ import pytest
 
 from rightofway import load, solve, write_plan
 from tests.builders.browsers import needs_browser
-from tests.builders.drawing import StudioPage
-from tests.builders.studios import running
+from tests.builders.drawing import StudioPage, studio_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
+
+    from tests.builders.studios import Client
 
 pytestmark = needs_browser
 
@@ -271,12 +272,12 @@ def test_saving_leaves_the_draft_of_another_page(floor: StudioPage) -> None:
     assert drafts(floor) == {name: other}
 
 
-def test_a_floor_is_saved_under_a_name(floor: StudioPage, own_folder: Path) -> None:
+def test_a_floor_is_saved_under_a_name(floor: StudioPage, site: Client) -> None:
     floor.page.get_by_label("Name of the file").fill("drawn.yaml")
     floor.page.get_by_label("Name of the file").press("Enter")
     floor.button("Save").click()
     floor.wait_for("studio.store.isSaved")
-    assert "size: [12, 8]" in (own_folder / "drawn.yaml").read_text()
+    assert "size: [12, 8]" in (site.folder / "drawn.yaml").read_text()
 
 
 def test_findings_are_listed_and_lit_on_the_map(studio: StudioPage) -> None:
@@ -310,9 +311,9 @@ def test_a_picture_below_a_roadmap_gets_scale_and_origin_by_presses(lanes: Studi
 
 
 def test_a_plan_file_is_opened_played_and_its_scenario_changed(
-    studio: StudioPage, own_folder: Path
+    studio: StudioPage, site: Client
 ) -> None:
-    write_plan(solve(load(own_folder / "door.yaml"), time_limit=2), own_folder / "door-plan.json")
+    write_plan(solve(load(site.folder / "door.yaml"), time_limit=2), site.folder / "door-plan.json")
     studio.page.reload()
     studio.page.get_by_role("button", name="door-plan.json").click()
     studio.wait_for("studio.runs.losses !== null && studio.stage.isPlan")
@@ -323,13 +324,11 @@ def test_a_plan_file_is_opened_played_and_its_scenario_changed(
 
 
 def test_a_finger_draws_and_a_floor_in_cells_of_the_paper_is_erased(
-    browser: Browser, own_folder: Path
+    browser: Browser, site: Client
 ) -> None:
-    with running(own_folder, file="floor.yaml", keeps=False) as client:
-        context = browser.new_context(
-            locale="en-GB", has_touch=True, viewport={"width": 1024, "height": 768}
-        )
-        studio = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+    site.studio.file = "floor.yaml"
+    size = {"width": 1024, "height": 768}
+    with studio_page(browser, site, has_touch=True, viewport=size) as studio:
         studio.opened()
         studio.button("Erase").tap()
         studio.page.touchscreen.tap(*studio.where((7.25, 6.25)))
@@ -337,7 +336,6 @@ def test_a_finger_draws_and_a_floor_in_cells_of_the_paper_is_erased(
         walls = [each["rect"] for each in studio.document["map"]["floor"]["obstacles"][:3]]
         assert walls == [[7, 0, 0.5, 3], [7, 4, 0.5, 2], [7, 6.5, 0.5, 1.5]]
         assert studio.complaints == []
-        context.close()
 
 
 def test_blocked_cells_of_a_grid_are_moved_copied_and_deleted(studio: StudioPage) -> None:

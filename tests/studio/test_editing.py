@@ -9,11 +9,12 @@ import pytest
 from PIL import Image
 
 from tests.builders.browsers import needs_browser
-from tests.builders.drawing import StudioPage
-from tests.builders.studios import running
+from tests.builders.drawing import StudioPage, studio_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, CDPSession
+
+    from tests.builders.studios import Client
 
 pytestmark = needs_browser
 
@@ -60,7 +61,7 @@ def test_a_curve_goes_with_its_ends_and_is_split_by_a_vertex(lanes: StudioPage) 
 
 
 def test_a_picture_is_saved_with_the_floor_and_is_there_in_another_browser(
-    floor: StudioPage, own_folder: Path, browser: Browser, tmp_path: Path
+    floor: StudioPage, site: Client, browser: Browser, tmp_path: Path
 ) -> None:
     picture = tmp_path / "hall plan.png"
     Image.new("L", (240, 160), 180).save(picture)
@@ -71,7 +72,7 @@ def test_a_picture_is_saved_with_the_floor_and_is_there_in_another_browser(
     floor.ask("studio.store.rename('pictured.yaml')")
     floor.ask("studio.shelf.save()")
     floor.wait_for("studio.store.isSaved")
-    assert (own_folder / "hall plan.png").read_bytes() == picture.read_bytes()
+    assert (site.folder / "hall plan.png").read_bytes() == picture.read_bytes()
     other = StudioPage(browser.new_context(locale="en-GB").new_page(), floor.page.url)
     other.ask("studio.shelf.open('pictured.yaml')")
     other.opened()
@@ -186,16 +187,13 @@ def touched(session: CDPSession, kind: str, *points: tuple[float, float]) -> Non
 
 @pytest.mark.parametrize(("width", "height"), [(1024, 768), (768, 1024)])
 def test_fingers_draw_zoom_and_rest_for_the_menu(
-    browser: Browser, own_folder: Path, width: int, height: int
+    browser: Browser, empty: Client, width: int, height: int
 ) -> None:
-    with running(own_folder, keeps=False) as client:
-        context = browser.new_context(
-            locale="en-GB", has_touch=True, viewport={"width": width, "height": height}
-        )
-        studio = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+    size = {"width": width, "height": height}
+    with studio_page(browser, empty, has_touch=True, viewport=size) as studio:
         studio.button("Create the floor").tap()
         studio.opened()
-        session = context.new_cdp_session(studio.page)
+        session = studio.page.context.new_cdp_session(studio.page)
         (x, y), (end, _) = studio.where((2.25, 2.25)), studio.where((6.25, 2.25))
         touched(session, "Start", (x, y))
         for step in range(1, 5):
@@ -219,7 +217,6 @@ def test_fingers_draw_zoom_and_rest_for_the_menu(
             " && each.getBoundingClientRect().height < 44).map((each) => each.textContent)"
         )
         assert small == []
-        context.close()
 
 
 def test_a_brush_keeps_its_pace_on_a_floor_of_38400_cells(studio: StudioPage) -> None:

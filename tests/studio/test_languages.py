@@ -3,34 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.builders.browsers import needs_browser
-from tests.builders.drawing import StudioPage
+from tests.builders.drawing import StudioPage, studio_page
 from tests.builders.languages import english_on
-from tests.builders.studios import running
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
+
+    from tests.builders.studios import Client
 
 pytestmark = needs_browser
 
 
 @pytest.fixture
-def german(browser: Browser, own_folder: Path) -> Iterator[StudioPage]:
+def german(browser: Browser, site: Client) -> Iterator[StudioPage]:
     """Return the page of a studio in a German browser, with a floor that has findings."""
-    (own_folder / "broken.yaml").write_text("a: [1\n")
-    with running(own_folder, file="floor.yaml", keeps=False) as client:
-        context = browser.new_context(
-            locale="de-DE", reduced_motion="reduce", viewport={"width": 1280, "height": 720}
-        )
-        page = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+    (site.folder / "broken.yaml").write_text("a: [1\n")
+    site.studio.file = "floor.yaml"
+    with studio_page(browser, site, locale="de-DE") as page:
         page.opened()
         yield page
-        context.close()
 
 
 def plan(studio: StudioPage) -> None:

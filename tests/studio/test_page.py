@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.builders.browsers import Viewer, needs_browser
 from tests.builders.drawing import StudioPage, studio_page
-from tests.builders.studios import running
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
+
+    from tests.builders.studios import Client
 
 pytestmark = needs_browser
 
 
 @pytest.fixture
-def studio(browser: Browser, own_folder: Path) -> Iterator[StudioPage]:
+def studio(browser: Browser, site: Client) -> Iterator[StudioPage]:
     """Return the page of a studio that opens a door."""
-    with studio_page(browser, own_folder, file="door.yaml", keeps=False) as studio:
+    site.studio.file = "door.yaml"
+    with studio_page(browser, site) as studio:
         studio.opened()
         yield studio
 
@@ -50,9 +51,9 @@ def test_another_file_is_opened_from_the_list(studio: StudioPage) -> None:
 
 
 def test_faults_of_a_file_stand_in_the_list_and_at_the_field(
-    studio: StudioPage, own_folder: Path
+    studio: StudioPage, site: Client
 ) -> None:
-    (own_folder / "wrong.yaml").write_text(
+    (site.folder / "wrong.yaml").write_text(
         "format: rightofway-scenario/1\nmap: {grid: ['...']}\nrobots: [{name: R1, home: N9}]\n"
     )
     studio.button("Files").click()
@@ -110,17 +111,14 @@ def test_everything_is_the_studios_own(studio: StudioPage) -> None:
 
 
 def test_the_page_speaks_german_to_a_german_browser_and_english_on_request(
-    browser: Browser, own_folder: Path
+    browser: Browser, site: Client
 ) -> None:
-    with running(own_folder, keeps=False) as client:
-        context = browser.new_context(locale="de-DE")
-        page = context.new_page()
-        page.goto(str(client.base_url).removesuffix("api/v1/"))
+    with studio_page(browser, site, locale="de-DE") as studio:
+        page = studio.page
         page.get_by_text("Neuer Grundriss").wait_for()
         assert page.locator("html").get_attribute("lang") == "de"
         page.get_by_label("Sprache").select_option("en")
         page.get_by_text("New floor").wait_for()
-        context.close()
 
 
 @pytest.mark.parametrize("folder_of_texts", ["/assets/words", "/assets/viewer/texts"])

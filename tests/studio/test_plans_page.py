@@ -8,6 +8,7 @@ import shlex
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,11 +19,12 @@ from PIL import Image
 
 from rightofway import load_plan
 from tests.builders.browsers import Viewer, needs_browser
-from tests.builders.drawing import StudioPage
-from tests.builders.studios import running
+from tests.builders.drawing import StudioPage, studio_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
+
+    from tests.builders.studios import Client
 
 pytestmark = needs_browser
 
@@ -76,25 +78,20 @@ Opener = Callable[[str], StudioPage]
 
 
 @pytest.fixture
-def opened(browser: Browser, tmp_path: Path) -> Iterator[Opener]:
+def opened(browser: Browser, empty: Client) -> Iterator[Opener]:
     """Yield a function that opens a scenario in a studio of its own, at its tab of plans."""
-    (tmp_path / "floor.yaml").write_text("")
-    with running(tmp_path, keeps=False, file="floor.yaml") as client:
-        address = str(client.base_url).removesuffix("api/v1/")
-        context = browser.new_context(
-            locale="en-GB", reduced_motion="reduce", viewport={"width": 1440, "height": 900}
-        )
-        context.grant_permissions(["clipboard-read", "clipboard-write"], origin=address)
+    with ExitStack() as pages:
 
         def open_studio(text: str) -> StudioPage:
-            (tmp_path / "floor.yaml").write_text(text)
-            studio = StudioPage(context.new_page(), address)
+            empty.studio.file = "floor.yaml"
+            (empty.folder / "floor.yaml").write_text(text)
+            size = {"width": 1440, "height": 900}
+            studio = pages.enter_context(studio_page(browser, empty, viewport=size))
             studio.opened()
             studio.tab("Plan")
             return studio
 
         yield open_studio
-        context.close()
 
 
 def begin(studio: StudioPage, *, seconds: float = 1, planner: str = "auto") -> None:
@@ -297,10 +294,10 @@ def test_the_list_is_of_this_floor_and_others_on_request(opened: Opener) -> None
     assert "times are in s, those of the first plan in no unit" in studio.text(".status")
 
 
-def test_a_plan_that_is_opened_is_in_the_list(opened: Opener, tmp_path: Path) -> None:
+def test_a_plan_that_is_opened_is_in_the_list(opened: Opener, empty: Client) -> None:
     studio = opened(BAY)
     planned_by(studio, "auto")
-    exported(studio, "Plan file", tmp_path)
+    exported(studio, "Plan file", empty.folder)
     studio.ask("studio.shelf.open('floor-plan-1.json')")
     studio.wait_for("studio.runs.shown === 2 && studio.runs.losses !== null")
     assert studio.page.locator("[data-run]").count() == 1
@@ -359,7 +356,7 @@ def test_what_is_exported_opens_in_the_programs_it_is_for(
     page.page.context.close()
 
 
-def test_the_command_line_gives_the_same_flowtime(opened: Opener, tmp_path: Path) -> None:
+def test_the_command_line_gives_the_same_flowtime(opened: Opener, empty: Client) -> None:
     studio = opened(BAY)
     begin(studio)
     studio.planned()
@@ -372,7 +369,7 @@ def test_the_command_line_gives_the_same_flowtime(opened: Opener, tmp_path: Path
     assert copied == command
     program = Path(sys.executable).with_name("rightofway")
     words = [str(program), *shlex.split(copied)[1:], "--json", "-o", "again.json"]
-    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=True)
+    done = subprocess.run(words, cwd=empty.folder, capture_output=True, text=True, check=True)
     report = json.loads(done.stdout)
     assert report["metrics"]["flowtime"] == studio.ask("studio.runs.run.figures.flowtime")
 

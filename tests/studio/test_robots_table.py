@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.builders.browsers import needs_browser
-from tests.builders.drawing import StudioPage
-from tests.builders.studios import running
+from tests.builders.drawing import StudioPage, studio_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator
+
+    from tests.builders.studios import Client
 
 pytestmark = needs_browser
 
@@ -31,13 +31,9 @@ COPIED = """(field) => {
 
 
 @pytest.fixture
-def table(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
+def table(browser: Browser, empty: Client) -> Iterator[StudioPage]:
     """Return the page with a floor of 12 x 8 m and three robots, at their table."""
-    with running(tmp_path, keeps=False) as client:
-        context = browser.new_context(
-            locale="en-GB", reduced_motion="reduce", viewport={"width": 1280, "height": 760}
-        )
-        studio = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+    with studio_page(browser, empty) as studio:
         studio.button("Create the floor").click()
         studio.opened()
         studio.tab("Robots")
@@ -45,7 +41,6 @@ def table(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
         studio.wait_for("studio.store.document.robots.length === 3")
         studio.settle()
         yield studio
-        context.close()
 
 
 def field(table: StudioPage, column: str, robot: str) -> Locator:

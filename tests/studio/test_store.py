@@ -119,7 +119,9 @@ def test_a_full_disk_is_refused_with_words_and_leaves_what_was_there(tmp_path: P
     store.close()
 
 
-def test_a_run_that_cannot_be_kept_fails_and_the_next_one_is_planned(tmp_path: Path) -> None:
+def test_a_run_that_cannot_be_kept_fails_and_the_next_one_is_planned(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The disk is full while a plan is saved, and has room again afterwards."""
     with running(tmp_path) as client:
         studio = client.studio
@@ -130,7 +132,7 @@ def test_a_run_that_cannot_be_kept_fails_and_the_next_one_is_planned(tmp_path: P
                 raise Refused("drafts and runs cannot be kept: full (free some space)", 507)
             put(number, data, blobs)
 
-        studio.store.put_run = fails
+        monkeypatch.setattr(studio.store, "put_run", fails)
         first = planned(client, planner="two-level")
         assert first["state"] == "failed"
         assert "cannot be kept" in first["error"]["message"]

@@ -18,6 +18,8 @@ from tests.builders.drawing import StudioPage, studio_page
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
+    from tests.builders.studios import Client
+
 pytestmark = needs_browser
 
 LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
@@ -25,9 +27,9 @@ TWO_MINUTES = 120
 
 
 @pytest.fixture
-def studio(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
+def studio(browser: Browser, empty: Client) -> Iterator[StudioPage]:
     """Return the page of a studio in an empty folder."""
-    with studio_page(browser, tmp_path, keeps=False) as studio:
+    with studio_page(browser, empty) as studio:
         yield studio
 
 
@@ -97,10 +99,10 @@ def test_a_ros_map_is_dropped_drawn_on_and_planned(studio: StudioPage) -> None:
     assert b"<!doctype html>" in exported(studio)[:200].lower()
 
 
-def test_a_lif_file_is_dropped_drawn_on_and_planned(studio: StudioPage, tmp_path: Path) -> None:
+def test_a_lif_file_is_dropped_drawn_on_and_planned(studio: StudioPage, empty: Client) -> None:
     studio.drop(LAYOUTS / "hall.lif.json")
     studio.opened()
-    before = (tmp_path / "hall.lif.json").read_bytes()
+    before = (empty.folder / "hall.lif.json").read_bytes()
     studio.button("Draw on a copy of it").click()
     studio.wait_for("Boolean(studio.store.document.map.roadmap)")
     studio.settle()
@@ -118,5 +120,5 @@ def test_a_lif_file_is_dropped_drawn_on_and_planned(studio: StudioPage, tmp_path
     studio.planned()
     studio.button("Save").click()
     studio.wait_for("studio.store.isSaved")
-    assert "roadmap:" in (tmp_path / "hall.scenario.yaml").read_text()
-    assert (tmp_path / "hall.lif.json").read_bytes() == before
+    assert "roadmap:" in (empty.folder / "hall.scenario.yaml").read_text()
+    assert (empty.folder / "hall.lif.json").read_bytes() == before

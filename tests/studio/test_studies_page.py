@@ -5,7 +5,6 @@ With ``RIGHTOFWAY_PICTURES=docs/images`` the pictures of docs/studio.md are writ
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -19,16 +18,18 @@ from tests.builders.drawing import StudioPage, studio_page
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator
 
+    from tests.builders.studios import Client
+
 pytestmark = needs_browser
 
 BAY = Path(__file__).parents[2] / "examples" / "bay.yaml"
 
 
 @pytest.fixture
-def studio(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
+def studio(browser: Browser, site: Client) -> Iterator[StudioPage]:
     """Yield a studio that shows three robots and one bay, at its tab of plans."""
-    shutil.copy(BAY, tmp_path)
-    with studio_page(browser, tmp_path, file="bay.yaml", keeps=False) as studio:
+    site.studio.file = "bay.yaml"
+    with studio_page(browser, site) as studio:
         studio.opened()
         studio.tab("Plan")
         yield studio
