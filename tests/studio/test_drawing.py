@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,7 @@ from tests.builders.browsers import needs_browser
 from tests.builders.drawing import StudioPage, studio_page
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser
+    from playwright.sync_api import Browser, Route
 
     from tests.builders.studios import Client
 
@@ -289,6 +290,13 @@ def test_findings_are_listed_and_lit_on_the_map(studio: StudioPage) -> None:
 
 def test_a_picture_below_a_roadmap_gets_scale_and_origin_by_presses(lanes: StudioPage) -> None:
     png = LAYOUTS.parents[2] / "docs" / "images" / "door.png"
+
+    def late(route: Route) -> None:
+        """Let the picture come when all else has been said of the map."""
+        time.sleep(0.5)
+        route.continue_()
+
+    lanes.page.route("**/files/door.png", late)
     lanes.tab("Map")
     lanes.page.get_by_label("Choose a picture to draw over").set_input_files(png)
     lanes.wait_for("Boolean(studio.backdrop.image)")

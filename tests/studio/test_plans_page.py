@@ -420,7 +420,7 @@ def test_a_change_of_a_robot_is_planned_at_once(opened: Opener) -> None:
     speed = studio.page.locator(".ask").get_by_label("Speed", exact=True)
     speed.fill("2")
     speed.press("Tab")
-    studio.wait_for("studio.runs.shown === 2 && Boolean(studio.runs.comparison)")
+    studio.wait_for("studio.runs.shown === 2 && studio.runs.comparison && studio.runs.command")
     assert studio.document["robots"][0]["speed"] == 2
     assert studio.ask("studio.runs.run.request.time_limit") == 1
     assert "R1: speed 1 → 2" in studio.text(".change .edit")

@@ -22,8 +22,9 @@ AT_ONCE = 64
 DESCRIPTORS = 4096
 """Descriptors that are asked for, where the system gives fewer at first."""
 
-SHARE = 0.5
-"""The part of the system's descriptors that connections may take; the rest is for files."""
+SHARE = 0.25
+"""The part of the system's descriptors that connections may take; the rest is for files, workers,
+and twice `AT_ONCE` connections that are closed as soon as the server comes to it."""
 
 PATIENCE = 10.0
 """How long the head of a request may take from the connection, or from its first byte, on [s]."""

@@ -45,6 +45,7 @@ export class Studio extends Observable {
       [this.store, "document", "survey", "findings"],
       [this.runs, "runs"],
       [this.editor, "editor"],
+      [this.backdrop, "image"],
       [this.stage, "choice"],
       [this.notices, "notice"],
     ]) {

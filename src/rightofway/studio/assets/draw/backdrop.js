@@ -1,6 +1,7 @@
 /** The picture below the map: chosen, laid by presses on it, and kept in the scenario. */
 
 import { get, inAddress, upload } from "../api.js";
+import { Observable } from "../viewer/observable.js";
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { isNetwork, withoutKey } from "./network.js";
@@ -10,11 +11,15 @@ const FIRST_SHARE = 0.8; // of the map's pane that a picture takes below a roadm
 const LARGEST = 4096; // pixels of the longer side that are kept in memory
 const USUAL_OPACITY = 0.6;
 
-/** The document says which picture, the library where it lies on the map; the viewer draws it. */
-export class Backdrop {
+/**
+ * The document says which picture, the library where it lies on the map; the viewer draws it.
+ * Event: `image` when there is another one.
+ */
+export class Backdrop extends Observable {
   image = null; // an ImageBitmap
 
   constructor(store, stage) {
+    super();
     Object.assign(this, { store, stage });
     store.on("document", () => this.#load());
     stage.on("show", () => this.#give());
@@ -140,6 +145,7 @@ export class Backdrop {
     Object.assign(this, image);
     this.#give();
     this.stage.repaint();
+    this.tell("image");
   }
 
   /** The map that is shown takes the picture from memory; that of a plan may bring its own. */
