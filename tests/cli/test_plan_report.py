@@ -62,7 +62,7 @@ def test_a_robot_behind_a_slower_one_follows_it() -> None:
     slow = ([1, 2, 3, 4, 5], [0, 2, 4, 6, 8])
     quick = ([0, 1, 2, 3, 4], [0, 2, 4, 6, 8])
     plan = plan_of(["......"], slow, quick, speeds=["1/2", "1"])
-    assert report(plan)[-1] == "R2 follows R1 from N0 to N4 and loses 4 s, beginning at 0 s."
+    assert report(plan)[-1] == "R2 follows R1 from N0 to N3 and loses 4 s, beginning at 0 s."
 
 
 def test_a_wait_for_a_place_further_on_names_that_place() -> None:

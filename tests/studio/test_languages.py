@@ -70,3 +70,14 @@ def test_another_language_is_spoken_at_once(german: StudioPage) -> None:
     german.page.get_by_text("Who waits, and why").wait_for()
     assert "driving" in german.text("#states")
     assert "arrivals" in german.text(".curve")
+
+
+def test_the_line_below_the_map_says_the_longest_wait_in_german(
+    browser: Browser, site: Client
+) -> None:
+    site.studio.file = "door.yaml"
+    with studio_page(browser, site, locale="de-DE") as german:
+        german.opened()
+        plan(german)
+        assert "wartet" in german.text(".status")
+        assert english_on(german) == []

@@ -188,7 +188,7 @@ def sentence_on(words: Words, group: Sequence[Loss]) -> str:
     place, freed = words.place(first.vertex), words.place(first.freed)
     total, begin = words.time(sum(loss.ticks for loss in group)), words.at(first.tick)
     if first.kind == "follows":
-        way = f"from {place} to {freed}"
+        way = f"from {place} to {words.place(first.until_vertex)}"
         if times > 1:
             return f"{robot} follows {other} {times} times and loses {total}, first {way} {begin}."
         return f"{robot} follows {other} {way} and loses {total}, beginning {begin}."

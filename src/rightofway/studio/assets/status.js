@@ -3,6 +3,7 @@
 import { html } from "./vendor/htm-preact.js";
 import { nameOf } from "./findings.js";
 import { Change } from "./runs/change.js";
+import { sentenceOn } from "./runs/waits.js";
 import { words } from "./words.js";
 
 export function Status({ studio }) {
@@ -33,5 +34,5 @@ function PlanHint({ studio }) {
   const waits = losses.filter((loss) => loss.for);
   if (!waits.length) return losses.length ? words.watching : words.noWaitNext;
   const longest = waits.reduce((one, other) => (other.ticks > one.ticks ? other : one));
-  return html`${longest.sentence} <button type="button" class="link" onClick=${() => studio.watchLoss(longest)}>${words.seeWhy}</button>`;
+  return html`${sentenceOn(stage, longest)} <button type="button" class="link" onClick=${() => studio.watchLoss(longest)}>${words.seeWhy}</button>`;
 }

@@ -29,7 +29,7 @@ export function Waits({ studio }) {
 }
 
 /** How a robot loses time, as the viewer says it; the server and the viewer list the same losses. */
-function sentenceOn(stage, { robot, tick, vertex, sentence }) {
+export function sentenceOn(stage, { robot, tick, vertex, sentence }) {
   const loss = lossOn(stage, { robot, tick, vertex });
   if (!loss) return sentence;
   const { plan, words: said } = stage;
