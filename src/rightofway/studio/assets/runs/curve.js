@@ -70,13 +70,13 @@ export function Curve({ run, others = [], quantities = null }) {
 /** What has been reached, in figures. */
 function Caption({ run: { state, figures, status }, bound, seconds }) {
   const isLive = !isOver({ state });
-  const text = figures?.text;
+  const said = figures?.tick && new Quantities(figures.units, figures.tick);
   return html`<figcaption>
     ${isLive && html`<span role="status">${words.states[state]}</span> `}
     ${state === "running" && `${seconds.toFixed(1)} s `}
-    ${text && html`<${Term} of="flowtime" /> <b>${text.flowtime}</b>, `}
-    ${text && html`<${Term} of="bound" /> ${text.lower_bound}`}
-    ${figures?.flowtime > bound && ` (+${text.gap})`}
+    ${said && html`<${Term} of="flowtime" /> <b>${said.duration(figures.flowtime)}</b>, `}
+    ${said && html`<${Term} of="bound" /> ${said.duration(figures.lower_bound)}`}
+    ${figures?.flowtime > bound && ` (+${figures.text.gap})`}
     ${!isLive && status && html` <span class="hint" lang="en">${status}</span>`}
   </figcaption>`;
 }
