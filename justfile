@@ -35,7 +35,7 @@ test *args:
 thorough *args:
     pytest -m "slow and not long" -n 2 {{ args }}
 
-# What the thorough lane leaves out: most pages of the studio, load, attacks in numbers
+# What the thorough lane leaves out: all states of the pages by axe, load in numbers
 long *args:
     pytest -m long -n 2 {{ args }}
 

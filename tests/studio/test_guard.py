@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import json
+import posixpath
+import re
 import socket
 import time
 from collections.abc import Callable
@@ -18,7 +20,7 @@ import pytest
 from PIL import Image
 
 from rightofway.studio.guard import Access, Guard
-from tests.builders.studios import DOOR, running, sent
+from tests.builders.studios import DOOR, Client, running, sent
 
 
 def refused(answer: httpx.Response) -> str:
@@ -125,6 +127,34 @@ def test_no_asset_is_outside_of_the_assets(client: httpx.Client, path: str) -> N
     status, text = sent(client, "GET", f"/assets/{path}")
     assert status in {400, 404}
     assert json.loads(text)["error"]["status"] == status
+
+
+def test_no_part_of_an_answer_waits_for_an_acknowledgement(client: Client) -> None:
+    """With Nagle's algorithm, the body of an answer follows its head after 40 ms."""
+    client.get("/files")
+    (connection, *_) = client.server.server_state.connections
+    taken = connection.transport.get_extra_info("socket")
+    assert taken.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+
+
+def test_a_file_of_the_page_is_sent_once(client: httpx.Client) -> None:
+    address = str(client.base_url).removesuffix("api/v1/") + "assets/main.js"
+    first = client.get(address)
+    again = client.get(address, headers={"if-none-match": first.headers["etag"]})
+    assert (again.status_code, again.content) == (304, b"")
+    assert client.get(address, headers={"if-none-match": '"other"'}).content == first.content
+
+
+def test_the_page_names_its_modules_in_advance(client: httpx.Client) -> None:
+    root = str(client.base_url).removesuffix("/api/v1/")
+    named = set(re.findall(r'modulepreload" href="(.*?)"', client.get(f"{root}/").text))
+    assert "/assets/viewer/words.js" in named
+    for address in named:
+        folder = posixpath.dirname(address)
+        module = client.get(f"{root}{address}")
+        assert module.status_code == 200
+        imported = re.findall(r'^import [^;]*?"(\S+)";$', module.text, re.MULTILINE)
+        assert {posixpath.normpath(f"{folder}/{each}") for each in imported} <= named
 
 
 OUTSIDE = ["../secret.yaml", "/etc/hostname", "link.yaml", "out/secret.yaml"]
