@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 from benchmarks.common import DOCS, table, write_tables
 from tests.builders.browsers import Viewer, chromium
 from tests.builders.drawing import StudioPage
-from tests.builders.studios import Command, command, planned
+from tests.builders.studios import Command, command, over, planned
 
 if TYPE_CHECKING:
     import httpx
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 MAPS = Path(__file__).parents[1] / "examples" / "maps"
 MAP = "warehouse-10-20-10-2-1"
-ROBOTS = 1000
+ROBOTS, FEW = 1000, 200
 SIZE = {"width": 1280, "height": 800}
 SECONDS = 5
 """How long the plan is searched for, and how long it is played [s]."""
@@ -97,6 +97,38 @@ def of_requests(client: httpx.Client, document: Any, moved: Any, number: int) ->
     size = int(client.get(payload).headers["content-length"])
     yield "its size, compressed", f"{size / 1000:.0f} kB"
     yield "why robots wait", milliseconds(lambda: client.get(f"/runs/{number}/losses"), 1)
+
+
+def of_change(client: httpx.Client, document: Any) -> Iterator[Row]:
+    """Yield how soon there is a plan after a change, from the plan before it."""
+    first, *others = document["robots"][:FEW]
+    number = planned(client, {**document, "robots": [first, *others]}, time_limit=2)["number"]
+    taken = []
+    for speed in ("1/2", "1/3", "1/4"):
+        changed = {**document, "robots": [{**first, "speed": speed}, *others]}
+        body = {"document": changed, "start": number, "based_on": number, "time_limit": 1}
+        began = time.perf_counter()
+        run = client.post("/runs", json=body).json()["number"]
+        while not client.get(f"/runs/{run}").json()["has_plan"]:
+            time.sleep(0.002)
+        taken.append(1000 * (time.perf_counter() - began))
+        over(client, run)
+    yield (
+        f"a plan of {FEW} robots after one has another speed",
+        f"{statistics.median(taken):.0f} ms",
+    )
+
+
+def of_start(browser: Browser, root: str) -> Iterator[Row]:
+    """Yield how soon the start page is there, in a browser that has nothing of it."""
+    taken = []
+    for _ in range(3):
+        context = browser.new_context(viewport=SIZE)  # type: ignore[arg-type]
+        began = time.perf_counter()
+        StudioPage(context.new_page(), root)
+        taken.append(1000 * (time.perf_counter() - began))
+        context.close()
+    yield "from the address to the start page", f"{statistics.median(taken):.0f} ms"
 
 
 def of_studio(browser: Browser, root: str, number: int) -> Iterator[Row]:
@@ -173,6 +205,8 @@ def rows(studio: Command, browser: Browser) -> Iterator[Row]:
     number = planned(client, document, time_limit=SECONDS)["number"]
     root = str(client.base_url).removesuffix("api/v1/")
     yield from of_requests(client, document, {**document, "robots": swapped}, number)
+    yield from of_change(client, document)
+    yield from of_start(browser, root)
     yield from of_studio(browser, root, number)
     yield from of_page(browser, root, number)
 
