@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
@@ -25,8 +26,8 @@ CHROMIUM = FOUND if find_spec("playwright") else ""
 
 needs_browser = pytest.mark.skipif(not CHROMIUM, reason="there is no browser")
 
-PATIENCE = 500
-"""How often to look, 20 ms apart."""
+PATIENCE = 30.0
+"""How long to wait for what comes true in a moment on a machine that does nothing else [s]."""
 
 ARGUMENTS = (
     "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
@@ -61,11 +62,11 @@ class Viewer:
 
     def wait_for(self, expression: str) -> None:
         """Wait until an expression holds; the page's policy forbids it to watch itself."""
-        for _ in range(PATIENCE):
-            if self.ask(expression):
-                return
+        ends = time.monotonic() + PATIENCE
+        while not self.ask(expression):
+            if time.monotonic() > ends:
+                pytest.fail(f"{expression} did not come true")
             self.page.wait_for_timeout(20)
-        pytest.fail(f"{expression} did not come true")
 
     def text(self, selector: str) -> str:
         """Return the text that stands in an element."""

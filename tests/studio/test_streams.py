@@ -29,7 +29,13 @@ ENDED = "Object.values(states).filter((state) => state === 'done').length === 10
 LISTED = "studio.runs.runs.filter(({ state }) => state === 'done').map(({ name }) => name).sort()"
 
 
-@pytest.mark.parametrize("script", ["", "delete window.SharedWorker"])
+FAILS = """window.SharedWorker = class {
+  port = { postMessage() {} };
+  constructor() { setTimeout(() => this.onerror()); }
+}"""
+
+
+@pytest.mark.parametrize("script", ["", "delete window.SharedWorker", FAILS])
 def test_ten_runs_at_once_are_heard_by_one_connection(
     browser: Browser, empty: Client, script: str
 ) -> None:

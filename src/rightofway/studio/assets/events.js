@@ -5,6 +5,7 @@ import { hear } from "./hear.js";
 
 const heard = new Map(); // the hearers of each run that is not over
 let listener = {}; // hears of all runs
+let isShared = "SharedWorker" in globalThis;
 let stream = null; // of this page, where the browser shares none
 
 /**
@@ -13,7 +14,7 @@ let stream = null; // of this page, where the browser shares none
  */
 export function listenToAll(hearer) {
   listener = hearer;
-  if (!globalThis.SharedWorker) return;
+  if (!isShared) return;
   connect();
   addEventListener("pageshow", ({ persisted }) => persisted && connect()); // it had been left
 }
@@ -22,7 +23,7 @@ export function listenToAll(hearer) {
 export function listen(number, hearer) {
   if (!heard.has(number)) heard.set(number, new Set());
   heard.get(number).add(hearer);
-  if (!globalThis.SharedWorker) stream ??= hear(tell);
+  if (!isShared) stream ??= hear(tell);
   get(`/runs/${number}`).then(
     (run) => tellHearers("run", run), // it may be over already
     () => forget(number),
@@ -30,7 +31,12 @@ export function listen(number, hearer) {
 }
 
 function connect() {
-  const { port } = new SharedWorker("/assets/stream.js", { type: "module" });
+  const worker = new SharedWorker("/assets/stream.js", { type: "module" });
+  worker.onerror = () => {
+    isShared = false; // older browsers share no modules
+    if (heard.size) stream ??= hear(tell);
+  };
+  const { port } = worker;
   port.onmessage = ({ data }) => tell(...data);
   addEventListener("pagehide", () => port.postMessage("bye"), { once: true });
 }
