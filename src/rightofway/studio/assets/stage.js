@@ -92,6 +92,12 @@ export class Stage extends Observable {
     this.repaint();
   }
 
+  /** Let the map follow a pointer no more: it is neither moved nor pressed by it. */
+  giveUp({ pointerId }) {
+    for (const name of ["pointercancel", "pointerleave"])
+      this.canvas.dispatchEvent(new PointerEvent(name, { pointerId }));
+  }
+
   /** Light a circle of visits of some robots that repeat themselves; null for the critical one. */
   lightCircle(names, visits) {
     const { plan } = this;

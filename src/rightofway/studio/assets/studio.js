@@ -1,10 +1,11 @@
 /** The studio as a whole: which document, which tab, what the server has refused. */
 
-import { address, get } from "./api.js";
+import { address, get, post } from "./api.js";
 import { ScenarioStore } from "./document.js";
 import { Backdrop } from "./draw/backdrop.js";
 import { Clipboard } from "./draw/clipboard.js";
 import { Editor } from "./draw/editor.js";
+import { PlaceDrag } from "./draw/place_drag.js";
 import { Notices } from "./notices.js";
 import { PlaceInAddress } from "./place.js";
 import { FormerRoute } from "./runs/former.js";
@@ -22,6 +23,7 @@ export class Studio extends Observable {
   tab = "map";
   isStarting = true;
   isLive = false;
+  seeksChange = false; // whether the next difference is to be brought into view
   notes = [];
   complaints = []; // what the server has refused: { place, named, message }
   settings = { planner: "", options: {}, time_limit: 5, seed: 0 };
@@ -41,6 +43,7 @@ export class Studio extends Observable {
     this.notices.watch(this.store, () => this.editor.tool.frees);
     this.former = new FormerRoute(this.runs, this.stage);
     this.clipboard = new Clipboard(this.editor);
+    this.places = new PlaceDrag(this.editor, (edit) => this.#drop(edit));
     for (const [source, ...events] of [
       [this.store, "document", "survey", "findings"],
       [this.runs, "runs"],
@@ -203,6 +206,29 @@ export class Studio extends Observable {
   whatIf(edit) {
     this.#isAsked = true;
     this.store.change(edit);
+  }
+
+  /**
+   * As `whatIf`, but nothing changes where the library finds something wrong that was not wrong before;
+   * resolves with these faults.
+   */
+  async tryOut(edit) {
+    const { document, folder, faults: known } = this.store;
+    const { faults } = await post("/validate", { document: edit(document), folder });
+    const isKnown = ({ place, message }) =>
+      known.some((fault) => fault.place === place && fault.message === message);
+    const news = faults.filter((fault) => !isKnown(fault));
+    if (!news.length) this.whatIf(edit);
+    return news;
+  }
+
+  /** Something was dropped on the map of a plan: show the difference, or why it cannot be there. */
+  #drop(edit) {
+    return this.attempt(async () => {
+      const faults = await this.tryOut(edit);
+      if (faults.length) this.complain({ faults });
+      else this.seeksChange = true;
+    });
   }
 
   /** Edit again what the plan that is shown was made from. */

@@ -1,6 +1,6 @@
 /** What is selected, moved, turned and mirrored where it is: a document with other positions. */
 
-import { changeRobots, stopsOf, withStops } from "../robots/fleet.js";
+import { changeRobots, withStopAt } from "../robots/fleet.js";
 import { withObstacles } from "./ground.js";
 import { endsOf, lanesOf, mapVertices, positionOf } from "./network.js";
 import { numberOf, placeOf, rounded, toDrawing } from "./places.js";
@@ -109,12 +109,7 @@ export function arranged(editor, document, map, lost = []) {
     const at = moved(hits.robots[index].stops[number]);
     if (at < 0) continue;
     next = changeRobots(next, [index], (robot) =>
-      withStops(
-        robot,
-        stopsOf(robot).map((stop, i) =>
-          i === number ? { ...stop, at: placeOf(at, roadmap, document) } : stop,
-        ),
-      ),
+      withStopAt(robot, number, placeOf(at, roadmap, document)),
     );
   }
   if (vertices.length) next = mapVertices(next, vertices, map);

@@ -43,28 +43,38 @@ function opened(document, place, roadmap) {
   return closures.length ? { ...document, closures } : withoutKey(document, "closures");
 }
 
+/** A closure with one of its times as somebody has typed it: nothing for always. */
+export const withTime = (closure, key, text) => withKey(closure, key, written(text));
+
+/**
+ * From when and until when something is closed: fields of a form, or with `write` fields of a `closure`.
+ * `isWrong` says of each whether the library refuses it.
+ */
+export function Times({ document, isWrong, closure, write }) {
+  const unit = document.units?.time ?? "";
+  const given = (key) =>
+    write && { value: closure[key] ?? "", onChange: ({ target }) => write(key, target.value) };
+  const field = (key) =>
+    html`<label>${words[key]}<span><${write ? Field : "input"} name=${key} inputmode="decimal" autocomplete="off" placeholder=${words.always[key]} aria-invalid=${String(isWrong(key))} ...${given(key)} /> ${unit}</span></label>`;
+  return html`<div class="times">${field("from")}${field("until")}</div>`;
+}
+
 /** Whether a place or a lane is closed, and when. */
 export function ClosureFields({ studio, place }) {
   const { store, stage } = studio;
   const { roadmap } = stage.plan;
   const index = indexOf(store.document, place, roadmap);
   const closure = store.document.closures?.[index];
-  const unit = store.document.units?.time ?? "";
+  const faults = store.faultsAt(`closures[${index}]`);
   const toggle = () =>
     store.change((document) =>
-      closure ? opened(document, place, roadmap) : closed(document, place, roadmap, {}),
+      closure ? opened(document, place, roadmap) : withClosure(document, place),
     );
-  const write = (key, text) => {
-    const { from, until } = closure;
-    const times = { from, until, [key]: text === "" ? undefined : Number(text) };
-    const given = Object.entries(times).filter(([, time]) => time !== undefined);
-    store.change((document) => closed(document, place, roadmap, Object.fromEntries(given)));
-  };
-  const field = (key) =>
-    html`<label>${words[key]}<span><${Field} type="number" min="0" step="any" value=${closure[key] ?? ""} placeholder=${words.always[key]}
-      onChange=${({ target }) => target.reportValidity() && write(key, target.value)} /> ${unit}</span></label>`;
+  const write = (key, text) =>
+    store.change((document) => changeClosure(document, index, (each) => withTime(each, key, text)));
+  const isWrong = (key) => isTimeWrong(faults, key);
   return html`
     <label class="check"><input type="checkbox" checked=${Boolean(closure)} onChange=${toggle} /> ${words.closed}</label>
-    ${closure && html`<div class="times">${field("from")}${field("until")}</div>`}
-    ${closure && store.faultsAt(`closures[${index}]`).map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}`;
+    ${closure && html`<${Times} document=${store.document} closure=${closure} isWrong=${isWrong} write=${write} />`}
+    ${closure && faults.map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}`;
 }

@@ -82,6 +82,18 @@ function route(context, { x, y }, { home, stops }, scale) {
   context.setLineDash([]);
 }
 
+/** A trip that is being placed: a ring at its home, dashed from there to its stops; points of the drawing. */
+export function paintTrip(context, theme, scale, points) {
+  context.strokeStyle = theme.ink;
+  context.lineWidth = 2 / scale;
+  ring(context, ...points[0], 0.35);
+  context.setLineDash([5 / scale, 4 / scale]);
+  context.beginPath();
+  for (const point of points) context.lineTo(...point);
+  context.stroke();
+  context.setLineDash([]);
+}
+
 /** A line along a lane. */
 export function band(context, points, width) {
   context.lineWidth = width;

@@ -30,6 +30,13 @@ export function withStops(robot, stops) {
   return only === undefined ? { ...rest, target: at } : { ...rest, target: at, work: only };
 }
 
+/** A robot with one of its stops at another place. */
+export const withStopAt = (robot, number, at) =>
+  withStops(
+    robot,
+    stopsOf(robot).map((stop, i) => (i === number ? { ...stop, at } : stop)),
+  );
+
 /** Add robots; each gets a name if it has none. */
 export function addRobots(document, news) {
   const robots = [...robotsOf(document)];

@@ -1,7 +1,7 @@
 /** Robots by two presses: the home, and the place to work at; with Shift more places before the last one. */
 
 import { placeOf } from "../draw/places.js";
-import { radiusAt } from "../draw/overlay.js";
+import { paintTrip, radiusAt } from "../draw/overlay.js";
 import { ring } from "../viewer/shapes.js";
 import { words } from "../words.js";
 import { addRobots, robotsOf, withStops } from "./fleet.js";
@@ -81,12 +81,7 @@ export class RobotTool {
     context.lineWidth = 2 / scale;
     if (this.home >= 0) {
       const places = [this.home, ...this.stops, ...(this.over >= 0 ? [this.over] : [])];
-      ring(context, ...at(this.home), 0.35);
-      context.setLineDash([5 / scale, 4 / scale]);
-      context.beginPath();
-      for (const vertex of places) context.lineTo(...at(vertex));
-      context.stroke();
-      context.setLineDash([]);
+      paintTrip(context, theme, scale, places.map(at));
     }
     if (this.over >= 0) ring(context, ...at(this.over), radiusAt(roadmap, this.over, scale) * 0.8);
   }

@@ -1,0 +1,174 @@
+/** The home and the stops of the robot that is chosen on a plan, dragged to other places of the map. */
+
+import { changeRobots, robotsOf, withKey, withStopAt } from "../robots/fleet.js";
+import { ring } from "../viewer/shapes.js";
+import { words } from "../words.js";
+import { paintTrip, radiusAt } from "./overlay.js";
+import { placeOf, rounded } from "./places.js";
+import { paintReadout } from "./readout.js";
+
+const STILL = 4; // pixels that a press may move
+const TOUCH = 24; // pixels round a place that a finger reaches
+
+export class PlaceDrag {
+  #over = null; // what the pointer is at: { number, vertex }, with the number of the stop, -1 for the home
+  #held = null; // what is dragged, the same; `robot` is its index, `from` where the press was
+  #to = null; // where it is dragged to, in units of the drawing; null before it has moved
+  #isAsking = false; // whether the library looks at where it was dropped
+
+  /** `ask` takes an edit of the document, and resolves when it is made or refused. */
+  constructor(editor, ask) {
+    Object.assign(this, { editor, stage: editor.stage, ask });
+    const { holder } = this.stage;
+    const on = (name, action) => holder.addEventListener(name, action, true);
+    on("pointerdown", (event) => this.#down(event));
+    on("pointermove", (event) => this.#move(event));
+    on("pointerup", (event) => this.#up(event));
+    on("pointercancel", (event) => event.isTrusted && this.#end());
+    on("pointerleave", () => this.#hover(null));
+    document.addEventListener("keydown", (event) => this.#key(event), true);
+    this.stage.on("overlay", () => this.#paint());
+  }
+
+  /** The chosen robot as the document has it: its index, home and stops; null while nothing can be asked. */
+  get #robot() {
+    const { editor, stage } = this;
+    if (editor.isOn || !stage.isPlan || !stage.choice.robot) return null;
+    const { name } = stage.choice.robot;
+    const index = (robotsOf(editor.document) ?? []).findIndex((robot) => robot.name === name);
+    return editor.hits.robots[index] ?? null;
+  }
+
+  /** Where an event is on the map, in units of the drawing and [pixels]. */
+  #point({ clientX, clientY }) {
+    const { left, top } = this.stage.holder.getBoundingClientRect();
+    const { viewport } = this.stage.view;
+    const screen = { x: clientX - left, y: clientY - top };
+    return { x: viewport.toX(screen.x), y: viewport.toY(screen.y), screen };
+  }
+
+  /** The home or the stop of the robot that an event is at; null for none. */
+  #at(event) {
+    const robot = this.#robot;
+    if (!robot || this.stage.holder.classList.contains("picking")) return null;
+    const { roadmap, stage } = this.editor;
+    const { scale } = stage.view.viewport;
+    const point = this.#point(event);
+    const least = event.pointerType === "touch" ? TOUCH / scale : 0;
+    const number = [robot.home, ...robot.stops].findIndex(
+      (vertex) =>
+        vertex >= 0 &&
+        Math.hypot(roadmap.x[vertex] - point.x, roadmap.y[vertex] - point.y) <=
+          Math.max(radiusAt(roadmap, vertex, scale), least),
+    );
+    if (number < 0) return null;
+    return { number: number - 1, vertex: number ? robot.stops[number - 1] : robot.home };
+  }
+
+  #down(event) {
+    if (event.button !== 0 || this.#isAsking) return;
+    if (this.#held) return this.#end(); // two fingers move the map
+    const at = this.#at(event);
+    if (at) this.#held = { ...at, robot: this.#robot.index, from: this.#point(event).screen };
+  }
+
+  #move(event) {
+    if (this.#isAsking) return;
+    if (!this.#held) return event.buttons ? undefined : this.#hover(this.#at(event));
+    event.stopPropagation(); // the map stays where it is
+    const point = this.#point(event);
+    const { from } = this.#held;
+    if (!this.#to) {
+      if (Math.hypot(point.screen.x - from.x, point.screen.y - from.y) <= STILL) return;
+      this.stage.giveUp(event);
+      this.stage.holder.setPointerCapture(event.pointerId); // of another plan, too, that is shown meanwhile
+    }
+    this.#to = point;
+    this.#show();
+  }
+
+  async #up(event) {
+    if (this.#isAsking) return;
+    if (!this.#to) return void (this.#held = null); // a press, for the map
+    event.stopPropagation();
+    const { robot, number, vertex } = this.#held;
+    const place = this.#place(this.#to);
+    this.#isAsking = true;
+    if (this.editor.vertexAt(this.#to) !== vertex)
+      await this.ask((document) =>
+        changeRobots(document, [robot], (each) =>
+          number < 0 ? withKey(each, "home", place) : withStopAt(each, number, place),
+        ),
+      );
+    this.#isAsking = false;
+    this.#end();
+  }
+
+  /** A point as the document names its place; one without a vertex is named all the same, so that the library says what is there. */
+  #place({ x, y }) {
+    const { roadmap, document } = this.editor;
+    const vertex = this.editor.vertexAt({ x, y });
+    if (vertex >= 0) return placeOf(vertex, roadmap, document);
+    const cell = roadmap.rows ? [Math.round(x), Math.round(y)] : [x, y];
+    const [right, up] = roadmap.toSite(...cell).map(rounded);
+    return { x: right, y: up };
+  }
+
+  #key(event) {
+    if (event.key !== "Escape" || !this.#to || this.#isAsking) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.#end();
+  }
+
+  #end() {
+    this.#held = this.#to = this.#over = null;
+    this.#show();
+  }
+
+  #hover(at) {
+    if (this.#over?.vertex === at?.vertex) return;
+    this.#over = at;
+    this.#show();
+  }
+
+  /** The pointer says what it would do. */
+  #show() {
+    const { holder } = this.stage;
+    const isMoving = Boolean(this.#to);
+    holder.classList.toggle("movable", Boolean(this.#over) && !isMoving);
+    holder.classList.toggle("moving", isMoving);
+    holder.classList.toggle("nowhere", isMoving && this.editor.vertexAt(this.#to) < 0);
+    this.stage.ask();
+  }
+
+  /** What is dragged, where it would be; and what has been changed since this plan was made. */
+  #paint() {
+    const robot = this.#robot;
+    if (!robot) return;
+    const { editor, stage } = this;
+    const { context, theme, view, choice } = stage;
+    const { scale } = view.viewport;
+    const { roadmap } = editor;
+    const at = (vertex) => [roadmap.x[vertex], roadmap.y[vertex]];
+    const places = [robot.home, ...robot.stops];
+    context.strokeStyle = theme.ink;
+    context.lineWidth = 2 / scale;
+    if (this.#over && !this.#to)
+      ring(context, ...at(this.#over.vertex), radiusAt(roadmap, this.#over.vertex, scale));
+    const planned = new Set(choice.robot.stages.map(({ vertex }) => vertex));
+    const isPlanned = places.every((vertex, i) =>
+      i ? planned.has(vertex) : vertex === choice.robot.home,
+    );
+    if (!this.#to && isPlanned) return;
+    const landing = this.#to ? editor.vertexAt(this.#to) : -1;
+    const points = places.map((vertex) => (vertex < 0 ? null : at(vertex)));
+    if (this.#to)
+      points[this.#held.number + 1] = landing < 0 ? [this.#to.x, this.#to.y] : at(landing);
+    paintTrip(context, theme, scale, points.filter(Boolean));
+    if (!this.#to) return;
+    if (landing >= 0 && this.#held.number >= 0) ring(context, ...at(landing), radiusAt(roadmap, landing, scale) * 0.8);
+    const text = landing < 0 ? words.noVertexHere : roadmap.label(landing);
+    paintReadout(context, editor, text, this.#to.screen);
+  }
+}
