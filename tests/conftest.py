@@ -62,6 +62,7 @@ SLOW = (
     "studio/test_streams.py",  # a browser
     "studio/test_studies_page.py",  # a browser
     "studio/test_survival.py",  # starts the command as a process, and kills it
+    "studio/test_what_if.py",  # a browser
     "studio/test_worker.py",  # starts processes
     "viewer/",  # a browser
     "viz/test_spreadsheet.py",  # LibreOffice

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -134,3 +134,17 @@ def studio_page(browser: Browser, client: Client, **more: Any) -> Iterator[Studi
     context.grant_permissions(["clipboard-read", "clipboard-write"], origin=client.address)
     yield StudioPage(context.new_page(), client.address)
     context.close()
+
+
+Opener = Callable[[str], StudioPage]
+"""What opens a scenario in a studio of its own."""
+
+
+def begin(studio: StudioPage, *, seconds: float = 1, planner: str = "auto") -> None:
+    """Fill the form, which is folded once there is a plan, and begin a run."""
+    folded = studio.page.locator(".settings > details:not([open]) > summary")
+    if folded.count():
+        folded.click()
+    studio.page.select_option("#planner", planner)
+    studio.page.fill("#limit", str(seconds))
+    studio.page.locator(".settings [type=submit]").click()

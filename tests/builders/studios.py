@@ -37,6 +37,16 @@ DOOR: dict[str, Any] = {
 }
 """Two robots that meet at a door."""
 
+BAY = """\
+format: rightofway-scenario/1
+map: {grid: [".@.@.", ".....", "@@.@@", "@@.@@"]}
+robots:
+  - {name: R1, home: N0, target: N17, work: 3}
+  - {name: R2, home: N2, target: N17, work: 3}
+  - {name: R3, home: N4, target: N17, work: 3}
+"""
+"""Three robots that work at the end of one way."""
+
 PATIENCE = 30.0
 """How long a run may take in a test [s]."""
 

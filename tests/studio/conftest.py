@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.builders.drawing import StudioPage, studio_page
+from tests.builders.drawing import Opener, StudioPage, studio_page
 from tests.builders.studios import Client, running
 
 if TYPE_CHECKING:
@@ -89,3 +90,20 @@ def lanes(studio: StudioPage) -> StudioPage:
     studio.button("Draw lanes instead").click()
     studio.opened()
     return studio
+
+
+@pytest.fixture
+def opened(browser: Browser, empty: Client) -> Iterator[Opener]:
+    """Yield a function that opens a scenario in a studio of its own, at its tab of plans."""
+    with ExitStack() as pages:
+
+        def open_studio(text: str) -> StudioPage:
+            empty.studio.file = "floor.yaml"
+            (empty.folder / "floor.yaml").write_text(text)
+            size = {"width": 1440, "height": 900}
+            studio = pages.enter_context(studio_page(browser, empty, viewport=size))
+            studio.opened()
+            studio.tab("Plan")
+            return studio
+
+        yield open_studio

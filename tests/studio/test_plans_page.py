@@ -7,19 +7,16 @@ import random
 import shlex
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import openpyxl  # type: ignore[import-untyped]  # it ships no types
-import pytest
 from PIL import Image
 
 from rightofway import load_plan
 from tests.builders.browsers import Viewer, needs_browser
-from tests.builders.drawing import StudioPage, studio_page
+from tests.builders.drawing import Opener, StudioPage, begin
+from tests.builders.studios import BAY
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -27,30 +24,6 @@ if TYPE_CHECKING:
     from tests.builders.studios import Client
 
 pytestmark = needs_browser
-
-BAY = """\
-format: rightofway-scenario/1
-map: {grid: [".@.@.", ".....", "@@.@@", "@@.@@"]}
-robots:
-  - {name: R1, home: N0, target: N17, work: 3}
-  - {name: R2, home: N2, target: N17, work: 3}
-  - {name: R3, home: N4, target: N17, work: 3}
-"""
-
-OPEN = """\
-format: rightofway-scenario/1
-map: {grid: [".....", ".....", ".....", "....."]}
-robots:
-  - {name: R1, home: N0, target: N19, work: 3}
-  - {name: R2, home: N4, target: N15, work: 1}
-"""
-
-CORRIDOR = """\
-format: rightofway-scenario/1
-map: {grid: ["....."]}
-robots: [{name: R1, home: N0, target: N4}]
-closures: [{at: N2, until: 9}]
-"""
 
 PARTS = """\
 format: rightofway-scenario/1
@@ -72,36 +45,6 @@ def crowd() -> str:
         for i, (home, target) in enumerate(zip(places[::2], places[1::2], strict=True), 1)
     ]
     return json.dumps({"format": "rightofway-scenario/1", "map": {"grid": rows}, "robots": robots})
-
-
-Opener = Callable[[str], StudioPage]
-
-
-@pytest.fixture
-def opened(browser: Browser, empty: Client) -> Iterator[Opener]:
-    """Yield a function that opens a scenario in a studio of its own, at its tab of plans."""
-    with ExitStack() as pages:
-
-        def open_studio(text: str) -> StudioPage:
-            empty.studio.file = "floor.yaml"
-            (empty.folder / "floor.yaml").write_text(text)
-            size = {"width": 1440, "height": 900}
-            studio = pages.enter_context(studio_page(browser, empty, viewport=size))
-            studio.opened()
-            studio.tab("Plan")
-            return studio
-
-        yield open_studio
-
-
-def begin(studio: StudioPage, *, seconds: float = 1, planner: str = "auto") -> None:
-    """Fill the form, which is folded once there is a plan, and begin a run."""
-    folded = studio.page.locator(".settings > details:not([open]) > summary")
-    if folded.count():
-        folded.click()
-    studio.page.select_option("#planner", planner)
-    studio.page.fill("#limit", str(seconds))
-    studio.page.locator(".settings [type=submit]").click()
 
 
 def row(studio: StudioPage, number: int) -> str:
@@ -391,119 +334,6 @@ def test_the_page_of_a_comparison_is_a_file_too(
     page.wait_for("clock.playing && comparison.plans.length === 2")
     assert page.complaints == []
     page.page.context.close()
-
-
-def test_the_other_robot_goes_first_and_the_difference_is_shown(opened: Opener) -> None:
-    studio = opened(BAY)
-    begin(studio)
-    studio.planned()
-    offered = studio.page.locator(".waits .framed").first
-    robot = offered.inner_text().removeprefix("Let ").removesuffix(" go first")
-    assert f"{robot} waits" in studio.text(".waits")
-    offered.click()
-    studio.wait_for("Boolean(studio.runs.comparison)")
-    assert studio.ask("[studio.runs.run.kind, studio.runs.beside]") == ["flip", 1]
-    before, after = (
-        dict(studio.ask(f"studio.runs.comparison.robots.map((r) => [r.name, r.completion[{i}]])"))
-        for i in (0, 1)
-    )
-    assert after[robot] <= before[robot]
-    assert before != after
-    assert ("Earlier" in studio.text(".change")) or ("Later" in studio.text(".change"))
-
-
-def test_a_change_of_a_robot_is_planned_at_once(opened: Opener) -> None:
-    studio = opened(BAY)
-    begin(studio)
-    studio.planned()
-    studio.ask("studio.stage.choice.chooseRobot(0)")
-    speed = studio.page.locator(".ask").get_by_label("Speed", exact=True)
-    speed.fill("2")
-    speed.press("Tab")
-    studio.wait_for("studio.runs.shown === 2 && studio.runs.comparison && studio.runs.command")
-    assert studio.document["robots"][0]["speed"] == 2
-    assert studio.ask("studio.runs.run.request.time_limit") == 1
-    assert "R1: speed 1 → 2" in studio.text(".change .edit")
-    assert "R1" in studio.text(".change .gain")
-    assert "The same route as before: " in studio.text(".change")
-    assert studio.ask("studio.runs.run.request.start") == 1
-    assert "--start run-1.json" in studio.ask("studio.runs.command")
-    assert studio.ask("studio.stage.choice.robot.name") == "R1"  # it stays chosen
-    speed.fill("fast")
-    speed.press("Tab")
-    studio.settle()
-    fault = studio.ask("studio.store.faults[0].message")
-    assert fault in studio.text(".ask [role=alert]")
-    assert speed.get_attribute("aria-invalid") == "true"
-    assert studio.ask("studio.runs.runs.length") == 2
-    studio.page.locator("[data-run='1'] .show").click()
-    studio.wait_for("studio.runs.shown === 1")
-    studio.button("Edit what it was planned from").click()
-    studio.settle()
-    assert "speed" not in studio.document["robots"][0]
-
-
-def test_a_place_is_closed_planned_and_opened_again(opened: Opener) -> None:
-    studio = opened(crowd())
-    begin(studio)
-    studio.planned()
-    place = next(
-        f"N{DOOR * WIDTH + x}" for x in range(WIDTH) if f'"N{DOOR * WIDTH + x}"' not in crowd()
-    )
-    studio.page.fill("#close-at", place)
-    studio.button("Close it").click()
-    studio.wait_for("studio.store.document.closures?.length === 1")
-    studio.wait_for("studio.runs.runs.length === 2 && !studio.runs.running")
-    assert studio.document["closures"] == [{"at": place}]
-    studio.page.get_by_role("button", name=f"Open again: {place}").click()
-    studio.settle()
-    assert "closures" not in studio.document
-
-
-def test_a_robot_that_waits_for_a_closed_place_says_so(opened: Opener) -> None:
-    studio = opened(CORRIDOR)
-    begin(studio)
-    studio.planned()
-    assert "N2 is closed until time 9" in studio.text(".waits")
-
-
-def test_a_lane_is_closed_and_the_former_way_is_dashed(opened: Opener) -> None:
-    """No robot drives along a closed lane any more, and its sign is on the map."""
-    studio = opened(OPEN)
-    begin(studio)
-    studio.planned()
-    studio.ask("studio.stage.choice.chooseRobot(0)")
-    way = "Array.from(studio.stage.choice.robot.vertices, (v) => studio.stage.plan.roadmap.name(v))"
-    before = studio.ask(way)
-    tail, head = before[1:3]
-    studio.page.fill("#close-at", tail)
-    studio.page.fill("#close-to", head)
-    studio.button("Close it").click()
-    studio.wait_for("studio.runs.shown === 2 && studio.runs.comparison?.runs[1] === 2")
-    assert studio.document["closures"] == [{"edge": [tail, head]}]
-    after = studio.ask(way)
-    assert not {(tail, head), (head, tail)} & set(pairwise(after))
-    assert f"{tail} to {head}: closed" in studio.text(".change .edit")
-    assert studio.ask("studio.former.ways.length") > 0
-    assert "Dashed on the map" in studio.text(".change")
-    studio.button("Put it back").click()
-    studio.wait_for("studio.runs.shown === 1")
-    assert "closures" not in studio.document
-    assert studio.ask(way) == before
-    assert studio.complaints == []
-
-
-def test_what_cannot_be_closed_is_said_at_the_field(opened: Opener) -> None:
-    studio = opened(BAY)
-    begin(studio)
-    studio.planned()
-    studio.page.fill("#close-at", "N999")
-    studio.button("Close it").click()
-    studio.settle()
-    assert "closures[0].at" in studio.text(".ask [role=alert]")
-    studio.page.get_by_role("button", name="Open again: N999").click()
-    studio.settle()
-    assert studio.ask("studio.store.survey.ok")
 
 
 def test_everything_about_plans_has_a_name_and_is_reached_by_keys(opened: Opener) -> None:

@@ -2,6 +2,7 @@
 
 import { html } from "./vendor/htm-preact.js";
 import { nameOf } from "./findings.js";
+import { robotsOf } from "./robots/fleet.js";
 import { Change } from "./runs/change.js";
 import { sentenceOn } from "./runs/waits.js";
 import { words } from "./words.js";
@@ -27,10 +28,12 @@ function ToolHint({ editor }) {
 
 /** The longest wait of the plan, one press away from its reason. */
 function PlanHint({ studio }) {
-  const { runs, stage } = studio;
+  const { runs, stage, store } = studio;
   const { running, losses } = runs;
   if (running) return words.planning;
-  if (stage.choice?.robot || !losses) return words.watching;
+  const { robot } = stage.choice ?? {};
+  if (robot && robotsOf(store.document)) return words.dragPlaces(robot.name);
+  if (robot || !losses) return words.watching;
   const waits = losses.filter((loss) => loss.for);
   if (!waits.length) return losses.length ? words.watching : words.noWaitNext;
   const longest = waits.reduce((one, other) => (other.ticks > one.ticks ? other : one));

@@ -218,8 +218,10 @@ export class Studio extends Observable {
     const isKnown = ({ place, message }) =>
       known.some((fault) => fault.place === place && fault.message === message);
     const news = faults.filter((fault) => !isKnown(fault));
-    if (!news.length) this.whatIf(edit);
-    return news;
+    if (news.length) return news;
+    this.seeksChange = true;
+    this.whatIf(edit);
+    return [];
   }
 
   /** Something was dropped on the map of a plan: show the difference, or why it cannot be there. */
@@ -227,7 +229,6 @@ export class Studio extends Observable {
     return this.attempt(async () => {
       const faults = await this.tryOut(edit);
       if (faults.length) this.complain({ faults });
-      else this.seeksChange = true;
     });
   }
 

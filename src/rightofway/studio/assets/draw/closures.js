@@ -2,9 +2,11 @@
 
 import { html } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
+import { written } from "../robots/columns.js";
+import { withKey } from "../robots/fleet.js";
 import { words } from "../words.js";
 import { endsOf, lanesOf, withoutKey } from "./network.js";
-import { placeOf, vertexOf } from "./places.js";
+import { placeOf, textOfPlace, vertexOf } from "./places.js";
 
 const isAt = (closure, place, roadmap) => {
   if (!closure.edge !== !place.edge) return false;
@@ -22,59 +24,63 @@ export function closableAt(editor, point) {
   return vertex < 0 ? null : { at: placeOf(vertex, roadmap, document) };
 }
 
-const indexOf = ({ closures = [] }, place, roadmap) =>
-  closures.findIndex((closure) => isAt(closure, place, roadmap));
+/** A document in which something more is closed: a place `at`, or a lane by its ends as `edge`. */
+export const withClosure = (document, closure) => ({
+  ...document,
+  closures: [...(document.closures ?? []), closure],
+});
 
-/** Close a place or a lane; `times` may have `from` and `until`. */
-function closed(document, place, roadmap, times) {
-  const closures = [...(document.closures ?? [])];
-  const index = indexOf(document, place, roadmap);
-  if (index < 0) closures.push({ ...place, ...times });
-  else {
-    const { from, until, ...rest } = closures[index];
-    closures[index] = { ...rest, ...times };
-  }
-  return { ...document, closures };
+export function withoutClosure(document, index) {
+  const left = document.closures.filter((_, each) => each !== index);
+  return left.length ? { ...document, closures: left } : withoutKey(document, "closures");
 }
 
-function opened(document, place, roadmap) {
-  const index = indexOf(document, place, roadmap);
-  const closures = (document.closures ?? []).filter((_, each) => each !== index);
-  return closures.length ? { ...document, closures } : withoutKey(document, "closures");
-}
-
-/** A closure with one of its times as somebody has typed it: nothing for always. */
+/** A closure with one of its times, `from` or `until`, as somebody has typed it: nothing for always. */
 export const withTime = (closure, key, text) => withKey(closure, key, written(text));
 
+/** A document with such a time of one of its closures. */
+export const changeTime = (document, index, key, text) => ({
+  ...document,
+  closures: document.closures.map((closure, each) =>
+    each === index ? withTime(closure, key, text) : closure,
+  ),
+});
+
+/** "N3", or "A – B" for a lane. */
+export const textOfClosure = ({ at, edge }) => (edge ?? [at]).map(textOfPlace).join(" – ");
+
 /**
- * From when and until when something is closed: fields of a form, or with `write` fields of a `closure`.
- * `isWrong` says of each whether the library refuses it.
+ * From when and until when something is closed: fields of a form, or with `write` those of a `closure`.
+ * Fields whose `faults` the library has found are marked.
  */
-export function Times({ document, isWrong, closure, write }) {
+export function Times({ document, faults, closure, write, of = "" }) {
   const unit = document.units?.time ?? "";
   const given = (key) =>
-    write && { value: closure[key] ?? "", onChange: ({ target }) => write(key, target.value) };
+    write && {
+      value: closure[key] ?? "",
+      onChange: ({ target }) => write(key, target.value),
+    };
+  const isWrong = (key) => faults.some(({ place }) => place.endsWith(`].${key}`));
   const field = (key) =>
-    html`<label>${words[key]}<span><${write ? Field : "input"} name=${key} inputmode="decimal" autocomplete="off" placeholder=${words.always[key]} aria-invalid=${String(isWrong(key))} ...${given(key)} /> ${unit}</span></label>`;
+    html`<label>${words[key]}<span><${write ? Field : "input"} name=${key} aria-label=${of && `${of}: ${words[key]}`} inputmode="decimal" autocomplete="off" placeholder=${words.always[key]}
+      aria-invalid=${String(isWrong(key))} ...${given(key)} /> ${unit}</span></label>`;
   return html`<div class="times">${field("from")}${field("until")}</div>`;
 }
 
 /** Whether a place or a lane is closed, and when. */
 export function ClosureFields({ studio, place }) {
   const { store, stage } = studio;
-  const { roadmap } = stage.plan;
-  const index = indexOf(store.document, place, roadmap);
-  const closure = store.document.closures?.[index];
+  const { closures = [] } = store.document;
+  const index = closures.findIndex((each) => isAt(each, place, stage.plan.roadmap));
   const faults = store.faultsAt(`closures[${index}]`);
+  const isClosed = index >= 0;
   const toggle = () =>
     store.change((document) =>
-      closure ? opened(document, place, roadmap) : withClosure(document, place),
+      isClosed ? withoutClosure(document, index) : withClosure(document, place),
     );
-  const write = (key, text) =>
-    store.change((document) => changeClosure(document, index, (each) => withTime(each, key, text)));
-  const isWrong = (key) => isTimeWrong(faults, key);
+  const write = (key, text) => store.change((document) => changeTime(document, index, key, text));
   return html`
-    <label class="check"><input type="checkbox" checked=${Boolean(closure)} onChange=${toggle} /> ${words.closed}</label>
-    ${closure && html`<${Times} document=${store.document} closure=${closure} isWrong=${isWrong} write=${write} />`}
-    ${closure && faults.map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}`;
+    <label class="check"><input type="checkbox" checked=${isClosed} onChange=${toggle} /> ${words.closed}</label>
+    ${isClosed && html`<${Times} document=${store.document} faults=${faults} closure=${closures[index]} write=${write} />`}
+    ${isClosed && faults.map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}`;
 }

@@ -2,9 +2,8 @@
 
 import { html, useEffect, useRef } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
-import { ClosureFields, closableAt } from "./closures.js";
+import { ClosureFields, closableAt, textOfClosure } from "./closures.js";
 import { freeVertexName, isNetwork, splitLane } from "./network.js";
-import { textOfPlace } from "./places.js";
 
 const MARGIN = 8; // pixels from the border of the page
 
@@ -40,14 +39,14 @@ export function ContextMenu({ studio }) {
   const keys = (event) => {
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (event.key === "Escape") editor.closeMenu();
-    else if (step && event.target.type !== "number") {
+    else if (step) {
       const items = [...list.current.querySelectorAll("input, button")];
       items[(items.indexOf(event.target) + step + items.length) % items.length].focus();
     } else return;
     event.preventDefault();
     event.stopPropagation();
   };
-  const title = place ? (place.edge ?? [place.at]).map(textOfPlace).join(" – ") : words.map;
+  const title = place ? textOfClosure(place) : words.map;
   const select = editor.tools.get("select");
   return html`
     <div class="menu" role="menu" aria-label=${title} ref=${list} onKeyDown=${keys}>

@@ -167,7 +167,8 @@ export class PlaceDrag {
       points[this.#held.number + 1] = landing < 0 ? [this.#to.x, this.#to.y] : at(landing);
     paintTrip(context, theme, scale, points.filter(Boolean));
     if (!this.#to) return;
-    if (landing >= 0 && this.#held.number >= 0) ring(context, ...at(landing), radiusAt(roadmap, landing, scale) * 0.8);
+    if (landing >= 0 && this.#held.number >= 0)
+      ring(context, ...at(landing), radiusAt(roadmap, landing, scale) * 0.8);
     const text = landing < 0 ? words.noVertexHere : roadmap.label(landing);
     paintReadout(context, editor, text, this.#to.screen);
   }

@@ -7,9 +7,9 @@ const REACH = 12; // pixels round a lane
 
 /**
  * Wait for one press; resolves with the places as a document names them: one, both ends of a lane, or
- * none for Escape.
+ * none for Escape and for a signal that gives up.
  */
-export function pressedPlace({ stage, store }) {
+export function pressedPlace({ stage, store }, signal) {
   const { holder } = stage;
   const waiting = new AbortController();
   const on = (target, name, action) =>
@@ -22,6 +22,7 @@ export function pressedPlace({ stage, store }) {
       holder.classList.remove("picking");
       resolve(places);
     };
+    signal.addEventListener("abort", () => end([]), { signal: waiting.signal });
     on(holder, "pointerdown", (event) => (began = event));
     on(holder, "pointerup", (event) => {
       const way = began
@@ -29,10 +30,16 @@ export function pressedPlace({ stage, store }) {
         : 0;
       if (way > STILL) return; // the map was moved
       const places = placesAt(stage, event);
-      if (places.length)
-        end(places.map((vertex) => placeOf(vertex, stage.plan.roadmap, store.document)));
+      if (!places.length) return;
+      event.stopPropagation(); // the robot that is chosen stays so
+      stage.giveUp(event);
+      end(places.map((vertex) => placeOf(vertex, stage.plan.roadmap, store.document)));
     });
-    on(document, "keydown", (event) => event.key === "Escape" && end([]));
+    on(document, "keydown", (event) => {
+      if (event.key !== "Escape") return;
+      event.stopPropagation();
+      end([]);
+    });
   });
 }
 

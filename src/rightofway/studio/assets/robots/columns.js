@@ -4,7 +4,7 @@ import { numberOf, placeOfText, textOfPlace } from "../draw/places.js";
 import { stopsOf, textOfStops, withKey, withStops } from "./fleet.js";
 
 /** A number that somebody has typed: with a comma too; as text where it is none, so that the library says why. */
-function written(text) {
+export function written(text) {
   const plain = text.trim().replace(",", ".");
   if (!plain) return undefined;
   return plain.includes("/") || Number.isNaN(Number(plain)) ? plain : Number(plain);

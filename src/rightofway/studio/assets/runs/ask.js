@@ -1,17 +1,25 @@
 /** What if: a robot of the plan is faster, works longer or has another home, or a place is closed. */
 
-import { html, useState } from "../vendor/htm-preact.js";
+import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
+import {
+  Times,
+  changeTime,
+  textOfClosure,
+  withClosure,
+  withTime,
+  withoutClosure,
+} from "../draw/closures.js";
 import { placeOfText } from "../draw/places.js";
 import { pressedPlace } from "../draw/press_place.js";
 import { COLUMNS, columnOf } from "../robots/columns.js";
 import { changeRobots, robotsOf } from "../robots/fleet.js";
 import { words } from "../words.js";
-import { textOfClosure, withClosure, withoutClosure } from "./closures.js";
 
 const ASKED = COLUMNS.filter(({ key }) => ["home", "stops", "work", "speed"].includes(key));
 
-export function Ask({ studio }) {
+/** `children` stand below the fields of the robot that is chosen. */
+export function Ask({ studio, children }) {
   const { store, stage } = studio;
   const robots = robotsOf(store.document) ?? [];
   const name = stage.isPlan ? stage.choice.robot?.name : undefined;
@@ -36,44 +44,75 @@ export function Ask({ studio }) {
             )}</div>`
       }
       ${faults.map(({ named, place, message }) => html`<p class="wrong" role="alert" lang="en">${named || place}: ${message}</p>`)}
+      ${children}
       <${Close} studio=${studio} />
     </section>`;
 }
 
-/** Close a place or, with both ends, a lane, for ever; and open it again. */
+/** Close a place or, with both ends, a lane, for ever or for a while; and open it again. */
 function Close({ studio }) {
   const { store } = studio;
-  const [at, setAt] = useState("");
-  const [to, setTo] = useState("");
-  const [isPressing, setIsPressing] = useState(false);
-  const close = (event) => {
+  const [refused, setRefused] = useState([]); // faults of what is typed
+  const [waiting, setWaiting] = useState(null); // that gives up the press on the map that is waited for
+  const form = useRef(null);
+  useEffect(() => () => waiting?.abort(), [waiting]);
+  const close = (places) =>
+    studio.attempt(async () => {
+      const { from, until } = Object.fromEntries(new FormData(form.current));
+      const [at, to] = places;
+      const what = to === undefined ? { at } : { edge: [at, to] };
+      const closure = withTime(withTime(what, "from", from), "until", until);
+      const faults = await studio.tryOut((document) => withClosure(document, closure));
+      setRefused(faults);
+      if (!faults.length) form.current?.reset();
+    });
+  const submit = (event) => {
     event.preventDefault();
-    const places = [at, to].map(placeOfText);
-    if (places[0] === undefined) return;
-    studio.whatIf((document) => withClosure(document, ...places));
-    setAt("");
-    setTo("");
+    const [at, to] = form.current.querySelectorAll("input");
+    if (at.value.trim()) close([at, to].map(({ value }) => placeOfText(value)));
+    else at.focus();
   };
   const press = async () => {
-    setIsPressing(true);
-    const places = await pressedPlace(studio);
-    setIsPressing(false);
-    if (places.length) studio.whatIf((document) => withClosure(document, ...places));
+    if (waiting) return setWaiting(null);
+    const controller = new AbortController();
+    setWaiting(controller);
+    const places = await pressedPlace(studio, controller.signal);
+    setWaiting((now) => (now === controller ? null : now));
+    if (places.length) close(places);
+    return null;
   };
+  const isWrong = (...ends) =>
+    String(refused.some(({ place }) => ends.some((end) => place.endsWith(end))));
   return html`
-    <button type="button" class="framed" disabled=${isPressing} onClick=${press}>${isPressing ? words.pressToClose : words.closeByPress}</button>
-    <form class="close-place" onSubmit=${close}>
-      <label>${words.closePlace}<input id="close-at" value=${at} placeholder="N3" spellcheck="false" onInput=${({ target }) => setAt(target.value)} /></label>
-      <label>${words.closeTo}<input id="close-to" value=${to} placeholder="–" spellcheck="false" onInput=${({ target }) => setTo(target.value)} /></label>
-      <button type="submit" class="framed" disabled=${!at.trim()}>${words.closeIt}</button>
+    <form class="close-place" ref=${form} onSubmit=${submit}>
+      <div class="fields">
+        <label>${words.closePlace}<input id="close-at" placeholder="N3" spellcheck="false" autocomplete="off" aria-invalid=${isWrong("].at", "].edge", ".edge[0]")} /></label>
+        <label>${words.closeTo}<input id="close-to" placeholder="–" spellcheck="false" autocomplete="off" aria-invalid=${isWrong("].edge", ".edge[1]")} /></label>
+      </div>
+      <${Times} document=${store.document} faults=${refused} />
+      ${refused.map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}
+      <div class="buttons">
+        <button type="submit" class="framed">${words.closeIt}</button>
+        <button type="button" class="framed" aria-pressed=${String(Boolean(waiting))} onClick=${press}>${words.closeByPress}</button>
+        <span class="hint" role="status">${waiting && words.pressToClose}</span>
+      </div>
     </form>
-    ${store.faultsAt("closures").map(({ named, place, message }) => html`<p class="wrong" role="alert" lang="en">${named || place}: ${message}</p>`)}
-    ${
-      store.document.closures?.length > 0 &&
-      html`<ul class="closures">${store.document.closures.map((closure, index) => {
-        const text = textOfClosure(closure);
-        const open = () => studio.whatIf((document) => withoutClosure(document, index));
-        return html`<li>${words.closed}: ${text} <button type="button" class="quiet" aria-label=${`${words.openAgain}: ${text}`} title=${words.openAgain} onClick=${open}>✕</button></li>`;
-      })}</ul>`
-    }`;
+    <${Closed} studio=${studio} />`;
+}
+
+/** What is closed, and when; each can be changed, and opened again. */
+function Closed({ studio }) {
+  const { closures } = studio.store.document;
+  if (!closures?.length) return null;
+  return html`<ul class="closures">${closures.map((closure, index) => {
+    const text = textOfClosure(closure);
+    const faults = studio.store.faultsAt(`closures[${index}]`);
+    const open = () => studio.whatIf((document) => withoutClosure(document, index));
+    const write = (key, time) =>
+      studio.whatIf((document) => changeTime(document, index, key, time));
+    return html`<li><span class="what">${words.closed}: <b>${text}</b></span>
+      <${Times} document=${studio.store.document} of=${text} faults=${faults} closure=${closure} write=${write} />
+      <button type="button" class="quiet" aria-label=${`${words.openAgain}: ${text}`} title=${words.openAgain} onClick=${open}>✕</button>
+      ${faults.map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}</li>`;
+  })}</ul>`;
 }

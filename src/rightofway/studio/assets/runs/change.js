@@ -1,6 +1,6 @@
 /** A plan beside the one before it: what was changed, both sums, who gains and who loses. */
 
-import { html } from "../vendor/htm-preact.js";
+import { html, useEffect } from "../vendor/htm-preact.js";
 import { Quantities } from "../viewer/quantities.js";
 import { changeInWords } from "../viewer/compared_table.js";
 import { words } from "../words.js";
@@ -22,6 +22,11 @@ const MOST = 4; // robots that are named
 export function Change({ studio }) {
   const { runs, stage } = studio;
   const { comparison } = runs;
+  useEffect(() => {
+    if (!studio.seeksChange || comparison?.runs[1] !== runs.shown) return;
+    studio.seeksChange = false;
+    studio.reveal(".change");
+  }, [comparison]);
   if (!comparison || !stage.plan) return null;
   const [before, after] = comparison.plans.map(({ text }) => text.flowtime);
   const { changes } = comparison.comparison.plans[1];

@@ -17,15 +17,16 @@ export function PlanPanel({ studio }) {
   const { running, run } = runs;
   const current = running ?? run;
   const isChosen = stage.isPlan && Boolean(stage.choice.robot);
+  const change = !runs.compared && html`<${Change} studio=${studio} />`;
   const questions = html`
       ${runs.losses && html`<${Waits} studio=${studio} />`}
-      ${runs.payload && html`<${Ask} studio=${studio} />`}`;
+      ${runs.payload && html`<${Ask} studio=${studio}>${isChosen && change}<//>`}`;
   return html`
     <div class="scroll">
       <${Settings} studio=${studio} />
       ${current && html`<${Curve} key=${current.number} run=${current} others=${running ? [] : runs.besides(current)} quantities=${quantitiesOf(current, studio)} />`}
       ${run && !runs.isOf(store.document) && html`<p class="aside">${words.changedSince} <button type="button" class="framed" onClick=${() => studio.takeBack()}>${words.takeBack}</button></p>`}
-      ${!runs.compared && html`<${Change} studio=${studio} />`}
+      ${!isChosen && change}
       ${runs.payload && html`<${Exports} studio=${studio} />`}
       ${isChosen && questions}
       <${RunList} studio=${studio} />

@@ -264,9 +264,10 @@ export const GERMAN = {
   saveFirst: "Der Befehl liest die gespeicherte Datei, nicht die Zeichnung hier.",
   whatIf: "Was wäre, wenn",
   whatIfOf: (name) => `Was wäre, wenn ${name} anders wäre`,
-  chooseRobot: "Einen Roboter auf der Karte wählen, um Startplatz, Tempo oder Arbeit zu ändern.",
+  chooseRobot:
+    "Einen Roboter auf der Karte wählen; dann Startplatz oder Arbeitsplatz ziehen oder Tempo und Arbeit ändern.",
   closeByPress: "Platz auf der Karte sperren",
-  pressToClose: "Den Platz auf der Karte anklicken",
+  pressToClose: "Den Platz oder die Strecke auf der Karte anklicken; Esc bricht ab.",
   closePlace: "Platz sperren",
   closeTo: "oder die Strecke nach",
   closeIt: "Sperren",
@@ -433,6 +434,8 @@ export const GERMAN = {
     failed: "fehlgeschlagen",
     interrupted: "unterbrochen",
   },
+  dragPlaces: (name) =>
+    `Startplatz oder Arbeitsplatz von ${name} an einen anderen Platz ziehen: Was ändert sich?`,
   watching: "Ein Klick auf einen Roboter oder ein Warten zeigt, warum er Zeit verliert.",
   keyGroups: {
     tools: "Werkzeuge",

@@ -248,9 +248,10 @@ export const ENGLISH = {
   saveFirst: "The command reads the file as it is saved, not what is drawn here.",
   whatIf: "What if",
   whatIfOf: (name) => `What if ${name} were different`,
-  chooseRobot: "Choose a robot on the map to change its home, speed or work.",
+  chooseRobot:
+    "Choose a robot on the map; then drag its home or a stop, or change its speed or work.",
   closeByPress: "Close a place on the map",
-  pressToClose: "Press the place on the map",
+  pressToClose: "Press the place or the lane on the map; Esc gives up.",
   closePlace: "Close the place",
   closeTo: "or the lane to",
   closeIt: "Close it",
@@ -413,6 +414,7 @@ export const ENGLISH = {
     failed: "failed",
     interrupted: "interrupted",
   },
+  dragPlaces: (name) => `Drag the home or a stop of ${name} to another place to see what changes.`,
   watching: "Press a robot or a wait to see why it loses time.",
   keyGroups: {
     tools: "Tools",
