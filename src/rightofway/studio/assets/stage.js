@@ -31,6 +31,7 @@ export class Stage extends Observable {
     this.theme = new Theme();
     this.asked = false;
     this.frames = 0;
+    this.isPicking = false; // whether a press on a place is waited for
     this.isMoved = false; // whether somebody has zoomed or moved the map
     this.theme.on("theme", () => this.repaint());
     new ResizeObserver(() => this.ask()).observe(holder);

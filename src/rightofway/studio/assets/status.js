@@ -30,6 +30,7 @@ function ToolHint({ editor }) {
 function PlanHint({ studio }) {
   const { runs, stage, store } = studio;
   const { running, losses } = runs;
+  if (stage.isPicking) return words.pressToClose;
   if (running) return words.planning;
   const { robot } = stage.choice ?? {};
   if (robot && robotsOf(store.document)) return words.dragPlaces(robot.name);

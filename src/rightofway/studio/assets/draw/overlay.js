@@ -83,10 +83,10 @@ function route(context, { x, y }, { home, stops }, scale) {
 }
 
 /** A trip that is being placed: a ring at its home, dashed from there to its stops; points of the drawing. */
-export function paintTrip(context, theme, scale, points) {
+export function paintTrip(context, { roadmap, stage: { theme } }, scale, points) {
   context.strokeStyle = theme.ink;
   context.lineWidth = 2 / scale;
-  ring(context, ...points[0], 0.35);
+  ring(context, ...points[0], roadmap.hasCells ? 0.35 : 11 / scale);
   context.setLineDash([5 / scale, 4 / scale]);
   context.beginPath();
   for (const point of points) context.lineTo(...point);

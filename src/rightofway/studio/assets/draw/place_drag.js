@@ -50,7 +50,7 @@ export class PlaceDrag {
   /** The home or the stop of the robot that an event is at; null for none. */
   #at(event) {
     const robot = this.#robot;
-    if (!robot || this.stage.holder.classList.contains("picking")) return null;
+    if (!robot || this.stage.isPicking) return null;
     const { roadmap, stage } = this.editor;
     const { scale } = stage.view.viewport;
     const point = this.#point(event);
@@ -165,7 +165,7 @@ export class PlaceDrag {
     const points = places.map((vertex) => (vertex < 0 ? null : at(vertex)));
     if (this.#to)
       points[this.#held.number + 1] = landing < 0 ? [this.#to.x, this.#to.y] : at(landing);
-    paintTrip(context, theme, scale, points.filter(Boolean));
+    paintTrip(context, editor, scale, points.filter(Boolean));
     if (!this.#to) return;
     if (landing >= 0 && this.#held.number >= 0)
       ring(context, ...at(landing), radiusAt(roadmap, landing, scale) * 0.8);

@@ -14,12 +14,16 @@ export function pressedPlace({ stage, store }, signal) {
   const waiting = new AbortController();
   const on = (target, name, action) =>
     target.addEventListener(name, action, { capture: true, signal: waiting.signal });
-  holder.classList.add("picking");
+  const shows = (isPicking) => {
+    stage.isPicking = isPicking;
+    holder.classList.toggle("picking", isPicking);
+  };
+  shows(true);
   return new Promise((resolve) => {
     let began = null;
     const end = (places) => {
       waiting.abort();
-      holder.classList.remove("picking");
+      shows(false);
       resolve(places);
     };
     signal.addEventListener("abort", () => end([]), { signal: waiting.signal });

@@ -81,7 +81,7 @@ export class RobotTool {
     context.lineWidth = 2 / scale;
     if (this.home >= 0) {
       const places = [this.home, ...this.stops, ...(this.over >= 0 ? [this.over] : [])];
-      paintTrip(context, theme, scale, places.map(at));
+      paintTrip(context, this.editor, scale, places.map(at));
     }
     if (this.over >= 0) ring(context, ...at(this.over), radiusAt(roadmap, this.over, scale) * 0.8);
   }

@@ -55,7 +55,10 @@ function Close({ studio }) {
   const [refused, setRefused] = useState([]); // faults of what is typed
   const [waiting, setWaiting] = useState(null); // that gives up the press on the map that is waited for
   const form = useRef(null);
-  useEffect(() => () => waiting?.abort(), [waiting]);
+  useEffect(() => {
+    studio.tell("change"); // the line below the map says it, too
+    return () => waiting?.abort();
+  }, [waiting]);
   const close = (places) =>
     studio.attempt(async () => {
       const { from, until } = Object.fromEntries(new FormData(form.current));
@@ -94,7 +97,7 @@ function Close({ studio }) {
       <div class="buttons">
         <button type="submit" class="framed">${words.closeIt}</button>
         <button type="button" class="framed" aria-pressed=${String(Boolean(waiting))} onClick=${press}>${words.closeByPress}</button>
-        <span class="hint" role="status">${waiting && words.pressToClose}</span>
+        <span class="hint">${waiting && words.pressToClose}</span>
       </div>
     </form>
     <${Closed} studio=${studio} />`;
@@ -110,7 +113,7 @@ function Closed({ studio }) {
     const open = () => studio.whatIf((document) => withoutClosure(document, index));
     const write = (key, time) =>
       studio.whatIf((document) => changeTime(document, index, key, time));
-    return html`<li><span class="what">${words.closed}: <b>${text}</b></span>
+    return html`<li><span class="what">${words.closed}<b>${text}</b></span>
       <${Times} document=${studio.store.document} of=${text} faults=${faults} closure=${closure} write=${write} />
       <button type="button" class="quiet" aria-label=${`${words.openAgain}: ${text}`} title=${words.openAgain} onClick=${open}>✕</button>
       ${faults.map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}</li>`;

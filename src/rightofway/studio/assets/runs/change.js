@@ -23,10 +23,10 @@ export function Change({ studio }) {
   const { runs, stage } = studio;
   const { comparison } = runs;
   useEffect(() => {
-    if (!studio.seeksChange || comparison?.runs[1] !== runs.shown) return;
+    if (!studio.seeksChange || comparison?.runs[1] !== runs.shown || !runs.losses) return;
     studio.seeksChange = false;
     studio.reveal(".change");
-  }, [comparison]);
+  }, [comparison, runs.losses]); // the waits stand above it
   if (!comparison || !stage.plan) return null;
   const [before, after] = comparison.plans.map(({ text }) => text.flowtime);
   const { changes } = comparison.comparison.plans[1];

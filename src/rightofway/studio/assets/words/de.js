@@ -470,6 +470,7 @@ export const GERMAN = {
       ["Leertaste", "Abspielen oder anhalten"],
       ["← →", "Einen Schritt zurück oder weiter"],
       ["Klicken", "Auf einen Roboter: warum er wartet"],
+      ["Ziehen", "Startplatz oder Arbeitsplatz dieses Roboters: Was wäre, wenn er anderswo wäre"],
     ],
   },
 };

@@ -449,6 +449,7 @@ export const ENGLISH = {
       ["Space", "Play or pause"],
       ["← →", "One step back or on"],
       ["Press", "A robot, to see why it waits"],
+      ["Drag", "Home or stop of that robot: what if it were elsewhere"],
     ],
   },
 };
