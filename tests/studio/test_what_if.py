@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.builders.browsers import needs_browser
-from tests.builders.drawing import Opener, StudioPage, begin
+from tests.builders.drawing import Opener, StudioPage, begin, studio_page
 from tests.builders.studios import BAY
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+    from tests.builders.studios import Client
 
 pytestmark = needs_browser
 
@@ -187,6 +193,31 @@ def test_only_the_places_of_the_robot_that_is_chosen_are_dragged(opened: Opener)
     assert studio.document == before
     assert studio.ask("studio.runs.runs.length") == 1
     assert studio.ask("studio.stage.view.viewport.fitted") is True
+
+
+def test_a_finger_chooses_a_robot_and_drags_its_home(browser: Browser, empty: Client) -> None:
+    empty.studio.file = "floor.yaml"
+    (empty.folder / "floor.yaml").write_text(BAY)
+    with studio_page(browser, empty, has_touch=True) as studio:
+        studio.opened()
+        studio.tab("Plan")
+        begin(studio)
+        studio.planned()
+        studio.page.touchscreen.tap(*studio.where((2.5, 0.5)))
+        studio.wait_for("studio.stage.choice.robot?.name === 'R2'")
+        fingers = studio.page.context.new_cdp_session(studio.page)
+
+        def touch(kind: str, *places: tuple[float, float]) -> None:
+            points = [dict(zip("xy", studio.where(place), strict=True)) for place in places]
+            fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        touch("touchStart", (2.5, 0.5))
+        touch("touchMove", (2.5, 1.0))
+        touch("touchMove", (4.5, 1.5))
+        touch("touchEnd")
+        compared(studio, 2)
+        assert studio.document["robots"][1]["home"] == "N9"
+        assert studio.complaints == []
 
 
 def test_a_home_is_typed_instead_of_dragged(opened: Opener) -> None:

@@ -1,4 +1,4 @@
-/** The home and the stops of the robot that is chosen on a plan, dragged to other places of the map. */
+/** Home and stops of the robot that is chosen on a plan, dragged to other places of the map. */
 
 import { changeRobots, robotsOf, withKey, withStopAt } from "../robots/fleet.js";
 import { ring } from "../viewer/shapes.js";
@@ -11,7 +11,7 @@ const STILL = 4; // pixels that a press may move
 const TOUCH = 24; // pixels round a place that a finger reaches
 
 export class PlaceDrag {
-  #over = null; // what the pointer is at: { number, vertex }, with the number of the stop, -1 for the home
+  #over = null; // what the pointer is at: { number, vertex }; the number of the stop, -1 for the home
   #held = null; // what is dragged, the same; `robot` is its index, `from` where the press was
   #to = null; // where it is dragged to, in units of the drawing; null before it has moved
   #isAsking = false; // whether the library looks at where it was dropped
@@ -30,7 +30,7 @@ export class PlaceDrag {
     this.stage.on("overlay", () => this.#paint());
   }
 
-  /** The chosen robot as the document has it: its index, home and stops; null while nothing can be asked. */
+  /** The chosen robot as the document has it: index, home, stops; null while nothing can be asked. */
   get #robot() {
     const { editor, stage } = this;
     if (editor.isOn || !stage.isPlan || !stage.choice.robot) return null;
@@ -76,19 +76,25 @@ export class PlaceDrag {
     if (this.#isAsking) return;
     if (!this.#held) return event.buttons ? undefined : this.#hover(this.#at(event));
     event.stopPropagation(); // the map stays where it is
+    this.#follow(event);
+  }
+
+  /** Drag to where an event is, once that is not where the press was. */
+  #follow(event) {
     const point = this.#point(event);
-    const { from } = this.#held;
     if (!this.#to) {
+      const { from } = this.#held;
       if (Math.hypot(point.screen.x - from.x, point.screen.y - from.y) <= STILL) return;
       this.stage.giveUp(event);
-      this.stage.holder.setPointerCapture(event.pointerId); // of another plan, too, that is shown meanwhile
+      this.stage.holder.setPointerCapture(event.pointerId); // another plan may be shown meanwhile
     }
     this.#to = point;
     this.#show();
   }
 
   async #up(event) {
-    if (this.#isAsking) return;
+    if (!this.#held || this.#isAsking) return;
+    this.#follow(event);
     if (!this.#to) return void (this.#held = null); // a press, for the map
     event.stopPropagation();
     const { robot, number, vertex } = this.#held;
@@ -104,7 +110,7 @@ export class PlaceDrag {
     this.#end();
   }
 
-  /** A point as the document names its place; one without a vertex is named all the same, so that the library says what is there. */
+  /** How the document names a place; also one without a vertex, so that the library says what is there. */
   #place({ x, y }) {
     const { roadmap, document } = this.editor;
     const vertex = this.editor.vertexAt({ x, y });

@@ -158,6 +158,7 @@ export class Viewport extends Observable {
     this.canvas.setPointerCapture(event.pointerId);
     this.#touches.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
     if (this.#touches.size === 1) this.#dragged = 0;
+    this.#point(event.offsetX, event.offsetY); // a finger that presses has not moved there
   }
 
   #move(event) {
