@@ -54,7 +54,8 @@ export class Roadmap {
   where(vertex) {
     if (!this.isMeasured) return this.name(vertex);
     const middle = this.toSite(this.x[vertex], this.y[vertex]);
-    return `(${middle.map((at) => decimal(fraction(Number(at.toFixed(5))), PLACES)).join(", ")})`;
+    const [x, y] = middle.map((at) => decimal(fraction(Number(at.toFixed(5))), PLACES));
+    return `(${x},\u00a0${y})`; // in one line
   }
 
   /** What a vertex is called on the map: where it is, and the stations there; these alone for a cell. */
