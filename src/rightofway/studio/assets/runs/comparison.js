@@ -39,8 +39,7 @@ export function Comparison({ studio }) {
     </section>`;
 }
 
-const robotNamed = ({ stage }, name) =>
-  stage.plan?.robots.find((robot) => robot.name === name);
+const robotNamed = ({ stage }, name) => stage.plan?.robots.find((robot) => robot.name === name);
 
 function look(studio, name) {
   const robot = robotNamed(studio, name);
