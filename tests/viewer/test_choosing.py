@@ -223,5 +223,5 @@ def test_times_are_written_in_the_units_of_the_scenario(show: Opener) -> None:
     viewer = show(replace(plan, scenario=scenario), "#tick=0.5&robot=R1")
     assert viewer.text("#readout") == "30 s of 10 min"
     card = viewer.text("#card")
-    assert "waits 1 min in N0 for R2 to leave N1" in card
+    assert "waits 1 min in the home of R1 for R2 to leave (1.5,\u00a00.5)" in card
     assert "1 m/min" in card

@@ -207,3 +207,46 @@ def test_maps_are_below_each_other_on_a_small_screen(show: Opener) -> None:
     )
     assert tops[1] > tops[0] + 100
     assert viewer.ask("document.documentElement.scrollWidth") <= 420
+
+
+def test_three_plans_fit_at_1280_pixels(many: Viewer) -> None:
+    wide = "[...document.querySelectorAll('.compared-wide, #compared-list')]"
+    assert many.ask(f"{wide}.map((box) => box.scrollWidth - box.clientWidth)") == [0, 0, 0]
+    assert many.ask("document.documentElement.scrollWidth") == 1280
+
+
+def test_heads_and_names_stay_where_many_plans_are_scrolled(show: Opener) -> None:
+    viewer = show(
+        door(),
+        title="A",
+        others=[(door_shifted(late), f"B{late}") for late in range(1, 8)],
+        viewport={"width": 1280, "height": 720},
+    )
+    viewer.ask("document.getElementById('compared-figures').style.maxHeight = '90px'")
+    viewer.ask("document.querySelectorAll('.compared-wide').forEach((it) => it.scrollTo(150, 40))")
+    viewer.page.wait_for_timeout(100)
+    stay = (
+        "['.compared-figures tbody th', '.compared-figures thead td', '.compared-head > *',"
+        " '.compared-row .robot'].map((each) => { const it = document.querySelector(each);"
+        " const box = it.closest('.compared-wide').getBoundingClientRect();"
+        " return it.getBoundingClientRect().left - box.left; })"
+    )
+    assert all(0 <= left <= 25 for left in viewer.ask(stay))
+    top = (
+        "document.querySelector('.compared-figures thead th').getBoundingClientRect().top"
+        " - document.getElementById('compared-figures').getBoundingClientRect().top"
+    )
+    assert viewer.ask(top) == 0
+    widths = viewer.ask("[...document.querySelectorAll('.map')].map((map) => map.clientWidth)")
+    assert min(widths) >= 150
+
+
+def test_maps_are_beside_each_other_on_a_low_screen(show: Opener) -> None:
+    viewer = show(
+        door(),
+        title="A",
+        others=[(door_shifted(late), f"B{late}") for late in range(1, 8)],
+        viewport={"width": 900, "height": 420},
+    )
+    widths = viewer.ask("[...document.querySelectorAll('.map')].map((map) => map.clientWidth)")
+    assert min(widths) >= 150

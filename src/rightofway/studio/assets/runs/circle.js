@@ -60,11 +60,18 @@ function counted(pieces, homeOf) {
 
 /** What one step is, in words. */
 function sentence({ kind, robot, vertices, laps }, before, drawn, stage) {
-  const [first, last] = [vertices[0], vertices.at(-1)];
-  const home = drawn && stage.plan.roadmap.name(drawn.home);
   if (kind === "laps") return words.steps.laps(robot, laps);
-  if (kind === "way") return words.steps.way(robot, first, last, last === home);
+  const [from, to] = [vertices[0], vertices.at(-1)];
+  const [first, last] = [from, to].map((name) => placeOn(stage, name));
+  const home = drawn && stage.plan.roadmap.name(drawn.home);
+  if (kind === "way") return words.steps.way(robot, first, last, to === home);
   if (kind === "work")
-    return first === home ? words.steps.turn(robot, first) : words.steps.work(robot, first);
+    return from === home ? words.steps.turn(robot, first) : words.steps.work(robot, first);
   return words.steps.right(robot, first, before?.robot);
+}
+
+/** What the viewer calls a vertex; its name, where the map that is shown does not have it. */
+function placeOn({ plan, words: said }, name) {
+  const vertex = plan?.roadmap.vertexNamed(name) ?? -1;
+  return vertex < 0 ? name : said.vertex(vertex);
 }

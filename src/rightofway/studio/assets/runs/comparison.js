@@ -39,12 +39,11 @@ export function Comparison({ studio }) {
     </section>`;
 }
 
-const robotNamed = ({ stage }, name) =>
-  stage.isPlan ? stage.plan.robots.find((robot) => robot.name === name) : null;
+const robotNamed = ({ stage }, name) => stage.plan?.robots.find((robot) => robot.name === name);
 
 function look(studio, name) {
   const robot = robotNamed(studio, name);
-  if (robot) studio.stage.choice.chooseRobot(robot.index);
+  if (robot && studio.stage.isPlan) studio.stage.choice.chooseRobot(robot.index);
 }
 
 /** The viewer's own page of the plans, over all else. */

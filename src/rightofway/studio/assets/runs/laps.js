@@ -258,7 +258,7 @@ function nameOf(studio, { kind, robot, stop }) {
   if (kind === "speed") return words.parameters.speed(robot);
   const plan = studio.stage.isPlan ? studio.stage.plan : null;
   const stage = plan?.robots.find(({ name }) => name === robot)?.stages[stop];
-  return words.parameters.work(robot, stage ? plan.roadmap.name(stage.vertex) : stop + 1);
+  return words.parameters.work(robot, stage ? studio.stage.words.where(stage.vertex) : stop + 1);
 }
 
 /** What a small change of a value does, and from where on that is otherwise. */

@@ -37,10 +37,10 @@ export function sentenceOn(stage, { robot, tick, vertex, sentence }) {
 }
 
 /** What the viewer knows of a loss that the server lists. */
-export function lossOn({ plan, words: said }, { robot, tick, vertex }) {
+export function lossOn({ plan }, { robot, tick, vertex }) {
   return plan.planned
     ?.find(({ name }) => name === robot)
-    ?.losses.find((each) => each.tick === tick && said.vertex(each.vertex) === vertex);
+    ?.losses.find((each) => each.tick === tick && plan.roadmap.name(each.vertex) === vertex);
 }
 
 /** Whether the other robot could not have gone first: then that is not offered. */

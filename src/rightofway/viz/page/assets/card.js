@@ -59,7 +59,7 @@ export class Card {
         ]),
         [texts.speed, this.plan.quantities.speed(robot.speed)],
         [texts.radius, robot.radius ? this.plan.quantities.length(robot.radius) : ""],
-        [texts.home, words.vertex(robot.home)],
+        [texts.home, words.where(robot.home)],
         [texts.anotherWay, english(rerouted?.because ?? "")],
       ]),
       element("h3", {}, texts.trip),
@@ -153,7 +153,7 @@ export class Card {
     if (stage.work) dwell.push(texts.works(this.words.duration(stage.work)));
     if (stage.turn && stage.visit + 1 < robot.vertices.length)
       dwell.push(texts.turns(this.words.duration(stage.turn)));
-    const text = [this.words.vertex(stage.vertex), ...dwell].join(", ");
+    const text = [this.words.where(stage.vertex), ...dwell].join(", ");
     if (stage.visit < 0) return goTo(texts.never, text, () => {});
     return this.#moment(robot.enter[stage.visit], text);
   }

@@ -133,6 +133,11 @@ export class Choice extends Observable {
     return this.ghosts ? this.plan.planned : null;
   }
 
+  /** The robots whose routes are drawn, by index. */
+  get routed() {
+    return this.decision?.robots ?? (this.robot ? [this.robotIndex] : []);
+  }
+
   /** Whether a robot is to stand out; all do while none is chosen. */
   standsOut(index) {
     if (this.decision) return this.decision.robots.includes(index);

@@ -27,6 +27,9 @@ export class ComparedRobots {
       fill: (row, robot) => this.#fill(row, robot),
       choose: ({ name }) => choose(name),
     });
+    box.addEventListener("scroll", () => {
+      sheet.style.setProperty("--scrolled", `${box.scrollLeft}px`); // names of robots stay in sight
+    });
     compared.on("base", () => this.refresh());
     this.refresh();
   }

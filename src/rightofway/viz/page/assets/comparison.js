@@ -13,6 +13,7 @@ import { Motion } from "./motion.js";
 import { Use } from "./use.js";
 import { Words } from "./words.js";
 
+const LEAST_MAP = 150; // pixels that a map is wide, so that one can read its title
 const AROUND = 80; // pixels above and below a map: its title, the scale bar
 
 /**
@@ -63,8 +64,8 @@ export class Comparison {
         width / columns / roadmap.width,
         (height / Math.ceil(this.plans.length / columns) - AROUND) / roadmap.height,
       );
-    const columns = this.plans.map((_, i) => i + 1);
-    const best = columns.reduce((best, each) => (scale(each) > scale(best) ? each : best));
+    const columns = this.plans.map((_, i) => i + 1).filter((each) => width >= each * LEAST_MAP);
+    const best = columns.reduce((best, each) => (scale(each) > scale(best) ? each : best), 1);
     this.maps.style.setProperty("--columns", best);
   }
 

@@ -11,10 +11,11 @@ export class DecisionList {
       ...plan.reroutes.map((reroute) => this.#reroute(reroute)),
       ...plan.decisions.map((decision, index) => this.#decision(decision, index)),
     ];
+    const isLong = plan.roadmap.isMeasured && plan.decisions.length > 0; // coordinates are longer than names
     this.find = document.getElementById("find-decision");
     this.list = new VirtualList(document.getElementById("decision-list"), {
-      rowHeight: 52,
-      className: "two",
+      rowHeight: isLong ? 72 : 52,
+      className: isLong ? "two long" : "two",
       none: this.items.length ? texts.noDecisionFits : texts.noDecisions,
       fill: fillTwoLines,
       choose: (item) => item.choose(),

@@ -67,6 +67,10 @@ export const SIDES = [
   [-0.75, -0.8],
   [0.75, 0.8],
   [-0.75, 0.8],
+  [1, -1],
+  [-1, -1],
+  [1, 1],
+  [-1, 1],
 ];
 
 /** The box of a label on a side of a disc. */

@@ -108,7 +108,7 @@ export class MapNames {
   }
 
   /**
-   * Beside its disc: where it was if that is free, rather not over the name of a place or a mark.
+   * Beside its disc: where it was if that is free, rather not over the name of a place, a mark or a route.
    * While time runs on, a name changes its side only for another robot.
    */
   #beside(context, index, radius) {
@@ -129,6 +129,7 @@ export class MapNames {
       const cost =
         (this.places.names.isFree(...there) ? 0 : 3) +
         (this.places.marks.isFree(...there) ? 0 : 2) +
+        (this.places.routes.isFree(...there) ? 0 : 2) +
         (step ? change : 0);
       if (cost < least) [best, least, box] = [side, cost, there];
       if (least <= (step ? change : change - 1)) break;

@@ -13,10 +13,9 @@ export class MapRoute {
   }
 
   paint(context, scale) {
-    const { robot, decision } = this.choice;
+    const { decision, routed } = this.choice;
     if (decision) this.#place(context, decision, scale);
-    const chosen = decision?.robots ?? (robot ? [robot.index] : []);
-    chosen.forEach((index, place) =>
+    routed.forEach((index, place) =>
       this.#route(context, this.plan.robots[index], this.aside(place), scale),
     );
   }

@@ -119,7 +119,7 @@ export class MapTip {
     return lines;
   }
 
-  /** The name of a place, and whose home or stop it is. */
+  /** Where a place is, its name, and whose home or stop it is. */
   #placeName(vertex) {
     const homes = this.plan.robots.filter((robot) => robot.home === vertex).map(({ name }) => name);
     const stops = (this.plan.stops.get(vertex) ?? []).map(({ name }) => name);
@@ -127,9 +127,9 @@ export class MapTip {
       homes.length ? texts.homeOf(several(homes)) : "",
       stops.length ? texts.stopOf(several(stops)) : "",
     ];
-    return [this.words.vertex(vertex), this.plan.roadmap.uses(vertex), ...uses]
-      .filter(Boolean)
-      .join(", ");
+    const { roadmap } = this.plan;
+    const name = roadmap.isMeasured ? roadmap.name(vertex) : ""; // as files and tables call it
+    return [roadmap.where(vertex), name, roadmap.uses(vertex), ...uses].filter(Boolean).join(", ");
   }
 
   /** Coordinates in the site's frame, to a hundredth of a cell or so. */

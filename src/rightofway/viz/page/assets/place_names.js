@@ -9,7 +9,7 @@ const MOST_PLACES = 300; // names of places in sight
 const MOST_VERTICES = 1500; // in sight; of more, only homes and stops have names
 const NAMED_CELL = 40; // vertices of a grid have their names from this size on [pixels]
 const SIGNED_LANE = 44; // pixels; a shorter lane has no sign of its speed limit
-const FEW_MARKS = 24; // robots up to which homes and stops on a grid are named at any size
+const FEW_MARKS = 24; // robots up to which homes and stops with a name on a grid have it at any size
 const PLACE_TYPE = 12; // pixels
 const MOST_ANCHORS = 24; // vertices of a zone that its name may stand beside
 const LONGEST_MARK = 34; // characters of the name of a home, a stop or a station
@@ -21,6 +21,7 @@ const LONGEST_MARK = 34; // characters of the name of a home, a stop or a statio
 export class PlaceNames {
   names = new LabelBoard();
   marks = new LabelBoard(); // homes and stops
+  routes = new LabelBoard(); // of the robots chosen
   #lanes = new LabelBoard();
   #widths = new TextWidths();
   #marksOf;
@@ -192,9 +193,10 @@ export class PlaceNames {
     return [left + this.plan.roadmap.x[vertex] * scale, top + this.plan.roadmap.y[vertex] * scale];
   }
 
-  /** Marks, and on a roadmap lanes, that names rather do not cover. */
+  /** Marks, routes that are drawn, and on a roadmap lanes, that names rather do not cover. */
   #keepFree(marks, width, height) {
-    for (const board of [this.names, this.marks, this.#lanes]) board.clear(width, height);
+    for (const board of [this.names, this.marks, this.routes, this.#lanes])
+      board.clear(width, height);
     this.names.take(
       width - LONGEST_BAR - (this.plan.roadmap.usualLimit ? 240 : 40),
       height - 28,
@@ -203,22 +205,37 @@ export class PlaceNames {
     ); // scale bar
     for (const [vertex, mark] of marks)
       this.marks.takeDisc(...this.#pointOf(vertex), this.#reach(mark));
+    this.#keepRoutesFree(width, height);
     if (this.plan.roadmap.hasCells) return;
     const { bothWays, oneWay } = this.plan.roadmap.lanes;
-    const half = this.sizes.lane / 2;
-    for (const [tail, head] of [...bothWays, ...oneWay]) {
-      const [[x, y], [toX, toY]] = [this.#pointOf(tail), this.#pointOf(head)];
-      if (
-        Math.max(x, toX) < 0 ||
-        Math.min(x, toX) > width ||
-        Math.max(y, toY) < 0 ||
-        Math.min(y, toY) > height
-      )
-        continue;
-      const pieces = Math.min(Math.ceil(Math.hypot(toX - x, toY - y) / (2 * half)), 300);
-      for (let i = 0; i <= pieces; i++) {
-        this.#lanes.takeDisc(x + ((toX - x) * i) / pieces, y + ((toY - y) * i) / pieces, half);
+    for (const lane of [...bothWays, ...oneWay])
+      this.#takeLane(this.#lanes, lane, this.sizes.lane / 2, width, height);
+  }
+
+  /** The routes that are drawn, each way once: as wide as their lines side by side. */
+  #keepRoutesFree(width, height) {
+    const { routed } = this.choice;
+    const half = routed.length * this.sizes.route.apart;
+    const { size } = this.plan.roadmap;
+    const ways = new Map();
+    for (const { vertices } of routed.map((index) => this.plan.robots[index])) {
+      for (let visit = 1; visit < vertices.length; visit++) {
+        const [tail, head] = [vertices[visit - 1], vertices[visit]].sort((a, b) => a - b);
+        ways.set(tail * size + head, [tail, head]);
       }
+    }
+    for (const way of ways.values()) this.#takeLane(this.routes, way, half, width, height);
+  }
+
+  /** Take a straight way on a board, in discs of a radius, where it may be in sight. */
+  #takeLane(board, [tail, head], radius, width, height) {
+    const [[x, y], [toX, toY]] = [this.#pointOf(tail), this.#pointOf(head)];
+    if (Math.max(x, toX) < 0 || Math.min(x, toX) > width) return;
+    if (Math.max(y, toY) < 0 || Math.min(y, toY) > height) return;
+    const pieces = Math.min(Math.ceil(Math.hypot(toX - x, toY - y) / radius), 600);
+    for (let i = 0; i < pieces; i++) {
+      const share = (i + 0.5) / pieces; // beyond its ends a name may stand
+      board.takeDisc(x + (toX - x) * share, y + (toY - y) * share, radius);
     }
   }
 
@@ -233,7 +250,8 @@ export class PlaceNames {
     const [x, y] = this.#pointOf(vertex);
     const high = PLACE_TYPE + 2;
     const { scale } = this.viewport;
-    const mayCover = mark && (mark.robots.length > 0 || scale >= NAMED_CELL);
+    const { hasCells } = this.plan.roadmap;
+    const mayCover = hasCells || (mark && (mark.robots.length > 0 || scale >= NAMED_CELL));
     if (this.plan.roadmap.rows && scale >= NAMED_CELL) {
       const inset = Math.min(Math.max((scale - 60) * 0.1, 1.5), 7); // beside the corner of a home
       const [left, top] = [x - scale / 2 + inset, y - scale / 2 + inset];
@@ -242,7 +260,9 @@ export class PlaceNames {
     const radius = Math.max(this.sizes.lane / 2, this.sizes.vertex, mark ? this.#reach(mark) : 0);
     const boxes = SIDES.map((side) => boxBeside(x, y, radius, wide, high, side));
     const free = boxes.filter((box) => this.names.isFree(...box) && this.marks.isFree(...box));
-    return free.find((box) => this.#lanes.isFree(...box)) ?? (mayCover ? (free[0] ?? null) : null);
+    const apart = free.filter((box) => this.#lanes.isFree(...box));
+    const beside = (boxes) => boxes.find((box) => this.routes.isFree(...box));
+    return beside(apart) ?? apart[0] ?? (mayCover ? (beside(free) ?? free[0] ?? null) : null);
   }
 
   /** The vertices that may have a name, in the order of their importance. */
@@ -253,8 +273,9 @@ export class PlaceNames {
         .get(vertex)
         .robots.some((index) => this.choice.robotIndex >= 0 && this.choice.standsOut(index));
     if (roadmap.hasCells && this.viewport.scale < NAMED_CELL) {
+      const hasName = (vertex) => !roadmap.isMeasured || roadmap.stations.has(vertex);
       const shown = [...marks.keys()].filter(
-        (vertex) => this.plan.robots.length <= FEW_MARKS || isChosen(vertex),
+        (vertex) => (this.plan.robots.length <= FEW_MARKS && hasName(vertex)) || isChosen(vertex),
       );
       return new Set([...this.choice.lit, ...(this.choice.decision?.vertices ?? []), ...shown]);
     }

@@ -1,12 +1,16 @@
 import { fromDifferences, lastAtMost, nearest } from "./arrays.js";
 import { texts } from "./language.js";
+import { decimal, fraction } from "./quantities.js";
+
+const PLACES = 3; // decimals of the middle of a cell
 
 /**
  * The graph that robots drive on and what is marked on it, as map_data.py wrote it. It is laid out for
- * drawing: x to the right, y down, one unit a cell.
+ * drawing: x to the right, y down, one unit a cell. `lengthUnit` is the unit of its lengths, or null.
  */
 export class Roadmap {
-  constructor(raw) {
+  constructor(raw, lengthUnit = null) {
+    this.lengthUnit = lengthUnit;
     this.width = raw.width;
     this.height = raw.height;
     this.rows = raw.rows ?? null;
@@ -36,16 +40,30 @@ export class Roadmap {
     return Boolean(this.rows ?? this.sides);
   }
 
+  /** Whether a cell is called by where it is: people know metres of a floor, not numbers of its cells. */
+  get isMeasured() {
+    return this.hasCells && Boolean(this.lengthUnit);
+  }
+
+  /** The name of a vertex in files, commands and addresses. */
   name(vertex) {
     return this.names ? this.names[vertex] : `N${this.cells[vertex]}`;
   }
 
-  /** What a vertex is called on the map: its name, and those of the stations there. */
+  /** Where a vertex is, as `Site.name` of the library writes it: the middle of a cell, or a name. */
+  where(vertex) {
+    if (!this.isMeasured) return this.name(vertex);
+    const middle = this.toSite(this.x[vertex], this.y[vertex]);
+    const [x, y] = middle.map((at) => decimal(fraction(Number(at.toFixed(5))), PLACES));
+    return `(${x},\u00a0${y})`; // in one line
+  }
+
+  /** What a vertex is called on the map: where it is, and the stations there; these alone for a cell. */
   label(vertex) {
-    const name = this.name(vertex);
-    return [name, ...(this.stations.get(vertex) ?? []).filter((station) => station !== name)].join(
-      " · ",
-    );
+    const stations = this.stations.get(vertex) ?? [];
+    const name = this.where(vertex);
+    if (this.isMeasured && stations.length) return stations.join(" · ");
+    return [name, ...stations.filter((station) => station !== name)].join(" · ");
   }
 
   /** What a vertex is for: "station Press, parking"; empty for a vertex to pass. */

@@ -8,7 +8,7 @@ export class Site {
     this.tick = { numerator: raw.tick[0], denominator: raw.tick[1] };
     this.quantities = new Quantities(raw.units, raw.tick);
     this.title = raw.title;
-    this.roadmap = new Roadmap(raw.map);
+    this.roadmap = new Roadmap(raw.map, raw.units.length);
     this.planned = raw.robots.map((robot, index) => new Robot(robot, index));
     this.robots = this.planned; // those that are shown
     this.clearance = raw.clearance ?? 0; // [length unit]

@@ -34,12 +34,20 @@ export class SpaceTime {
     const { robot, corridor } = this.choice;
     const vertices = this.#route;
     if (!vertices) return texts.placeOverTime;
-    const length = this.plan.quantities.length(
-      this.#rounded(new Corridor(this.plan.roadmap, vertices).length),
-    );
-    if (!corridor) return texts.routeOf(robot.name, length);
+    const { roadmap, quantities } = this.plan;
+    if (!corridor) return texts.routeOf(robot.name, quantities.length(this.#rounded(this.#driven)));
+    const length = quantities.length(this.#rounded(new Corridor(roadmap, vertices).length));
     const [from, to] = [corridor[0], corridor.at(-1)].map((end) => this.words.vertex(end));
     return texts.wayBetween(from, to, length);
+  }
+
+  /** How far the chosen robot drives, each way as often as it takes it [length unit]. */
+  get #driven() {
+    const { vertices } = this.choice.robot;
+    return vertices.reduce((sum, head, visit) => {
+      const tail = vertices[visit - 1] ?? head;
+      return tail === head ? sum : sum + this.plan.roadmap.distance(tail, head);
+    }, 0);
   }
 
   #rounded(length) {
@@ -115,7 +123,7 @@ export class SpaceTime {
     context.textBaseline = "middle";
     for (const { vertex, y } of named) {
       context.fillText(
-        shortened(context, this.words.vertex(vertex), this.area.left - 34),
+        shortened(context, this.words.where(vertex), this.area.left - 34),
         this.area.left - 12,
         y + 0.5,
       );

@@ -43,8 +43,32 @@ export class Words {
     return this.plan.robots[index].name;
   }
 
+  /** Where a place is, in a list or beside a row: "Press", "(7.25, 4.75)", "N5". */
+  where(vertex) {
+    const { roadmap } = this.plan;
+    return roadmap.isMeasured ? roadmap.label(vertex) : roadmap.name(vertex);
+  }
+
+  /** A place in a sentence: a cell that is the home or the only stop of one robot is called that. */
   vertex(vertex) {
-    return this.plan.roadmap.name(vertex);
+    const { roadmap } = this.plan;
+    if (!roadmap.isMeasured || roadmap.stations.has(vertex)) return this.where(vertex);
+    this.#known ??= this.#knownPlaces();
+    return this.#known.get(vertex) ?? this.where(vertex);
+  }
+
+  #known = null;
+
+  #knownPlaces() {
+    const { planned, stops } = this.plan;
+    const known = new Map();
+    const counts = new Map();
+    for (const robots of stops.values())
+      for (const robot of robots) counts.set(robot, (counts.get(robot) ?? 0) + 1);
+    for (const [vertex, [robot, other]] of stops)
+      if (!other && counts.get(robot) === 1) known.set(vertex, texts.theStop(robot.name));
+    for (const { home, name } of planned) known.set(home, texts.theHome(name));
+    return known;
   }
 
   /** A time where there is little room: "6 min 23 s"; a bare number where no unit is known. */

@@ -419,6 +419,8 @@ export const GERMAN = {
   heldFor: (time) => `insgesamt ${time} belegt`,
   homeOf: (names) => `Startplatz von ${names}`,
   stopOf: (names) => `Ziel von ${names}`,
+  theHome: (name) => `Startplatz ${name}`,
+  theStop: (name) => `Ziel ${name}`,
   station: "Station",
   stationNamed: (name) => `Station ${name}`,
   parking: "Parkplatz",

@@ -426,6 +426,8 @@ export const ENGLISH = {
   heldFor: (time) => `held for ${time} in all`,
   homeOf: (names) => `home of ${names}`,
   stopOf: (names) => `stop of ${names}`,
+  theHome: (name) => `the home of ${name}`,
+  theStop: (name) => `the stop of ${name}`,
   station: "station",
   stationNamed: (name) => `station ${name}`,
   parking: "parking",
