@@ -42,9 +42,10 @@ export class RunStore extends Observable {
   #last = null; // the run that was selected last, where Shift begins
   #notes = new Map(); // what is said of each run beside the one before it
   #going = new Set(); // runs that are forgotten as soon as no undo is possible
-  #heard = new Set(); // runs that are shown as soon as they have a plan
+  #heard = new Map(); // runs that are shown as soon as they have a plan, and what hears of each
   #documents = new Map(); // that each run of this page was made from
   #wanted = 0;
+  #awaited = null; // the run that is shown, or will be as soon as the server answers
   #live = 0; // the last run that was made by a change
 
   async load() {
@@ -54,13 +55,27 @@ export class RunStore extends Observable {
       get("/choices"),
     ]);
     Object.assign(this, { planners, runs, choices });
-    for (const run of runs) if (!isOver(run)) this.#hear(run.number);
     listenToAll({
       runs: ({ runs: all }) => this.#keepAll(all),
       run: (run) => this.#keep(run),
       deleted: ({ number }) => this.#drop([number]),
     });
     this.tell("runs");
+  }
+
+  /** Hear of the runs of a document that is opened, and of no others. */
+  hearOf(store) {
+    this.#heard.clear();
+    for (const run of this.listed(store, null)) if (!isOver(run)) this.#hear(run.number);
+  }
+
+  /** Show the latest plan of a scenario, which a document has; nothing changes where a run is shown. */
+  async showLatest(scenario, document) {
+    const isOf = (run) => canBeShown(run) && run.figures?.scenario === scenario;
+    const latest = this.runs.find((run) => isOf(run) && !this.#going.has(run.number));
+    if (!latest || this.#awaited !== null) return;
+    this.#documents.set(latest.number, document);
+    await this.show(latest.number);
   }
 
   /** The latest run of this page that is queued or running. */
@@ -129,6 +144,7 @@ export class RunStore extends Observable {
   /** Show the plan of a run, and find out why its robots wait. */
   async show(number) {
     const turn = ++this.#wanted;
+    this.#awaited = number;
     const payload = await get(`/runs/${number}/payload`);
     if (turn !== this.#wanted) return;
     if (this.shown !== number && this.payload)
@@ -163,6 +179,7 @@ export class RunStore extends Observable {
   /** Show no plan any more. */
   hide() {
     this.#wanted++;
+    this.#awaited = null;
     Object.assign(this, NOTHING_SHOWN);
     this.tell("payload");
   }
@@ -339,11 +356,11 @@ export class RunStore extends Observable {
   }
 
   #hear(number) {
-    this.#heard.add(number);
-    listen(number, {
+    const isWanted = () => this.#heard.get(number) === hearer; // no other document was opened since
+    const hearer = {
       run: (run) => {
         this.#keep(run);
-        if (!isOver(run)) return;
+        if (!isOver(run) || !isWanted()) return;
         if (canBeShown(run)) this.#try(() => this.show(number));
         if (run.error) this.#refuse(run.error);
       },
@@ -356,9 +373,11 @@ export class RunStore extends Observable {
       plan: ({ figures }) => {
         const run = this.find(number);
         if (run) this.#keep({ ...run, figures, has_plan: true });
-        this.#try(() => this.show(number));
+        if (isWanted()) this.#try(() => this.show(number));
       },
-    });
+    };
+    this.#heard.set(number, hearer);
+    listen(number, hearer);
   }
 
   async #try(action) {
