@@ -111,9 +111,7 @@ async def open_document(
     for run in studio.runs.all():
         if run.kind == "opened" and run.source == path and run.request == request:
             return {**answer, "run": Runs.data(run)}
-    run = Run(
-        kind="opened", name=name, source=path, request=request, figures=result["figures"]
-    )
+    run = Run(kind="opened", name=name, source=path, request=request, figures=result["figures"])
     return {**answer, "run": Runs.data(await studio.runs.add_done(run, blobs[0]))}
 
 
