@@ -285,7 +285,7 @@ export const ENGLISH = {
   /** Which robot goes first, and why. */
   noDecisionFits: "No decision fits that.",
   noDecisions:
-    "This plan keeps no decisions: a search makes none. Choose a robot: its card lists its waits. In the studio each wait can be asked what if.",
+    "This plan keeps no decisions: a search makes none. Choose a robot: its card lists its waits. The studio shows what follows if the other robot goes first.",
   noneNeeded: "No decision was needed: no robot loses time to another.",
   rerouted: (name) => `${name} was sent another way`,
   decision: {
