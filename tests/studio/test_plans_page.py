@@ -14,6 +14,7 @@ import openpyxl  # type: ignore[import-untyped]  # it ships no types
 from PIL import Image
 
 from rightofway import load_plan
+from rightofway.io.text import parse_yaml
 from tests.builders.browsers import Viewer, needs_browser
 from tests.builders.drawing import Opener, StudioPage, begin
 from tests.builders.studios import BAY
@@ -194,6 +195,96 @@ def test_a_run_that_is_deleted_is_had_back(opened: Opener) -> None:
     assert studio.complaints == []
 
 
+def test_runs_without_a_plan_are_no_plans_and_stand_behind_one_line(opened: Opener) -> None:
+    studio = opened(PARTS)
+    for count in (1, 2, 3):
+        begin(studio)
+        studio.wait_for(f"studio.runs.runs.length === {count} && !studio.runs.running")
+    assert studio.text("#tab-plan").strip() == "Plan"
+    numbers = "[...document.querySelectorAll('tr[data-run]')].map((row) => Number(row.dataset.run))"
+    assert studio.ask(numbers) == [3]  # what has just failed says why
+    assert "R1 has no way" in studio.text("tr.why")
+    fold = studio.page.get_by_role("button", name="2 without a plan", exact=True)
+    fold.click()
+    assert studio.ask(numbers) == [3, 2, 1]
+    studio.page.reload()
+    studio.wait_for("Boolean(document.querySelector('.runs .fold'))")
+    assert studio.ask(numbers) == []
+    studio.button("Delete: 3 without a plan").click()
+    assert studio.page.locator(".runs .fold").count() == 0
+    studio.page.locator(".notice").get_by_role("button", name="Undo").click()
+    studio.button("3 without a plan").click()
+    assert studio.ask(numbers) == [3, 2, 1]
+    assert studio.complaints == []
+
+
+def reloaded(studio: StudioPage) -> None:
+    studio.page.reload()
+    studio.wait_for("Boolean(window.studio?.about.version) && Boolean(studio.store.site)")
+
+
+def test_a_reload_shows_the_tab_and_the_latest_plan_of_the_document(opened: Opener) -> None:
+    studio = opened(BAY)
+    planned_by(studio, "prioritized", "auto")
+    studio.requests.clear()
+    reloaded(studio)
+    studio.wait_for("studio.runs.shown === 2 && studio.stage.isPlan && studio.runs.losses !== null")
+    assert studio.ask("studio.tab") == "plan"
+    assert studio.page.locator(".aside").count() == 0  # nothing has changed since
+    assert [each for each in studio.requests if each.endswith("/payload")] == [
+        f"{studio.page.evaluate('origin')}/api/v1/runs/2/payload"
+    ]
+    studio.button("Files").click()
+    studio.page.go_back()
+    studio.wait_for("studio.runs.shown === 2 && studio.stage.isPlan && studio.tab === 'plan'")
+    assert studio.complaints == []
+
+
+def test_a_draft_that_is_opened_again_has_its_plan_until_it_differs(opened: Opener) -> None:
+    """A crash of the browser leaves the draft; another floor was looked at before."""
+    studio = opened(BAY)
+    edit = (
+        "studio.store.change((document) => ({ ...document, robots: document.robots.map("
+        "(robot, i) => (i ? robot : { ...robot, work: WORK })) }))"
+    )
+    studio.ask(edit.replace("WORK", "7"))
+    studio.settle()
+    planned_by(studio, "prioritized")
+    studio.tab("Map")
+    studio.ask("studio.open({ document: { ...studio.store.document, units: { time: 's' } } })")
+    studio.settle()
+    assert studio.ask("studio.runs.shown") is None  # another document has no plan
+    studio.ask("studio.shelf.list().then(() => studio.shelf.openDraft('floor.yaml'))")
+    studio.wait_for("studio.runs.shown === 1")
+    assert studio.ask("studio.tab") == "map"
+    assert not studio.ask("studio.stage.isPlan")
+    studio.ask(edit.replace("WORK", "8"))
+    studio.settle()
+    studio.wait_for("studio.store.isKept")
+    reloaded(studio)
+    studio.page.wait_for_timeout(300)
+    assert studio.ask("studio.runs.shown") is None
+    assert studio.complaints == []
+
+
+def test_a_run_of_another_document_goes_on_unseen(opened: Opener) -> None:
+    studio = opened(crowd())
+    begin(studio, seconds=60)
+    studio.wait_for("studio.runs.running?.has_plan")
+    reloaded(studio)
+    studio.wait_for(
+        "studio.runs.running && studio.stage.isPlan"
+    )  # whoever reloads goes on watching
+    studio.ask(f"studio.open({{ document: {json.dumps(parse_yaml(BAY))} }})")
+    studio.settle()
+    assert studio.ask("[studio.runs.running ?? null, studio.runs.shown]") == [None, None]
+    studio.ask("fetch('/api/v1/runs/1/stop', { method: 'POST',"
+               " headers: { 'content-type': 'application/json' }, body: '{}' })")  # fmt: skip
+    studio.wait_for("studio.runs.find(1).state === 'stopped'")
+    studio.page.wait_for_timeout(300)
+    assert studio.ask("studio.runs.shown") is None
+
+
 def test_runs_are_sorted_and_say_what_is_new_in_each(opened: Opener) -> None:
     studio = opened(BAY)
     planned_by(studio, "prioritized", "prioritized")
@@ -205,7 +296,7 @@ def test_runs_are_sorted_and_say_what_is_new_in_each(opened: Opener) -> None:
     begin(studio, planner="prioritized")
     studio.wait_for("studio.runs.shown === 3")
     studio.planned()
-    studio.wait_for("studio.runs.notesOn({ number: 3 }).length > 0")
+    studio.wait_for("studio.runs.notes.on({ number: 3 }).length > 0")
     assert "as good as 1" in row(studio, 2)
     assert "R1: speed 1 \u2192 2" in row(studio, 3)
     order = "[...document.querySelectorAll('tr[data-run]')].map((row) => Number(row.dataset.run))"

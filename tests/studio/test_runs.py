@@ -45,6 +45,26 @@ def test_a_plan_is_made_kept_and_played(client: httpx.Client) -> None:
     assert "sandbox allow-scripts" in page.headers["content-security-policy"]
 
 
+def test_plans_have_the_digest_of_the_scenario_that_they_are_of(client: httpx.Client) -> None:
+    def digest(document: dict[str, Any]) -> str | None:
+        body = {"document": document, "identifies": True}
+        found: str | None = client.post("/survey", json=body).json()["scenario"]
+        return found
+
+    def done(**request: Any) -> dict[str, Any]:
+        return over(client, client.post("/runs", json=request).json()["number"])
+
+    plan = planned(client)
+    late = done(kind="simulate", based_on=plan["number"], runs=5, time_limit=5)
+    laps = done(kind="laps", document=DOOR, time_limit=5)
+    better = done(kind="improve", based_on=plan["number"], time_limit=1)
+    of_each = {run["figures"]["scenario"] for run in (plan, late, laps, better)}
+    assert of_each == {digest(dict(reversed(DOOR.items())))}  # the order of keys is no content
+    assert digest({**DOOR, "robots": DOOR["robots"][:1]}) not in {None, *of_each}
+    assert digest({**DOOR, "robots": []}) is None
+    assert "scenario" not in client.post("/survey", json={"document": DOOR}).json()
+
+
 @pytest.mark.parametrize("part", ["payload", "losses", "page"])
 def test_what_is_large_travels_compressed_to_whoever_takes_it(
     client: httpx.Client, part: str

@@ -184,6 +184,41 @@ def test_delays_show_their_spread_and_replay_any_run(studio: StudioPage) -> None
     assert studio.complaints == []
 
 
+def test_a_replay_of_laps_shows_beside_each_robot_where_the_plan_has_it(
+    studio: StudioPage,
+) -> None:
+    repeat(studio)
+    studio.page.locator("details.delays summary").click()
+    studio.page.fill("#run-count", "20")
+    studio.button("Simulate").click()
+    studio.wait_for("Boolean(studio.runs.report?.ranks)")
+    for tick in (20, 45):
+        studio.ask(f"studio.stage.clock.seek({tick})")
+        studio.wait_for(f"studio.stage.motion.ticks[0] === {tick}")
+        places = studio.ask(
+            "(() => { const { plan, ghosts } = studio.stage; return plan.planned.map((robot) => {"
+            f" const visit = robot.enter.findLastIndex((enter) => enter <= {tick});"
+            " const here = robot.vertices[visit], next = robot.vertices[visit + 1] ?? here;"
+            " return [here, next].map((vertex) => Math.hypot(plan.roadmap.x[vertex]"
+            " - ghosts.x[robot.index], plan.roadmap.y[vertex] - ghosts.y[robot.index])); }); })()"
+        )
+        assert all(sum(apart) <= 1.001 for apart in places)  # on the edge that it drives along
+
+
+def test_a_period_of_several_laps_is_said_with_the_time_for_each(studio: StudioPage) -> None:
+    """R1 makes two laps while R2 and R3 make one each; with R2 faster, each makes one."""
+    repeat(studio)
+    assert studio.text(".pace .figure span") == "period of 4 laps, 8 each"
+    speed = slider(studio, "R2: speed")
+    for _ in range(5):
+        speed.press("ArrowRight")
+    anew = ".orders tbody tr:last-child"
+    studio.wait_for(f"document.querySelector('{anew}').dataset.known === 'true'")
+    assert studio.text(".pace > .hint") == (
+        "R2: speed 1.25. New order: the pattern repeats every 3 laps: 22.8, 7.6 for each lap."
+    )
+
+
 def test_causes_of_delay_are_fields(studio: StudioPage) -> None:
     studio.page.locator(".settings [type=submit]").click()
     studio.planned()

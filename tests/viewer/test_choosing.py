@@ -50,6 +50,22 @@ def test_a_decision_by_priority_needs_no_figures(show: Opener) -> None:
     assert viewer.page.locator("#card table").count() == 0
 
 
+def test_a_plan_without_decisions_says_why_it_has_none(show: Opener) -> None:
+    """A search makes no decisions one by one, though robots wait."""
+    plan = door()
+    viewer = show(replace(plan, run=replace(plan.run, decisions=())))
+    assert viewer.text("#tab-decisions b") == "\u2013"
+    viewer.page.click("#tab-decisions")
+    assert "a search makes none" in viewer.text("#decision-list")
+
+
+def test_where_no_robot_loses_time_nothing_had_to_be_decided(show: Opener) -> None:
+    viewer = show(crowd(1))
+    assert viewer.text("#tab-decisions b") == "0"
+    viewer.page.click("#tab-decisions")
+    assert "No decision was needed" in viewer.text("#decision-list")
+
+
 def test_a_reroute_chooses_its_robot(show: Opener) -> None:
     viewer = show(loop())
     viewer.page.click("#tab-decisions")

@@ -181,15 +181,17 @@ export class ScenarioStore extends Observable {
     const { document, folder, opened } = this;
     try {
       const { findings, sentences, phrases } = this.survey;
-      const isLarge = !this.site || sizeOf(this.site.map) > MANY; // or not known yet
+      const isNew = !this.site; // just opened
+      const isLarge = isNew || sizeOf(this.site.map) > MANY;
       const survey = await post("/survey", {
         document,
         folder,
         inspects: !isLarge,
+        identifies: isNew,
       });
       if (opened !== this.opened) return;
       Object.assign(this, {
-        survey: isLarge ? { ...survey, findings, sentences, phrases } : survey,
+        survey: { ...survey, ...(isLarge && { findings, sentences, phrases }), of: document },
         site: survey.site ?? this.site,
       });
       this.tell("survey");

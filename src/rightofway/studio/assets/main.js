@@ -71,7 +71,7 @@ function Tabs({ studio }) {
       store.faults.length +
         store.survey.findings.filter(({ severity }) => severity !== "note").length || "",
     robots: Array.isArray(robots) ? robots.length : "",
-    plan: runs.listed(store, null).length || "",
+    plan: runs.plans(store, null).length || "",
   };
   const go = (tab) => {
     studio.showTab(tab);

@@ -1,4 +1,9 @@
-/** The address of what is shown: a reload, a bookmark and the way back lead to the same document. */
+/** The address of what is shown: a reload, a bookmark and the way back lead to the same document and tab. */
+
+const TABS = "tabs"; // the key of the tabs that documents were left at, by address, the latest last
+const MOST_TABS = 50;
+
+const tabs = () => new Map(JSON.parse(localStorage.getItem(TABS) ?? "[]"));
 
 export class PlaceInAddress {
   constructor(studio) {
@@ -20,6 +25,19 @@ export class PlaceInAddress {
     return Boolean(name);
   }
 
+  /** The tab that the present document was left at; undefined for one that is new here. */
+  get lastTab() {
+    return tabs().get(location.hash);
+  }
+
+  /** Remember the tab of the present document. */
+  keepTab() {
+    const { tab } = this.studio;
+    const others = [...tabs()].filter(([hash]) => hash !== location.hash);
+    const kept = [...others, [location.hash, tab]].slice(-MOST_TABS);
+    localStorage.setItem(TABS, JSON.stringify(kept));
+  }
+
   /** Be at the start page. */
   leave() {
     if (location.hash) history.pushState(null, "", location.pathname + location.search);
@@ -35,9 +53,10 @@ export class PlaceInAddress {
         ? ["file", store.path]
         : ["draft", store.draft];
     const hash = `#${kind}=${encodeURIComponent(name)}`;
-    if (location.hash === hash) return;
     const isStep = store.opened !== this.opened;
     this.opened = store.opened;
+    if (location.hash === hash) return;
     history[isStep ? "pushState" : "replaceState"](null, "", hash);
+    if (!isStep) this.keepTab();
   }
 }

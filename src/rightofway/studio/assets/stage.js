@@ -56,7 +56,7 @@ export class Stage extends Observable {
     const [choice, motion, words] = [new Choice(plan), new Motion(plan), new Words(plan)];
     const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap });
     const canvas = this.#freshCanvas();
-    Object.assign(this, { plan, clock, choice, motion, words, canvas });
+    Object.assign(this, { plan, clock, choice, motion, ghosts, words, canvas });
     this.player?.end();
     this.player = this.isPlan ? new Player(this) : null;
     if (!this.player) this.#clear();
@@ -148,12 +148,13 @@ export class Stage extends Observable {
   }
 
   #paint(now) {
-    const { clock, motion, view } = this;
+    const { clock, motion, ghosts, choice, view } = this;
     this.asked = false;
     if (clock.playing) clock.advance(this.last ? Math.min(now - this.last, 100) / 1000 : 0);
     this.last = clock.playing ? now : 0;
     if (!this.holder.clientWidth || !this.holder.clientHeight) return; // it is not in sight
     motion.moveTo(clock.tick);
+    if (choice.ghosts) ghosts.moveTo(clock.tick);
     view.paint();
     this.#paintOn(this.over, "overlay");
     this.player?.paint();

@@ -97,14 +97,14 @@ export class Studio extends Observable {
       notes,
       suggested,
       isFresh: true,
-      tab: "map",
     });
     this.runs.hide();
     this.store.open(found);
+    this.runs.hearOf(this.store);
     this.editor.select([]);
     this.editor.isOn = true;
     this.editor.take(tool);
-    this.tell("change");
+    this.showTab(this.place.lastTab ?? "map");
   }
 
   /** Speak another language; the map is written anew. */
@@ -146,8 +146,10 @@ export class Studio extends Observable {
   }
 
   showTab(tab) {
-    if (tab !== this.tab) this.complaints = [];
-    this.tab = tab;
+    if (tab !== this.tab) {
+      Object.assign(this, { tab, complaints: [] });
+      this.place.keepTab();
+    }
     const isPlan = tab === "plan" && this.runs.payload;
     if (!isPlan && this.stage.isPlan) this.stage.choice.chooseNothing();
     this.editor.isOn = !isPlan;
@@ -302,6 +304,8 @@ export class Studio extends Observable {
     if (store.site && (this.tab !== "plan" || !this.runs.payload))
       stage.show(store.site, { keeps: !this.isFresh });
     this.isFresh = false;
+    if (store.survey.scenario && !this.#isPlaying)
+      this.attempt(() => this.runs.showLatest(store.survey.scenario, store.survey.of));
     const isWanted = this.isLive || this.#isAsked;
     this.#isAsked = false;
     if (

@@ -107,7 +107,11 @@ async def open_document(
     if result["kind"] != "plan":
         return {**answer, "save_as": free_name(studio, path), "revision": ""}
     name = PurePosixPath(path).name
-    run = Run(kind="opened", name=name, source=path, figures=result["figures"])
+    request = {"revision": revision_of(content)}
+    for run in studio.runs.all():
+        if run.kind == "opened" and run.source == path and run.request == request:
+            return {**answer, "run": Runs.data(run)}
+    run = Run(kind="opened", name=name, source=path, request=request, figures=result["figures"])
     return {**answer, "run": Runs.data(await studio.runs.add_done(run, blobs[0]))}
 
 

@@ -98,6 +98,9 @@ class Survey(Placed):
     """A document that somebody changes."""
 
     inspects: bool = Field(True, description="whether findings are wanted, which take longest")
+    identifies: bool = Field(
+        False, description="whether the digest is wanted that plans of this scenario have"
+    )
 
 
 class ToText(Placed):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, replace
@@ -28,7 +29,7 @@ from rightofway.io.scenario.writer import yaml_of
 from rightofway.io.sites import sites_of
 from rightofway.io.text import json_text, parse_yaml
 from rightofway.metrics import inspect, measure
-from rightofway.model import Plan
+from rightofway.model import Plan, Scenario
 from rightofway.studio.messages import Blobs, Emit, fault_data
 
 Result = tuple[Any, ...]
@@ -140,8 +141,17 @@ def written(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, name: str
     raise InputError.at("path", message)
 
 
+def digest_of(scenario: Scenario) -> str:
+    """Return a digest that scenarios of the same content share, whatever file they stand in."""
+    text = json.dumps(dump_scenario(scenario), sort_keys=True, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
 def figures(plan: Plan) -> dict[str, Any]:
-    """Return what a plan costs, in ticks and as people read it, and what it kept of an old plan."""
+    """Return what a plan costs, in ticks and as people read it, and what it kept of an old plan.
+
+    ``scenario`` is the digest of the scenario that it is of.
+    """
     metrics, duration = measure(plan), plan.scenario.quantities.duration
     costs = {
         "flowtime": metrics.flowtime,
@@ -151,7 +161,13 @@ def figures(plan: Plan) -> dict[str, Any]:
     text = {key: duration(ticks) for key, ticks in costs.items()}
     text["gap"] = f"{metrics.gap:.1%}" if metrics.lower_bound else ""
     tick, units = plan.scenario.problem.clock.tick, plan.scenario.units
-    found = {**costs, "text": text, "tick": tick.as_integer_ratio(), "units": asdict(units)}
+    found = {
+        **costs,
+        "text": text,
+        "tick": tick.as_integer_ratio(),
+        "units": asdict(units),
+        "scenario": digest_of(plan.scenario),
+    }
     if plan.run.start is None:
         return found
     return {**found, "start": asdict(plan.run.start), "robots": len(plan.tracks)}

@@ -21,7 +21,7 @@ from rightofway.metrics import Inspection, Site, inspect, sentences
 from rightofway.model import Units
 from rightofway.phrases import parts_of
 from rightofway.studio.messages import Blobs, Emit, fault_data, zipped
-from rightofway.studio.tasks.documents import loaded_of, plain
+from rightofway.studio.tasks.documents import digest_of, loaded_of, plain
 from rightofway.viz import site_data
 from rightofway.viz.page.background import background_of, background_place
 from rightofway.viz.page.document import compact_json
@@ -42,12 +42,19 @@ _findings: OrderedDict[Hashable, Inspection] = OrderedDict()
 
 
 def surveyed(
-    _emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: str, inspects: bool = True
+    _emit: Emit,
+    _blobs: Blobs,
+    *,
+    document: dict[str, Any],
+    folder: str,
+    inspects: bool = True,
+    identifies: bool = False,
 ) -> Result:
     """Return faults, notes, the map with all robots that have no fault, and what will hurt on it.
 
     A robot of the site has the `index` that it has in the document. The site is null where the map
-    itself has faults.
+    itself has faults. With `identifies`, ``scenario`` is the digest that plans of this scenario
+    have among their figures; null where the document has faults.
     """
     notes = tuple[str, ...]()
     site, closures = None, list[dict[str, Any]]()
@@ -67,6 +74,8 @@ def surveyed(
         "sentences": [],
         "phrases": [],
     }
+    if identifies:
+        answer["scenario"] = None if loaded is None or faults else digest_of(loaded.scenario)
     if site is not None:
         drawn = _drawn(site)
         colours = robot_colours(1 + max(kept, default=0))

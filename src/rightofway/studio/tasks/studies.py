@@ -18,7 +18,7 @@ from rightofway.io.text import parse_json
 from rightofway.model import Scenario
 from rightofway.model.values import exact
 from rightofway.studio.messages import Blobs, Emit
-from rightofway.studio.tasks.documents import figures, loaded_of
+from rightofway.studio.tasks.documents import digest_of, figures, loaded_of
 from rightofway.studio.tasks.planning import Progress
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import payload_of
@@ -82,7 +82,8 @@ def laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: A
     except GaveUp as reason:  # a robot that is home for ever blocks others: only laps are shown
         return ({**result, "status": str(reason)}, payload)
     whole = replace(whole, steady=within(steady, list(map(len, whole.tracks))))
-    return ({**result, "figures": figures(whole)}, payload, plan_text(whole).encode())
+    costs = {**figures(whole), "scenario": digest_of(scenario)}  # it says how many laps are shown
+    return ({**result, "figures": costs}, payload, plan_text(whole).encode())
 
 
 def laps_if(

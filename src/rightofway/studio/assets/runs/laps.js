@@ -118,14 +118,17 @@ function Pace({ studio, report, group, chosen }) {
   const shown = curves.filter(
     ({ robot }) => robot === null || robot === chosen || leaders(group).includes(robot),
   );
+  const laps = lapsIn(group);
+  const isLong = [laps, other?.laps].some((count) => count > group.robots.length); // of several laps each
   const given = moved && `${nameOf(studio, moved.curve)} ${said.value(moved.curve, value)}`;
-  const hint = !moved ? words.moveSlider : other?.why ? words.noNewOrder(other.why) : given;
+  const anew = newOrder(said, other, isLong);
+  const about = anew && (other.why || isLong) ? `${given}. ${anew}` : given;
   return html`
     <div class="pace">
-      <p class="figure"><output>${said.short(period)}</output><span>${words.period}</span></p>
+      <p class="figure"><output>${said.short(period)}</output><span>${isLong ? words.periodOf(laps, said.short(over(period, [BigInt(laps), 1n]))) : words.period}</span></p>
       <${Table} said=${said} group=${group} at=${at} period=${moved && period} other=${other} />
-      <p class="unseen" role="status">${moved ? `${words.sameOrder(said.time(period), said.time(at))} ${newOrder(said, other)}` : ""}</p>
-      <p class="hint">${hint}</p>
+      <p class="unseen" role="status">${moved ? `${words.sameOrder(said.time(period), said.time(at))} ${anew}` : ""}</p>
+      <p class="hint">${moved ? about : words.moveSlider}</p>
       <div class="buttons">
         <button type="button" class="framed" disabled=${!moved} onClick=${() => move(null, 0)}>${words.resetValue}</button>
         <button type="button" class="framed" disabled=${!moved || !robotsOf(studio.store.document) || !runs.isOf(studio.store.document)} onClick=${() => take(studio, moved.curve, value)}>${words.takeValue}</button>
@@ -185,9 +188,12 @@ function answerOf({ groups, message }, { robots }) {
 }
 
 /** In words, what a new order would reach. */
-function newOrder(said, other) {
+function newOrder(said, other, isLong) {
   if (!other || other.isAsked) return "";
-  return other.why ? words.noNewOrder(other.why) : words.newOrder(said.time(other.period));
+  if (other.why) return words.noNewOrder(other.why);
+  const { period, laps } = other;
+  if (!isLong) return words.newOrder(said.time(period));
+  return words.newPattern(laps, said.short(period), said.short(over(period, [BigInt(laps), 1n])));
 }
 
 /** Period and laps: as they are, with the value in the same order, and with it in a new order. */

@@ -4,7 +4,7 @@ import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
 import { Quantities } from "../viewer/quantities.js";
 import { words } from "../words.js";
-import { canBeShown, isOver } from "./run_store.js";
+import { canBeShown, isOver, isWithoutPlan } from "./run_store.js";
 
 const MOST = 12; // that are listed at once; the others on request
 
@@ -32,10 +32,16 @@ export function RunList({ studio }) {
   const [listed, setListed] = useState(MOST);
   const [sort, setSort] = useState("number");
   const [file, setFile] = useState(null); // null for this document, "*" for all
-  const found = runs.listed(store, file).sort((a, b) => SORTS[sort](a) - SORTS[sort](b));
+  const all = runs.listed(store, file);
+  const empty = all.filter(
+    (run) => isWithoutPlan(run) && !(run === all[0] && runs.hasJustFailed(run)),
+  );
+  const found = all
+    .filter((run) => !empty.includes(run))
+    .sort((a, b) => SORTS[sort](a) - SORTS[sort](b));
   const shown = found.slice(0, listed);
   useEffect(() => {
-    runs.describe(shown.map(({ number }) => number));
+    runs.notes.find(shown.map(({ number }) => number));
   }, [shown.map(({ number, state }) => `${number} ${state}`).join()]);
   if (!runs.runs.length) return null;
   const head = (key, text, hint = "") => {
@@ -52,14 +58,15 @@ export function RunList({ studio }) {
       <header><h2 id="runs-title">${words.runs}</h2>
         <${Files} studio=${studio} file=${file} setFile=${setFile} /></header>
       <${Selection} studio=${studio} />
-      <table class="runs" hidden=${!found.length}>
+      <table class="runs" hidden=${!all.length}>
         <thead><tr><td></td>${head("number", words.number)}
           <th scope="col" class="title">${words.name}</th>
           ${head("flowtime", words.flowtime, words.terms.flowtime)}
           ${head("took", words.took)}<td></td></tr></thead>
         <tbody>${shown.map(row)}</tbody>
+        ${empty.length > 0 && html`<${Empty} studio=${studio} runs=${empty} row=${row} />`}
       </table>
-      ${!found.length && html`<p class="hint">${words.noRuns}</p>`}
+      ${!all.length && html`<p class="hint">${words.noRuns}</p>`}
       ${
         left > 0 &&
         html`<button type="button" class="framed" onClick=${() => setListed(listed + MOST)}>
@@ -68,18 +75,33 @@ export function RunList({ studio }) {
     </section>`;
 }
 
+/** The runs that came to nothing: one line until somebody wants to see them. */
+function Empty({ studio, runs, row }) {
+  const [isOpen, setOpen] = useState(false);
+  const numbers = runs.map(({ number }) => number);
+  const about = words.withoutPlan(runs.length);
+  return html`<tbody class="empty">
+    <tr class="fold"><td colspan="6"><div>
+      <button type="button" class="quiet" aria-expanded=${String(isOpen)} onClick=${() => setOpen(!isOpen)}>
+        <i aria-hidden="true">${isOpen ? "▼" : "▶"}</i>${about}</button>
+      <button type="button" class="quiet" aria-label=${`${words.remove}: ${about}`}
+        onClick=${() => forget(studio, numbers, about)}>${words.remove}</button>
+    </div></td></tr>
+    ${isOpen && runs.map(row)}</tbody>`;
+}
+
 /** Whose runs are listed, where there are others than those of this document. */
 function Files({ studio, file, setFile }) {
   const { runs, store } = studio;
-  const own = runs.listed(store, null).length;
-  if (own === runs.runs.length) return null;
+  const [own, all] = [null, "*"].map((whose) => runs.plans(store, whose).length);
+  if (own === all) return null;
   const others = [...new Set(runs.runs.map(fileOf))].filter(
     (each) => each && !store.names.has(each),
   );
   return html`<select aria-label=${words.whoseRuns} value=${file ?? ""}
       onChange=${({ target }) => setFile(target.value || null)}>
     <option value="">${words.ownRuns(own)}</option>
-    <option value="*">${words.allRuns(runs.runs.length)}</option>
+    <option value="*">${words.allRuns(all)}</option>
     ${others.map((each) => html`<option value=${each}>${each}</option>`)}</select>`;
 }
 
@@ -98,11 +120,11 @@ function Selection({ studio }) {
 }
 
 /** Forget runs, with an undo while the notice stands. */
-function forget({ runs, notices }, numbers) {
+function forget({ runs, notices }, numbers, about = "") {
   const text =
     numbers.length === 1 ? words.runDeleted(numbers[0]) : words.runsDeleted(numbers.length);
   const undo = runs.forgetSoon(numbers);
-  notices.say(text, words.undo, undo);
+  notices.say(about ? words.deleted(about) : text, words.undo, undo);
 }
 
 function Row({ studio, run, order, isOwn }) {
@@ -117,7 +139,7 @@ function Row({ studio, run, order, isOwn }) {
     (run.kind === "plan" ? runs.planners.default : words.runKinds[run.kind]);
   const took = secondsOf(run);
   const title = isOwn ? method : titleOf(run);
-  const rest = [run.name || !isOwn ? method : "", words.states[run.state], ...runs.notesOn(run)];
+  const rest = [run.name || !isOwn ? method : "", words.states[run.state], ...runs.notes.on(run)];
   const about = rest.filter(Boolean).join(" · ");
   const flowtime = figures?.tick
     ? new Quantities(figures.units, figures.tick).short(figures.flowtime)

@@ -4,10 +4,11 @@ import { Observable } from "../viewer/observable.js";
 import { get, post, remove, request } from "../api.js";
 import { listen, listenToAll } from "../events.js";
 import { words } from "../words.js";
-import { changeInWords } from "../viewer/compared_table.js";
+import { RunNotes } from "./notes.js";
 
 export const isOver = (run) => !["queued", "running"].includes(run.state);
 export const canBeShown = (run) => run.has_plan || run.has_payload;
+export const isWithoutPlan = (run) => isOver(run) && !canBeShown(run); // it failed or was cancelled
 
 const NO_COMMAND = ["flip", "opened"]; // kinds of runs that no command makes
 const MOST_COMPARED = 8; // as the library has it
@@ -39,12 +40,13 @@ export class RunStore extends Observable {
   command = ""; // that gives the same as the run that is shown; empty where none does
   selected = []; // numbers of the runs that are compared, where there are two or more
   compared = null; // those plans beside each other
+  notes = new RunNotes(this);
   #last = null; // the run that was selected last, where Shift begins
-  #notes = new Map(); // what is said of each run beside the one before it
   #going = new Set(); // runs that are forgotten as soon as no undo is possible
-  #heard = new Set(); // runs that are shown as soon as they have a plan
+  #heard = new Map(); // runs that are shown as soon as they have a plan, and what hears of each
   #documents = new Map(); // that each run of this page was made from
   #wanted = 0;
+  #awaited = null; // the run that is shown, or will be as soon as the server answers
   #live = 0; // the last run that was made by a change
 
   async load() {
@@ -54,13 +56,27 @@ export class RunStore extends Observable {
       get("/choices"),
     ]);
     Object.assign(this, { planners, runs, choices });
-    for (const run of runs) if (!isOver(run)) this.#hear(run.number);
     listenToAll({
       runs: ({ runs: all }) => this.#keepAll(all),
       run: (run) => this.#keep(run),
       deleted: ({ number }) => this.#drop([number]),
     });
     this.tell("runs");
+  }
+
+  /** Hear of the runs of a document that is opened, and of no others. */
+  hearOf(store) {
+    this.#heard.clear();
+    for (const run of this.listed(store, null)) if (!isOver(run)) this.#hear(run.number);
+  }
+
+  /** Show the latest plan of a scenario, which a document has; nothing changes where a run is shown. */
+  async showLatest(scenario, document) {
+    const isOf = (run) => canBeShown(run) && run.figures?.scenario === scenario;
+    const latest = this.runs.find((run) => isOf(run) && !this.#going.has(run.number));
+    if (!latest || this.#awaited !== null) return;
+    this.#documents.set(latest.number, document);
+    await this.show(latest.number);
   }
 
   /** The latest run of this page that is queued or running. */
@@ -129,6 +145,7 @@ export class RunStore extends Observable {
   /** Show the plan of a run, and find out why its robots wait. */
   async show(number) {
     const turn = ++this.#wanted;
+    this.#awaited = number;
     const payload = await get(`/runs/${number}/payload`);
     if (turn !== this.#wanted) return;
     if (this.shown !== number && this.payload)
@@ -163,6 +180,7 @@ export class RunStore extends Observable {
   /** Show no plan any more. */
   hide() {
     this.#wanted++;
+    this.#awaited = null;
     Object.assign(this, NOTHING_SHOWN);
     this.tell("payload");
   }
@@ -212,6 +230,16 @@ export class RunStore extends Observable {
     return there.filter(isOf);
   }
 
+  /** Those of them that have a plan. */
+  plans(store, file) {
+    return this.listed(store, file).filter(canBeShown);
+  }
+
+  /** Whether somebody waits for a run, and it has failed. */
+  hasJustFailed({ number, state }) {
+    return this.#heard.has(number) && state !== "cancelled";
+  }
+
   /** The runs that are compared with another one. */
   besides({ number }) {
     const numbers = this.compared?.runs ?? [];
@@ -253,28 +281,6 @@ export class RunStore extends Observable {
   async endComparison() {
     await this.select([]);
     await this.compare(null);
-  }
-
-  /** Find out in what runs differ from those before them. */
-  async describe(numbers) {
-    for (const run of numbers.map((number) => this.find(number))) {
-      if (!run?.has_plan || !isOver(run) || this.#notes.has(run.number)) continue;
-      this.#notes.set(run.number, []);
-      try {
-        const { before, changes } = await get(`/runs/${run.number}/changes`);
-        const earlier = this.find(before);
-        if (earlier)
-          this.#notes.set(run.number, notesBetween(earlier, run, changes.map(changeInWords)));
-        this.tell("runs");
-      } catch {
-        // it is forgotten: there is nothing to say
-      }
-    }
-  }
-
-  /** What is said of a run. */
-  notesOn({ number }) {
-    return this.#notes.get(number) ?? [];
   }
 
   /** Forget runs unless the function that is returned is called within seconds. */
@@ -339,11 +345,11 @@ export class RunStore extends Observable {
   }
 
   #hear(number) {
-    this.#heard.add(number);
-    listen(number, {
+    const isWanted = () => this.#heard.get(number) === hearer; // no other document was opened since
+    const hearer = {
       run: (run) => {
         this.#keep(run);
-        if (!isOver(run)) return;
+        if (!isOver(run) || !isWanted()) return;
         if (canBeShown(run)) this.#try(() => this.show(number));
         if (run.error) this.#refuse(run.error);
       },
@@ -356,9 +362,11 @@ export class RunStore extends Observable {
       plan: ({ figures }) => {
         const run = this.find(number);
         if (run) this.#keep({ ...run, figures, has_plan: true });
-        this.#try(() => this.show(number));
+        if (isWanted()) this.#try(() => this.show(number));
       },
-    });
+    };
+    this.#heard.set(number, hearer);
+    listen(number, hearer);
   }
 
   async #try(action) {
@@ -373,17 +381,4 @@ export class RunStore extends Observable {
     this.refusal = refusal;
     this.tell("refusal");
   }
-}
-
-/** In what a run differs from the one before it, in words; "as good as 3" where nothing does. */
-function notesBetween(before, run, edits) {
-  const settings = ["seed", "time_limit"]
-    .filter((key) => before.request[key] !== undefined && run.request[key] !== undefined)
-    .filter((key) => before.request[key] !== run.request[key])
-    .map((key) => words.settingChanged[key](before.request[key], run.request[key]));
-  const found = [...edits, ...settings];
-  const isSame = ["flowtime", "makespan"].every(
-    (key) => before.figures?.[key] === run.figures?.[key],
-  );
-  return isSame && !edits.length ? [...found, words.asGoodAs(before.number)] : found;
 }

@@ -276,6 +276,7 @@ export const GERMAN = {
   lapsResult: "Umläufe",
   delaysResult: "Verzögerungen",
   period: "Periode",
+  periodOf: (laps, each) => `Periode aus ${laps} Umläufen, ${each} je Umlauf`,
   throughput: (isTimed) => (isTimed ? "Umläufe je Stunde" : "Umläufe in 3600"),
   orders: { now: "wie es ist", same: "gleiche Reihenfolge", anew: "neue Reihenfolge" },
   openGroup: (names, count, why) =>
@@ -284,6 +285,8 @@ export const GERMAN = {
   moveSlider: "Ein Regler zeigt, was ein anderer Wert bewirkt.",
   sameOrder: (period, before) => `In gleicher Reihenfolge ${period} statt ${before}.`,
   newOrder: (period) => `Mit neuer Reihenfolge ${period}.`,
+  newPattern: (laps, period, each) =>
+    `Neu geordnet wiederholt es sich alle ${laps} Umläufe: ${period}, ${each} je Umlauf.`,
   noNewOrder: (why) => `Mit neuer Reihenfolge: ${why}.`,
   resetValue: "Zurück",
   takeValue: "Wert übernehmen, Umläufe neu rechnen",
@@ -400,6 +403,7 @@ export const GERMAN = {
   runs: "Pläne",
   number: "Nr.",
   noRuns: "Noch ist nichts geplant.",
+  withoutPlan: (count) => `${count} ohne Plan`,
   whoseRuns: "Wessen Pläne gezeigt werden",
   ownRuns: (count) => `Dieses (${count})`,
   allRuns: (count) => `Alle Pläne (${count})`,

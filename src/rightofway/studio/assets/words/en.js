@@ -260,6 +260,7 @@ export const ENGLISH = {
   lapsResult: "Laps",
   delaysResult: "Delays",
   period: "period",
+  periodOf: (laps, each) => `period of ${laps} laps, ${each} each`,
   throughput: (isTimed) => (isTimed ? "laps per hour" : "laps in 3600"),
   orders: { now: "as it is", same: "same order", anew: "new order" },
   openGroup: (names, count, why) =>
@@ -268,6 +269,8 @@ export const ENGLISH = {
   moveSlider: "Move a slider to see what another value does.",
   sameOrder: (period, before) => `In the same order ${period} instead of ${before}.`,
   newOrder: (period) => `With a new order ${period}.`,
+  newPattern: (laps, period, each) =>
+    `New order: the pattern repeats every ${laps} laps: ${period}, ${each} for each lap.`,
   noNewOrder: (why) => `With a new order: ${why}.`,
   resetValue: "Back",
   takeValue: "Take the value, repeat the laps",
@@ -380,6 +383,7 @@ export const ENGLISH = {
   runs: "Plans",
   number: "No.",
   noRuns: "Nothing has been planned yet.",
+  withoutPlan: (count) => `${count} without a plan`,
   whoseRuns: "Whose plans are listed",
   ownRuns: (count) => `This one (${count})`,
   allRuns: (count) => `All plans (${count})`,

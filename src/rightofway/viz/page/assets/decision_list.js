@@ -11,12 +11,19 @@ export class DecisionList {
       ...plan.reroutes.map((reroute) => this.#reroute(reroute)),
       ...plan.decisions.map((decision, index) => this.#decision(decision, index)),
     ];
+    const isLate = plan.noPlan || plan.planned.some(({ delay }) => delay > 0);
+    const isSilent = !this.items.length && isLate; // as the plan of a search is
     const isLong = plan.roadmap.isMeasured && plan.decisions.length > 0; // coordinates are longer than names
+    this.count = isSilent ? "–" : this.items.length;
     this.find = document.getElementById("find-decision");
     this.list = new VirtualList(document.getElementById("decision-list"), {
       rowHeight: isLong ? 72 : 52,
       className: isLong ? "two long" : "two",
-      none: this.items.length ? texts.noDecisionFits : texts.noDecisions,
+      none: isSilent
+        ? texts.noDecisions
+        : this.items.length
+          ? texts.noDecisionFits
+          : texts.noneNeeded,
       fill: fillTwoLines,
       choose: (item) => item.choose(),
     });

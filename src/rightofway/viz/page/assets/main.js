@@ -63,7 +63,7 @@ const faultList = new FaultList(plan, clock, choice, words);
 const tabs = new Tabs(
   [
     plan.robots.length,
-    decisionList.items.length,
+    decisionList.count,
     plan.faultCount || null,
     comparison && comparison.plans.length,
   ],

@@ -277,7 +277,8 @@ export const GERMAN = {
 
   noDecisionFits: "Keine Entscheidung passt dazu.",
   noDecisions:
-    "Keine Entscheidungen aufgezeichnet. Die Karteikarte eines Roboters zeigt, wo er wartet.",
+    "Dieser Plan hält keine Entscheidungen fest: eine Suche trifft keine. Die Karteikarte eines Roboters zeigt, wo er wartet. Das Studio zeigt, was folgt, wenn der andere Roboter zuerst fährt.",
+  noneNeeded: "Nichts war zu entscheiden: kein Roboter verliert Zeit durch einen anderen.",
   rerouted: (name) => `${name} fährt einen anderen Weg`,
   decision: {
     headOn: (waits, first, place) => `${waits} wartet auf ${first}, Gegenverkehr, ${place}`,

@@ -284,7 +284,9 @@ export const ENGLISH = {
 
   /** Which robot goes first, and why. */
   noDecisionFits: "No decision fits that.",
-  noDecisions: "No decisions are recorded. Choose a robot: its card lists its waits.",
+  noDecisions:
+    "This plan keeps no decisions: a search makes none. Choose a robot: its card lists its waits. The studio shows what follows if the other robot goes first.",
+  noneNeeded: "No decision was needed: no robot loses time to another.",
   rerouted: (name) => `${name} was sent another way`,
   decision: {
     headOn: (waits, first, place) => `${waits} waits for ${first}, head-on, ${place}`,
