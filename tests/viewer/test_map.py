@@ -6,33 +6,17 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
-from typing import Any
 
 import pytest
 from PIL import Image
 
 from rightofway.model import Obstacle, Plan
 from rightofway.viz import Background
-from tests.builders.browsers import Viewer
+from tests.builders.labels import labels, overlap
 from tests.builders.plans import crowd, door, loop, yard
 from tests.viewer.conftest import Opener, pixel
 
 SIZES = [(1600, 1000), (1280, 720), (390, 844)]
-
-
-def labels(viewer: Viewer) -> list[dict[str, Any]]:
-    """Return the names on the map, each with its box [pixels]."""
-    viewer.wait_for("!frames.asked")
-    found: list[dict[str, Any]] = viewer.ask("mapView.names.written")
-    return found
-
-
-def overlap(one: list[float], other: list[float]) -> bool:
-    """Return whether two boxes (left, top, right, bottom) share more than an edge."""
-    return (
-        min(one[2], other[2]) - max(one[0], other[0]) > 0.01
-        and min(one[3], other[3]) - max(one[1], other[1]) > 0.01
-    )
 
 
 @pytest.mark.parametrize("plan", [door(), loop(), yard(), crowd(50)])

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 from rightofway.model import Plan, Units
 from rightofway.solve import solve
+from tests.builders.fleets import grid_fleet
+from tests.builders.labels import labels, overlap
 from tests.builders.plans import door, yard
-from tests.builders.small import grid_fleet
 from tests.viewer.conftest import Opener
-from tests.viewer.test_map import labels, overlap
 
 ROUTE = """(() => {
   const { left, top, scale } = mapView.viewport;
