@@ -121,10 +121,22 @@ def test_a_home_that_is_dragged_on_a_plan_is_planned_at_once(opened: Opener) -> 
     studio.button("Put it back").click()
     studio.wait_for("studio.runs.shown === 1")
     assert studio.document["robots"][0]["home"] == "N0"
+    assert studio.complaints == []
+
+
+def test_an_undo_beside_a_plan_shows_the_plan_of_before(opened: Opener) -> None:
+    studio = asked(opened, BAY)
+    studio.drag((0.5, 0.5), (4.5, 1.5))
+    compared(studio, 2)
     studio.page.keyboard.press("Control+z")
-    assert studio.document["robots"][0]["home"] == "N9"
-    studio.page.keyboard.press("Control+z")
+    studio.wait_for("studio.runs.shown === 1 && studio.runs.comparison === null")
     assert studio.document["robots"][0]["home"] == "N0"
+    assert studio.ask("studio.stage.choice.robot.name") == "R1"
+    studio.page.keyboard.press("Control+Shift+z")
+    studio.wait_for("studio.runs.shown === 2")
+    assert studio.document["robots"][0]["home"] == "N9"
+    studio.settle()
+    assert studio.ask("studio.runs.runs.length") == 2
     assert studio.complaints == []
 
 

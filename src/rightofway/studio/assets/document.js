@@ -18,7 +18,7 @@ const UNKNOWN = Object.freeze({
 
 /**
  * A document is never changed: an edit makes another one that shares what stays. So undo is a list.
- * Events: `document` when another one is shown, then `open`, `edit` or `undo` if it is by these;
+ * Events: `document` when another one is shown, then `open`, `edit`, `undo` or `redo` if it is by these;
  * `survey` when the library has looked at it, `findings` when those of a large map come after that; `trouble`.
  */
 export class ScenarioStore extends Observable {
@@ -105,6 +105,7 @@ export class ScenarioStore extends Observable {
     if (!this.canRedo) return;
     this.#past.push(this.document);
     this.#show(this.#future.pop());
+    this.tell("redo");
   }
 
   /** Save under the present path; the draft is not needed any more. */

@@ -55,6 +55,7 @@ export class Studio extends Observable {
       for (const event of events) source.on(event, () => this.tell("change"));
     }
     this.store.on("survey", () => this.#surveyed());
+    for (const event of ["undo", "redo"]) this.store.on(event, () => this.#showItsPlan());
     this.store.on("trouble", () => this.complain(this.store.trouble));
     this.runs.on("payload", () => this.#planned());
     this.runs.on("refusal", () => {
@@ -306,6 +307,7 @@ export class Studio extends Observable {
     this.isFresh = false;
     if (store.survey.scenario && !this.#isPlaying)
       this.attempt(() => this.runs.showLatest(store.survey.scenario, store.survey.of));
+    if (store.survey.of !== store.document) return; // that is looked at next
     const isWanted = this.isLive || this.#isAsked;
     this.#isAsked = false;
     if (
@@ -317,6 +319,15 @@ export class Studio extends Observable {
       return;
     this.#replanned = store.document;
     this.attempt(() => this.runs.replan(store, this.#search()));
+  }
+
+  /** Beside a plan, an undo of what was tried shows the plan of before again. */
+  #showItsPlan() {
+    const { document } = this.store;
+    const number = this.tab === "plan" ? this.runs.madeFrom(document) : undefined;
+    if (number === undefined || number === this.runs.shown) return;
+    this.#replanned = document;
+    this.attempt(() => this.runs.show(number));
   }
 
   #planned() {

@@ -105,6 +105,13 @@ export class RunStore extends Observable {
     return this.#documents.get(number);
   }
 
+  /** The latest run of this page whose plan is of a document; undefined for none. */
+  madeFrom(document) {
+    return this.runs.find(
+      ({ number, has_plan: hasPlan }) => hasPlan && this.#documents.get(number) === document,
+    )?.number;
+  }
+
   /** Queue a run of a document or of another run; it is shown as soon as there is a plan. */
   async begin(request, document) {
     const run = await post("/runs", request);

@@ -438,8 +438,7 @@ export const GERMAN = {
     failed: "fehlgeschlagen",
     interrupted: "unterbrochen",
   },
-  dragPlaces: (name) =>
-    `Startplatz oder Arbeitsplatz von ${name} an einen anderen Platz ziehen: Was ändert sich?`,
+  dragPlaces: (name) => `Startplatz oder Arbeitsplatz von ${name} ziehen: Was ändert sich?`,
   watching: "Ein Klick auf einen Roboter oder ein Warten zeigt, warum er Zeit verliert.",
   keyGroups: {
     tools: "Werkzeuge",
