@@ -35,7 +35,7 @@ export function withoutClosure(document, index) {
   return left.length ? { ...document, closures: left } : withoutKey(document, "closures");
 }
 
-/** A closure with one of its times, `from` or `until`, as somebody has typed it: nothing for always. */
+/** A closure with one of its times, `from` or `until`, as it was typed: nothing for always. */
 export const withTime = (closure, key, text) => withKey(closure, key, written(text));
 
 /** A document with such a time of one of its closures. */
@@ -50,8 +50,8 @@ export const changeTime = (document, index, key, text) => ({
 export const textOfClosure = ({ at, edge }) => (edge ?? [at]).map(textOfPlace).join(" – ");
 
 /**
- * From when and until when something is closed: fields of a form, or with `write` those of a `closure`.
- * Fields whose `faults` the library has found are marked.
+ * From when and until when something is closed: fields of a form, or with `write` those of a
+ * `closure`. Fields whose `faults` the library has found are marked.
  */
 export function Times({ document, faults, closure, write, of = "" }) {
   const unit = document.units?.time ?? "";
@@ -62,7 +62,9 @@ export function Times({ document, faults, closure, write, of = "" }) {
     };
   const isWrong = (key) => faults.some(({ place }) => place.endsWith(`].${key}`));
   const field = (key) =>
-    html`<label>${words[key]}<span><${write ? Field : "input"} name=${key} aria-label=${of && `${of}: ${words[key]}`} inputmode="decimal" autocomplete="off" placeholder=${words.always[key]}
+    html`<label>${words[key]}<span>
+      <${write ? Field : "input"} name=${key} aria-label=${of && `${of}: ${words[key]}`}
+      inputmode="decimal" autocomplete="off" placeholder=${words.always[key]}
       aria-invalid=${String(isWrong(key))} ...${given(key)} /> ${unit}</span></label>`;
   return html`<div class="times">${field("from")}${field("until")}</div>`;
 }

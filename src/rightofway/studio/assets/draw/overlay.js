@@ -82,7 +82,7 @@ function route(context, { x, y }, { home, stops }, scale) {
   context.setLineDash([]);
 }
 
-/** A trip that is being placed: a ring at its home, dashed from there to its stops; points of the drawing. */
+/** A trip that is being placed: a ring at its home, dashed to its stops; points of the drawing. */
 export function paintTrip(context, { roadmap, stage: { theme } }, scale, points) {
   context.strokeStyle = theme.ink;
   context.lineWidth = 2 / scale;

@@ -11,7 +11,7 @@ const STILL = 4; // pixels that a press may move
 const TOUCH = 24; // pixels round a place that a finger reaches
 
 export class PlaceDrag {
-  #over = null; // what the pointer is at: { number, vertex }; the number of the stop, -1 for the home
+  #over = null; // what the pointer is at: { number, vertex }; the number of a stop, or -1: home
   #held = null; // what is dragged, the same; `robot` is its index, `from` where the press was
   #to = null; // where it is dragged to, in units of the drawing; null before it has moved
   #isAsking = false; // whether the library looks at where it was dropped
@@ -30,7 +30,7 @@ export class PlaceDrag {
     this.stage.on("overlay", () => this.#paint());
   }
 
-  /** The chosen robot as the document has it: index, home, stops; null while nothing can be asked. */
+  /** The chosen robot as the document has it: index, home, stops; null where nothing can be asked. */
   get #robot() {
     const { editor, stage } = this;
     if (editor.isOn || !stage.isPlan || !stage.choice.robot) return null;
@@ -110,7 +110,7 @@ export class PlaceDrag {
     this.#end();
   }
 
-  /** How the document names a place; also one without a vertex, so that the library says what is there. */
+  /** How the document names a place; one without a vertex too, so that the library says why not. */
   #place({ x, y }) {
     const { roadmap, document } = this.editor;
     const vertex = this.editor.vertexAt({ x, y });

@@ -6,8 +6,8 @@ const STILL = 4; // pixels that a press may move
 const REACH = 12; // pixels round a lane
 
 /**
- * Wait for one press; resolves with the places as a document names them: one, both ends of a lane, or
- * none for Escape and for a signal that gives up.
+ * Wait for one press; resolves with the places as a document names them: one, both ends of a lane,
+ * or none for Escape and for a signal that gives up.
  */
 export function pressedPlace({ stage, store }, signal) {
   const { holder } = stage;
