@@ -267,6 +267,20 @@ def test_a_draft_that_is_opened_again_has_its_plan_until_it_differs(opened: Open
     assert studio.complaints == []
 
 
+def test_a_floor_that_was_planned_before_it_had_a_name_keeps_its_plans(opened: Opener) -> None:
+    studio = opened(BAY)
+    studio.ask("studio.open({ document: { ...studio.store.document, units: { time: 's' } } })")
+    studio.settle()
+    studio.tab("Plan")
+    planned_by(studio, "prioritized", "auto")
+    studio.button("Save").click()
+    studio.wait_for("location.hash === '#file=floor2.yaml'")
+    reloaded(studio)
+    studio.wait_for("studio.runs.shown === 2 && studio.stage.isPlan")
+    assert studio.page.locator("[data-run]").count() == 2
+    assert studio.ask("studio.tab") == "plan"
+
+
 def test_a_run_of_another_document_goes_on_unseen(opened: Opener) -> None:
     studio = opened(crowd())
     begin(studio, seconds=60)
@@ -336,6 +350,9 @@ def test_a_plan_that_is_opened_is_in_the_list(opened: Opener, empty: Client) -> 
     studio.wait_for("studio.runs.shown === 2 && studio.runs.losses !== null")
     assert studio.page.locator("[data-run]").count() == 1
     assert "opened" in row(studio, 2)
+    reloaded(studio)
+    studio.wait_for("studio.runs.shown === 2 && studio.stage.isPlan")
+    assert len(studio.ask("studio.runs.runs")) == 2  # the same file is the same plan
 
 
 def test_the_curve_has_axes_and_says_the_same_in_words(opened: Opener) -> None:

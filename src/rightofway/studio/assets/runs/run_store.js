@@ -45,6 +45,7 @@ export class RunStore extends Observable {
   #going = new Set(); // runs that are forgotten as soon as no undo is possible
   #heard = new Map(); // runs that are shown as soon as they have a plan, and what hears of each
   #documents = new Map(); // that each run of this page was made from
+  #scenario = null; // the digest of the document as it was opened
   #wanted = 0;
   #awaited = null; // the run that is shown, or will be as soon as the server answers
   #live = 0; // the last run that was made by a change
@@ -67,11 +68,14 @@ export class RunStore extends Observable {
   /** Hear of the runs of a document that is opened, and of no others. */
   hearOf(store) {
     this.#heard.clear();
+    this.#scenario = null;
     for (const run of this.listed(store, null)) if (!isOver(run)) this.#hear(run.number);
   }
 
   /** Show the latest plan of a scenario, which a document has; nothing changes where a run is shown. */
   async showLatest(scenario, document) {
+    this.#scenario = scenario;
+    this.tell("runs");
     const isOf = (run) => canBeShown(run) && run.figures?.scenario === scenario;
     const latest = this.runs.find((run) => isOf(run) && !this.#going.has(run.number));
     if (!latest || this.#awaited !== null) return;
@@ -224,7 +228,10 @@ export class RunStore extends Observable {
     this.#keep(await request("PATCH", `/runs/${number}`, { name }));
   }
 
-  /** The runs of a document, of a file, or all for "*"; the latest first. */
+  /**
+   * The runs of a document, of a file, or all for "*"; the latest first. Of a document are also plans of
+   * the scenario that it was opened with, whatever its name was then.
+   */
   listed(store, file) {
     const there = this.runs.filter(({ number }) => !this.#going.has(number));
     if (file === "*") return there;
@@ -232,6 +239,7 @@ export class RunStore extends Observable {
       file === null
         ? store.names.has(run.source) ||
           run.number === this.shown ||
+          (this.#scenario && run.figures?.scenario === this.#scenario) ||
           (!run.source && isOf(this.find(run.based_on) ?? { source: "*" }))
         : run.source === file;
     return there.filter(isOf);
