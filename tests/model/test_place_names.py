@@ -7,13 +7,16 @@ from rightofway.model.place_names import PlaceNames
 from tests.builders.fleets import grid_fleet
 
 
-def scenario(*trips: tuple[str, str], length: str | None = "m") -> Scenario:
+METRES = Units(length="m")
+
+
+def scenario(*trips: tuple[str, str], units: Units = METRES) -> Scenario:
     """Return a fleet on eight cells of one length unit."""
-    return replace(grid_fleet(["....", "...."], trips), units=Units(length=length))
+    return replace(grid_fleet(["....", "...."], trips), units=units)
 
 
 def test_a_cell_without_a_unit_of_length_keeps_its_number() -> None:
-    place = PlaceNames(scenario(("N0", "N3"), length=None))
+    place = PlaceNames(scenario(("N0", "N3"), units=Units()))
     assert (place(0), place(5), place.where(0)) == ("N0", "N5", "N0")
 
 
