@@ -6,7 +6,6 @@ from rightofway.model import Scenario, Units
 from rightofway.model.place_names import PlaceNames
 from tests.builders.fleets import grid_fleet
 
-
 METRES = Units(length="m")
 
 
