@@ -15,7 +15,7 @@ Trip = tuple[Sequence[int], Sequence[int]]
 
 
 def in_seconds(plan: Plan) -> Plan:
-    scenario = replace(plan.scenario, units=Units(length="m", time="s"))
+    scenario = replace(plan.scenario, units=Units(time="s"))
     return replace(plan, scenario=scenario)
 
 

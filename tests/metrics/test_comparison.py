@@ -91,7 +91,11 @@ def test_changes_of_places_and_work_name_them() -> None:
     before = scenario()
     moved = replace(before.robots[0], home=VertexId(4), stops=(stop(3, 5),))
     found = [change.text for change in changes(before, replace(before, robots=(moved,)))]
-    assert found == ["R1: home N0 → N4", "R1: stops N2 → N3", "R1: work 3 s → 5 s"]
+    assert found == [
+        "R1: home (0.5, 0.5) → (0.5, 1.5)",
+        "R1: stops (2.5, 0.5) → (3.5, 0.5)",
+        "R1: work 3 s → 5 s",
+    ]
 
 
 def test_robots_that_change_in_the_same_way_are_one_entry() -> None:
@@ -121,9 +125,11 @@ def test_changes_of_map_rules_and_closures_are_said() -> None:
         ),
     )
     assert [change.text for change in changes(before, closed)] == [
-        "N1: closed", "N5 to N6: closed",
+        "(1.5, 0.5): closed", "(1.5, 1.5) to (2.5, 1.5): closed",
     ]  # fmt: skip
-    assert [change.text for change in changes(closed, before)] == ["N1: open", "N5 to N6: open"]
+    assert [change.text for change in changes(closed, before)] == [
+        "(1.5, 0.5): open", "(1.5, 1.5) to (2.5, 1.5): open",
+    ]  # fmt: skip
     later = replace(before, rules=replace(before.rules, headway=Fraction(1), rotations=False))
     assert [change.text for change in changes(before, later)] == [
         "rules: headway 0 s → 1 s", "rules: rotations yes → no",

@@ -35,7 +35,8 @@ def test_a_grid_shows_walls_homes_stops_and_robots() -> None:
 def test_work_and_speed_have_units() -> None:
     view = parsed(rightofway.load(EXAMPLES / "floor.yaml"))
     rows = [[cell.text for cell in row] for row in view.iter("tr")]
-    assert rows[2] == ["runner", "N337", "N196 (works 1 s), N304 (works 2 s)", "2 m/s"]
+    stops = "(2.25, 4.25) (works 1 s), (8.25, 6.25) (works 2 s)"
+    assert rows[2] == ["runner", "(0.75, 7.25)", stops, "2 m/s"]
 
 
 def test_a_roadmap_shows_a_line_for_each_lane() -> None:

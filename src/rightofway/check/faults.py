@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model import Quantities, Scenario, Tick, VertexId
+from rightofway.model.place_names import PlaceNames
 
 FaultKind = Literal[
     "unknown vertex",
@@ -168,9 +170,9 @@ class FaultCollector:
         )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Names:
-    """The names of a scenario, and how times are written."""
+    """What people call robots and places of a scenario, and how times are written."""
 
     scenario: Scenario
     quantities: Quantities
@@ -180,10 +182,15 @@ class Names:
         return self.scenario.robots[index].name
 
     def vertex(self, vertex: int) -> str:
-        """Return a vertex's name, whether the roadmap has it or not."""
+        """Return what people call a vertex, whether the roadmap has it or not."""
         if 0 <= vertex < self.scenario.roadmap.n_vertices:
-            return self.scenario.roadmap.name(vertex)
+            return self.places(vertex)
         return f"vertex {vertex}"
+
+    @cached_property
+    def places(self) -> PlaceNames:
+        """What people call the vertices."""
+        return PlaceNames(self.scenario)
 
     def moment(self, tick: int) -> str:
         """Return a point in time: ``time 2``, ``6 min 23 s``."""

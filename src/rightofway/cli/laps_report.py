@@ -27,6 +27,7 @@ from rightofway.cyclic import (
 )
 from rightofway.errors import GaveUp
 from rightofway.model import Quantities, Scenario, Tick, decimal
+from rightofway.model.place_names import PlaceNames
 from rightofway.model.values import written
 
 HOUR = 3600
@@ -324,7 +325,7 @@ def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
     """Yield which robots make no lap in a pattern, where they stand and where they want to go."""
     counts = group.pattern.counts if group.pattern else ()
     stuck = [robot for robot, laps in enumerate(counts) if not laps]
-    place, listed = scenario.roadmap.name, list[str]()
+    place, listed = PlaceNames(scenario), list[str]()
     for robot in stuck[:MAX_LINES]:
         name = scenario.robots[group.robots[robot]].name
         route, last = group.context.routes[robot], len(group.history[robot]) - 1
@@ -343,7 +344,7 @@ def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) 
     first, periodic = _sites(group.first_waits()), _sites(group.waits())
     both = len(first.keys() & periodic.keys())
     yield f"waits: {len(first)} in the first lap, {len(periodic)} in each period, {both} in both"
-    robots, place = scenario.robots, scenario.roadmap.name
+    robots, place = scenario.robots, PlaceNames(scenario)
     sites = list(periodic | first)
     for site in sites[:MAX_LINES]:
         vertex, beside, waiting, awaited = site
@@ -401,7 +402,8 @@ def _change(scenario: Scenario, effect: ParameterEffect) -> str:
         return f"{robot.name} 10% faster"
     if effect.stop is None:
         return f"{robot.name} 10% less turning"
-    return f"{robot.name} 10% less work at {scenario.roadmap.name(robot.stops[effect.stop].at)}"
+    where = PlaceNames(scenario).where(robot.stops[effect.stop].at)
+    return f"{robot.name} 10% less work at {where}"
 
 
 def comparison_lines(found: Comparison) -> Iterator[str]:

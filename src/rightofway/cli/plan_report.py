@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
+from functools import cached_property
 from itertools import chain
 from typing import Any
 
@@ -19,6 +20,7 @@ from rightofway.metrics import (
     waits,
 )
 from rightofway.model import Decision, Loss, LostTime, Plan, Quantities, decimal, stays_of
+from rightofway.model.place_names import PlaceNames
 
 MAX_LINES = 20
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""
@@ -39,7 +41,7 @@ COLUMNS_OF_TIMES = ("completes", "alone", "detours", "makes room", "waits")
 """Headings of the table of robots: the first is the sum of the others."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Words:
     """How a report on one plan writes times, robots and places."""
 
@@ -51,8 +53,13 @@ class Words:
         return "" if robot is None else self.plan.scenario.robots[robot].name
 
     def place(self, vertex: int | None) -> str:
-        """Return the name of a vertex."""
-        return "" if vertex is None else self.plan.scenario.roadmap.name(vertex)
+        """Return what a sentence calls a vertex."""
+        return "" if vertex is None else self.places(vertex)
+
+    @cached_property
+    def places(self) -> PlaceNames:
+        """What people call the vertices."""
+        return PlaceNames(self.plan.scenario)
 
     def time(self, ticks: int) -> str:
         """Return how long a number of ticks lasts."""
@@ -249,9 +256,9 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[str]:
         listing = " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
         lost = words.time(sum(found[robot].values()))
         yield from wrapped(
-            f"{words.place(last)}, the {what} of {words.robot(robot)}, is on the way of {listing}"
-            f" and costs {words.robot(robot)} {lost}: a {what} or a parking place off that way"
-            " would help."
+            f"{words.places.where(last)}, the {what} of {words.robot(robot)}, is on the way of"
+            f" {listing} and costs {words.robot(robot)} {lost}: a {what} or a parking place off"
+            " that way would help."
         )
 
 
@@ -316,7 +323,8 @@ def decision_in_words(words: Words, decision: Decision) -> str:
     vertices = decision.vertices
     where = words.place(vertices[0])
     if decision.kind != "vertex":
-        where = f"segment {where} to {words.place(vertices[-1])} ({len(vertices)} vertices)"
+        first, last = (words.places.where(vertices[end]) for end in (0, -1))
+        where = f"segment {first} to {last} ({len(vertices)} vertices)"
     waits, first = words.robot(decision.waits), words.robot(_goes_first(decision))
     how = f"{waits} waits {words.time(decision.ticks)} in {words.place(decision.waits_at)}"
     if decision.kind == "following":

@@ -34,6 +34,7 @@ from rightofway.cli.terminal import (
     short,
 )
 from rightofway.model import decimal
+from rightofway.model.place_names import PlaceNames
 
 if TYPE_CHECKING:
     from rightofway.execution import Outcome, PolicyGain, Quantiles
@@ -252,7 +253,8 @@ def _sources(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
     sources = outcome.lateness.sources
     if not sources:
         return
-    robots, place = outcome.plan.scenario.robots, outcome.plan.scenario.roadmap.name
+    scenario = outcome.plan.scenario
+    robots, place = scenario.robots, PlaceNames(scenario).where
     listed, cell = sources[:MAX_SOURCES], quantities.cell
     names = [f"{short(robots[one.robot].name)} at {place(one.vertex)}" for one in listed]
     rows = [("itself", "others"), *((cell(one.own), cell(one.of_others)) for one in listed)]

@@ -16,6 +16,7 @@ from rightofway.cli.inputs import foreign_options, read_plan
 from rightofway.cli.options import Time, as_json_option, quantities_of, ticks_option, writable
 from rightofway.cli.terminal import put_json, say, width
 from rightofway.errors import InputError
+from rightofway.model.place_names import PlaceNames
 from rightofway.model.values import written
 
 if TYPE_CHECKING:
@@ -312,7 +313,7 @@ def _group_words(
     quantities: Quantities,
 ) -> list[str]:
     i, j = (found.scenario.robots[robot].name for robot in decision.robots)
-    place = found.scenario.roadmap.name(decision.vertices[0])
+    place = PlaceNames(found.scenario)(decision.vertices[0])
     lines = [f"{i} and {j} meet at {place} at {quantities.moment(decision.tick)}."]
     for number, pair in enumerate(completions, 1):
         if pair is None:

@@ -13,6 +13,7 @@ from itertools import groupby
 from typing import Literal
 
 from rightofway.model import Scenario, Tick, VertexId
+from rightofway.model.place_names import PlaceNames
 from rightofway.precedence import TimedEventGraph
 
 
@@ -177,7 +178,7 @@ def in_words(bottleneck: Bottleneck, scenario: Scenario, *, most: int = 12) -> s
 
 def _steps(run: Sequence[Piece], scenario: Scenario) -> Iterator[str]:
     """Yield what one robot does without waiting for others; whole laps in between are counted."""
-    home, place = scenario.robots[run[0].robot].home, scenario.roadmap.name
+    home, place = scenario.robots[run[0].robot].home, PlaceNames(scenario)
     steps: list[str] = []
     arrivals: list[int] = []  # how many steps have been made when the robot is home
     for piece in run:

@@ -12,6 +12,7 @@ from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
 from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, checked_time_limit
+from rightofway.model.place_names import PlaceNames
 from rightofway.planners import Deadline
 
 Simulation = CyclicSimulator | RollingHorizon
@@ -134,10 +135,10 @@ def advance(simulation: Simulation, deadline: Deadline) -> GroupResult:
 
 
 def _explain(deadlock: Deadlock, context: GroupContext) -> str:
-    names, roadmap = context.names, context.scenario.roadmap
+    names, place = context.names, PlaceNames(context.scenario)
     i, j = (names[robot] for robot in deadlock.robots)
     moment = context.scenario.quantities.moment(deadlock.tick)
-    where = f"at {roadmap.name(deadlock.vertex)} ({moment})"
+    where = f"at {place(deadlock.vertex)} ({moment})"
     why = f"waiting cannot keep {i} and {j} apart {where}"
     if len(deadlock.circle) < 3:  # noqa: PLR2004 (the two themselves)
         return why

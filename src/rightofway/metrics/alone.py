@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import Blockage, NoPlanExists
 from rightofway.model import NEVER, Itinerary, Roadmap, Scenario, Tick, VertexId, least_dwell
+from rightofway.model.place_names import PlaceNames
 from rightofway.model.turning import Turning
 
 Leg = tuple[VertexId, VertexId]
@@ -116,11 +117,11 @@ def least_dwell_of_trip(itinerary: Itinerary) -> int:
 
 
 def _missing_way(scenario: Scenario, robot: int, leg: Leg) -> Blockage:
-    name, (tail, head) = scenario.robots[robot].name, map(scenario.roadmap.name, leg)
+    name, (tail, head) = scenario.robots[robot].name, map(PlaceNames(scenario), leg)
     reason = (
         f"{name}: no way leads from {tail} to {head} (open one, or give the robot other places)"
     )
-    return Blockage(reason, (name,), (tail, head))
+    return Blockage(reason, (name,), tuple(map(scenario.roadmap.name, leg)))
 
 
 def _by_ticks(roadmap: Roadmap, wanted: Mapping[Pace, set[Leg]]) -> dict[Pace, dict[Leg, int]]:

@@ -15,6 +15,7 @@ import numpy as np
 
 from rightofway.model import Quantities, Roadmap, Robot, Scenario, decimal
 from rightofway.model.closures import Closure
+from rightofway.model.place_names import PlaceNames
 
 NAMED = 2
 """Robots with the same change that are named; more are counted."""
@@ -110,7 +111,7 @@ def _robot(
     is_same_place: Callable[[int, int], bool],
 ) -> Iterator[tuple[str, str, str]]:
     """Yield what of a robot differs: key and both values in words."""
-    was, now = before.roadmap.name, after.roadmap.name
+    was, now = PlaceNames(before).where, PlaceNames(after).where
     if not is_same_place(old.home, new.home):
         yield "home", was(old.home), now(new.home)
     stops, then = [stop.at for stop in old.stops], [stop.at for stop in new.stops]
@@ -218,6 +219,6 @@ def _closed(scenario: Scenario) -> dict[str, str]:
     found: dict[str, str] = {}
     for closure in scenario.closures:
         ends = [closure.at] if closure.edge is None else closure.edge
-        place = " to ".join(scenario.roadmap.name(int(end)) for end in ends if end is not None)
+        place = " to ".join(PlaceNames(scenario).where(int(end)) for end in ends if end is not None)
         found[place] = ", ".join(filter(None, (found.get(place), when(closure))))
     return found

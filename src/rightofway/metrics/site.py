@@ -12,6 +12,7 @@ from typing import Literal
 
 from rightofway.errors import listed
 from rightofway.model import Roadmap, Robot, Rules, Units, decimal
+from rightofway.model.place_names import middle
 from rightofway.phrases import Phrase, counted
 
 Severity = Literal["error", "warning", "note"]
@@ -31,9 +32,6 @@ HEADINGS: dict[Severity, str] = {
 """What findings of each severity are called, the worst first."""
 
 SEVERITIES = tuple(HEADINGS)
-
-PLACES = 3
-"""Decimal places of the middle of a cell, in names of people."""
 
 LISTED_PARTS = 8
 """Sizes of strongly connected parts that a report lists."""
@@ -186,9 +184,8 @@ class Site:
         """
         what = self.places.get(vertex)
         if self.roadmap.has_cells and self.units.length:
-            x, y = (decimal(each, PLACES) for each in self.roadmap.point(vertex))
-            middle = f"{x}, {y}"
-            return Phrase("({middle}, {what})", middle=middle, what=what) if what else f"({middle})"
+            at = middle(self.roadmap, vertex)
+            return Phrase("({middle}, {what})", middle=at, what=what) if what else f"({at})"
         name = self.roadmap.name(vertex)
         return Phrase("{name} ({what})", name=name, what=what) if what else name
 

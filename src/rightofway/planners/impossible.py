@@ -32,6 +32,7 @@ from rightofway.model import (
     VertexId,
 )
 from rightofway.model.closures import Closure
+from rightofway.model.place_names import PlaceNames
 from rightofway.model.resources import are_nearer, distance
 from rightofway.planners.task import Deadline
 from rightofway.search import (
@@ -104,13 +105,13 @@ def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
         holders[itinerary.last].append(robot.name)
     for vertex, names in holders.items():
         if len(names) > 1:
-            place = scenario.roadmap.name(vertex)
+            place = PlaceNames(scenario)(vertex)
             all_of_them, others = ("both", "one of them") if len(names) == 2 else ("all", "others")  # noqa: PLR2004
             yield Blockage(
                 f"{listed(names)} would {all_of_them} have to stay at {place} for ever"
                 f" (let {others} end elsewhere)",
                 tuple(names),
-                (place,),
+                (scenario.roadmap.name(vertex),),
             )
 
 
@@ -127,12 +128,13 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
             if here == there:
                 continue  # a shared end
             one, other = (scenario.robots[robot] for robot in pair)
-            at = roadmap.name(here), roadmap.name(there)
+            ends_of_pair = roadmap.name(here), roadmap.name(there)
+            at = PlaceNames(scenario).where(here), PlaceNames(scenario).where(there)
             zone = next((z for z in roadmap.zones if {here, there} <= {*z.vertices}), None)
             if zone is not None:
                 message = f"{one.name} at {at[0]} and {other.name} at {at[1]} would both {when} in"
                 message += f" zone {zone.name} (let one of them {when} elsewhere)"
-                yield Blockage(message, (one.name, other.name), at)
+                yield Blockage(message, (one.name, other.name), ends_of_pair)
                 continue
             needed = one.radius + other.radius
             needed += clearance if needed else 0
@@ -144,7 +146,7 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
                 f" {length(needed)} (let one of them {when}"
                 " elsewhere)",
                 (one.name, other.name),
-                at,
+                ends_of_pair,
             )
 
 
@@ -167,7 +169,7 @@ def refuse_passed_zones(scenario: Scenario) -> None:
     for places in ([one.home for one in itineraries], [one.last for one in itineraries]):
         for i, j in resources.clashes(places):
             one, other = (scenario.robots[robot].name for robot in (i, j))
-            here, there = (scenario.roadmap.name(places[robot]) for robot in (i, j))
+            here, there = (PlaceNames(scenario).where(places[robot]) for robot in (i, j))
             message = f"{one} at {here} and {other} at {there} stand where robots pass a zone"
             raise GaveUp(f"{message} (let one of them stand elsewhere)")
 
@@ -225,18 +227,20 @@ def _reached(start: int, ends: Iterable[tuple[int, int]], closed: Collection[int
 
 def _missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blockage]:
     """Yield where robots have no way, and whether parts of the map or one-way edges are why."""
-    place, parts, distances = scenario.roadmap.name, _Parts(scenario.roadmap), None
+    place, parts, distances = PlaceNames(scenario), _Parts(scenario.roadmap), None
+    name_of = scenario.roadmap.name
     for robot in stranded:
         name, itinerary = scenario.robots[robot].name, scenario.problem.itineraries[robot]
         home_part = parts.of(itinerary.home)
         stages = dict.fromkeys(stage.vertex for stage in itinerary.stages)
-        elsewhere = [place(vertex) for vertex in stages if vertex not in home_part]
+        elsewhere = [vertex for vertex in stages if vertex not in home_part]
         if elsewhere:
+            others = listed(list(map(place, elsewhere)))
             reason = (
-                f"{name} has no way from {place(itinerary.home)} to {listed(elsewhere)}: the map is"
+                f"{name} has no way from {place(itinerary.home)} to {others}: the map is"
                 " in parts that no edge joins (join them, or give the robot other places)"
             )
-            yield Blockage(reason, (name,), (place(itinerary.home), *elsewhere))
+            yield Blockage(reason, (name,), tuple(map(name_of, (itinerary.home, *elsewhere))))
             continue
         distances = distances or Distances(scenario.roadmap)
         for tail, head in _legs_without_a_way(itinerary, distances):
@@ -244,7 +248,7 @@ def _missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Block
                 kind = scenario.robots[robot].type
                 reason = f"{name} has no way from {place(tail)} to {place(head)}: edges are barred"
                 reason += f" for robots of type {kind} (open one, or give the robot other places)"
-                yield Blockage(reason, (name,), (place(tail), place(head)))
+                yield Blockage(reason, (name,), (name_of(tail), name_of(head)))
                 continue
             opening = parts.opening(tail, head)
             if opening:
@@ -254,7 +258,7 @@ def _missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Block
                 why = "one-way edges are the reason (let robots drive more of them both ways"
             reason = f"{name} has no way from {place(tail)} to {place(head)}: {why},"
             reason += " or give the robot other places)"
-            yield Blockage(reason, (name,), (place(tail), place(head)))
+            yield Blockage(reason, (name,), (name_of(tail), name_of(head)))
 
 
 def _unbarred(itinerary: Itinerary) -> tuple[Tick, ...]:
@@ -325,7 +329,7 @@ def _closed_in(
 
 def _closed_text(scenario: Scenario, closure: Closure) -> str:
     """Return what is closed, and when."""
-    name, quantities = scenario.roadmap.name, scenario.quantities
+    name, quantities = PlaceNames(scenario), scenario.quantities
     ticks, tick = scenario.problem.clock.ticks, scenario.problem.clock.tick
     ends = closure.edge or ((closure.at,) if closure.at is not None else ())
     what = " to ".join(map(name, ends))
@@ -440,10 +444,12 @@ def _described(scenario: Scenario, robots: Sequence[int]) -> Blockage:
     blocked = f"{listed(names)} block each other"
     if len(names) < len(scenario.robots):
         blocked += ", whatever the other robots do"
-    narrow = [roadmap.name(vertex) for vertex in _narrow_places(scenario, robots)]
+    narrow = _narrow_places(scenario, robots)
     if narrow:
-        passing = f"{'both' if len(names) == 2 else 'all of them'} have to pass {listed(narrow)}"  # noqa: PLR2004
-        return Blockage(f"{blocked}: {passing} (give more room there)", names, tuple(narrow))
+        who = "both" if len(names) == 2 else "all of them"  # noqa: PLR2004
+        passing = f"{who} have to pass {listed(list(map(PlaceNames(scenario), narrow)))}"
+        reason = f"{blocked}: {passing} (give more room there)"
+        return Blockage(reason, names, tuple(map(roadmap.name, narrow)))
     itineraries = [scenario.problem.itineraries[robot] for robot in robots]
     ends = dict.fromkeys(roadmap.name(end) for one in itineraries for end in (one.home, one.last))
     return Blockage(f"{blocked} (give more room, or other places)", names, tuple(ends))

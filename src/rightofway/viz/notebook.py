@@ -9,6 +9,7 @@ from itertools import groupby
 import numpy as np
 
 from rightofway.model import Robot, Scenario
+from rightofway.model.place_names import PlaceNames
 from rightofway.viz.palette import LIGHT, robot_colours
 from rightofway.viz.placement import Plane, plane_of
 
@@ -48,7 +49,7 @@ def scenario_html(scenario: Scenario) -> str:
 
 
 def _row(scenario: Scenario, robot: Robot) -> str:
-    place, quantities = scenario.roadmap.name, scenario.quantities
+    place, quantities = PlaceNames(scenario).where, scenario.quantities
     stops = []
     for stop in robot.stops:
         ticks = stop.work / quantities.tick

@@ -35,6 +35,7 @@ def losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
 
 
 def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
+    name = words.plan.scenario.roadmap.name
     decision = _decision_behind(words.plan, loss)
     because = None
     if decision is not None:
@@ -47,9 +48,9 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
         "kind": loss.kind,
         "robot": words.robot(loss.robot),
         "for": words.robot(loss.for_robot) or None,
-        "vertex": words.place(loss.vertex),
-        "towards": words.place(loss.towards),
-        "freed": words.place(loss.freed) or None,
+        "vertex": name(loss.vertex),
+        "towards": name(loss.towards),
+        "freed": None if loss.freed is None else name(loss.freed),
         "tick": loss.tick,
         "end": loss.end,
         "ticks": loss.ticks,

@@ -10,6 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from rightofway.model import Plan, Roadmap
+from rightofway.model.place_names import PlaceNames
 from rightofway.viz.motion import end_of, trips_of
 from rightofway.viz.palette import Theme, mix, robot_colours
 from rightofway.viz.placement import plane_of
@@ -49,6 +50,7 @@ class Scene(Ground):
     def __init__(self, plan: Plan, theme: Theme) -> None:
         super().__init__(plan.scenario.roadmap, theme)
         self.plan = plan
+        self.where = PlaceNames(plan.scenario).where
         self.trips = trips_of(plan)
         self.colours = robot_colours(len(self.trips))
         self.end = max(end_of(self.trips), 1)

@@ -38,7 +38,7 @@ ROUND_SECONDS = (*map(Fraction, (10, 20, 30)), *(Fraction(60 * minutes) for minu
 MOST_STRETCHED = 1.6
 """A way that rows have at more than so many times its length is faint: its slope is no speed."""
 
-MOST_CHARACTERS = 12
+MOST_CHARACTERS = 14
 
 LINE_WIDTH, BUSY_WIDTH = 2.0, 4.5
 BUSY = (Activity.WORK, Activity.TURN)
@@ -115,7 +115,7 @@ class Diagram:
             vertex: self.bottom - ROW_HEIGHT / 2 - height
             for vertex, height in zip(self.line, heights, strict=True)
         }
-        self._name_rows(pen, ((scene.roadmap.name(vertex), y) for vertex, y in rows.items()))
+        self._name_rows(pen, ((scene.where(vertex), y) for vertex, y in rows.items()))
         headway, ahead = scene.plan.scenario.problem.headway, scene.plan.scenario.rules.books_ahead
         for trip, colour in zip(scene.trips, scene.colours, strict=True):
             tint = mix(scene.theme.paper, colour, 0.22)

@@ -138,7 +138,7 @@ class Names:
         named = range(len(scene.points)) if scene.roadmap.sides is None else sorted(marks)
         for vertex in sorted(named, key=lambda vertex: vertex not in marks):
             x, y = (scale * part for part in scene.points[vertex])
-            name = _cut(scene.roadmap.name(vertex))
+            name = _cut(scene.where(vertex))
             width = pen.text_width(name, PLACE_TYPE) * scale
             ink = scene.theme.ink if vertex in marks else scene.theme.muted
             if is_grid:

@@ -1,0 +1,89 @@
+"""What people call the vertices of a scenario: by name, or where cells are, as on the page."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cached_property
+
+from rightofway.model.quantities import decimal
+from rightofway.model.roadmap import Roadmap
+from rightofway.model.scenario import Scenario
+
+DECIMALS = 3
+"""Decimal places of the middle of a cell."""
+
+
+def middle(roadmap: Roadmap, vertex: int) -> str:
+    """Return the middle of a cell in the site's frame: ``7.25, 4.75``.
+
+    Parameters
+    ----------
+    roadmap
+        The roadmap.
+    vertex
+        A vertex of it.
+    """
+    return ", ".join(decimal(part, DECIMALS) for part in roadmap.point(vertex))
+
+
+class PlaceNames:
+    """Names of places in reports; JSON and files have those of the roadmap.
+
+    Cells have numbers in files. Where lengths have a unit, people look for metres: a cell goes by
+    its station, by the robot that it belongs to, or by its middle.
+
+    Parameters
+    ----------
+    scenario
+        The scenario.
+    """
+
+    def __init__(self, scenario: Scenario) -> None:
+        self.scenario = scenario
+        self.is_measured = scenario.roadmap.has_cells and bool(scenario.units.length)
+
+    def where(self, vertex: int) -> str:
+        """Return where a vertex is, in a list: ``Press``, ``(7.25, 4.75)``, ``N5``.
+
+        Parameters
+        ----------
+        vertex
+            The vertex.
+        """
+        roadmap = self.scenario.roadmap
+        if not self.is_measured:
+            return roadmap.name(vertex)
+        return self._stations.get(vertex) or f"({middle(roadmap, vertex)})"
+
+    def __call__(self, vertex: int) -> str:
+        """Return what a sentence calls a vertex: ``the home of R1``, else where it is.
+
+        Parameters
+        ----------
+        vertex
+            The vertex.
+        """
+        if not self.is_measured or vertex in self._stations:
+            return self.where(vertex)
+        return self._of_robots.get(vertex) or self.where(vertex)
+
+    @cached_property
+    def _stations(self) -> dict[int, str]:
+        found: dict[int, str] = {}
+        for name, at in self.scenario.roadmap.drawing.stations:
+            found[at] = f"{found[at]} · {name}" if at in found else name
+        return found
+
+    @cached_property
+    def _of_robots(self) -> dict[int, str]:
+        """Homes, and the only stops of robots where no other robot stops."""
+        robots = self.scenario.robots
+        stops = [{int(stop.at) for stop in robot.stops} - {int(robot.home)} for robot in robots]
+        count = Counter(at for each in stops for at in each)
+        found = {
+            at: f"the stop of {robot.name}"
+            for robot, each in zip(robots, stops, strict=True)
+            for at in each
+            if len(each) == count[at] == 1
+        }
+        return found | {int(robot.home): f"the home of {robot.name}" for robot in robots}
