@@ -8,7 +8,7 @@ import pytest
 
 from tests.builders.browsers import needs_browser
 from tests.builders.drawing import StudioPage, studio_page
-from tests.builders.studios import DOOR, Client
+from tests.builders.studios import DOOR, Client, planned
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -64,3 +64,12 @@ def test_eight_pages_of_a_browser_hear_what_one_of_them_begins_and_deletes(
         for studio in studios:
             studio.wait_for(f"window.studio?.about.version && {LISTED}.length === 9")
             assert studio.complaints == []
+
+
+def test_a_page_that_is_given_no_stream_lists_what_there_is(
+    browser: Browser, empty: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("rightofway.studio.events.MAX_LISTENERS", 0)
+    planned(empty, name="0")
+    with studio_page(browser, empty) as studio:
+        studio.wait_for(f"{LISTED}.join('') === '0'")

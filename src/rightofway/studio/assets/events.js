@@ -9,13 +9,14 @@ let isShared = "SharedWorker" in globalThis;
 let stream = null; // of this page, where the browser shares none
 
 /**
- * Hear of all runs, also those of other pages: `{ runs, run, deleted }` are functions. A browser that cannot
- * share a connection among its pages hears only while a run of this page goes on.
+ * Hear of all runs, also those of other pages: `{ runs, run, deleted }` are functions; resolves when `runs`
+ * has been called, with the list. A browser that cannot share a connection among its pages hears only
+ * while a run of this page goes on.
  */
-export function listenToAll(hearer) {
+export async function listenToAll(hearer) {
   listener = hearer;
-  if (!isShared) return;
-  connect();
+  if (isShared) await connect();
+  if (!isShared) return tell("runs", await get("/runs"));
   addEventListener("pageshow", ({ persisted }) => persisted && connect()); // it had been left
 }
 
@@ -30,15 +31,24 @@ export function listen(number, hearer) {
   );
 }
 
+/** Have what the worker hears; resolves when that is the list of runs, or nothing. */
 function connect() {
-  const worker = new SharedWorker("/assets/stream.js", { type: "module" });
-  worker.onerror = () => {
-    isShared = false; // older browsers share no modules
-    if (heard.size) stream ??= hear(tell);
-  };
-  const { port } = worker;
-  port.onmessage = ({ data }) => tell(...data);
-  addEventListener("pagehide", () => port.postMessage("bye"), { once: true });
+  return new Promise((resolve) => {
+    const worker = new SharedWorker("/assets/stream.js", { type: "module" });
+    const doWithout = () => {
+      isShared = false;
+      if (heard.size) stream ??= hear(tell);
+      resolve();
+    };
+    worker.onerror = doWithout; // older browsers share no modules
+    const { port } = worker;
+    port.onmessage = ({ data: [name, data] }) => {
+      if (name === "refused") return doWithout();
+      tell(name, data);
+      if (name === "runs") resolve();
+    };
+    addEventListener("pagehide", () => port.postMessage("bye"), { once: true });
+  });
 }
 
 function tell(name, data) {

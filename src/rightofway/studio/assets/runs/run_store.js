@@ -51,17 +51,14 @@ export class RunStore extends Observable {
   #live = 0; // the last run that was made by a change
 
   async load() {
-    const [planners, { runs }, choices] = await Promise.all([
-      get("/planners"),
-      get("/runs"),
-      get("/choices"),
-    ]);
-    Object.assign(this, { planners, runs, choices });
-    listenToAll({
-      runs: ({ runs: all }) => this.#keepAll(all),
+    const hearer = {
+      runs: ({ runs }) => this.#keepAll(runs),
       run: (run) => this.#keep(run),
       deleted: ({ number }) => this.#drop([number]),
-    });
+    };
+    const asked = [get("/planners"), get("/choices"), listenToAll(hearer)];
+    const [planners, choices] = await Promise.all(asked);
+    Object.assign(this, { planners, choices });
     this.tell("runs");
   }
 
