@@ -348,7 +348,9 @@ def test_a_plan_that_is_opened_is_in_the_list(opened: Opener, empty: Client) -> 
     exported(studio, "Plan file", empty.folder)
     studio.ask("studio.shelf.open('floor-plan-1.json')")
     studio.wait_for("studio.runs.shown === 2 && studio.runs.losses !== null")
-    assert studio.page.locator("[data-run]").count() == 1
+    studio.wait_for(
+        "document.querySelectorAll('[data-run]').length === 2"
+    )  # it is of the same floor
     assert "opened" in row(studio, 2)
     reloaded(studio)
     studio.wait_for("studio.runs.shown === 2 && studio.stage.isPlan")

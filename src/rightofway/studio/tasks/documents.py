@@ -141,10 +141,17 @@ def written(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, name: str
     raise InputError.at("path", message)
 
 
+_digests: list[tuple[Scenario, str]] = []  # of the last scenario: a search makes many plans of one
+
+
 def digest_of(scenario: Scenario) -> str:
     """Return a digest that scenarios of the same content share, whatever file they stand in."""
+    for known, digest in _digests:
+        if known is scenario:
+            return digest
     text = json.dumps(dump_scenario(scenario), sort_keys=True, default=str)
-    return hashlib.sha256(text.encode()).hexdigest()
+    _digests[:] = [(scenario, hashlib.sha256(text.encode()).hexdigest())]
+    return _digests[0][1]
 
 
 def figures(plan: Plan) -> dict[str, Any]:
