@@ -36,7 +36,7 @@ export function Ask({ studio, children }) {
     <section class="ask" aria-labelledby="ask-title"><h2 id="ask-title">${index < 0 ? words.whatIf : words.whatIfOf(name)}</h2>
       ${
         index < 0
-          ? html`<p class="hint">${words.chooseRobot}</p>`
+          ? html`<p class="hint">${robotsOf(store.document) ? words.chooseRobot : words.robotsElsewhere}</p>`
           : html`<div class="fields">${ASKED.map(
               (column) => html`
         <label title=${words.columns[column.key][1]}>${words.columns[column.key][0]}<${Field} key=${`${name} ${column.key}`} value=${column.text(robots[index])} placeholder=${words.columns[column.key][2] ?? ""}
