@@ -119,6 +119,8 @@ def running(folder: Path, access: Access | None = None, **settings: Any) -> Iter
         server = uvicorn.Server(config)
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         thread.start()
+        while not server.started and thread.is_alive():
+            time.sleep(0.01)
         try:
             base = f"http://127.0.0.1:{port}/api/v1"
             with Client(base_url=base, timeout=PATIENCE) as client:

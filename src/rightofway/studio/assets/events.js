@@ -1,8 +1,9 @@
 /** What the server says of runs, told to those that want to hear of a run, or of all. */
 
 import { get } from "./api.js";
-import { hear } from "./hear.js";
+import { hear, ToldRuns } from "./hear.js";
 
+const told = new ToldRuns();
 const heard = new Map(); // the hearers of each run that is not over
 let listener = {}; // hears of all runs
 let isShared = "SharedWorker" in globalThis;
@@ -25,10 +26,8 @@ export function listen(number, hearer) {
   if (!heard.has(number)) heard.set(number, new Set());
   heard.get(number).add(hearer);
   if (!isShared) stream ??= hear(tell);
-  get(`/runs/${number}`).then(
-    (run) => tellHearers("run", run), // it may be over already
-    () => forget(number),
-  );
+  const run = told.byNumber?.get(number);
+  if (run) tellHearers("run", run); // it may be over already
 }
 
 /** Have what the worker hears; resolves when that is the list of runs, or nothing. */
@@ -52,6 +51,7 @@ function connect() {
 }
 
 function tell(name, data) {
+  told.take(name, data);
   listener[name]?.(data);
   if (name === "runs") for (const run of data.runs) tellHearers("run", run);
   else tellHearers(name, data);

@@ -3,26 +3,19 @@
  * connections to a server, so the seventh page with one of its own would wait for ever.
  */
 
-import { hear } from "./hear.js";
+import { hear, ToldRuns } from "./hear.js";
 
 const pages = new Set();
-let runs = null; // as far as events have told, by number; null before the first one
+let told = new ToldRuns();
 let stream = null;
 
-const TAKE = {
-  runs: (told) => (runs = new Map(told.runs.map((run) => [run.number, run]))),
-  run: (run) => runs.set(run.number, run),
-  plan: ({ number, figures }) => runs.set(number, { ...runs.get(number), figures, has_plan: true }),
-  deleted: ({ number }) => runs.delete(number),
-};
-
 function tell(name, data) {
-  TAKE[name]?.(data);
+  told.take(name, data);
   for (const page of pages) page.postMessage([name, data]);
 }
 
 function refused() {
-  runs = stream = null; // the next page tries again
+  [told, stream] = [new ToldRuns(), null]; // the next page tries again
   for (const page of pages) page.postMessage(["refused"]);
 }
 
@@ -30,5 +23,5 @@ self.onconnect = ({ ports: [page] }) => {
   pages.add(page);
   page.onmessage = () => pages.delete(page); // it is being left
   stream ??= hear(tell, refused);
-  if (runs) page.postMessage(["runs", { runs: [...runs.values()] }]); // no event comes between
+  if (told.byNumber) page.postMessage(["runs", { runs: [...told.byNumber.values()] }]);
 };

@@ -361,8 +361,10 @@ export class RunStore extends Observable {
     const hearer = {
       run: (run) => {
         this.#keep(run);
-        if (!isOver(run) || !isWanted()) return;
-        if (canBeShown(run)) this.#try(() => this.show(number));
+        if (!isWanted()) return;
+        if (canBeShown(run) && (isOver(run) || this.#awaited !== number))
+          this.#try(() => this.show(number));
+        if (!isOver(run)) return;
         if (run.error) this.#refuse(run.error);
       },
       progress: ({ seconds, flowtime, lower_bound: bound, message }) => {
