@@ -33,7 +33,7 @@ test *args:
 
 # The thorough lane: browser, processes, every example of the documentation, the long laws
 thorough *args:
-    pytest -m "slow and not long" -n 2 {{ args }}
+    pytest -m "slow and not long" -n 2 --dist worksteal {{ args }}
 
 # What the thorough lane leaves out: all states of the pages by axe, load in numbers
 long *args:

@@ -10,6 +10,7 @@ import pytest
 
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.studio.messages import as_error
+from rightofway.studio.worker import LARGE
 
 
 def ran(code: str) -> str:
@@ -45,6 +46,15 @@ def test_a_confined_process_still_imports_modules(tmp_path: Path) -> None:
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of memory differ")
 def test_more_memory_than_its_part_is_an_error_and_not_the_end_of_the_machine() -> None:
     assert "MemoryError" in ran("limit_memory(); bytearray(2**46)")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is counted otherwise")
+def test_the_memory_of_whoever_starts_a_worker_is_not_its_own() -> None:
+    """A worker that seems large is replaced after each job."""
+    counted = "from rightofway.studio.worker import most_memory; print(most_memory())"
+    started = f"import subprocess; subprocess.run([sys.executable, '-c', {counted!r}])"
+    assert int(ran(f"whole = bytearray(LARGE); {started}")) < LARGE / 2
+    assert int(ran("whole = bytearray(LARGE); print(most_memory())")) > LARGE
 
 
 @pytest.mark.parametrize(
