@@ -446,8 +446,8 @@ def _described(scenario: Scenario, robots: Sequence[int]) -> Blockage:
         blocked += ", whatever the other robots do"
     narrow = _narrow_places(scenario, robots)
     if narrow:
-        who = "both" if len(names) == 2 else "all of them"  # noqa: PLR2004
-        passing = f"{who} have to pass {listed(list(map(PlaceNames(scenario), narrow)))}"
+        subject = "both" if len(names) == 2 else "all of them"  # noqa: PLR2004
+        passing = f"{subject} have to pass {listed(list(map(PlaceNames(scenario), narrow)))}"
         reason = f"{blocked}: {passing} (give more room there)"
         return Blockage(reason, names, tuple(map(roadmap.name, narrow)))
     itineraries = [scenario.problem.itineraries[robot] for robot in robots]

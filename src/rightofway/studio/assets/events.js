@@ -1,9 +1,9 @@
-/** What the server says of runs, told to those that want to hear of a run, or of all. */
+/** Passes events of runs on to the functions that this page has registered for one run, or for all runs. */
 
 import { get } from "./api.js";
-import { hear, ToldRuns } from "./hear.js";
+import { hear, KnownRuns } from "./hear.js";
 
-const told = new ToldRuns();
+const known = new KnownRuns();
 const heard = new Map(); // the hearers of each run that is not over
 let listener = {}; // hears of all runs
 let isShared = "SharedWorker" in globalThis;
@@ -26,7 +26,7 @@ export function listen(number, hearer) {
   if (!heard.has(number)) heard.set(number, new Set());
   heard.get(number).add(hearer);
   if (!isShared) stream ??= hear(tell);
-  const run = told.byNumber?.get(number);
+  const run = known.byNumber?.get(number);
   if (run) tellHearers("run", run); // it may be over already
 }
 
@@ -51,7 +51,7 @@ function connect() {
 }
 
 function tell(name, data) {
-  told.take(name, data);
+  known.take(name, data);
   listener[name]?.(data);
   if (name === "runs") for (const run of data.runs) tellHearers("run", run);
   else tellHearers(name, data);

@@ -1,4 +1,4 @@
-/** The stream of events of all runs, and what they have told so far. */
+/** The stream of events of all runs, and the runs as these events describe them. */
 
 const EVENTS = ["runs", "run", "progress", "plan", "deleted"];
 
@@ -14,8 +14,8 @@ export function hear(tell, refused = () => {}) {
   return stream;
 }
 
-/** The runs as events have told of them, by number; null before the list. */
-export class ToldRuns {
+/** The runs as the events so far describe them, by number; null before the first list. */
+export class KnownRuns {
   byNumber = null;
 
   /** Take in an event. */

@@ -3,19 +3,19 @@
  * connections to a server, so the seventh page with one of its own would wait for ever.
  */
 
-import { hear, ToldRuns } from "./hear.js";
+import { hear, KnownRuns } from "./hear.js";
 
 const pages = new Set();
-let told = new ToldRuns();
+let known = new KnownRuns();
 let stream = null;
 
 function tell(name, data) {
-  told.take(name, data);
+  known.take(name, data);
   for (const page of pages) page.postMessage([name, data]);
 }
 
 function refused() {
-  [told, stream] = [new ToldRuns(), null]; // the next page tries again
+  [known, stream] = [new KnownRuns(), null]; // the next page tries again
   for (const page of pages) page.postMessage(["refused"]);
 }
 
@@ -23,5 +23,5 @@ self.onconnect = ({ ports: [page] }) => {
   pages.add(page);
   page.onmessage = () => pages.delete(page); // it is being left
   stream ??= hear(tell, refused);
-  if (told.byNumber) page.postMessage(["runs", { runs: [...told.byNumber.values()] }]);
+  if (known.byNumber) page.postMessage(["runs", { runs: [...known.byNumber.values()] }]);
 };
