@@ -33,6 +33,27 @@ def test_every_format_is_inspected(cli: Cli, name: str, what: str) -> None:
     assert what in " ".join(ended.out.split())
 
 
+def test_places_of_another_graph_are_left_out_with_its_vertices(cli: Cli) -> None:
+    """Robots of graph 0 reach neither the charger nor the parking place of graph 1."""
+    Path("two.building.yaml").write_text(
+        """
+coordinate_system: cartesian_meters
+levels:
+  L1:
+    vertices: [[0, 0, 0, a, {is_charger: [4, true]}], [9, 0, 0, b], [0, 9, 0, c],
+               [5, 5, 0, d, {is_charger: [4, true]}],
+               [6, 5, 0, e, {is_parking_spot: [4, true]}]]
+    lanes: [[0, 1, {graph_idx: [2, 0]}], [1, 2, {graph_idx: [2, 0]}], [2, 0, {graph_idx: [2, 0]}],
+            [3, 4, {graph_idx: [2, 1]}]]
+""",
+        encoding="utf-8",
+    )
+    ended = cli("inspect", "two.building.yaml")
+    assert (ended.code, ended.err) == (0, "")
+    assert "2 vertices left out: only lanes of other vehicle types lead there" in ended.out
+    assert "3 vertices, 3 directed edges, 3 of them one-way, 9 x 9 m; 1 place." in ended.out
+
+
 def test_all_examples_are_inspected(cli: Cli, door: Path) -> None:
     for path in sorted(EXAMPLES.glob("*.yaml")):
         assert cli("inspect", path).code == 0

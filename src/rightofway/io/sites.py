@@ -126,13 +126,15 @@ def _of_layout(path: Path, found: Layout, choice: Choice) -> Sites:
             types = "1 other type" if others == 1 else f"{others} other types"
             lacks = (f"lanes of vehicle type {name} inspected, which has most ({types})", *lacks)
         notes += [f"level {level.name}: {each}" if len(levels) > 1 else each for each in lacks]
-        ids = {roadmap.name(vertex): vertex for vertex in range(roadmap.n_vertices)}
-        parking = [each.name for each in level.vertices if each.is_parking or each.is_charging]
+        drawn = roadmap.drawing
+        assert drawn, "the roadmap of a level has its places"
         site = Site(
             roadmap=roadmap,
             units=METRES,
-            stations={each.name: ids[each.vertices[0]] for each in level.stations},
-            parking={each: ids[each] for each in parking},
+            stations=dict(drawn.stations),
+            parking={
+                roadmap.name(each): each for each in sorted({*drawn.parking, *drawn.charging})
+            },
         )
         sites.append((level.name if len(levels) > 1 else "", site))
     return Sites(what=described(found), notes=tuple(notes), sites=tuple(sites))

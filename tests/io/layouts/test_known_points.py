@@ -155,6 +155,36 @@ def test_rmf_buildings_are_scaled_by_their_measurements_and_turned_upside_down()
     }  # fmt: skip
 
 
+def test_levels_of_a_building_lie_where_the_generator_of_rmf_lays_them(tmp_path: Path) -> None:
+    """Fiducials that do not fit exactly: each pair of them counts once, as in ``transform.py``.
+
+    100 pixels are 5 m. To the right in L1, fiducials lie at 0, 300 and 600; downwards in L2 at 50,
+    350 and 950. Distances in L2 are 1, 2 and 1.5 times those in L1, in the mean 1.5: one pixel of
+    L2 is 2/3 of one in L1, or 1/30 m. (Least squares give 9/14.) Down in L2 is to the right, so
+    right in L2 is up. The means of the fiducials, 300 and 450 * 2/3, leave no shift: pixel (x, y)
+    of L2 lies at (y/30, x/30) m.
+    """
+    path = tmp_path / "two.building.yaml"
+    path.write_text(
+        """
+levels:
+  L1:
+    fiducials: [[0, 0, a], [300, 0, b], [600, 0, c]]
+    measurements: [[0, 1, {distance: [3, 5]}]]
+    vertices: [[0, 0, 0, one], [100, 0, 0, two]]
+    lanes: [[0, 1, {}]]
+  L2:
+    fiducials: [[0, 50, a], [0, 350, b], [0, 950, c]]
+    vertices: [[30, 60, 0, near], [90, 450, 0, far]]
+    lanes: [[0, 1, {}]]
+""",
+        "utf-8",
+    )
+    found = read_layout(path)
+    assert isinstance(found, Layout)
+    assert points(found.level("L2")) == {"near": at(2, 1), "far": at(15, 3)}
+
+
 @pytest.mark.parametrize("file", ["nodes.csv", "edges.csv"])
 def test_either_file_of_a_csv_pair_names_both(file: str) -> None:
     level = level_of(file)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from itertools import combinations
 from math import atan2, hypot
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,9 @@ Transform = Callable[[Point], Point]
 
 Groups = dict[str, tuple[list[str], list[tuple[str, str]]]]
 """For each mutex its vertices, and the ends of its lanes."""
+
+MAX_FIDUCIALS = 200
+"""The most fiducials of a level; each pair of them counts."""
 
 IN_METRES = ("cartesian_meters",)
 IN_PIXELS = (None, "reference_image")
@@ -265,29 +269,37 @@ def _scale(level: Part) -> Fraction | None:
 
 
 def _fiducials(level: Part) -> dict[str, complex]:
-    found = {}
-    for fiducial in _listed(level, "fiducials"):
-        items = fiducial.items()
-        if len(items) < 3:  # noqa: PLR2004 - x, y, name
+    found, items = {}, _listed(level, "fiducials")
+    if len(items) > MAX_FIDUCIALS:
+        message = f"{len(items)} fiducials are more than {MAX_FIDUCIALS} (a few are enough)"
+        raise Part(None, (*level.steps, "fiducials")).fault(message)
+    for fiducial in items:
+        parts = fiducial.items()
+        if len(parts) < 3:  # noqa: PLR2004 - x, y, name
             raise fiducial.fault("is no fiducial (give [x, y, name])")
-        found[items[2].text()] = complex(float(items[0].number()), float(items[1].number()))
+        found[parts[2].text()] = complex(float(parts[0].number()), float(parts[1].number()))
     return found
 
 
 def _laid_over(reference: Part, level: Part) -> tuple[complex, complex] | None:
     """Return turn-and-scale and shift that lay a level's fiducials over those of another.
 
-    They are the least-squares solution; None with fewer than two common fiducials.
+    Of all pairs of common fiducials, the turn is the circular mean of the differences of bearings,
+    and the scale the inverse mean of the ratios of distances: RMF's own generator takes these, so
+    that its positions and ours are the same. None with fewer than two common fiducials.
+
+    References
+    ----------
+    Open-RMF, *rmf_building_map_tools*: ``Transform.set_from_fiducials`` in ``transform.py``.
     """
     theirs, own = _fiducials(reference), _fiducials(level)
-    common = [name for name in own if name in theirs]
-    if len(common) < 2:  # noqa: PLR2004 - two points fix turn, scale and shift
+    common = [(to, own[name]) for name, to in theirs.items() if name in own]
+    spans = [(to - to_2, at - at_2) for (to, at), (to_2, at_2) in combinations(common, 2)]
+    if not spans or any(abs(to) == 0 or abs(at) == 0 for to, at in spans):
+        return None  # two points fix turn, scale and shift
+    turns = sum(to / abs(to) * (at / abs(at)).conjugate() for to, at in spans)
+    if abs(turns) == 0:
         return None
-    from_mean = sum(own[name] for name in common) / len(common)
-    to_mean = sum(theirs[name] for name in common) / len(common)
-    spread = sum(abs(own[name] - from_mean) ** 2 for name in common)
-    if spread == 0:
-        return None
-    products = ((theirs[name] - to_mean) * (own[name] - from_mean).conjugate() for name in common)
-    turn = sum(products) / spread
-    return turn, to_mean - turn * from_mean
+    ratio = sum(abs(at) / abs(to) for to, at in spans) / len(spans)
+    turn = turns / abs(turns) / ratio
+    return turn, sum(to - turn * at for to, at in common) / len(common)
