@@ -19,6 +19,7 @@ import httpx
 import pytest
 from PIL import Image
 
+import rightofway
 from rightofway.studio.guard import Access, Guard
 from tests.builders.studios import DOOR, Client, running, sent
 
@@ -81,7 +82,7 @@ def test_no_answer_invites_other_origins(client: httpx.Client) -> None:
 
 def test_every_answer_has_the_headers_of_the_guard(client: httpx.Client) -> None:
     root = str(client.base_url).removesuffix("api/v1/")
-    for path in ("", "assets/main.js", "assets/viewer.js", "api/v1/files", "api/v1/nothing"):
+    for path in ("", "studio/assets/main.js", "studio/no.js", "api/v1/files", "api/v1/nothing"):
         headers = client.get(f"{root}{path}").headers
         assert headers["x-content-type-options"] == "nosniff"
         assert "unsafe" not in headers["content-security-policy"]
@@ -122,9 +123,10 @@ def test_no_path_climbs_out_of_the_folder(client: httpx.Client, resource: str, p
     assert json.loads(text)["error"]["status"] == status
 
 
+@pytest.mark.parametrize("assets", ["studio/assets", "viz/page/assets"])
 @pytest.mark.parametrize("path", [*ESCAPES, "../__init__.py", "vendor/../../app.py", "index.py"])
-def test_no_asset_is_outside_of_the_assets(client: httpx.Client, path: str) -> None:
-    status, text = sent(client, "GET", f"/assets/{path}")
+def test_no_asset_is_outside_of_the_assets(client: httpx.Client, assets: str, path: str) -> None:
+    status, text = sent(client, "GET", f"/{assets}/{path}")
     assert status in {400, 404}
     assert json.loads(text)["error"]["status"] == status
 
@@ -138,7 +140,7 @@ def test_no_part_of_an_answer_waits_for_an_acknowledgement(client: Client) -> No
 
 
 def test_a_file_of_the_page_is_sent_once(client: httpx.Client) -> None:
-    address = str(client.base_url).removesuffix("api/v1/") + "assets/main.js"
+    address = str(client.base_url).removesuffix("api/v1/") + "studio/assets/main.js"
     first = client.get(address)
     again = client.get(address, headers={"if-none-match": first.headers["etag"]})
     assert (again.status_code, again.content) == (304, b"")
@@ -146,10 +148,13 @@ def test_a_file_of_the_page_is_sent_once(client: httpx.Client) -> None:
 
 
 def test_the_page_names_its_modules_in_advance(client: httpx.Client) -> None:
+    """Their addresses are paths of files below the package: imports lead to files on disk."""
     root = str(client.base_url).removesuffix("/api/v1/")
     named = set(re.findall(r'modulepreload" href="(.*?)"', client.get(f"{root}/").text))
-    assert "/assets/viewer/words.js" in named
+    assert "/viz/page/assets/words.js" in named
+    package = Path(rightofway.__file__).parent
     for address in named:
+        assert (package / address.removeprefix("/")).is_file()
         folder = posixpath.dirname(address)
         module = client.get(f"{root}{address}")
         assert module.status_code == 200

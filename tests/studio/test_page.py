@@ -121,7 +121,7 @@ def test_the_page_speaks_german_to_a_german_browser_and_english_on_request(
         page.get_by_text("New floor").wait_for()
 
 
-@pytest.mark.parametrize("folder_of_texts", ["/assets/words", "/assets/viewer/texts"])
+@pytest.mark.parametrize("folder_of_texts", ["/studio/assets/words", "/viz/page/assets/texts"])
 def test_both_languages_have_the_same_texts_of_the_same_values(
     studio: StudioPage, folder_of_texts: str
 ) -> None:

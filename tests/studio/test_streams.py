@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 pytestmark = needs_browser
 
 BEGIN = """async (document) => {
-  const { post } = await import("/assets/api.js");
-  const { listen } = await import("/assets/events.js");
+  const { post } = await import("/studio/assets/api.js");
+  const { listen } = await import("/studio/assets/events.js");
   window.states = {};
   for (let i = 0; i < 10; i++) {
     const run = await post("/runs", { document, planner: "two-level", name: `${i}` });

@@ -1,6 +1,6 @@
 /** The scenario that is edited: plain data, undo and redo, a draft, and what the library says about it. */
 
-import { Observable } from "./viewer/observable.js";
+import { Observable } from "../../viz/page/assets/observable.js";
 import { inAddress, post, put, remove } from "./api.js";
 
 const CHANGED = 412; // the status of a draft that another page has changed

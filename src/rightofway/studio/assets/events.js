@@ -33,7 +33,7 @@ export function listen(number, hearer) {
 /** Have what the worker hears; resolves when that is the list of runs, or nothing. */
 function connect() {
   return new Promise((resolve) => {
-    const worker = new SharedWorker("/assets/stream.js", { type: "module" });
+    const worker = new SharedWorker(new URL("./stream.js", import.meta.url), { type: "module" });
     const doWithout = () => {
       isShared = false;
       if (heard.size) stream ??= hear(tell);

@@ -1,7 +1,7 @@
 /** Faults and findings of the map that is drawn, in the library's words; each lights its places. */
 
 import { html, useState } from "./vendor/htm-preact.js";
-import { languageOf, said } from "./viewer/library.js";
+import { languageOf, said } from "../../viz/page/assets/library.js";
 import { words } from "./words.js";
 
 const FIRST = 3; // findings, the worst first; the others on request

@@ -1,7 +1,7 @@
 /** A line that comes and goes: what was done, and a press that takes it back. */
 
 import { html, useEffect } from "./vendor/htm-preact.js";
-import { Observable } from "./viewer/observable.js";
+import { Observable } from "../../viz/page/assets/observable.js";
 import { words } from "./words.js";
 
 const SHOWN = 8000; // how long a notice stays [ms]

@@ -3,16 +3,16 @@
 import { toDrawing } from "./draw/places.js";
 import { RULER } from "./draw/readout.js";
 import { Player } from "./runs/player.js";
-import { fitCanvas } from "./viewer/canvas.js";
-import { Choice } from "./viewer/choice.js";
-import { Clock } from "./viewer/clock.js";
-import { MapView } from "./viewer/map_view.js";
-import { Motion } from "./viewer/motion.js";
-import { Observable } from "./viewer/observable.js";
-import { Plan } from "./viewer/plan.js";
-import { Site } from "./viewer/site.js";
-import { Theme } from "./viewer/theme.js";
-import { Words } from "./viewer/words.js";
+import { fitCanvas } from "../../viz/page/assets/canvas.js";
+import { Choice } from "../../viz/page/assets/choice.js";
+import { Clock } from "../../viz/page/assets/clock.js";
+import { MapView } from "../../viz/page/assets/map_view.js";
+import { Motion } from "../../viz/page/assets/motion.js";
+import { Observable } from "../../viz/page/assets/observable.js";
+import { Plan } from "../../viz/page/assets/plan.js";
+import { Site } from "../../viz/page/assets/site.js";
+import { Theme } from "../../viz/page/assets/theme.js";
+import { Words } from "../../viz/page/assets/words.js";
 import { words as texts } from "./words.js";
 
 const LEGENDS = `<div class="legends">

@@ -13,7 +13,7 @@ import { RunStore } from "./runs/run_store.js";
 import { lossOn } from "./runs/waits.js";
 import { Shelf } from "./shelf.js";
 import { Stage } from "./stage.js";
-import { Observable } from "./viewer/observable.js";
+import { Observable } from "../../viz/page/assets/observable.js";
 import { setLanguage, words } from "./words.js";
 
 export const TABS = ["map", "robots", "plan"];

@@ -4,7 +4,7 @@
  * A language is a file in `words/` with the same keys, and a line here, beside the viewer's own.
  */
 
-import * as viewer from "./viewer/language.js";
+import * as viewer from "../../viz/page/assets/language.js";
 import { GERMAN } from "./words/de.js";
 import { ENGLISH } from "./words/en.js";
 

@@ -1,4 +1,8 @@
-"""The page of the studio: its markup, its modules, and the modules of the viewer."""
+"""The page of the studio: its markup, its modules, and the modules of the viewer.
+
+Addresses are paths below the package, so that the imports between the two folders of modules are
+paths of files, too: an editor and a type checker follow them as a browser does.
+"""
 
 from __future__ import annotations
 
@@ -26,6 +30,12 @@ MEDIA = {
 }
 """Media types of assets, by ending."""
 
+FOLDERS = {"studio/assets": "rightofway.studio", "viz/page/assets": "rightofway.viz.page"}
+"""Folders of assets as addresses name them, and the packages that they are in."""
+
+STYLE = "viz/page/assets/viewer.css"
+"""The address of the viewer's style with the colours of the palette, which is no file."""
+
 router = APIRouter(include_in_schema=False)
 about = APIRouter()
 
@@ -33,13 +43,19 @@ about = APIRouter()
 @router.get("/")
 async def index(request: Request) -> Response:
     """Return the page."""
-    return _file(request, "index.html")
+    return _file(request, "studio/assets/index.html")
 
 
-@router.get("/assets/{path:path}")
+@router.get("/studio/assets/{path:path}")
 async def asset(request: Request, path: str) -> Response:
-    """Return a file of the page; the modules of the viewer stand in a folder of their own."""
-    return _file(request, path)
+    """Return a file of the page."""
+    return _file(request, f"studio/assets/{path}")
+
+
+@router.get("/viz/page/assets/{path:path}")
+async def viewer_asset(request: Request, path: str) -> Response:
+    """Return a file of the viewer."""
+    return _file(request, f"viz/page/assets/{path}")
 
 
 def _file(request: Request, path: str) -> Response:
@@ -58,23 +74,22 @@ def page_file(path: str) -> bytes:
     Parameters
     ----------
     path
-        The path under ``/assets/``.
+        The path below the package, which begins with one of `FOLDERS`.
     """
-    if path == "viewer.css":
+    if path == STYLE:
         return style_sheet().encode()
     text = _text(path)
-    if path == "index.html":  # a browser would ask for modules after those that import them
-        modules = scripts_of("main", _text)
-        links = (f'<link rel="modulepreload" href="/assets/{each}.js">' for each in modules)
+    if path == "studio/assets/index.html":  # else a browser asks for modules one after another
+        modules = scripts_of("studio/assets/main", _text)
+        links = (f'<link rel="modulepreload" href="/{each}.js">' for each in modules)
         text = text.replace("</head>", "\n".join([*links, "</head>"]))
     return text.encode()
 
 
 def _text(path: str) -> str:
-    name = path.removeprefix("viewer/")
-    parts = name.split("/")
-    package = "rightofway.studio" if name == path else "rightofway.viz.page"
-    found = files(package).joinpath("assets", *parts)
+    folder = next(each for each in FOLDERS if path.startswith(f"{each}/"))
+    parts = path.removeprefix(f"{folder}/").split("/")
+    found = files(FOLDERS[folder]).joinpath("assets", *parts)
     is_asset = PurePosixPath(path).suffix in MEDIA and not {"", ".", ".."} & {*parts}
     if not is_asset or not found.is_file():
         raise Refused(f"there is no asset {path[:100]!r} (open the studio at /)", 404)

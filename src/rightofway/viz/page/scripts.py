@@ -13,7 +13,7 @@ from functools import cache
 from importlib.resources import files
 from posixpath import dirname, join, normpath
 
-IMPORT = re.compile(r'^import [^;]*? from "(\.{1,2}/[\w/-]+)\.js";\n', re.MULTILINE)
+IMPORT = re.compile(r'^import [^;]*? from "((?:\.{1,2}/)+[\w/-]+)\.js";\n', re.MULTILINE)
 EXPORT = re.compile(r"^export (?!default)", re.MULTILINE)
 NOTES = re.compile(r"(?ms)^\s*((/\*\*.*?\*/|//[^\n]*)\s*)*")
 """Comments that fill lines, and indentation: a fifth of a script."""

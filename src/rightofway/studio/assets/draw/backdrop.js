@@ -1,7 +1,7 @@
 /** The picture below the map: chosen, laid by presses on it, and kept in the scenario. */
 
 import { get, inAddress, upload } from "../api.js";
-import { Observable } from "../viewer/observable.js";
+import { Observable } from "../../../viz/page/assets/observable.js";
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { isNetwork, withoutKey } from "./network.js";

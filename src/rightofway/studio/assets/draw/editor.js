@@ -1,6 +1,6 @@
 /** Drawing on the map: the tool in hand, pointer and keys, what is selected. Every change goes through the store. */
 
-import { Observable } from "../viewer/observable.js";
+import { Observable } from "../../../viz/page/assets/observable.js";
 import { RobotTool } from "../robots/tool.js";
 import { PickTool } from "./backdrop.js";
 import { groundOf } from "./ground.js";

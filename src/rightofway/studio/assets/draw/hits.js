@@ -1,7 +1,7 @@
 /** What is where on the map, by the document: robots' homes and stops, obstacles, vertices, lanes. */
 
 import { robotsOf, stopsOf } from "../robots/fleet.js";
-import { nearest } from "../viewer/arrays.js";
+import { nearest } from "../../../viz/page/assets/arrays.js";
 import { cellsOfBox, groundOf } from "./ground.js";
 import { bezierAt, controlsOf, endsOf, isNetwork, lanesOf, positionOf } from "./network.js";
 import { numberOf, toDrawing, vertexOf } from "./places.js";

@@ -1,6 +1,6 @@
 /** The distance between two places, from vertices and ends of walls where they are near. */
 
-import { nearest } from "../viewer/arrays.js";
+import { nearest } from "../../../viz/page/assets/arrays.js";
 import { wayText } from "./readout.js";
 
 const REACH = 12; // pixels

@@ -1,6 +1,6 @@
 /** Tools for roadmaps: vertices, lanes from one vertex to the next, marks of what a vertex is for. */
 
-import { ring } from "../viewer/shapes.js";
+import { ring } from "../../../viz/page/assets/shapes.js";
 import { words } from "../words.js";
 import {
   addLane,

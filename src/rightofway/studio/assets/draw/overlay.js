@@ -1,6 +1,6 @@
 /** What an editor shows above the map: what is selected, and what the library says about places. */
 
-import { ring } from "../viewer/shapes.js";
+import { ring } from "../../../viz/page/assets/shapes.js";
 import { cellOf } from "./ground.js";
 
 const MOST_SIGNS = 300;

@@ -1,7 +1,7 @@
 /** Select, move, copy and delete what is on the map: one thing, several with Shift, all in a box. */
 
 import { changeRobots, removeRobots, stopsOf, withStops } from "../robots/fleet.js";
-import { ring } from "../viewer/shapes.js";
+import { ring } from "../../../viz/page/assets/shapes.js";
 import { words } from "../words.js";
 import { arranged, boundsOf, movedCells, turnOf } from "./arrange.js";
 import { cellOf, withObstacles } from "./ground.js";

@@ -2,7 +2,7 @@
 
 import { placeOf } from "../draw/places.js";
 import { paintTrip, radiusAt } from "../draw/overlay.js";
-import { ring } from "../viewer/shapes.js";
+import { ring } from "../../../viz/page/assets/shapes.js";
 import { words } from "../words.js";
 import { addRobots, robotsOf, withStops } from "./fleet.js";
 

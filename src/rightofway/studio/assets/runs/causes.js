@@ -1,7 +1,7 @@
 /** Causes of delay as fields: each has a sentence with places for numbers, and its notation for the command. */
 
 import { html } from "../vendor/htm-preact.js";
-import { decimal, fraction } from "../viewer/quantities.js";
+import { decimal, fraction } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { over } from "./parameter_curve.js";
 

@@ -1,8 +1,8 @@
 /** A plan beside the one before it: what was changed, both sums, who gains and who loses. */
 
 import { html, useEffect } from "../vendor/htm-preact.js";
-import { Quantities } from "../viewer/quantities.js";
-import { changeInWords } from "../viewer/compared_table.js";
+import { Quantities } from "../../../viz/page/assets/quantities.js";
+import { changeInWords } from "../../../viz/page/assets/compared_table.js";
 import { words } from "../words.js";
 import { Term } from "./term.js";
 

@@ -1,7 +1,7 @@
 /** A critical circle: what each robot on it does until the next one can go on, with its share of the period. */
 
 import { html, useState } from "../vendor/htm-preact.js";
-import { fraction } from "../viewer/quantities.js";
+import { fraction } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { number, plus } from "./parameter_curve.js";
 

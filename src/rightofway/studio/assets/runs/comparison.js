@@ -2,9 +2,9 @@
 
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { address } from "../api.js";
-import { Compared } from "../viewer/compared.js";
-import { ComparedRobots } from "../viewer/compared_robots.js";
-import { ComparedTable } from "../viewer/compared_table.js";
+import { Compared } from "../../../viz/page/assets/compared.js";
+import { ComparedRobots } from "../../../viz/page/assets/compared_robots.js";
+import { ComparedTable } from "../../../viz/page/assets/compared_table.js";
 import { language, words } from "../words.js";
 
 export function Comparison({ studio }) {

@@ -1,7 +1,7 @@
 /** How the flowtime of runs came down over time, towards the lower bound; while one runs, as it comes. */
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
-import { Quantities } from "../viewer/quantities.js";
+import { Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { secondsOf } from "./list.js";
 import { isOver } from "./run_store.js";

@@ -1,7 +1,7 @@
 /** What becomes of a plan with delays: how late over all runs, any of them to replay, who suffers, where. */
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
-import { fraction, Quantities } from "../viewer/quantities.js";
+import { fraction, Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 
 const MOST = 6; // robots, and places in a run, that are listed

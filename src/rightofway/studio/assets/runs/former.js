@@ -1,7 +1,7 @@
 /** The way that the chosen robot had in the plan that is compared: a dashed line above the map. */
 
 import { toDrawing } from "../draw/places.js";
-import { Plan } from "../viewer/plan.js";
+import { Plan } from "../../../viz/page/assets/plan.js";
 
 const [DASH, GAP, WIDTH, FAINT] = [5, 5, 2, 0.6]; // [pixels], and how opaque
 

@@ -3,8 +3,8 @@
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { post } from "../api.js";
 import { changeRobots, robotsOf, stopsOf, withStops } from "../robots/fleet.js";
-import { decimal, fraction, Quantities } from "../viewer/quantities.js";
-import { several } from "../viewer/words.js";
+import { decimal, fraction, Quantities } from "../../../viz/page/assets/quantities.js";
+import { several } from "../../../viz/page/assets/words.js";
 import { words } from "../words.js";
 import { Circle } from "./circle.js";
 import {

@@ -2,7 +2,7 @@
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
-import { Quantities } from "../viewer/quantities.js";
+import { Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { canBeShown, isOver, isWithoutPlan } from "./run_store.js";
 

@@ -1,7 +1,7 @@
 /** What is new in each run beside the one before it, in words. */
 
 import { get } from "../api.js";
-import { changeInWords } from "../viewer/compared_table.js";
+import { changeInWords } from "../../../viz/page/assets/compared_table.js";
 import { words } from "../words.js";
 
 export class RunNotes {

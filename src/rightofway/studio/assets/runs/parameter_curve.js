@@ -1,6 +1,6 @@
 /** The period as a function of a speed, a work time or the headway: exact, from the pieces of the report. */
 
-import { decimal, fraction } from "../viewer/quantities.js";
+import { decimal, fraction } from "../../../viz/page/assets/quantities.js";
 
 export const plus = ([a, b], [c, d]) => [a * d + c * b, b * d];
 export const minus = ([a, b], [c, d]) => [a * d - c * b, b * d];

@@ -1,12 +1,12 @@
 /** Everything below a map on which a plan is played: signs, buttons, slider, diagram; and the card beside it. */
 
-import { Bottleneck } from "../viewer/bottleneck.js";
-import { Card } from "../viewer/card.js";
-import { Diagram } from "../viewer/diagram.js";
-import { writeMarkup } from "../viewer/language.js";
-import { States } from "../viewer/states.js";
-import { Transport } from "../viewer/transport.js";
-import { Use } from "../viewer/use.js";
+import { Bottleneck } from "../../../viz/page/assets/bottleneck.js";
+import { Card } from "../../../viz/page/assets/card.js";
+import { Diagram } from "../../../viz/page/assets/diagram.js";
+import { writeMarkup } from "../../../viz/page/assets/language.js";
+import { States } from "../../../viz/page/assets/states.js";
+import { Transport } from "../../../viz/page/assets/transport.js";
+import { Use } from "../../../viz/page/assets/use.js";
 
 const icon = (path) => `<svg viewBox="0 0 20 20" aria-hidden="true">${path}</svg>`;
 

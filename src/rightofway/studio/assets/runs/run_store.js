@@ -1,6 +1,6 @@
 /** The runs of this studio: begun, heard, shown, compared; and what a plan says about waits. */
 
-import { Observable } from "../viewer/observable.js";
+import { Observable } from "../../../viz/page/assets/observable.js";
 import { get, post, remove, request } from "../api.js";
 import { listen, listenToAll } from "../events.js";
 import { words } from "../words.js";

@@ -1,7 +1,7 @@
 /** Why robots wait: each wait in a sentence, the decision behind it, and what if the other went first. */
 
 import { html } from "../vendor/htm-preact.js";
-import { texts } from "../viewer/language.js";
+import { texts } from "../../../viz/page/assets/language.js";
 import { words } from "../words.js";
 
 const MOST = 30;
