@@ -87,7 +87,7 @@ def test_walls_and_robots_are_made_with_the_keyboard_alone(floor: StudioPage) ->
     floor.settle()
     (robot,) = floor.document["robots"]
     assert robot == {
-        "name": "R1", "home": {"x": 1.25, "y": 0.25}, "target": {"x": 3.75, "y": 0.25}, "work": 5,
+        "name": "R1", "home": {"x": 1.25, "y": 0.25}, "target": {"x": 3.75, "y": 0.25},
     }  # fmt: skip
 
 

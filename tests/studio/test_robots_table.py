@@ -40,6 +40,8 @@ def table(browser: Browser, empty: Client) -> Iterator[StudioPage]:
         studio.button("Add 3 at random").click()
         studio.wait_for("studio.store.document.robots.length === 3")
         studio.settle()
+        field(studio, "Work", "R1").evaluate(PASTE, "5\t1\n5\t1\n5\t1\n")
+        studio.settle()
         yield studio
 
 
@@ -66,6 +68,56 @@ def test_arrows_and_enter_go_through_the_cells(table: StudioPage) -> None:
     assert focused(table) == "Speed, R3"
     keys.press("Shift+Enter")
     assert focused(table) == "Speed, R2"
+
+
+@pytest.mark.parametrize(
+    ("keys", "expected"),
+    [
+        (["2", "Tab"], ["2", "5", "5"]),  # pressed and typed
+        (["1", "2", "Tab"], ["12", "5", "5"]),
+        (["ArrowDown", "8", "Tab"], ["5", "8", "5"]),  # reached by an arrow key
+        (["1", "Enter", "9", "Tab"], ["1", "9", "5"]),  # reached by Enter behind a value
+        (["Enter", "2", "Tab"], ["52", "5", "5"]),  # Enter edits what stands there
+        (["F2", "2", "Enter"], ["52", "5", "5"]),
+        (["2", "Escape", "Tab"], ["5", "5", "5"]),  # Escape restores
+        (["2", "Escape", "3", "Enter"], ["3", "5", "5"]),  # and the cell is selected again
+        (["F2", "2", "Escape", "Enter", "3", "Enter"], ["53", "5", "5"]),
+        (["Backspace", "Enter"], ["", "5", "5"]),
+    ],
+)
+def test_typing_replaces_a_cell_and_editing_is_asked_for(
+    table: StudioPage, keys: list[str], expected: list[str]
+) -> None:
+    """The work of R1, R2 and R3 is 5; the cell of R1 is pressed first."""
+    field(table, "Work", "R1").click()
+    for key in keys:
+        table.page.keyboard.press(key)
+    found = [field(table, "Work", name).input_value() for name in ("R1", "R2", "R3")]
+    assert found == expected
+
+
+def test_a_second_press_keeps_a_cell_selected_and_a_double_press_edits_it(
+    table: StudioPage,
+) -> None:
+    work = field(table, "Work", "R1")
+    work.click()
+    work.click()  # not as part of a double press
+    table.page.keyboard.press("7")
+    table.page.keyboard.press("Enter")
+    assert work.input_value() == "7"
+    work.dblclick()
+    table.page.keyboard.press("2")
+    table.page.keyboard.press("Enter")
+    assert work.input_value() == "72"
+
+
+def test_a_robot_has_no_work_before_somebody_gives_it_some(table: StudioPage) -> None:
+    """As in a file: the cell is empty, and the 0 in it is faint."""
+    table.button("Add 3 at random").click()
+    work = field(table, "Work", "R4")
+    work.wait_for()
+    assert (work.input_value(), work.get_attribute("placeholder")) == ("", "0")
+    assert "work" not in table.document["robots"][3]
 
 
 def test_a_block_is_copied_pasted_and_cleared(table: StudioPage) -> None:

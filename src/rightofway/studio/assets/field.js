@@ -3,7 +3,7 @@
 import { html, useState } from "./vendor/htm-preact.js";
 
 /** As an `input` with `onChange`; Escape gives up what is typed, and so does another `value`. */
-export function Field({ value, onChange, onBlur, onKeyDown, ...rest }) {
+export function Field({ value, onChange, onBlur, onKeyDown, onInput, ...rest }) {
   const [typed, setTyped] = useState(null); // text, and the value that it was typed over
   const shown = typed?.over === value ? typed.text : value;
   const give = (action) => (event) => {
@@ -11,10 +11,16 @@ export function Field({ value, onChange, onBlur, onKeyDown, ...rest }) {
     setTyped(null);
   };
   return html`<input ...${rest} value=${shown}
-    onInput=${({ target }) => setTyped({ text: target.value, over: value })}
+    onInput=${(event) => {
+      setTyped({ text: event.target.value, over: value });
+      onInput?.(event);
+    }}
     onChange=${give(onChange)} onBlur=${give(onBlur)}
     onKeyDown=${(event) => {
-      if (event.key === "Escape") setTyped(null);
+      if (event.key === "Escape") {
+        setTyped(null);
+        event.target.value = value; // at once, so that who hears the key finds it restored
+      }
       onKeyDown?.(event);
     }} />`;
 }

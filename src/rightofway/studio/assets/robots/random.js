@@ -30,7 +30,7 @@ async function deal({ store, editor }, { count, seed, work, speed, between }) {
     .map(({ home, target, ...rest }) => ({
       home: place(home),
       target: place(target),
-      work: rest.work,
+      ...(rest.work ? { work: rest.work } : {}), // no work is 0, as in a file
       speed: rest.speed,
     }));
   store.change((now) => (now === document ? addRobots(now, news) : now));
@@ -43,12 +43,12 @@ const hasStations = ({ editor }) => editor.isReady && editor.roadmap.stations.si
 export function FewRobots({ studio }) {
   const count = robotsOf(studio.store.document).length;
   const between = hasStations(studio) ? "stations" : "anywhere";
-  const few = { count: FEW, seed: count + 1, work: 5, speed: 1, between };
+  const few = { count: FEW, seed: count + 1, work: 0, speed: 1, between };
   return html`<button type="button" class="framed" disabled=${!studio.editor.isReady} onClick=${() => studio.attempt(() => deal(studio, few))}>${words.dealFew(FEW, between)}</button>`;
 }
 
 export function RandomFleet({ studio }) {
-  const [wanted, setWanted] = useState({ count: 5, seed: 1, work: 5, speed: 1, isAnywhere: false });
+  const [wanted, setWanted] = useState({ count: 5, seed: 1, work: 0, speed: 1, isAnywhere: false });
   const number = (
     key,
     least,

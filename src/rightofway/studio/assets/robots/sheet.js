@@ -28,6 +28,7 @@ export function Sheet({ studio, columns, wanted }) {
   const [most, setMost] = useState(MOST_ROWS);
   const [cells, setCells] = useState(null); // the block: { from, to }
   const sheet = useRef(null);
+  const edited = useRef(null); // the field whose text is edited; the text of a cell that is only selected is replaced by typing
   const block = cells && blockOf(cells.from, cells.to);
   useEffect(() => setCells(null), [columns.length]);
 
@@ -48,9 +49,24 @@ export function Sheet({ studio, columns, wanted }) {
     setSorted({ key: column.key, isDown });
     change((document) => sortRobots(document, column.value ?? column.text, isDown));
   };
-  const enter = (at) => {
+  const enter = (at, field) => {
+    edited.current = null;
+    field.select();
     setCells({ from: at, to: at });
     if (robots[at.row]) editor.select([{ kind: "robot", id: at.row }]);
+  };
+  const edit = (field) => {
+    edited.current = field;
+    field.setSelectionRange(field.value.length, field.value.length);
+  };
+  /** A press selects a cell, whose text stays selected; in a cell that is edited it places the caret. */
+  const press = (event, at) => {
+    const { target: field, shiftKey } = event;
+    if (edited.current === field) return;
+    event.preventDefault();
+    if (shiftKey) extend(at);
+    else if (document.activeElement === field) enter(at, field);
+    else field.focus();
   };
   const extend = (at) => cells && setCells({ from: cells.from, to: at });
   const goTo = ({ row, column }, from) => {
@@ -83,7 +99,9 @@ export function Sheet({ studio, columns, wanted }) {
       fill(isMany ? block.bottom : robots.length - 1);
     else if (isMany && ["Delete", "Backspace"].includes(event.key))
       change((document) => cleared(document, columns, block));
-    else if (event.key === "Escape") setCells({ from: at, to: at });
+    else if (event.key === "Escape") enter(at, event.target);
+    else if (event.key === "F2" || (isPlainEnter(event) && edited.current !== event.target))
+      edit(event.target);
     else if (event.shiftKey && ARROWS[event.key] && stepFrom(event)) {
       const [down, right] = ARROWS[event.key];
       extend({
@@ -110,12 +128,8 @@ export function Sheet({ studio, columns, wanted }) {
       <${Field} value=${robot ? column.text(robot) : ""} data-cell=${`${row} ${at}`} spellcheck="false"
         aria-label=${robot ? `${title}, ${robot.name}` : `${title}, ${words.newRow}`} aria-invalid=${String(Boolean(fault))} title=${fault?.message ?? ""}
         placeholder=${robot ? usual : column.key === "name" ? freeName(robots) : ""}
-        onFocus=${() => enter(place)} onChange=${({ target }) => write(place, target.value)}
-        onPointerDown=${(event) => {
-          if (!event.shiftKey) return;
-          event.preventDefault();
-          extend(place);
-        }}
+        onFocus=${({ target }) => enter(place, target)} onInput=${({ target }) => (edited.current = target)} onDblClick=${({ target }) => edit(target)} onChange=${({ target }) => write(place, target.value)}
+        onMouseDown=${(event) => press(event, place)}
         onPaste=${(event) => paste(event, place)} onCopy=${copy} onCut=${copy} onKeyDown=${(event) => key(event, place)} />
       ${robot && block && row === block.bottom && at === block.right && html`<${Handle} fill=${fill} />`}
     </td>`;
@@ -159,6 +173,8 @@ export function Sheet({ studio, columns, wanted }) {
 const ARROWS = { ArrowDown: [1, 0], ArrowUp: [-1, 0], ArrowRight: [0, 1], ArrowLeft: [0, -1] };
 
 const clamped = (value, most) => Math.min(Math.max(value, 0), most);
+
+const isPlainEnter = ({ key, shiftKey, target }) => key === "Enter" && !shiftKey && target.value;
 
 /** Where a key leads to: rows and columns; sideways only from the end of what is written. */
 function stepFrom({ key, shiftKey, target }) {

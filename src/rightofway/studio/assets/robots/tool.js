@@ -6,9 +6,6 @@ import { ring } from "../../../viz/page/assets/shapes.js";
 import { words } from "../words.js";
 import { addRobots, robotsOf, withStops } from "./fleet.js";
 
-/** How long the first robot works [time unit]; the next ones as long as the one before. */
-const USUAL_WORK = 5;
-
 export class RobotTool {
   static called = "robot";
   isDrawn = false;
@@ -57,7 +54,7 @@ export class RobotTool {
     const { editor, home, stops } = this;
     const place = (vertex) => placeOf(vertex, editor.roadmap, editor.document);
     const at = robotsOf(editor.document).length;
-    const { work } = robotsOf(editor.document).at(-1) ?? { work: USUAL_WORK };
+    const { work } = robotsOf(editor.document).at(-1) ?? {}; // as long as the one before; the first one not at all, as in a file
     const trip = stops.map((stop) =>
       work === undefined ? { at: place(stop) } : { at: place(stop), work },
     );

@@ -197,7 +197,7 @@ export const GERMAN = {
   fillDown: "Nach unten füllen",
   copyTable: "Tabelle kopieren",
   sheetHint:
-    "Wie in einer Tabelle: Zeilen einfügen, Umschalt wählt, Strg+D füllt nach unten, die letzte Zeile fügt hinzu.",
+    "Wie in einer Tabelle: Tippen ersetzt, Eingabe oder F2 bearbeitet, Esc stellt wieder her; Zeilen einfügen, Umschalt wählt, Strg+D füllt nach unten, die letzte Zeile fügt hinzu.",
   newRow: "neuer Roboter",
   findRobot: "Roboter oder Platz suchen",
   moreRows: (count) => `${count} weitere zeigen`,

@@ -190,7 +190,7 @@ export const ENGLISH = {
   fillDown: "Fill down",
   copyTable: "Copy table",
   sheetHint:
-    "As in a spreadsheet: paste rows, Shift selects, Ctrl+D fills down, the last row adds.",
+    "As in a spreadsheet: typing replaces, Enter or F2 edits, Escape restores; paste rows, Shift selects, Ctrl+D fills down, the last row adds.",
   newRow: "new robot",
   findRobot: "Find a robot or place",
   moreRows: (count) => `Show ${count} more`,
