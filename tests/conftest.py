@@ -10,6 +10,8 @@ import pytest
 
 from tests.builders.browsers import chromium
 
+pytest_plugins = ["tests.builders.laws"]
+
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 

@@ -1,0 +1,281 @@
+"""One strategy for all laws: small fleets of any kind that a scenario file can describe.
+
+A fleet drives on a grid, on a drawn roadmap, or on a real layout, and may have any of `FEATURES`. A
+law leaves features out only where the contract of what it tests refuses them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from functools import cache
+from math import dist
+from pathlib import Path
+from typing import Any
+
+from hypothesis import reject
+from hypothesis import strategies as st
+
+from rightofway.errors import InputError
+from rightofway.io import dump_scenario, example_of_layout, load_map, scenario_of
+from rightofway.io.text import parse_yaml
+from rightofway.model import Scenario
+
+__all__ = ["FEATURES", "any_fleet", "fleet_documents"]
+
+SAMPLES = Path(__file__).parents[1] / "data" / "samples"
+
+FEATURES = (
+    "barred",  # types of robots kept off edges
+    "both",  # a robot books the vertex that it drives to
+    "closures",
+    "headway",
+    "laps",
+    "layouts",  # a real site instead of a drawn one
+    "limits",  # speed limits of edges
+    "no rotations",
+    "one way",  # the trip ends at the last stop
+    "one-way lanes",
+    "sizes",
+    "spacing",  # lanes cut into pieces
+    "speeds",  # own speeds of robots
+    "stops",  # several stops of a robot, also at one vertex
+    "surcharges",
+    "turn rates",
+    "turns",  # turning times of stops
+    "zones",
+)
+"""What a fleet may have; without any of them it is the paper's: points of speed 1 on a grid."""
+
+LAYOUTS = (
+    "lif/example_10_7_station_with_two_nodes.lif.json",
+    "lif/example_10_9_rotation_station.lif.json",
+    "nav2/depot_graph.geojson",
+    "nav2/sample_graph.geojson",
+    "open_rmf/battle_royale.building.yaml",
+    "open_rmf/office.building.yaml",
+    "open_rmf/triple_H.building.yaml",
+)
+"""Sites of 4 to 40 vertices that reach each other."""
+
+WAREHOUSE = SAMPLES / "movingai" / "random-32-32-20.map"
+
+Document = dict[str, Any]
+
+
+def any_fleet(
+    *, robots: tuple[int, int] = (1, 4), without: Collection[str] = (), always: Collection[str] = ()
+) -> st.SearchStrategy[Scenario]:
+    """Return fleets of any kind; some have no plan.
+
+    Parameters
+    ----------
+    robots
+        Least and largest number of robots.
+    without
+        Features that no fleet has: those that the contract of the tested function refuses.
+    always
+        Features that each fleet has.
+    """
+    return fleet_documents(robots=robots, without=without, always=always).map(_scenario)
+
+
+def _scenario(document: Document) -> Scenario:
+    try:
+        return scenario_of(document)
+    except InputError:  # homes too near to each other, a closure of nothing
+        reject()
+        raise
+
+
+@st.composite
+def fleet_documents(
+    draw: st.DrawFn, *, robots: tuple[int, int], without: Collection[str], always: Collection[str]
+) -> Document:
+    """Return scenario files, read."""
+    unknown = {*without, *always} - set(FEATURES)
+    assert not unknown, f"no such features: {unknown}"
+    may = [feature for feature in FEATURES if feature not in {*without, *always}]
+    has = {*always, *draw(st.sets(st.sampled_from(may), max_size=7) if may else st.just(set()))}
+    site, places = _site(draw, has)
+    count = draw(st.sampled_from(range(robots[0], min(robots[1], len(places) // 2) + 1)))
+    some = st.lists(st.sampled_from(places), min_size=count, max_size=count, unique=True)
+    homes, targets = draw(some), draw(some)
+    ways = site.get("roadmap", {}).get("edges", [])
+    return {
+        "format": "rightofway-scenario/1",
+        "map": site,
+        "robots": [
+            {"name": f"R{number}", **_trip(draw, has, trip, places), **_own(draw, has)}
+            for number, trip in enumerate(zip(homes, targets, strict=True), start=1)
+        ],
+        "rules": _rules(draw, has),
+        "closures": _closures(draw, places, ways) if "closures" in has else [],
+    }
+
+
+def _site(draw: st.DrawFn, has: set[str]) -> tuple[Document, list[str]]:
+    """Return a map, and the places where robots may start and work."""
+    if "layouts" in has:
+        name = draw(st.sampled_from(("grid", *LAYOUTS)))
+        if name == "grid":
+            return _grid(_window(draw))
+        return _on_lanes(draw, has, *_layout(name))
+    if not has & {"barred", "limits", "one-way lanes", "spacing", "surcharges", "zones"} and draw(
+        st.booleans()
+    ):
+        width = draw(st.integers(3, 6))
+        cells = st.lists(st.sampled_from("....@"), min_size=width, max_size=width).map("".join)
+        return _grid(["." * width, *draw(st.lists(cells, min_size=1, max_size=4))])
+    return _on_lanes(draw, has, *_drawn(draw, has))
+
+
+def _window(draw: st.DrawFn) -> list[str]:
+    """Return a window of a benchmark map, 8 cells wide and 6 high."""
+    rows = load_map(WAREHOUSE)
+    top, left = draw(st.integers(0, len(rows) - 6)), draw(st.integers(0, len(rows[0]) - 8))
+    return [row[left : left + 8] for row in rows[top : top + 6]]
+
+
+def _grid(rows: list[str]) -> tuple[Document, list[str]]:
+    width = len(rows[0])
+    free = [
+        f"N{row * width + column}"
+        for row, cells in enumerate(rows)
+        for column, cell in enumerate(cells)
+        if cell == "."
+    ]
+    if len(free) < 4:
+        reject()
+    return {"grid": rows}, free
+
+
+def _drawn(draw: st.DrawFn, has: set[str]) -> tuple[Document, list[str]]:
+    """Return vertices anywhere, lanes that join all of them, and lanes that may cross those."""
+    lattice = st.tuples(st.integers(0, 6), st.integers(0, 5))
+    at = draw(st.lists(lattice, min_size=4, max_size=10, unique=True))
+    tree = [(draw(st.integers(0, k - 1)), k) for k in range(1, len(at))]
+    ends = st.integers(0, len(at) - 1)
+    more = draw(st.lists(st.tuples(ends, ends), max_size=6))
+    lanes = {frozenset(lane): lane for lane in [*tree, *more] if lane[0] != lane[1]}
+    names = [f"v{k}" for k in range(len(at))]
+    one_way = st.booleans() if "one-way lanes" in has else st.just(False)
+    edges = [
+        {
+            "from": names[tail],
+            "to": names[head],
+            "length": _quarters(dist(at[tail], at[head])),
+            "both_ways": not draw(one_way),
+        }
+        for tail, head in lanes.values()
+    ]
+    return {"vertices": dict(zip(names, map(list, at), strict=True)), "edges": edges}, names
+
+
+def _quarters(length: float) -> str:
+    """Return the least multiple of 1/4 that is not below a length."""
+    return f"{next(n for n in range(1, 99) if n * n >= 16 * round(length**2))}/4"
+
+
+@cache
+def _layout(name: str) -> tuple[Document, list[str]]:
+    """Return the roadmap of a layout, and the vertices of its example robots and around them."""
+    document = parse_yaml(example_of_layout(SAMPLES / name, SAMPLES / "scenario.yaml"))
+    scenario = scenario_of(document, SAMPLES)
+    inlined = dump_scenario(scenario)["map"]
+    roadmap, indptr = scenario.roadmap, scenario.roadmap.indptr
+    start = int(scenario.robots[0].home)
+    reached, edge = {start}, [start]
+    while edge:  # the example's homes reach each other
+        vertex = edge.pop()
+        heads = roadmap.heads[indptr[vertex] : indptr[vertex + 1]].tolist()
+        edge += [head for head in heads if head not in reached]
+        reached.update(heads)
+    return inlined["roadmap"], [roadmap.name(vertex) for vertex in sorted(reached)]
+
+
+def _on_lanes(
+    draw: st.DrawFn, has: set[str], roadmap: Mapping[str, Any], places: list[str]
+) -> tuple[Document, list[str]]:
+    """Return a roadmap with what lanes may have."""
+    edges = [dict(edge) for edge in roadmap["edges"]]
+    some = st.lists(st.sampled_from(range(len(edges))), max_size=3)
+    if "limits" in has:
+        for edge in draw(some):
+            edges[edge]["max_speed"] = draw(st.sampled_from(["1/2", "1"]))
+    if "barred" in has:
+        for edge in draw(some):
+            edges[edge]["barred"] = ["wide"]
+    if "surcharges" in has:
+        for edge in draw(some):
+            edges[edge]["surcharge"] = 3
+    changed = {**roadmap, "edges": edges}
+    if "zones" in has:
+        lanes = [[edge["from"], edge["to"]] for edge in edges]
+        changed["zones"] = [
+            {
+                "name": f"Z{k}",
+                "vertices": draw(st.lists(st.sampled_from(places), max_size=2, unique=True)),
+                "edges": draw(
+                    st.lists(st.sampled_from(lanes), min_size=1, max_size=3, unique_by=tuple)
+                ),
+            }
+            for k in range(draw(st.integers(1, 2)))
+        ]
+    return {"roadmap": changed, **({"spacing": 2} if "spacing" in has else {})}, places
+
+
+def _trip(draw: st.DrawFn, has: set[str], trip: tuple[str, str], places: list[str]) -> Document:
+    home, target = trip
+    work = st.integers(0, 3)
+    if "stops" not in has:
+        return {"home": home, "target": target, "work": draw(work)}
+    before = draw(st.lists(st.sampled_from([*places, home, target]), max_size=2))
+    return {"home": home, "stops": [{"at": at, "work": draw(work)} for at in [*before, target]]}
+
+
+def _own(draw: st.DrawFn, has: set[str]) -> Document:
+    """Return what a robot has of its own."""
+    robot: Document = {}
+    if "speeds" in has:
+        robot["speed"] = draw(st.sampled_from(["1", "1/2", "2", "1/3"]))
+    if "sizes" in has:
+        robot["radius"] = draw(st.sampled_from(["0.3", "0", "0.2", "0.45", "0.7"]))
+    if "turn rates" in has:
+        robot["turn_rate"] = draw(st.sampled_from([45, 30, 90]))
+    if "turns" in has:
+        robot["turn"] = draw(st.sampled_from([0, "1/2", 2]))
+    if "barred" in has and draw(st.booleans()):
+        robot["type"] = "wide"
+    return robot
+
+
+def _rules(draw: st.DrawFn, has: set[str]) -> Document:
+    rules: Document = {}
+    if "both" in has:
+        rules["occupancy"] = "both"
+    if "headway" in has:
+        rules["headway"] = draw(st.sampled_from([1, "1/2"]))
+    if "one way" in has:
+        rules["return"] = "none"
+    elif "laps" in has:
+        rules["laps"] = draw(st.integers(2, 3))
+    if "no rotations" in has:
+        rules["rotations"] = False
+    return rules
+
+
+def _closures(draw: st.DrawFn, places: list[str], edges: list[Document]) -> list[Document]:
+    found = []
+    for _ in range(draw(st.integers(1, 2))):
+        start = draw(st.integers(0, 15))
+        closure: Document = {"from": start, "until": start + draw(st.integers(1, 15))}
+        on_an_edge: bool = draw(st.booleans())
+        if edges and on_an_edge:
+            edge = draw(st.sampled_from(edges))
+            closure["edge"] = [edge["from"], edge["to"]]
+        else:
+            closure["at"] = draw(st.sampled_from(places))
+        if draw(st.booleans()):
+            closure["radius"] = "1/2"
+        found.append(closure)
+    return found

@@ -1,0 +1,279 @@
+"""Laws: claims on random cases, each with a budget of time instead of a number of cases.
+
+``@law(strategies)`` draws cases until the law's share of its file's seconds is over (option
+``--law-seconds``). Each session has a fresh seed; a law that fails prints the option that draws the
+same cases again. A case that a law cannot judge is left out with `leave`, and counted: a law that
+leaves out significantly more than half of its cases fails.
+
+The module is a plugin of pytest; ``tests/conftest.py`` names it.
+"""
+
+from __future__ import annotations
+
+import inspect
+import json
+import math
+import zlib
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from random import SystemRandom
+from time import perf_counter
+from typing import Any, NoReturn
+
+import pytest
+from hypothesis import HealthCheck, Phase, given, note, seed, settings
+from hypothesis.errors import UnsatisfiedAssumption
+from hypothesis.strategies import SearchStrategy
+
+from rightofway.io import scenario_text
+from rightofway.model import Scenario
+
+__all__ = ["law", "leave"]
+
+FEWEST = 3
+"""Cases that a law judges, however short its budget."""
+
+MOST_LEFT = 60
+"""A law that leaves out all of its first cases, as many as this, fails."""
+
+ROUND = (5, 100)
+"""Cases of the first round, and of a round at most; each round draws with a seed of its own."""
+
+
+class Left(Exception):
+    """A case that the law does not judge."""
+
+
+def leave(reason: str) -> NoReturn:
+    """End a case that the law does not judge; the reason is counted.
+
+    Parameters
+    ----------
+    reason
+        A few words without values, so that equal reasons are one.
+    """
+    raise Left(reason)
+
+
+def law(
+    *strategies: SearchStrategy[Any], **named: SearchStrategy[Any]
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Make a test a law on cases drawn from strategies.
+
+    Parameters
+    ----------
+    strategies
+        For the last parameters of the test, in their order.
+    named
+        For parameters by name. All others are fixtures or parameters of pytest.
+    """
+
+    def decorate(test: Callable[..., None]) -> Callable[..., None]:
+        parameters = list(inspect.signature(test).parameters.values())
+        last = [parameter.name for parameter in parameters if parameter.name not in named]
+        drawn = {**dict(zip(last[len(last) - len(strategies) :], strategies, strict=True)), **named}
+
+        def run(law_run: LawRun, **given_by_pytest: Any) -> None:
+            law_run.hold(lambda **case: test(**given_by_pytest, **case), drawn)
+
+        run.__name__, run.__doc__, run.__module__ = test.__name__, test.__doc__, test.__module__
+        kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        rest = [parameter for parameter in parameters if parameter.name not in drawn]
+        run.__signature__ = inspect.Signature([inspect.Parameter("law_run", kind), *rest])  # type: ignore[attr-defined]
+        run.__dict__.update(test.__dict__)
+        return run
+
+    return decorate
+
+
+@dataclass
+class LawRun:
+    """One law in one session: its budget, and what became of its cases.
+
+    Attributes
+    ----------
+    law
+        The test's identifier.
+    seed
+        Of the session, with the round and its cases where one round is drawn again.
+    seconds
+        The law's budget.
+    properties
+        Of the test, for pytest's report: the law adds what became of it.
+    """
+
+    law: str
+    seed: str
+    seconds: float
+    properties: list[tuple[str, object]]
+    judged: int = 0
+    left: Counter[str] = field(default_factory=Counter)
+    spent: float = 0.0
+
+    def hold(self, test: Callable[..., None], strategies: dict[str, SearchStrategy[Any]]) -> None:
+        """Judge cases, round after round, until the budget is over."""
+        start = perf_counter()
+        session, *again = self.seed.split(":")
+        try:
+            if again:
+                self._round(test, strategies, session, int(again[0]), int(again[1]))
+                return
+            number, cases = 0, ROUND[0]
+            while self._goes_on(perf_counter() - start):
+                self._round(test, strategies, session, number, cases)
+                number, self.spent = number + 1, perf_counter() - start
+                pace = (self.judged + self.left.total()) / self.spent
+                cases = min(max(int(pace * (self.seconds - self.spent)), ROUND[0]), ROUND[1])
+        finally:
+            self.spent = perf_counter() - start
+            self.properties.append(("law", self.row()))
+        self._refuse_emptiness()
+
+    def _goes_on(self, spent: float) -> bool:
+        few = self.judged < FEWEST and self.left.total() < MOST_LEFT
+        return few or spent < self.seconds
+
+    def _round(
+        self,
+        test: Callable[..., None],
+        strategies: dict[str, SearchStrategy[Any]],
+        session: str,
+        number: int,
+        cases: int,
+    ) -> None:
+        def case(**drawn: Any) -> None:
+            for name, value in drawn.items():
+                if isinstance(value, Scenario):
+                    note(Described(name, value))
+            try:
+                test(**drawn)
+            except (Left, UnsatisfiedAssumption, pytest.skip.Exception) as reason:
+                self.left[str(reason) or "assumed"] += 1
+            else:
+                self.judged += 1
+
+        drawing = settings(
+            max_examples=cases,
+            deadline=None,
+            database=None,
+            derandomize=False,
+            phases=(Phase.generate, Phase.shrink),
+            suppress_health_check=list(HealthCheck),
+        )
+        own = zlib.crc32(f"{self.law} {session} {number}".encode())
+        try:
+            seed(own)(drawing(given(**strategies)(case)))()
+        except BaseException as error:
+            again = f"pytest '{self.law}' -m '' --law-seed {session}:{number}:{cases}"
+            error.add_note(f"the same cases again: {again}")
+            raise
+
+    def _refuse_emptiness(self) -> None:
+        """Fail where the law hardly judges: beyond half by three standard deviations."""
+        tried, left = self.judged + self.left.total(), self.left.total()
+        if self.judged == 0 or left > tried / 2 + 3 * math.sqrt(tried) / 2:
+            reasons = ", ".join(f"{count} {reason}" for reason, count in self.left.most_common(5))
+            pytest.fail(f"{left} of {tried} cases are left out, more than half: {reasons}")
+
+    def row(self) -> dict[str, Any]:
+        """Return what the summary and the report file have of the law."""
+        return {
+            "law": self.law,
+            "seed": self.seed,
+            "judged": self.judged,
+            "left out": dict(self.left.most_common()),
+            "seconds": round(self.spent, 3),
+        }
+
+
+@dataclass(frozen=True)
+class Described:
+    """A scenario by the file that describes it, for a case that fails."""
+
+    name: str
+    scenario: Scenario
+
+    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:  # noqa: ARG002
+        printer.text(f"{self.name}:\n{scenario_text(self.scenario)}")
+
+
+# --- the plugin ---------------------------------------------------------------------------------
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the options of laws."""
+    group = parser.getgroup("laws")
+    group.addoption(
+        "--law-seconds",
+        type=float,
+        default=0.5,
+        help="seconds for the laws of each file (default: 0.5)",
+    )
+    group.addoption("--law-seed", help="seed of random cases, as a failure prints it")
+    group.addoption("--law-report", type=Path, help="write cases by law to this JSON file")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Choose the session's seed: that of the controller where there is one."""
+    if hasattr(config, "workerinput"):
+        config.option.law_seed = config.workerinput["law_seed"]
+    elif config.option.law_seed is None:
+        config.option.law_seed = str(SystemRandom().randrange(10**9))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node: Any) -> None:
+    """Give the seed to a worker of xdist."""
+    node.workerinput["law_seed"] = node.config.option.law_seed
+
+
+def pytest_report_header(config: pytest.Config) -> str:
+    """Name the seed, so that the session can be repeated."""
+    return f"laws: --law-seed {config.option.law_seed}"
+
+
+@pytest.fixture
+def law_run(request: pytest.FixtureRequest) -> LawRun:
+    """Return the run of the requesting law, with its share of the seconds of its file."""
+    item = request.node
+    laws = sum(
+        "law_run" in getattr(other, "fixturenames", ()) and other.path == item.path
+        for other in request.session.items
+    )
+    option = request.config.option
+    seconds = option.law_seconds / laws
+    return LawRun(item.nodeid, option.law_seed, seconds, item.user_properties)
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    """Say how many cases were judged, and which laws left many out."""
+    reports = [
+        report
+        for outcome in ("passed", "failed")
+        for report in terminalreporter.stats.get(outcome, ())
+    ]
+    rows = [
+        value
+        for report in reports
+        for name, value in getattr(report, "user_properties", ())
+        if name == "law"
+    ]
+    if not rows:
+        return
+    judged = sum(row["judged"] for row in rows)
+    left = sum(sum(row["left out"].values()) for row in rows)
+    seconds = sum(row["seconds"] for row in rows)
+    terminalreporter.section("laws")
+    terminalreporter.line(
+        f"{len(rows)} laws judged {judged} cases and left {left} out, in {seconds:.0f} s"
+        f" (--law-seed {config.option.law_seed})"
+    )
+    for row in sorted(rows, key=lambda row: row["law"]):
+        out = sum(row["left out"].values())
+        if out > (row["judged"] + out) / 4:
+            terminalreporter.line(f"  {out} of {row['judged'] + out} left out: {row['law']}")
+    if config.option.law_report:
+        report = {"seed": config.option.law_seed, "laws": rows}
+        config.option.law_report.write_text(json.dumps(report, indent=1), encoding="utf-8")
