@@ -1,27 +1,36 @@
 # Short recipes; CI runs the same ones. `just --list` shows them all.
 
+scripts := "'src/**/assets/**/*.js' 'tests/js/**/*.js' '*.{js,json}'"
+
 set shell := ["bash", "-euo", "pipefail", "-c"]
 
 # Everything that can be checked without a new installation
 default: lint types contracts test
 
-# Style of Python and C++
-lint:
+# Style of Python, C++ and JavaScript; exports that nobody imports
+lint: node-modules
     ruff check .
     ruff format --check .
     git ls-files 'cpp/*.cpp' 'cpp/*.hpp' | xargs clang-format --dry-run --Werror
-    npx --yes prettier@3.10.1 --log-level warn --check 'src/**/assets/**/*.js'
+    npx --no prettier -- --log-level warn --check {{ scripts }}
+    npx --no eslint -- --max-warnings 0 .
+    npx --no knip -- --include files,exports,duplicates,unresolved --no-config-hints
 
 # Bring everything into the house style
-format:
+format: node-modules
     ruff check --fix .
     ruff format .
-    npx --yes prettier@3.10.1 --log-level warn --write 'src/**/assets/**/*.js'
+    npx --no prettier -- --log-level warn --write {{ scripts }}
     git ls-files 'cpp/*.cpp' 'cpp/*.hpp' | xargs clang-format -i
 
-# Static types, strict
-types:
+# Static types, strict, of Python and JavaScript
+types: node-modules
     mypy
+    npx --no tsc
+
+# The tools for JavaScript, those of package-lock.json; a network is needed only where they changed
+node-modules:
+    [ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --silent
 
 # Who may import whom
 contracts:

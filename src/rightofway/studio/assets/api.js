@@ -3,7 +3,7 @@
 const ROOT = "/api/v1";
 
 /** What the server refuses: its message, its status, and the faults of a document with their places. */
-export class Refusal extends Error {
+class Refusal extends Error {
   constructor({ message, status, kind, faults }) {
     super(message);
     Object.assign(this, { status, kind, faults });

@@ -9,7 +9,7 @@ const FORMAT = "rightofway-scenario/1";
 const UNITS = { length: "m", time: "s" };
 
 /** An empty floor. */
-export function newFloor({ width, height, cell, isAdaptive }) {
+function newFloor({ width, height, cell, isAdaptive }) {
   const cells = isAdaptive ? { cell_size: "adaptive", smallest: cell } : { cell_size: cell };
   return {
     format: FORMAT,

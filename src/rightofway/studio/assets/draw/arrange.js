@@ -20,7 +20,7 @@ export function blockedOf({ selection, document, hits, roadmap }) {
 }
 
 /** A rectangle of the drawing (left, top, width, height) on the site: least x and y, width, height. */
-export function siteRect(roadmap, [left, top, width, height]) {
+function siteRect(roadmap, [left, top, width, height]) {
   return rectOf(roadmap.toSite(left, top), roadmap.toSite(left + width, top + height));
 }
 
@@ -54,7 +54,7 @@ export function cellsOfRect(ground, roadmap, [x, y, width, height]) {
 }
 
 /** The vertices that go with what is selected: those themselves, and both ends of lanes. */
-export function verticesOf({ selection, document }) {
+function verticesOf({ selection, document }) {
   const known = document.map.roadmap?.vertices ?? {};
   const ends = selection.of("lane").flatMap((index) => {
     const lane = lanesOf(document)[index];

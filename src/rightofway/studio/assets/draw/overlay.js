@@ -95,7 +95,7 @@ export function paintTrip(context, { roadmap, stage: { theme } }, scale, points)
 }
 
 /** A line along a lane. */
-export function band(context, points, width) {
+function band(context, points, width) {
   context.lineWidth = width;
   context.beginPath();
   for (const [x, y] of points) context.lineTo(x, y);

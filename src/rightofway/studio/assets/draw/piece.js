@@ -35,11 +35,13 @@ export function pieceOf(editor) {
   const names = new Set(selection.of("vertex").filter((name) => name in vertices));
   for (const index of chosen) if (all[index]) endsOf(all[index]).forEach((end) => names.add(end));
   const isIn = (name) => names.has(name);
-  const isWhole = selection.of("vertex").length > 0;
+  const hasVertices = selection.of("vertex").length > 0;
   return {
     ...piece,
     vertices: Object.fromEntries([...names].map((name) => [name, vertices[name]])),
-    lanes: all.filter((lane, index) => chosen.has(index) || (isWhole && endsOf(lane).every(isIn))),
+    lanes: all.filter(
+      (lane, index) => chosen.has(index) || (hasVertices && endsOf(lane).every(isIn)),
+    ),
     stations: Object.fromEntries(Object.entries(stations).filter(([, at]) => isIn(at))),
     parking: parking.filter(isIn),
     charging: charging.filter(isIn),

@@ -198,7 +198,7 @@ export class SelectTool {
   /** How far what is selected goes on the site, and what it is in line with then. */
   #shift() {
     const { editor, hit, start, now } = this;
-    const { roadmap, document, selection } = editor;
+    const { document, selection } = editor;
     const way = [now.x - start.x, now.y - start.y];
     if (now.isMore) way[Math.abs(way[0]) < Math.abs(way[1]) ? 0 : 1] = 0;
     const point = { ...now, x: start.x + way[0], y: start.y + way[1] };

@@ -7,7 +7,7 @@ import { words } from "../words.js";
 import { Term } from "./term.js";
 
 /** Robots whose completion time differs: name and difference [time unit], the largest gain first. */
-export function differences({ robots }) {
+function differences({ robots }) {
   return robots
     .map(({ name, completion: [before, after] }) => ({
       name,

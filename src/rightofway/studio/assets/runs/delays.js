@@ -126,7 +126,7 @@ function HeldUp({ studio }) {
 }
 
 /** The waits of the run that plays that the plan did not have, the longest first. */
-export function heldUp(plan) {
+function heldUp(plan) {
   return (plan.happened ?? [])
     .flatMap((robot) => robot.losses.map((loss) => ({ robot, loss, by: robot.unplanned(loss) })))
     .filter(({ by }) => by > 0)
@@ -137,11 +137,11 @@ export function heldUp(plan) {
 function Sufferers({ studio, report, ticks, short }) {
   const [isWhole, setWhole] = useState(false);
   const { stage } = studio;
-  const late = report.lateness.robots
+  const latest = report.lateness.robots
     .map((robot, index) => ({ ...robot, index }))
     .filter(({ mean }) => mean > 0)
     .sort((one, other) => other.mean - one.mean);
-  const robots = isWhole ? late : late.slice(0, MOST);
+  const robots = isWhole ? latest : latest.slice(0, MOST);
   if (!robots.length) return null;
   const most = robots[0].mean;
   return html`
@@ -154,5 +154,5 @@ function Sufferers({ studio, report, ticks, short }) {
         <span>${words.laterBy(ticks(mean))}</span>
         <small>${words.suffers(short(p95), short(itself), behind && behind[1] >= LEAST * mean ? behind[0] : "", behind ? short(behind[1]) : "")}</small></button></li>`;
     })}</ul>
-    ${late.length > robots.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreRows(late.length - robots.length)}</button>`}`;
+    ${latest.length > robots.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreRows(latest.length - robots.length)}</button>`}`;
 }

@@ -114,8 +114,8 @@ export class RunStore extends Observable {
   }
 
   /** Queue a run of a document or of another run; it is shown as soon as there is a plan. */
-  async begin(request, document) {
-    const run = await post("/runs", request);
+  async begin(asked, document) {
+    const run = await post("/runs", asked);
     if (document) this.#documents.set(run.number, document);
     this.#keep(run);
     this.#hear(run.number);

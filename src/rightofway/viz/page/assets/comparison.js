@@ -65,7 +65,7 @@ export class Comparison {
         (height / Math.ceil(this.plans.length / columns) - AROUND) / roadmap.height,
       );
     const columns = this.plans.map((_, i) => i + 1).filter((each) => width >= each * LEAST_MAP);
-    const best = columns.reduce((best, each) => (scale(each) > scale(best) ? each : best), 1);
+    const best = columns.reduce((most, each) => (scale(each) > scale(most) ? each : most), 1);
     this.maps.style.setProperty("--columns", best);
   }
 

@@ -33,7 +33,7 @@ export class MapTip {
     const { x, y } = viewport.pointer;
     const lines = Number.isNaN(x) ? [] : this.#about(x, y, sizes.robot / viewport.scale);
     this.box.hidden = !lines.length;
-    const text = lines.map(({ text }) => text).join("\n");
+    const text = lines.map((line) => line.text).join("\n");
     if (text === this.text) return;
     this.text = text;
     this.box.replaceChildren(

@@ -261,7 +261,7 @@ export class PlaceNames {
     const boxes = SIDES.map((side) => boxBeside(x, y, radius, wide, high, side));
     const free = boxes.filter((box) => this.names.isFree(...box) && this.marks.isFree(...box));
     const apart = free.filter((box) => this.#lanes.isFree(...box));
-    const beside = (boxes) => boxes.find((box) => this.routes.isFree(...box));
+    const beside = (some) => some.find((box) => this.routes.isFree(...box));
     return beside(apart) ?? apart[0] ?? (mayCover ? (beside(free) ?? free[0] ?? null) : null);
   }
 

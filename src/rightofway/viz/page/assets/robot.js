@@ -56,7 +56,6 @@ export class Robot {
 }
 
 /** How a robot loses time: it waits once, or several times behind one robot, or leaves a place to others for a while. */
-const WAITS = 0;
 export const FOLLOWS = 1;
 export const MAKES_ROOM = 2;
 

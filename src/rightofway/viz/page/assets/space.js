@@ -131,12 +131,11 @@ function closestApproach(one, other, roadmap) {
     const end = Math.min(...runs.map(({ phases, at }) => phases.end(at)));
     const [[ax, ay], [bx, by]] = runs.map((run) => whereAt(run, now, roadmap));
     const [right, down] = [bx - ax, by - ay];
-    let share = 0;
     if (end < Infinity) {
       const [[cx, cy], [dx, dy]] = runs.map((run) => whereAt(run, end, roadmap));
       const [u, v] = [dx - cx - right, dy - cy - down];
       const square = u * u + v * v;
-      share = square ? Math.min(Math.max(-(right * u + down * v) / square, 0), 1) : 0;
+      const share = square ? Math.min(Math.max(-(right * u + down * v) / square, 0), 1) : 0;
       best = nearer(
         best,
         Math.hypot(right + u * share, down + v * share),

@@ -81,9 +81,9 @@ export class SpaceTime {
   }
 
   #axis(area) {
-    const { roadmap, line } = this.plan;
+    const { roadmap } = this.plan;
     if (this.#route) return new CorridorAxis(new Corridor(roadmap, this.#route), area);
-    return new LineAxis(line, area, (tail, head) => roadmap.distance(tail, head));
+    return new LineAxis(this.plan.line, area, (tail, head) => roadmap.distance(tail, head));
   }
 
   /** The robots that have strong lines. */

@@ -1,0 +1,36 @@
+import js from "@eslint/js";
+import globals from "globals";
+
+const ASSETS = "src/rightofway/{viz/page,studio}/assets";
+
+/** What prettier and tsc do not see: names that nobody reads or that hide others, and loose habits. */
+export default [
+  { ignores: ["build/", "docs/_build/", "**/vendor/"] },
+  { ...js.configs.recommended, files: ["**/*.js"] },
+  {
+    files: ["**/*.js"],
+    languageOptions: { ecmaVersion: 2023 },
+    linterOptions: { reportUnusedDisableDirectives: "error" },
+    rules: {
+      eqeqeq: "error",
+      "no-shadow": "error",
+      "no-unused-vars": ["error", { ignoreRestSiblings: true, varsIgnorePattern: "^_$" }],
+      "no-use-before-define": ["error", { functions: false, classes: false, variables: false }],
+      "no-var": "error",
+      "object-shorthand": "error",
+      "prefer-const": "error",
+    },
+  },
+  { files: [`${ASSETS}/**/*.js`], languageOptions: { globals: globals.browser } },
+  {
+    // The modules that a page begins with: tests and the notebook read what they have made.
+    files: [`${ASSETS}/{main,inspect_main}.js`],
+    rules: { "no-unused-vars": "off" },
+  },
+  {
+    // The frame that the notebook puts round all modules, see viz/page/widget.py.
+    files: [`${ASSETS}/widget.js`],
+    languageOptions: { globals: { MARKUP: "readonly", mount: "readonly" } },
+  },
+  { files: ["tests/js/**/*.js"], languageOptions: { globals: globals.node } },
+];

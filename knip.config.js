@@ -1,0 +1,13 @@
+/** Exports that nobody imports, files that no page begins with or imports, imports of what is not there. */
+export default {
+  entry: [
+    "src/rightofway/viz/page/assets/{main,inspect_main,widget}.js",
+    "src/rightofway/studio/assets/{main,stream}.js",
+    "tests/js/**/*.test.js",
+  ],
+  project: ["src/rightofway/{viz/page,studio}/assets/**/*.js", "tests/js/**/*.js"],
+  ignore: ["src/rightofway/studio/assets/vendor/**"],
+  // The studio's server has the modules of the page under `viewer/`.
+  paths: { "viewer/*": ["./src/rightofway/viz/page/assets/*"] },
+  compilers: { js: (text) => text.replaceAll(/"(\.{1,2}\/)+viewer\//g, '"viewer/') },
+};
