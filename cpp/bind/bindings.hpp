@@ -80,7 +80,7 @@ class Deadline {
         if (PyErr_CheckSignals() != 0) {
             throw nanobind::python_error();
         }
-        return at_ && Clock::now() > *at_;
+        return at_ && Clock::now() >= *at_;
     }
 
   private:

@@ -114,10 +114,23 @@ class Swaps {
                (fleet_.target(pusher) == behind || from_ahead < from_behind);
     }
 
-    // Whether the way back along the corridor has a junction where the two robots can pass.
+    // Whether the way back along the corridor has a junction where the two robots can pass. One-way
+    // lanes may lead into a circle that never comes back to the start: a walk that meets a move
+    // again goes round for ever (Brent, "An improved Monte Carlo factorization algorithm", 1980).
     bool can_swap(VertexId behind, VertexId ahead) const {
         const VertexId start = behind;
-        while (ahead != start) {
+        VertexId marked_behind = nowhere;
+        VertexId marked_ahead = nowhere;
+        std::int64_t next_mark = 1;
+        for (std::int64_t n_moves = 0; ahead != start; ++n_moves) {
+            if (behind == marked_behind && ahead == marked_ahead) {
+                return false;
+            }
+            if (n_moves == next_mark) {
+                marked_behind = behind;
+                marked_ahead = ahead;
+                next_mark *= 2;
+            }
             const VertexId on = only_way_on(behind, ahead);
             if (on == more) {
                 return true;

@@ -2,10 +2,13 @@
 
 import math
 import signal
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -18,6 +21,8 @@ from rightofway.planners import Deadline, Task
 from rightofway.planners.priorities import fixed_priority
 from rightofway.planners.two_level import two_level
 from tests.builders.fleets import random_fleet
+
+HARD = Path(__file__).parents[1] / "data" / "hard"
 
 NO_LIMITS = [-5, -0.001, math.nan, -math.inf, "10", True]
 
@@ -73,6 +78,18 @@ def test_routes_are_not_chosen_beyond_the_time_limit(crowd: Scenario) -> None:
         task = Task(scenario=crowd, options={"routes": "clear"}, deadline=Deadline.after(0))
         with pytest.raises(GaveUp, match="time ran out while choosing routes"):
             planner(task)
+
+
+def test_a_circle_of_one_way_lanes_does_not_keep_a_call_for_ever() -> None:
+    """The walk along the circle looked for its first vertex, which no lane leads back to."""
+    script = (
+        "import sys, rightofway as rw\n"
+        "try: rw.solve(rw.load(sys.argv[1]), time_limit=0.12, seed=169, iterations=30)\n"
+        "except rw.GaveUp as error: print(error)\n"
+    )
+    call = [sys.executable, "-c", script, str(HARD / "one-way-circle.json")]
+    done = subprocess.run(call, capture_output=True, text=True, timeout=30, check=True)
+    assert "(give a longer time limit" in done.stdout
 
 
 def test_reports_use_what_planning_computed(scenario: Scenario) -> None:

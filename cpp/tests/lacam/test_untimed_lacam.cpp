@@ -58,6 +58,15 @@ TEST_CASE("a full ring turns in one step, if it may") {
     CHECK(run(test::Fleet(ring, robots, {0, false, false}), steps) == SearchEnd::proven_none);
 }
 
+TEST_CASE("a circle of one-way lanes that never comes back has no room for a swap") {
+    // 0 = 1, and one way 0 > 2 > 3 > 4 > 2: a robot that backs away from 1 goes round for ever.
+    test::Roads roads(5, {});
+    roads.indptr = {0, 2, 3, 4, 5, 6};
+    roads.heads = {1, 2, 0, 3, 4, 2};
+    Vertices steps;
+    CHECK(run(test::Fleet(roads, {{0, {{1}}}, {1, {{0}}}}), steps) == SearchEnd::proven_none);
+}
+
 TEST_CASE("a search that is told to stop proves nothing") {
     const test::Roads ring{5, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 0}}};
     // Two robots for one place: many steps, no way.
