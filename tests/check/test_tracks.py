@@ -95,9 +95,16 @@ def test_a_robot_may_pass_its_stop_and_work_there_later() -> None:
 
 
 def test_stops_that_follow_each_other_at_one_vertex_share_a_visit() -> None:
-    # Work of 2 and 3, turning after each: 7 ticks and 1 of driving.
-    assert judged([(1, 2), (1, 3)], [0, 1, 0], [0, 1, 9]).ok
-    assert kinds(judged([(1, 2), (1, 3)], [0, 1, 0], [0, 1, 8])) == ["work cut short"]
+    # Work of 2 and 3, one turn after both: 6 ticks and 1 of driving.
+    assert judged([(1, 2), (1, 3)], [0, 1, 0], [0, 1, 8]).ok
+    assert kinds(judged([(1, 2), (1, 3)], [0, 1, 0], [0, 1, 7])) == ["work cut short"]
+
+
+def test_between_two_stops_at_one_vertex_a_robot_may_drive_away_without_turning() -> None:
+    # N1 from 1 to 4: work of 2 and a drive; again from 5 to 10: work of 3, a turn and a drive.
+    assert judged([(1, 2), (1, 3)], [0, 1, 2, 1, 0], [0, 1, 4, 5, 10]).ok
+    too_soon = judged([(1, 2), (1, 3)], [0, 1, 2, 1, 0], [0, 1, 4, 5, 9])
+    assert kinds(too_soon) == ["work cut short"]
 
 
 def test_stops_are_visited_in_their_order() -> None:

@@ -12,8 +12,10 @@ from typing import Any
 import pytest
 
 import rightofway
+from rightofway.cyclic import best_timetable, plan_of, run_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Closure, Plan, Scenario, VertexId
+from rightofway.model import Closure, Plan, Scenario, Track, VertexId
+from tests.builders.in_a_row import in_a_row
 from tests.builders.mixed import mixed, nudged
 from tests.builders.seeds import seeds
 from tests.builders.sizes import sized, sized_on_lanes, tiny, zoned
@@ -80,6 +82,43 @@ def test_both_judges_find_the_same_faults(seed: int) -> None:
         broken = nudged(plan, draw)
         judged = without_needless_swaps(found_by_the_judge(broken))
         assert judged == without_needless_swaps(faults(broken))
+
+
+@pytest.mark.parametrize("seed", seeds(100, 5))
+def test_both_judges_agree_on_stops_in_a_row_at_one_place(seed: int) -> None:
+    """Some robots have two stops at one place, or one at home before or after the way there."""
+    name, options = PLANNERS[seed % 5]
+    try:
+        plan = rightofway.solve(in_a_row(seed), name, time_limit=10, **options)
+    except (NoPlanExists, GaveUp) as reason:
+        pytest.skip(f"no plan: {reason}")
+    assert faults(plan) == set()
+    draw = random.Random(seed)  # noqa: S311
+    for _ in range(20):
+        broken = nudged(plan, draw)
+        judged = without_needless_swaps(found_by_the_judge(broken))
+        assert judged == without_needless_swaps(faults(broken))
+
+
+@pytest.mark.parametrize("seed", seeds(100, 5))
+def test_laps_with_stops_in_a_row_are_as_short_as_the_second_judge_allows(
+    seed: int,
+) -> None:
+    """A robot without others: of its laps, the second judge allows none to be a tick shorter."""
+    scenario = in_a_row(seed)
+    rules = replace(scenario.rules, turn_rate=None)  # laps refuse it
+    alone = replace(scenario, robots=scenario.robots[:1], rules=rules)
+    try:
+        plan = plan_of(run_laps(alone, time_limit=2))
+    except (InputError, NoPlanExists, GaveUp) as reason:
+        pytest.skip(f"no laps: {reason}")
+    assert faults(plan) == faults(plan_of(best_timetable(alone, rounds=5))) == set()
+    [track] = plan.tracks
+    for visit in range(1, len(track)):
+        sooner = track.enter.copy()
+        sooner[visit:] -= 1
+        shorter = Track(vertices=track.vertices, enter=sooner)
+        assert faults(replace(plan, tracks=(shorter,))) == {("trip", (0,))}
 
 
 @pytest.mark.parametrize("seed", seeds(200, 2))

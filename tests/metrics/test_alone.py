@@ -64,7 +64,7 @@ def test_stops_are_visited_in_their_order() -> None:
 
 
 def test_stops_at_one_vertex_share_a_visit() -> None:
-    assert on_grid([("N1", 2), ("N1", 3)]) == 1 + (2 + 1 + 3 + 1) + 1
+    assert on_grid([("N1", 2), ("N1", 3)]) == 1 + (2 + 3 + 1) + 1
     assert on_grid([("N1", 2), ("N1", 3)], Rules(ends="none")) == 1 + 2 + 3
 
 

@@ -74,11 +74,11 @@ def test_a_robot_that_steps_aside_makes_room_for_the_one_that_comes_then() -> No
 
 
 def test_a_robot_that_leaves_its_last_place_again_makes_room() -> None:
-    """R1 works at its home and turns only because it has to leave: 1 + 1 + 1 ticks are lost."""
+    """R1 works at its home for 2 ticks, and then has to leave: 1 + 1 ticks are lost."""
     scenario = grid_fleet(["..."], [("N0", "N0"), ("N2", "N1")], work=[2, 0])
-    tracks = (Track.of([0, 1, 0], [0, 4, 5]), Track.of([2, 1, 2], [0, 8, 10]))
+    tracks = (Track.of([0, 1, 0], [0, 3, 4]), Track.of([2, 1, 2], [0, 8, 10]))
     plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
-    assert parts(plan)[0] == (2, 0, 3, 0)
+    assert parts(plan)[0] == (2, 0, 2, 0)
     assert lost_time(plan)[0].losses[0].for_robot is None
 
 

@@ -228,11 +228,14 @@ def _stages(robot: Robot, site: Site) -> Iterator[tuple[int, int, int]]:
     if turn == "cell":
         assert grid is not None, "cells have a size"
         turn = grid.cell_size / robot.speed
+    trip = []
     for _ in range(rules.laps if robot.laps is None else robot.laps):
-        for stop in robot.stops:
-            yield stop.at, ceil(stop.work / tick), ceil(turn / tick)
+        trip += [(stop.at, stop.work) for stop in robot.stops]
         if (robot.ends or rules.ends) == "home":
-            yield robot.home, 0, ceil(turn / tick)
+            trip.append((robot.home, Fraction(0)))
+    for number, (at, work) in enumerate(trip):
+        stays = number + 1 < len(trip) and trip[number + 1][0] == at
+        yield at, ceil(work / tick), 0 if stays else ceil(turn / tick)
 
 
 def _makes_its_trip(

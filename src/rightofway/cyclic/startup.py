@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import Comparison, GroupResult
 from rightofway.cyclic.route import CyclicRoute, GroupContext
-from rightofway.model import Scenario, Tick
+from rightofway.model import Scenario, Tick, least_dwell, stages_at_home
 from rightofway.precedence import CyclicSchedule
 
 
@@ -64,7 +64,8 @@ def start(
     )
     itineraries, routes = scenario.problem.itineraries, []
     for robot, lap in zip(timetable.robots, timetable.laps, strict=True):
-        first_least = Tick(lap.least(0) - itineraries[robot].stages[-1].turn)
+        before = least_dwell(stages_at_home(itineraries[robot]), leaves=True)
+        first_least = Tick(lap.least(0) - before)
         routes.append(CyclicRoute(robot=robot, lap=lap, first_least=first_least))
     return GroupResult(
         context=GroupContext(scenario=scenario, routes=tuple(routes)),

@@ -5,7 +5,7 @@ from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, s
 from rightofway.model.edges import Edge, roadmap_of_edges
 from rightofway.model.geometry import Frame, Point, rounding_step, squared_distance, straight_length
 from rightofway.model.grid import roadmap_of_grid
-from rightofway.model.lap import Lap, lap_of, visits_of_laps
+from rightofway.model.lap import Lap, lap_of, stages_at_home, visits_of_laps
 from rightofway.model.lost_time import Loss, LostTime
 from rightofway.model.plan import (
     Decision,
@@ -101,6 +101,7 @@ __all__ = [
     "route_through",
     "serving_visits",
     "squared_distance",
+    "stages_at_home",
     "stays_of",
     "steps_per_unit",
     "straight_length",

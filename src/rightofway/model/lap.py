@@ -9,7 +9,7 @@ from itertools import takewhile
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model.problem import Itinerary
+from rightofway.model.problem import Itinerary, Stage, least_dwell
 from rightofway.model.route import Route
 from rightofway.model.units import Tick, VertexId
 
@@ -73,10 +73,21 @@ def lap_of(itinerary: Itinerary, route: Route) -> Lap:
     route
         Where it goes for that; the last visit serves all stages at home at the end.
     """
-    at_home = takewhile(lambda stage: stage.vertex == itinerary.home, reversed(itinerary.stages))
-    between = route.dwell[0] + sum(stage.work + stage.turn for stage in at_home)
+    between = route.dwell[0] + least_dwell(stages_at_home(itinerary), leaves=True)
     return Lap(
         vertices=route.vertices[:-1],
         dwell=(Tick(between), *route.dwell[1:-1]),
         drive=(route.drive[-1], *route.drive[1:-1]),
     )
+
+
+def stages_at_home(itinerary: Itinerary) -> tuple[Stage, ...]:
+    """Return the stages at home with which each lap of an itinerary ends.
+
+    Parameters
+    ----------
+    itinerary
+        What the robot has to do; it ends at home and leads elsewhere before.
+    """
+    at_home = takewhile(lambda stage: stage.vertex == itinerary.home, reversed(itinerary.stages))
+    return tuple(reversed(tuple(at_home)))

@@ -30,7 +30,8 @@ class Stage:
     work
         How long the robot works there [ticks].
     turn
-        How long it then turns, if an edge is to be driven afterwards [ticks].
+        How long it then turns, if an edge is to be driven afterwards [ticks]; 0 where the next
+        stage is at the same vertex.
     """
 
     vertex: VertexId
@@ -255,9 +256,17 @@ def _itinerary(
     roadmap: Roadmap, robot: Robot, rules: Rules, clock: Clock, turning: Turning | None
 ) -> Itinerary:
     turn = clock.ticks(turning_time(roadmap, robot, rules))
-    lap = [Stage(vertex=stop.at, work=clock.ticks(stop.work), turn=turn) for stop in robot.stops]
+    visits = [(stop.at, clock.ticks(stop.work)) for stop in robot.stops]
+    after: list[VertexId | None] = [stop.at for stop in robot.stops[1:]]
     if (robot.ends or rules.ends) == "home":
-        lap.append(Stage(vertex=robot.home, work=Tick(0), turn=turn))
+        visits.append((robot.home, Tick(0)))
+        after += [robot.home, robot.stops[0].at]  # the next lap follows
+    else:
+        after.append(None)
+    lap = [
+        Stage(vertex=at, work=work, turn=Tick(0) if at == following else turn)
+        for (at, work), following in zip(visits, after, strict=True)
+    ]
     return Itinerary(
         home=robot.home,
         stages=tuple(lap * (robot.laps or rules.laps)),
