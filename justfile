@@ -79,6 +79,10 @@ docs:
 docs-refresh:
     python docs/refresh.py
 
+# Write the types that JavaScript shares with Python
+types-refresh:
+    python -m tests.builders.typescript
+
 # Install for work on the code: edits to Python files are live, `just develop` again after C++
 develop:
     pip install scikit-build-core nanobind

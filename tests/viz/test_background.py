@@ -10,9 +10,13 @@ from rightofway.errors import InputError
 from rightofway.model import Edge, roadmap_of_edges, roadmap_of_grid
 from rightofway.viz import Background, payload_of
 from rightofway.viz.page.background import background_data
+from rightofway.viz.page.schema import PlaceData
 from tests.builders.plans import DOOR, door
 
-BOX = ("x", "y", "width", "height")
+
+def box_of(place: PlaceData) -> list[float]:
+    """Return the upper left corner of a picture, and its size."""
+    return [place["x"], place["y"], place["width"], place["height"]]
 
 
 @pytest.fixture
@@ -26,14 +30,14 @@ def picture(tmp_path: Path) -> Path:
 def test_a_picture_is_as_wide_as_the_map_and_lies_on_its_lower_border(picture: Path) -> None:
     # three cells from -0.5 to 2.5; 60 by 30 pixels are 3 by 1.5 cells
     found = background_data(roadmap_of_grid(DOOR), Background(picture=picture))
-    assert [found[key] for key in BOX] == [-0.5, 1.0, 3.0, 1.5]
+    assert box_of(found) == [-0.5, 1.0, 3.0, 1.5]
     assert found["href"].startswith("data:image/png;base64,")
 
 
 def test_a_scale_is_the_length_of_a_pixel(picture: Path) -> None:
     roadmap = roadmap_of_grid(DOOR, cell_size=Fraction(1, 2))
     found = background_data(roadmap, Background(picture=picture, scale=0.05))
-    assert [found[key] for key in BOX] == pytest.approx([-0.5, -0.5, 6.0, 3.0])
+    assert box_of(found) == pytest.approx([-0.5, -0.5, 6.0, 3.0])
 
 
 def test_an_origin_is_a_point_of_the_site(picture: Path) -> None:
@@ -43,7 +47,7 @@ def test_an_origin_is_a_point_of_the_site(picture: Path) -> None:
     found = background_data(roadmap, Background(picture=picture, scale=0.1, origin=(0, 4)))
     # a unit of the drawing is the edge of 2; a is drawn at (0, 0); the origin is 1 left of a and
     # 1 below it; the picture is 6 by 3 length units
-    assert [found[key] for key in BOX] == pytest.approx([-0.5, 0.5 - 1.5, 3.0, 1.5])
+    assert box_of(found) == pytest.approx([-0.5, 0.5 - 1.5, 3.0, 1.5])
 
 
 def test_a_portable_greymap_becomes_a_picture_that_browsers_show(tmp_path: Path) -> None:

@@ -119,13 +119,13 @@ def test_a_thousand_robots_take_less_than_two_megabytes() -> None:
 
 def test_lost_time_has_its_cause() -> None:
     # R1 waits for R2 in vertex 0 to get to 1, which R2 leaves, from tick 0 to 1, for 1 tick
-    assert payload_of(door())["losses"] == [[0, 0, 1, 0, 0, 1, 1, 0, 1, 1]]
-    assert payload_of(door())["robots"][0]["lost"] == [0, 0, 1]
+    assert payload_of(door())["losses"] == [(0, 0, 1, 0, 0, 1, 1, 0, 1, 1)]
+    assert payload_of(door())["robots"][0]["lost"] == (0, 0, 1)
 
 
 def test_stages_tell_which_visit_serves_them() -> None:
     # vertex, work, turning, visit: the stop c, then the way home
-    assert payload_of(loop())["robots"][0]["stages"] == [[2, 4, 2, 2], [0, 0, 2, 4]]
+    assert payload_of(loop())["robots"][0]["stages"] == [(2, 4, 2, 2), (0, 0, 2, 4)]
 
 
 def test_edges_of_several_lengths_are_told_one_by_one() -> None:

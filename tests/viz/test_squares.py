@@ -33,4 +33,4 @@ def test_a_unit_of_the_drawing_is_the_smallest_square(plan: Plan) -> None:
 
 
 def test_the_page_is_given_the_sides_of_squares(plan: Plan) -> None:
-    assert payload_of(plan)["map"]["sides"] == [2, 1, 1, 1]
+    assert dict(payload_of(plan)["map"])["sides"] == [2, 1, 1, 1]

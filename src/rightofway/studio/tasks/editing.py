@@ -26,6 +26,7 @@ from rightofway.viz import site_data
 from rightofway.viz.page.background import background_of, background_place
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import closure_data
+from rightofway.viz.page.schema import ClosureData, SiteData
 from rightofway.viz.palette import robot_colours
 
 Result = tuple[Any, ...]
@@ -57,7 +58,7 @@ def surveyed(
     have among their figures; null where the document has faults.
     """
     notes = tuple[str, ...]()
-    site, closures = None, list[dict[str, Any]]()
+    site, closures = None, list[ClosureData]()
     loaded, kept, faults = readable(document, folder)
     if loaded is not None:
         scenario, notes = loaded.scenario, loaded.notes
@@ -124,7 +125,7 @@ def readable(
         return *_without(document, folder, error.faults), error.faults
 
 
-def _drawn(site: Site) -> dict[str, Any]:
+def _drawn(site: Site) -> SiteData:
     """Return a site for the editor, which has the picture of a scenario in its own memory."""
     roadmap = site.roadmap
     picture, background = roadmap.drawing.picture, background_of(roadmap)

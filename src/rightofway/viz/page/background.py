@@ -9,11 +9,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import cos, sin
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, cast
 
 from rightofway.errors import InputError
 from rightofway.model import Roadmap
 from rightofway.model.drawing import Picture
+from rightofway.viz.page.schema import BackgroundData, PlaceData
 from rightofway.viz.placement import plane_of
 
 if TYPE_CHECKING:
@@ -92,7 +93,7 @@ def background_of(roadmap: Roadmap) -> Background | None:
     return None if is_missing or picture is None else Background.of(picture)
 
 
-def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:
+def background_data(roadmap: Roadmap, background: Background) -> BackgroundData:
     """Return the picture and where it lies in the drawing, as plain data for JSON.
 
     Parameters
@@ -116,10 +117,10 @@ def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:
     """
     href, columns, rows = _data_uri(background.picture)
     place = place_of(roadmap, background, columns, rows)
-    return {"href": href, "opacity": background.opacity, **place}
+    return {**place, "href": href, "opacity": background.opacity}
 
 
-def place_of(roadmap: Roadmap, background: Background, columns: int, rows: int) -> dict[str, float]:
+def place_of(roadmap: Roadmap, background: Background, columns: int, rows: int) -> PlaceData:
     """Return where a picture lies in the drawing, as `background_data` has it.
 
     Parameters
@@ -147,11 +148,11 @@ def place_of(roadmap: Roadmap, background: Background, columns: int, rows: int) 
         if background.origin is not None:
             x, y = drawn(background.origin)
         x, y = x + rows * pixel * sin(turn), y - rows * pixel * cos(turn)
-    found = {"x": x, "y": y, "width": columns * pixel, "height": rows * pixel}
+    found: PlaceData = {"x": x, "y": y, "width": columns * pixel, "height": rows * pixel}
     return {**found, "turn": turn} if turn else found
 
 
-def background_place(roadmap: Roadmap, background: Background) -> dict[str, Any]:
+def background_place(roadmap: Roadmap, background: Background) -> BackgroundData:
     """Return where a picture lies in the drawing, for a page that has the picture itself.
 
     Parameters
@@ -176,7 +177,7 @@ def background_place(roadmap: Roadmap, background: Background) -> dict[str, Any]
             place = place_of(roadmap, background, *image.size)
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise unreadable(background.picture) from error
-    return {"opacity": background.opacity, **place}
+    return cast("BackgroundData", {"opacity": background.opacity, **place})
 
 
 def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:

@@ -11,9 +11,8 @@ import html
 import json
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
-from typing import Any
 
 from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
@@ -87,7 +86,7 @@ def page_of(
     return document_of("template.html", about, payload, "main")
 
 
-def document_of(template: str, about: str, payload: dict[str, Any], entry: str) -> str:
+def document_of(template: str, about: str, payload: Mapping[str, object], entry: str) -> str:
     """Return a template filled with style, plain data and scripts, as one HTML document.
 
     Parameters
@@ -196,12 +195,12 @@ def payload_text(plan: Plan) -> str:
     return as_script(payload_of(plan))
 
 
-def as_script(payload: dict[str, Any]) -> str:
+def as_script(payload: Mapping[str, object]) -> str:
     """Return plain data as JSON that may stand in a script element."""
     return compact_json(payload).translate(MARKUP)
 
 
-def compact_json(payload: dict[str, Any]) -> str:
+def compact_json(payload: Mapping[str, object]) -> str:
     """Return plain data as JSON without spaces."""
     return json.dumps(payload, separators=(",", ":"), allow_nan=False)
 

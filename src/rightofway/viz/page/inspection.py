@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any
 
 from rightofway.files import write_whole
 from rightofway.metrics import HEADINGS, Inspection, Site, sentences
@@ -12,6 +11,7 @@ from rightofway.phrases import parts_of
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.document import document_of
 from rightofway.viz.page.map_data import map_data
+from rightofway.viz.page.schema import InspectionPayload, LevelData, SiteData
 from rightofway.viz.palette import robot_colours
 
 Inspected = tuple[str, Site, Inspection]
@@ -51,7 +51,7 @@ def inspection_page(
     InputError
         If a picture cannot be read.
     """
-    payload = {
+    payload: InspectionPayload = {
         "title": title,
         "what": parts_of(what),
         "notes": [parts_of(note) for note in notes],
@@ -89,7 +89,7 @@ def write_inspection(
     write_whole(path, page)
 
 
-def site_data(site: Site, background: Background | None = None) -> dict[str, Any]:
+def site_data(site: Site, background: Background | None = None) -> SiteData:
     """Return a site as plain data for JSON: the map, and robots at their homes.
 
     Parameters
@@ -107,7 +107,7 @@ def site_data(site: Site, background: Background | None = None) -> dict[str, Any
     colours = robot_colours(len(site.robots))
     return {
         "units": {"length": site.units.length, "time": site.units.time},
-        "tick": [1, 1],
+        "tick": (1, 1),
         "clearance": float(site.rules.clearance),
         "map": map_data(site.roadmap, room=site.room, background=background),
         "robots": [
@@ -119,10 +119,10 @@ def site_data(site: Site, background: Background | None = None) -> dict[str, Any
                 "vertices": [int(robot.home)],
                 "enter": [0],
                 "drive": [0],
-                "stages": [[int(stop.at), 0, 0, -1] for stop in robot.stops],
+                "stages": [(int(stop.at), 0, 0, -1) for stop in robot.stops],
                 "completion": 0,
                 "alone": 0,
-                "lost": [0, 0, 0],
+                "lost": (0, 0, 0),
             }
             for robot, colour in zip(site.robots, colours, strict=True)
         ],
@@ -131,7 +131,7 @@ def site_data(site: Site, background: Background | None = None) -> dict[str, Any
 
 def _level(
     name: str, site: Site, inspection: Inspection, background: Background | None
-) -> dict[str, Any]:
+) -> LevelData:
     robot_of = {robot.name: index for index, robot in enumerate(site.robots)}
     return {
         "name": name,

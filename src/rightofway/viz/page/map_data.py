@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from rightofway.model import Grid, Point, Roadmap
 from rightofway.model.resources import close_pairs
 from rightofway.viz.page.background import Background, background_data, background_of
+from rightofway.viz.page.schema import CloseData, FrameData, MapData, ObstacleRow
 from rightofway.viz.placement import Plane, plane_of
 
 DECIMALS = {"grid": 3, "network": 6}
@@ -28,7 +29,7 @@ def map_data(
     *,
     room: Fraction = Fraction(0),
     background: Background | None = None,
-) -> dict[str, Any]:
+) -> MapData:
     """Return a map as plain data for JSON: graph, frame, places, zones, limits, picture.
 
     Parameters
@@ -53,7 +54,7 @@ def map_data(
         "frame": _frame(plane, roadmap),
     }
     if grid is not None:
-        found |= {"rows": grid.lines(), **_obstacles(roadmap, grid)}
+        found["rows"] = grid.lines()
     else:
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         found |= {
@@ -66,24 +67,25 @@ def map_data(
     drawing = roadmap.drawing
     sides = () if roadmap.sides is None else roadmap.sides / plane.unit
     marks = {
+        "obstacles": [] if grid is None else _obstacles(roadmap, grid),
         "sides": np.round(sides, decimals).tolist(),
         "limits": _limits(roadmap),
-        "zones": [
-            [zone.name, [*zone.vertices], list(map(list, zone.edges))] for zone in roadmap.zones
-        ],
+        "zones": [(zone.name, list(zone.vertices), list(zone.edges)) for zone in roadmap.zones],
         "curves": [
             [tail, head, *np.round(_drawn(plane, roadmap, points), decimals).ravel().tolist()]
             for tail, head, points in drawing.curves
             if not room  # robots with a size are judged on straight lanes
         ],
-        "stations": [list(station) for station in drawing.stations],
+        "stations": list(drawing.stations),
         "parking": list(drawing.parking),
         "charging": list(drawing.charging),
         "close": _close(roadmap, room) if room and grid is None else {},
     }
     found |= {key: value for key, value in marks.items() if value}
     background = background or background_of(roadmap)
-    return found | ({"background": background_data(roadmap, background)} if background else {})
+    if background:
+        found["background"] = background_data(roadmap, background)
+    return cast("MapData", found)
 
 
 def differences(numbers: Iterable[int]) -> list[int]:
@@ -92,11 +94,16 @@ def differences(numbers: Iterable[int]) -> list[int]:
     return found
 
 
-def _frame(plane: Plane, roadmap: Roadmap) -> dict[str, Any]:
+def _frame(plane: Plane, roadmap: Roadmap) -> FrameData:
     """Return where (0, 0) of the drawing lies on the site, and the length of its unit there."""
     left, top = map(Fraction, plane.corner)
     x, y = roadmap.frame.to_site((left, top))
-    found = {"x": float(x), "y": float(y), "yUp": roadmap.frame.y_up, "unit": plane.unit}
+    found: FrameData = {
+        "x": float(x),
+        "y": float(y),
+        "yUp": roadmap.frame.y_up,
+        "unit": plane.unit,
+    }
     return {**found, "yaw": float(roadmap.frame.yaw)} if roadmap.frame.yaw else found
 
 
@@ -107,19 +114,20 @@ def _drawn(plane: Plane, roadmap: Roadmap, points: Sequence[Point]) -> NDArray[n
     return found
 
 
-def _obstacles(roadmap: Roadmap, grid: Grid) -> dict[str, Any]:
+def _obstacles(roadmap: Roadmap, grid: Grid) -> list[ObstacleRow]:
     """Return the named obstacles: name, left, top, width and height in the drawing."""
-    size, found = grid.cell_size, []
+    size, found = grid.cell_size, list[ObstacleRow]()
     low = grid.rows * size - size / 2
     left, bottom = roadmap.frame.to_site((-size / 2, low))
     for it in roadmap.obstacles:
         down = bottom - it.y - it.height if roadmap.frame.y_up else it.y - bottom
         sides = (it.x - left - size / 2, low + down, it.width, it.height)
-        found.append([it.name, *(round(float(side / size), DECIMALS["grid"]) for side in sides)])
-    return {"obstacles": found} if found else {}
+        x, y, width, height = (round(float(side / size), DECIMALS["grid"]) for side in sides)
+        found.append((it.name, x, y, width, height))
+    return found
 
 
-def _limits(roadmap: Roadmap) -> list[list[Any]]:
+def _limits(roadmap: Roadmap) -> list[tuple[str, list[int]]]:
     """Return the speed limits, each with its edges."""
     edges = defaultdict[str, list[int]](list)
     if roadmap.speed_limits:
@@ -127,10 +135,10 @@ def _limits(roadmap: Roadmap) -> list[list[Any]]:
             limit = roadmap.speed_limits[of]
             if limit is not None:
                 edges[str(limit)].append(edge)
-    return [[limit, of] for limit, of in edges.items()]
+    return list(edges.items())
 
 
-def _close(roadmap: Roadmap, room: Fraction) -> dict[str, Any]:
+def _close(roadmap: Roadmap, room: Fraction) -> CloseData:
     """Return lanes that cross without a vertex, and vertices and lanes that are nearer than room.
 
     Vertices that a lane joins are left out: no robot is surprised there.
@@ -138,11 +146,11 @@ def _close(roadmap: Roadmap, room: Fraction) -> dict[str, Any]:
     pairs = close_pairs(roadmap, room)
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
     joined = set(zip(tails, roadmap.heads.tolist(), strict=True))
-    found = {
-        "crossings": [[*one, *other] for one, other in pairs.crossings],
-        "beside": [[vertex, *lane] for vertex, lane in pairs.beside],
+    found: CloseData = {
+        "crossings": [(*one, *other) for one, other in pairs.crossings[:MOST_CLOSE]],
+        "beside": [(vertex, *lane) for vertex, lane in pairs.beside[:MOST_CLOSE]],
         "vertices": [
-            list(pair) for pair in pairs.vertices if pair not in joined and pair[::-1] not in joined
-        ],
+            pair for pair in pairs.vertices if pair not in joined and pair[::-1] not in joined
+        ][:MOST_CLOSE],
     }
-    return {key: value[:MOST_CLOSE] for key, value in found.items() if value}
+    return cast("CloseData", {key: value for key, value in found.items() if value})

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from math import ceil, floor
-from typing import Any
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +36,22 @@ from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.map_data import differences, map_data
+from rightofway.viz.page.schema import (
+    ClosureData,
+    ComparisonData,
+    DecisionData,
+    DrivenData,
+    FaultsData,
+    FloorData,
+    LossRow,
+    OtherPlan,
+    Payload,
+    PlannerData,
+    RobotData,
+    StageRow,
+    SteadyData,
+    TurnRow,
+)
 from rightofway.viz.palette import robot_colours
 from rightofway.viz.placement import edge_length, vertices_in_line
 from rightofway.viz.verdict import LISTED_FAULTS, verdict_on
@@ -59,7 +75,7 @@ def payload_of(
     title: str = "",
     background: Background | None = None,
     others: Sequence[tuple[Plan, str]] = (),
-) -> dict[str, Any]:
+) -> Payload:
     """Return what the page needs, as plain data for JSON.
 
     Parameters
@@ -75,10 +91,10 @@ def payload_of(
     trips, steady = trips_of(plan), steady or plan.steady
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
     tick, lost = scenario.problem.clock.tick, lost_time(plan)
-    payload: dict[str, Any] = {
+    payload: Payload = {
         "title": title,
         "units": {"length": scenario.units.length, "time": scenario.units.time},
-        "tick": [tick.numerator, tick.denominator],
+        "tick": (tick.numerator, tick.denominator),
         "end": max(end_of(trips), 1),
         "headway": scenario.problem.headway,
         "booksAhead": scenario.rules.books_ahead,
@@ -87,7 +103,7 @@ def payload_of(
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [_loss(loss) for one in lost for loss in one.losses],
         "faults": _faults(plan, verdict_on(plan)),
-        "planner": {"name": run.name, "status": run.status, **_improvement(run)},
+        "planner": _planner(run),
         "decisions": [_decision(decision) for decision in run.decisions],
         "reroutes": [{"robot": one.robot, "because": one.because} for one in run.reroutes],
         "metrics": {
@@ -111,30 +127,28 @@ def payload_of(
         payload["noPlan"] = True
         payload["faults"] = _blockages(scenario, no_plan)
     if others:
-        payload |= _compared(plan, title, others, payload)
+        _compare(plan, title, others, payload)
     return payload
 
 
-def _compared(
-    plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload: dict[str, Any]
-) -> dict[str, Any]:
-    """Return the other plans, and the comparison: robots of one name have one colour.
+def _compare(plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload: Payload) -> None:
+    """Add the other plans, and the comparison: robots of one name have one colour.
 
     A plan on the same map has none of its own, and shares the line of places.
     """
     plans = [plan, *(other for other, _ in others)]
     comparison = compare(plans, [title, *(name for _, name in others)])
     colours = dict(zip(comparison.robots, robot_colours(len(comparison.robots)), strict=True))
-    found = []
+    payload["others"] = []
     for other, name in others:
-        made = payload_of(other, title=name)
+        made = cast(OtherPlan, payload_of(other, title=name))
         for robot in made["robots"]:
             robot["colour"] = colours[robot["name"]]
         if other.scenario.roadmap == plan.scenario.roadmap:
             made["line"] = payload["line"]
             del made["map"]
-        found.append(made)
-    return {"others": found, "comparison": comparison.as_dict()}
+        payload["others"].append(made)
+    payload["comparison"] = cast(ComparisonData, comparison.as_dict())
 
 
 def room_of(scenario: Scenario) -> Fraction:
@@ -143,7 +157,7 @@ def room_of(scenario: Scenario) -> Fraction:
     return sum(radii) + scenario.rules.clearance if any(radii) else Fraction(0)
 
 
-def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
+def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> FaultsData:
     """Return why there is no plan, as faults with the robots and vertices that they concern."""
     robot_of = {robot.name: index for index, robot in enumerate(scenario.robots)}
     return {
@@ -161,7 +175,7 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
     }
 
 
-def closure_data(closure: Closure, scenario: Scenario) -> dict[str, Any]:
+def closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
     """Return the vertices of a closure, along a lane in order, and when it is.
 
     Parameters
@@ -175,19 +189,21 @@ def closure_data(closure: Closure, scenario: Scenario) -> dict[str, Any]:
     places = [closure.at] if closure.edge is None else ways_along(scenario.roadmap, closure.edge)[0]
     until = closure.until
     return {
-        "vertices": list(places),
+        "vertices": [vertex for vertex in places if vertex is not None],
         "from": floor(closure.from_ / tick),
         "until": None if until is None else ceil(until / tick),
         "radius": None if closure.radius is None else float(closure.radius),
     }
 
 
-def _improvement(run: PlannerRun) -> dict[str, Any]:
-    made = run.improvement
-    return {} if made is None else {"saved": made.saved, "tries": made.tries}
+def _planner(run: PlannerRun) -> PlannerData:
+    found: PlannerData = {"name": run.name, "status": run.status}
+    if run.improvement is not None:
+        found |= {"saved": run.improvement.saved, "tries": run.improvement.tries}
+    return found
 
 
-def _line(plan: Plan, others: Sequence[Plan]) -> list[list[float]]:
+def _line(plan: Plan, others: Sequence[Plan]) -> list[tuple[int, float]]:
     """Return the places over time of a small fleet: vertex and distance along the line.
 
     Other plans on the same map may visit other places, which come after.
@@ -198,55 +214,58 @@ def _line(plan: Plan, others: Sequence[Plan]) -> list[list[float]]:
             for robot, trip in zip(each.scenario.robots, trips_of(each), strict=True):
                 routes.setdefault(robot.name, []).extend(trip.vertices)
     places = vertices_in_line([*routes.values()], edge_length(roadmap))
-    return [[vertex, round(place, DECIMALS)] for vertex, place in places.items()]
+    return [(int(vertex), round(place, DECIMALS)) for vertex, place in places.items()]
 
 
 def _robots(
     plan: Plan, trips: Sequence[Trip], metrics: Metrics, lost: Sequence[LostTime]
-) -> list[dict[str, Any]]:
+) -> list[RobotData]:
     edge_ticks = [itinerary.edge_ticks for itinerary in plan.scenario.problem.itineraries]
-    colours = robot_colours(len(trips))
-    return [
-        {
+    colours, robots = robot_colours(len(trips)), list[RobotData]()
+    for index, (robot, trip, edges) in enumerate(
+        zip(plan.scenario.robots, trips, edge_ticks, strict=True)
+    ):
+        found: RobotData = {
             "name": robot.name,
             "colour": colours[index],
             "speed": str(robot.speed),
-            **({"radius": float(robot.radius)} if robot.radius else {}),
             "completion": metrics.completions[index],
             "alone": metrics.alone[index],
-            "lost": [lost[index].detours, lost[index].making_room, lost[index].waiting],
+            "lost": (lost[index].detours, lost[index].making_room, lost[index].waiting),
             "vertices": differences(trip.vertices),
             "enter": differences(trip.enter),
             "drive": edges[0] if len(edges) == 1 else list(trip.drive),
             "stages": [
-                [stage.vertex, stage.work, stage.turn, visit]
+                (stage.vertex, stage.work, stage.turn, visit)
                 for stage, visit in zip(trip.stages, trip.served, strict=True)
             ],
-            **({"turns": _sparse(trip.turns)} if any(trip.turns) else {}),
-            **({} if min(trip.served) >= 0 else {"stands": True}),
         }
-        for index, (robot, trip, edges) in enumerate(
-            zip(plan.scenario.robots, trips, edge_ticks, strict=True)
-        )
-    ]
+        if robot.radius:
+            found["radius"] = float(robot.radius)
+        if any(trip.turns):
+            found["turns"] = _sparse(trip.turns)
+        if min(trip.served) < 0:
+            found["stands"] = True
+        robots.append(found)
+    return robots
 
 
-def _decision(decision: Decision) -> dict[str, Any]:
+def _decision(decision: Decision) -> DecisionData:
     return {
         "tick": decision.tick,
         "kind": decision.kind,
         "vertices": list(decision.vertices),
-        "robots": list(decision.robots),
+        "robots": decision.robots,
         "waits": decision.waits,
         "waitsAt": decision.waits_at,
         "ticks": decision.ticks,
         "level": decision.level,
-        "conflictsLeft": list(decision.conflicts_left),
-        "completionSums": decision.completion_sums and list(decision.completion_sums),
+        "conflictsLeft": decision.conflicts_left,
+        "completionSums": decision.completion_sums,
     }
 
 
-def _steady(plan: Plan, steady: Sequence[SteadyState]) -> list[dict[str, Any]]:
+def _steady(plan: Plan, steady: Sequence[SteadyState]) -> list[SteadyData]:
     names = [robot.name for robot in plan.scenario.robots]
     refuse_unknown_robots(steady, names, list(map(len, plan.tracks)))
     return [
@@ -255,13 +274,13 @@ def _steady(plan: Plan, steady: Sequence[SteadyState]) -> list[dict[str, Any]]:
             "start": group.start,
             "period": group.period,
             "until": min(_until(group, plan.tracks[robot]) for robot in group.robots),
-            "critical": [list(visit) for visit in group.critical],
+            "critical": list(group.critical),
         }
         for group in steady
     ]
 
 
-def _last_tick_of_all(trips: Sequence[Trip], groups: Sequence[dict[str, Any]]) -> int:
+def _last_tick_of_all(trips: Sequence[Trip], groups: Sequence[SteadyData]) -> int:
     """Return the tick at which the first robot ends its laps; robots that stand still have none."""
     untils = {robot: group["until"] for group in groups for robot in group["robots"]}
     ends: list[int] = [
@@ -290,7 +309,7 @@ def _until(group: SteadyState, track: Track) -> int:
     return int(track.enter[again - 1 + repeated])
 
 
-def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dict[str, Any]:
+def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> FloorData:
     if len(actual.tracks) != len(plan.tracks):
         counts = f"{len(actual.tracks)} for {len(plan.tracks)} robots"
         raise InputError.at("actual.tracks", f"{counts} (give one for each)")
@@ -303,15 +322,17 @@ def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dic
     ):
         is_planned = taken.vertices == planned.vertices[: len(taken.vertices)]
         stages, turns = _executed_duties(planned if is_planned else taken, dwell)
-        robot = {
+        robot: DrivenData = {
             "stages": stages,
-            **({"turns": turns} if planned.turns or taken.turns else {}),
-            **({} if is_planned else {"vertices": differences(taken.vertices)}),
             "enter": differences(taken.enter),
             "drive": drive.tolist(),
-            "still": [list(stoppage) for stoppage in stoppages],
+            "still": list(stoppages),
             "completion": completion,
         }
+        if planned.turns or taken.turns:
+            robot["turns"] = turns
+        if not is_planned:
+            robot["vertices"] = differences(taken.vertices)
         robots.append(robot)
     return {
         "end": max(1, *(stay.completion for stay in stays), *filter(None, actual.completion)),
@@ -343,9 +364,7 @@ def _executed_stays(
     )
 
 
-def _executed_duties(
-    trip: Trip, dwell: NDArray[np.int64]
-) -> tuple[list[list[int]], list[list[int]]]:
+def _executed_duties(trip: Trip, dwell: NDArray[np.int64]) -> tuple[list[StageRow], list[TurnRow]]:
     """Return stages and turns; each takes its share of the executed duration of its visit."""
     reached, last = len(dwell), len(trip.vertices) - 1
     planned = np.zeros(reached, np.int64)
@@ -354,32 +373,32 @@ def _executed_duties(
         if 0 <= visit < reached:
             planned[visit] += stage.work + (stage.turn if visit < last else 0)
     pace = [ticks / least if least else 1 for ticks, least in zip(dwell, planned, strict=True)]
-    stages = [
-        [stage.vertex, round(stage.work * pace[visit]), round(stage.turn * pace[visit]), visit]
+    stages: list[StageRow] = [
+        (stage.vertex, round(stage.work * pace[visit]), round(stage.turn * pace[visit]), visit)
         if 0 <= visit < reached
-        else [stage.vertex, stage.work, stage.turn, -1]
+        else (stage.vertex, stage.work, stage.turn, -1)
         for stage, visit in zip(trip.stages, trip.served, strict=True)
     ]
     scaled = (round(ticks * each) for ticks, each in zip(trip.turns, pace, strict=False))
     return stages, _sparse(scaled)
 
 
-def _sparse(numbers: Iterable[int]) -> list[list[int]]:
+def _sparse(numbers: Iterable[int]) -> list[TurnRow]:
     """Return the index and the value of each number that is not 0."""
-    return [[index, number] for index, number in enumerate(numbers) if number]
+    return [(index, number) for index, number in enumerate(numbers) if number]
 
 
-def _loss(loss: Loss) -> list[int | None]:
+def _loss(loss: Loss) -> LossRow:
     places = (loss.vertex, loss.until_vertex, loss.towards, loss.freed)
     times = (loss.tick, loss.end, loss.ticks)
-    return [LOSSES.index(loss.kind), loss.robot, loss.for_robot, *places, *times]
+    return (LOSSES.index(loss.kind), loss.robot, loss.for_robot, *places, *times)
 
 
-def _faults(plan: Plan, report: Report) -> dict[str, Any]:
+def _faults(plan: Plan, report: Report) -> FaultsData:
     known = range(plan.scenario.roadmap.n_vertices)
     return {
         "count": report.total,
-        "kinds": dict(report.counts),
+        "kinds": {str(kind): count for kind, count in report.counts.items()},
         "listed": [
             {
                 "kind": fault.kind,

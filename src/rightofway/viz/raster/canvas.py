@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
@@ -12,6 +12,7 @@ from PIL import Image, ImageDraw, ImageFont
 from rightofway.model import Plan, Roadmap
 from rightofway.model.place_names import PlaceNames
 from rightofway.viz.motion import end_of, trips_of
+from rightofway.viz.page.schema import PlaceData
 from rightofway.viz.palette import Theme, mix, robot_colours
 from rightofway.viz.placement import plane_of
 from rightofway.viz.verdict import verdict_on
@@ -82,7 +83,7 @@ class Pen:
         x0, y0, x1, y1 = map(round, (*self._at(corner), *self._at(opposite)))
         self.draw.rectangle((x0, y0, max(x1 - 1, x0), max(y1 - 1, y0)), colour)
 
-    def picture(self, picture: Image.Image, place: Mapping[str, float], opacity: float) -> None:
+    def picture(self, picture: Image.Image, place: PlaceData, opacity: float) -> None:
         """Lay a picture over what is drawn; ``place`` as `place_of` returns it."""
         scale, turn = self.scale * self.fineness, place.get("turn", 0.0)
         left, top = self._at((place["x"], place["y"]))

@@ -1,0 +1,326 @@
+// Generated from viz/page/schema.py: change it there, then run `just types-refresh`.
+
+/** A picture under the map; without ``href`` for a page that has the picture itself. */
+export interface BackgroundData {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+  turn?: number;
+  href?: string;
+  opacity: number;
+}
+
+/** For each figure, the places of the plans with the smallest one. */
+export interface BestData {
+  flowtime: number[];
+  makespan: number[];
+  gap: number[];
+  seconds: number[];
+}
+
+/** Something in which a scenario differs from another one; see `Change`. */
+export interface ChangeData {
+  what: string;
+  key: string;
+  before: string;
+  after: string;
+  text: string;
+}
+
+/** What is nearer than robots need: pairs of lanes, a vertex and a lane, pairs of vertices. */
+export interface CloseData {
+  crossings?: [number, number, number, number][];
+  beside?: [number, number, number][];
+  vertices?: [number, number][];
+}
+
+export interface ClosureData {
+  vertices: number[];
+  from: number;
+  until: number | null;
+  radius: number | null;
+}
+
+/** What a plan costs in the ticks of a comparison, and its scenario's changes. */
+export interface ComparedPlan {
+  planner: string;
+  seed: number;
+  seconds: number | null;
+  flowtime: number;
+  makespan: number;
+  lower_bound: number;
+  gap: number | null;
+  robots: number;
+  text: FiguresText;
+  changes: ChangeData[];
+}
+
+/** When a robot completes in each plan; null where it is not there. */
+export interface ComparedRobot {
+  name: string;
+  completion: (number | null)[];
+}
+
+/** Plans beside each other. */
+export interface ComparisonData {
+  tick: [number, number];
+  units: UnitsData;
+  scales: number[];
+  plans: ComparedPlan[];
+  best: BestData;
+  robots: ComparedRobot[];
+}
+
+/** Which of two robots got the right of way, and why; see `Decision`. */
+export interface DecisionData {
+  tick: number;
+  kind: "vertex" | "head-on" | "following" | "crossing";
+  vertices: number[];
+  robots: [number, number];
+  waits: number;
+  waitsAt: number;
+  ticks: number;
+  level: "node" | "robot" | "settled" | "priority" | "only";
+  conflictsLeft: [number | null, number | null];
+  completionSums: [number | null, number | null] | null;
+}
+
+/** What a robot did on the floor; ``vertices`` is there where they are not as planned. */
+export interface DrivenData {
+  stages: StageRow[];
+  turns?: TurnRow[];
+  vertices?: number[];
+  enter: number[];
+  drive: number[];
+  still: [number, number | null][];
+  completion: number | null;
+}
+
+/** A place where the plan breaks a rule, or a reason why there is no plan. */
+export interface FaultData {
+  kind: string;
+  reason?: string;
+  tick: number;
+  robots: number[];
+  vertices: number[];
+}
+
+/** How many faults there are, of each kind, and the first of them. */
+export interface FaultsData {
+  count: number;
+  kinds?: Record<string, number>;
+  listed: FaultData[];
+}
+
+/** Figures as people read them. */
+export interface FiguresText {
+  flowtime: string;
+  makespan: string;
+  lower_bound: string;
+  gap: string;
+  seconds: string;
+}
+
+/** One thing on a site that will hurt. */
+export interface FindingData {
+  severity: "error" | "warning" | "note";
+  kind: string;
+  fact: PhraseData;
+  remedy: PhraseData;
+  vertices: number[];
+  robots: number[];
+}
+
+/** An execution of the plan. */
+export interface FloorData {
+  end: number;
+  robots: DrivenData[];
+  losses: LossRow[];
+}
+
+/** Where (0, 0) of the drawing lies on the site, and the length of its unit there. */
+export interface FrameData {
+  x: number;
+  y: number;
+  yUp: boolean;
+  unit: number;
+  yaw?: number;
+}
+
+/** A map of cells. */
+export interface GridData {
+  width: number;
+  height: number;
+  frame: FrameData;
+  limits?: [string, number[]][];
+  zones?: [string, number[], [number, number][]][];
+  stations?: [string, number][];
+  parking?: number[];
+  charging?: number[];
+  background?: BackgroundData;
+  rows: string[];
+  obstacles?: ObstacleRow[];
+}
+
+/** What the page of an inspection is given. */
+export interface InspectionPayload {
+  title: string;
+  what: PhraseData;
+  notes: PhraseData[];
+  headings: Record<string, PhraseData>;
+  levels: LevelData[];
+}
+
+/** A site that was inspected; its name is empty where there is only one. */
+export interface LevelData {
+  title?: string;
+  units: UnitsData;
+  tick: [number, number];
+  clearance?: number;
+  map: MapData;
+  robots: RobotData[];
+  closures?: ClosureData[];
+  name: string;
+  sentences: PhraseData[];
+  findings: FindingData[];
+}
+
+export type LossRow = [number, number, number | null, number, number, number, number | null, number, number, number];
+
+export type MapData = GridData | NetworkData;
+
+/** The costs of the plan. */
+export interface MetricsData {
+  flowtime: number;
+  makespan: number;
+  lowerBound: number;
+}
+
+/** A map of vertices and lanes; tails and heads are first differences. A curve has tail, head, and the points between them as x, y, x, y, … */
+export interface NetworkData {
+  width: number;
+  height: number;
+  frame: FrameData;
+  limits?: [string, number[]][];
+  zones?: [string, number[], [number, number][]][];
+  stations?: [string, number][];
+  parking?: number[];
+  charging?: number[];
+  background?: BackgroundData;
+  names: string[];
+  points: number[];
+  tails: number[];
+  heads: number[];
+  lengths: number[];
+  sides?: number[];
+  curves?: number[][];
+  close?: CloseData;
+}
+
+export type ObstacleRow = [string, number, number, number, number];
+
+/** A plan that another one is compared with; its map is that of the other one, or its own. */
+export interface OtherPlan {
+  title: string;
+  units: UnitsData;
+  tick: [number, number];
+  end: number;
+  headway: number;
+  booksAhead: boolean;
+  line: [number, number][];
+  robots: RobotData[];
+  losses: LossRow[];
+  faults: FaultsData;
+  planner: PlannerData;
+  decisions: DecisionData[];
+  reroutes: RerouteData[];
+  metrics: MetricsData;
+  steady?: SteadyData[];
+  laps?: number[];
+  closures?: ClosureData[];
+  clearance?: number;
+  floor?: FloorData;
+  noPlan?: true;
+  map?: MapData;
+}
+
+/** What the page of a plan is given. */
+export interface Payload {
+  title: string;
+  units: UnitsData;
+  tick: [number, number];
+  end: number;
+  headway: number;
+  booksAhead: boolean;
+  line: [number, number][];
+  robots: RobotData[];
+  losses: LossRow[];
+  faults: FaultsData;
+  planner: PlannerData;
+  decisions: DecisionData[];
+  reroutes: RerouteData[];
+  metrics: MetricsData;
+  steady?: SteadyData[];
+  laps?: number[];
+  closures?: ClosureData[];
+  clearance?: number;
+  floor?: FloorData;
+  noPlan?: true;
+  map: MapData;
+  others?: OtherPlan[];
+  comparison?: ComparisonData;
+}
+
+export type PhraseData = string | [string, Record<string, PhraseData>];
+
+/** How the plan came about. */
+export interface PlannerData {
+  name: string;
+  status: string;
+  saved?: number;
+  tries?: number | null;
+}
+
+/** A robot that was rerouted. */
+export interface RerouteData {
+  robot: number;
+  because: string;
+}
+
+/** A robot and what it does; ``vertices`` and ``enter`` are first differences. */
+export interface RobotData {
+  name: string;
+  colour: string;
+  speed: string;
+  radius?: number;
+  completion: number;
+  alone: number;
+  lost: [number, number, number];
+  vertices: number[];
+  enter: number[];
+  drive: number | number[];
+  stages: StageRow[];
+  turns?: TurnRow[];
+  stands?: true;
+  index?: number;
+}
+
+export type StageRow = [number, number, number, number];
+
+/** Robots that repeat themselves together; critical visits are pairs of robot and visit. */
+export interface SteadyData {
+  robots: number[];
+  start: number;
+  period: number;
+  until: number;
+  critical: [number, number][];
+}
+
+export type TurnRow = [number, number];
+
+/** The names of the units; null where the scenario names none. */
+export interface UnitsData {
+  length: string | null;
+  time: string | null;
+}

@@ -1,0 +1,364 @@
+"""What pages are given, as types: plain data for JSON, written by Python, read by JavaScript.
+
+``assets/payload.d.ts`` has the same for JavaScript; ``just types-refresh`` writes it. Times are
+ticks, places are in units of the drawing, robots and vertices are given by index.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, NotRequired
+
+from typing_extensions import TypeAliasType, TypedDict
+
+StageRow = TypeAliasType("StageRow", tuple[int, int, int, int])
+"""Vertex, work, turn, visit; the visit is -1 where the stage is not reached."""
+
+TurnRow = TypeAliasType("TurnRow", tuple[int, int])
+"""Visit, ticks."""
+
+LossRow = TypeAliasType(
+    "LossRow", tuple[int, int, int | None, int, int, int, int | None, int, int, int]
+)
+"""Kind, robot, for robot, vertex, until vertex, towards, freed, tick, end, ticks; see `Loss`."""
+
+ObstacleRow = TypeAliasType("ObstacleRow", tuple[str, float, float, float, float])
+"""Name, left, top, width, height."""
+
+PhraseData = TypeAliasType("PhraseData", "str | tuple[str, dict[str, PhraseData]]")
+"""Text, or an English template and its values."""
+
+
+class UnitsData(TypedDict):
+    """The names of the units; null where the scenario names none."""
+
+    length: str | None
+    time: str | None
+
+
+class FrameData(TypedDict):
+    """Where (0, 0) of the drawing lies on the site, and the length of its unit there."""
+
+    x: float
+    y: float
+    yUp: bool
+    unit: float
+    yaw: NotRequired[float]
+
+
+class PlaceData(TypedDict):
+    """Where a picture lies: its upper left corner, its size, how it is turned about that [rad]."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    turn: NotRequired[float]
+
+
+class BackgroundData(PlaceData):
+    """A picture under the map; without ``href`` for a page that has the picture itself."""
+
+    href: NotRequired[str]
+    opacity: float
+
+
+class CloseData(TypedDict, total=False):
+    """What is nearer than robots need: pairs of lanes, a vertex and a lane, pairs of vertices."""
+
+    crossings: list[tuple[int, int, int, int]]
+    beside: list[tuple[int, int, int]]
+    vertices: list[tuple[int, int]]
+
+
+class MapMarks(TypedDict):
+    """What every map has."""
+
+    width: float
+    height: float
+    frame: FrameData
+    limits: NotRequired[list[tuple[str, list[int]]]]
+    zones: NotRequired[list[tuple[str, list[int], list[tuple[int, int]]]]]
+    stations: NotRequired[list[tuple[str, int]]]
+    parking: NotRequired[list[int]]
+    charging: NotRequired[list[int]]
+    background: NotRequired[BackgroundData]
+
+
+class GridData(MapMarks):
+    """A map of cells."""
+
+    rows: list[str]
+    obstacles: NotRequired[list[ObstacleRow]]
+
+
+class NetworkData(MapMarks):
+    """A map of vertices and lanes; tails and heads are first differences.
+
+    A curve has tail, head, and the points between them as x, y, x, y, …
+    """
+
+    names: list[str]
+    points: list[float]
+    tails: list[int]
+    heads: list[int]
+    lengths: list[float]
+    sides: NotRequired[list[float]]
+    curves: NotRequired[list[list[float]]]
+    close: NotRequired[CloseData]
+
+
+MapData = TypeAliasType("MapData", GridData | NetworkData)
+
+
+class RobotData(TypedDict):
+    """A robot and what it does; ``vertices`` and ``enter`` are first differences."""
+
+    name: str
+    colour: str
+    speed: str
+    radius: NotRequired[float]
+    completion: int
+    alone: int
+    lost: tuple[int, int, int]
+    vertices: list[int]
+    enter: list[int]
+    drive: int | list[int]
+    stages: list[StageRow]
+    turns: NotRequired[list[TurnRow]]
+    stands: NotRequired[Literal[True]]
+    index: NotRequired[int]
+
+
+ClosureData = TypedDict(
+    "ClosureData",
+    {"vertices": list[int], "from": int, "until": int | None, "radius": float | None},
+)
+
+
+class SiteData(TypedDict):
+    """A map with robots at their homes."""
+
+    title: NotRequired[str]
+    units: UnitsData
+    tick: tuple[int, int]
+    clearance: NotRequired[float]
+    map: MapData
+    robots: list[RobotData]
+    closures: NotRequired[list[ClosureData]]
+
+
+class FaultData(TypedDict):
+    """A place where the plan breaks a rule, or a reason why there is no plan."""
+
+    kind: str
+    reason: NotRequired[str]
+    tick: int
+    robots: list[int]
+    vertices: list[int]
+
+
+class FaultsData(TypedDict):
+    """How many faults there are, of each kind, and the first of them."""
+
+    count: int
+    kinds: NotRequired[dict[str, int]]
+    listed: list[FaultData]
+
+
+class PlannerData(TypedDict):
+    """How the plan came about."""
+
+    name: str
+    status: str
+    saved: NotRequired[int]
+    tries: NotRequired[int | None]
+
+
+class DecisionData(TypedDict):
+    """Which of two robots got the right of way, and why; see `Decision`."""
+
+    tick: int
+    kind: Literal["vertex", "head-on", "following", "crossing"]
+    vertices: list[int]
+    robots: tuple[int, int]
+    waits: int
+    waitsAt: int
+    ticks: int
+    level: Literal["node", "robot", "settled", "priority", "only"]
+    conflictsLeft: tuple[int | None, int | None]
+    completionSums: tuple[int | None, int | None] | None
+
+
+class RerouteData(TypedDict):
+    """A robot that was rerouted."""
+
+    robot: int
+    because: str
+
+
+class MetricsData(TypedDict):
+    """The costs of the plan."""
+
+    flowtime: int
+    makespan: int
+    lowerBound: int
+
+
+class SteadyData(TypedDict):
+    """Robots that repeat themselves together; critical visits are pairs of robot and visit."""
+
+    robots: list[int]
+    start: int
+    period: int
+    until: int
+    critical: list[tuple[int, int]]
+
+
+class DrivenData(TypedDict):
+    """What a robot did on the floor; ``vertices`` is there where they are not as planned."""
+
+    stages: list[StageRow]
+    turns: NotRequired[list[TurnRow]]
+    vertices: NotRequired[list[int]]
+    enter: list[int]
+    drive: list[int]
+    still: list[tuple[int, int | None]]
+    completion: int | None
+
+
+class FloorData(TypedDict):
+    """An execution of the plan."""
+
+    end: int
+    robots: list[DrivenData]
+    losses: list[LossRow]
+
+
+class ChangeData(TypedDict):
+    """Something in which a scenario differs from another one; see `Change`."""
+
+    what: str
+    key: str
+    before: str
+    after: str
+    text: str
+
+
+class FiguresText(TypedDict):
+    """Figures as people read them."""
+
+    flowtime: str
+    makespan: str
+    lower_bound: str
+    gap: str
+    seconds: str
+
+
+class ComparedPlan(TypedDict):
+    """What a plan costs in the ticks of a comparison, and its scenario's changes."""
+
+    planner: str
+    seed: int
+    seconds: float | None
+    flowtime: int
+    makespan: int
+    lower_bound: int
+    gap: float | None
+    robots: int
+    text: FiguresText
+    changes: list[ChangeData]
+
+
+class BestData(TypedDict):
+    """For each figure, the places of the plans with the smallest one."""
+
+    flowtime: list[int]
+    makespan: list[int]
+    gap: list[int]
+    seconds: list[int]
+
+
+class ComparedRobot(TypedDict):
+    """When a robot completes in each plan; null where it is not there."""
+
+    name: str
+    completion: list[int | None]
+
+
+class ComparisonData(TypedDict):
+    """Plans beside each other."""
+
+    tick: tuple[int, int]
+    units: UnitsData
+    scales: list[int]
+    plans: list[ComparedPlan]
+    best: BestData
+    robots: list[ComparedRobot]
+
+
+class PlanData(TypedDict):
+    """A plan without its map; ``line`` has vertices with their distances along a line."""
+
+    title: str
+    units: UnitsData
+    tick: tuple[int, int]
+    end: int
+    headway: int
+    booksAhead: bool
+    line: list[tuple[int, float]]
+    robots: list[RobotData]
+    losses: list[LossRow]
+    faults: FaultsData
+    planner: PlannerData
+    decisions: list[DecisionData]
+    reroutes: list[RerouteData]
+    metrics: MetricsData
+    steady: NotRequired[list[SteadyData]]
+    laps: NotRequired[list[int]]
+    closures: NotRequired[list[ClosureData]]
+    clearance: NotRequired[float]
+    floor: NotRequired[FloorData]
+    noPlan: NotRequired[Literal[True]]
+
+
+class OtherPlan(PlanData):
+    """A plan that another one is compared with; its map is that of the other one, or its own."""
+
+    map: NotRequired[MapData]
+
+
+class Payload(PlanData):
+    """What the page of a plan is given."""
+
+    map: MapData
+    others: NotRequired[list[OtherPlan]]
+    comparison: NotRequired[ComparisonData]
+
+
+class FindingData(TypedDict):
+    """One thing on a site that will hurt."""
+
+    severity: Literal["error", "warning", "note"]
+    kind: str
+    fact: PhraseData
+    remedy: PhraseData
+    vertices: list[int]
+    robots: list[int]
+
+
+class LevelData(SiteData):
+    """A site that was inspected; its name is empty where there is only one."""
+
+    name: str
+    sentences: list[PhraseData]
+    findings: list[FindingData]
+
+
+class InspectionPayload(TypedDict):
+    """What the page of an inspection is given."""
+
+    title: str
+    what: PhraseData
+    notes: list[PhraseData]
+    headings: dict[Literal["error", "warning", "note"], PhraseData]
+    levels: list[LevelData]

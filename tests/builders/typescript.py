@@ -1,0 +1,116 @@
+"""Types of JSON for TypeScript, from the models of Python: ``python -m tests.builders.typescript``.
+
+Without arguments it writes the files; with ``--check`` it fails where one is stale.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import TypeAdapter
+
+from rightofway.viz.page.schema import InspectionPayload, Payload
+
+ROOT = Path(__file__).parents[2]
+PLAIN = {"string": "string", "integer": "number", "number": "number", "boolean": "boolean"}
+Schema = Mapping[str, Any]
+
+
+def payload_types() -> str:
+    """Return the types of what pages are given."""
+    plan, inspection = TypeAdapter(Payload), TypeAdapter(InspectionPayload)
+    _, schemas = TypeAdapter.json_schemas(
+        [("plan", "serialization", plan), ("inspection", "serialization", inspection)]
+    )
+    return declarations("viz/page/schema.py", schemas["$defs"])
+
+
+FILES: dict[str, Callable[[], str]] = {
+    "src/rightofway/viz/page/assets/payload.d.ts": payload_types,
+}
+"""What is written where."""
+
+
+def declarations(source: str, schemas: Mapping[str, Schema]) -> str:
+    """Return an exported type for each named schema.
+
+    Parameters
+    ----------
+    source
+        Where the models are, for the first line.
+    schemas
+        JSON Schemas by name: ``$defs`` of pydantic, or ``components/schemas`` of OpenAPI.
+    """
+    head = f"// Generated from {source}: change it there, then run `just types-refresh`.\n"
+    return "\n".join([head, *(_declaration(name, schemas[name]) for name in sorted(schemas))])
+
+
+def _declaration(name: str, schema: Schema) -> str:
+    about = f"/** {' '.join(schema.get('description', '').split())} */\n"
+    about = "" if "description" not in schema else about
+    if "properties" not in schema:
+        return f"{about}export type {name} = {type_of(schema)};\n"
+    return f"{about}export interface {name} {{\n{''.join(_properties(schema))}}}\n"
+
+
+def _properties(schema: Schema) -> Iterator[str]:
+    required = schema.get("required", ())
+    for key, value in schema["properties"].items():
+        shown = key if key.isidentifier() else json.dumps(key)
+        yield f"  {shown}{'' if key in required else '?'}: {type_of(value)};\n"
+
+
+def type_of(schema: Schema) -> str:
+    """Return the type of a schema; `unknown` where it allows anything.
+
+    Parameters
+    ----------
+    schema
+        A JSON Schema as pydantic writes it.
+    """
+    if "$ref" in schema:
+        return str(schema["$ref"]).rsplit("/", 1)[1]
+    if "const" in schema or "enum" in schema:
+        return " | ".join(map(json.dumps, schema.get("enum") or [schema["const"]]))
+    if any_of := schema.get("anyOf") or schema.get("oneOf"):
+        return " | ".join(dict.fromkeys(map(type_of, any_of)))
+    kind = schema.get("type")
+    if kind == "array":
+        return _array(schema)
+    if kind == "object":
+        return _object(schema)
+    return PLAIN.get(str(kind), "null" if kind == "null" else "unknown")
+
+
+def _array(schema: Schema) -> str:
+    if "prefixItems" in schema:
+        return f"[{', '.join(map(type_of, schema['prefixItems']))}]"
+    items = type_of(schema.get("items", {}))
+    return f"({items})[]" if " " in items and items[0] not in "[{" else f"{items}[]"
+
+
+def _object(schema: Schema) -> str:
+    if "properties" in schema:
+        return f"{{ {' '.join(''.join(_properties(schema)).split())} }}"
+    values = schema.get("additionalProperties", True)
+    return f"Record<string, {type_of(values) if isinstance(values, Mapping) else 'unknown'}>"
+
+
+def stale() -> list[str]:
+    """Return the files that are not what the models say."""
+    return [name for name, made in FILES.items() if _read(ROOT / name) != made()]
+
+
+def _read(path: Path) -> str:
+    return path.read_text(encoding="utf-8") if path.exists() else ""
+
+
+if __name__ == "__main__":
+    if "--check" in sys.argv:
+        sys.exit(f"stale: {', '.join(stale())} (run `just types-refresh`)" if stale() else 0)
+    for name, made in FILES.items():
+        (ROOT / name).write_text(made(), encoding="utf-8")
