@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 import rightofway
-from rightofway.io import load_plan, write_plan
+from rightofway.bench.fleets import scenario_document
+from rightofway.io import load_plan, scenario_of, write_plan
 from rightofway.metrics import measure
-from rightofway.model import Rules
+from rightofway.model import Plan, Rules
 from tests.builders.fleets import grid_fleet, random_fleet
 
 CROWDED = random_fleet(3, size=9, robots=12, rules=Rules(occupancy="both"))
@@ -46,6 +47,23 @@ def test_a_large_fleet_has_a_first_plan_long_before_its_last() -> None:
     plan = rightofway.solve(random_fleet(1, size=32, robots=90), time_limit=3)
     assert plan.run.first_plan_seconds is not None
     assert plan.run.first_plan_seconds < 1.5
+
+
+@pytest.mark.parametrize("planner", ["auto", "lns"])
+def test_where_lacam_finds_no_plan_the_cheap_plan_is_first(planner: str) -> None:
+    """LaCAM finds none in 20 s; one after another takes some hundredths of a second."""
+    problem = {"random": {"width": 32, "height": 32, "walls": 0.2, "seed": 1}}
+    speeds = ["1", "1/2", "1/3"]
+    fleet = {"speeds": speeds, "work": [0, 5], "rules": {}, "by_seed": True}
+    scenario = scenario_of(scenario_document(problem, fleet, robots=100, seed=2))
+    plans: list[Plan] = []
+    found = rightofway.solve(
+        scenario, planner, time_limit=20, options={"iterations": 20}, on_plan=plans.append
+    )
+    assert found.run.first_plan_seconds is not None
+    assert found.run.first_plan_seconds < 2
+    assert found.flowtime < plans[0].flowtime
+    assert found.run.status.endswith("(first plan: one after another)")
 
 
 def test_a_proven_optimum_ends_it() -> None:

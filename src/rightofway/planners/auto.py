@@ -1,4 +1,4 @@
-"""The default: an answer at once, then a better one until time is up.
+"""The default: a plan as early as possible, then better plans until time is up.
 
 A small fleet is planned by two-level, whose decisions are explained; a large one by LaCAM and by
 prioritized planning, whichever plan is better. Large neighbourhood search improves the best of

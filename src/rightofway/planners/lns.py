@@ -29,14 +29,17 @@ from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 
-SHARE = 0.9
-"""The part of the time for LaCAM, which makes a first plan."""
+SHARE, SHARE_WITH_SIZES = 0.9, 0.2
+"""The part of the time for LaCAM, which makes a first plan: for points, and for sizes."""
 
-SHARE_WITH_SIZES, EFFORT_WITH_SIZES = 0.2, 2000
-"""The same for robots with a size, and how many choices LaCAM has for each robot.
+EFFORT = 2000
+"""How many choices LaCAM has for each robot before robots are planned one after another.
 
-Where it finds a plan for robots with a size, it does so with a few hundred choices for each.
+Where it finds a plan, it does so with a few hundred choices for each, as a rule.
 """
+
+SHARE_IN_TURN = 0.5
+"""The part of the time left for planning points one after another where LaCAM found no plan."""
 
 PATIENCE = 1000
 """The search ends after this many neighbourhoods per robot without a gain."""
@@ -75,15 +78,17 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
         found = (first, few)
     elif not problem.is_open:
         found = (first, _if_found(task, search, needed=first is None))
-    elif problem.resources is None:
-        found = (first, _together(task), plan_in_turn(task, search, "shortest"))
+    elif len(problem.itineraries) > MOST_ROBOTS and problem.resources is None:
+        found = (first, _together(task))
     else:
         together = _quickly_together(task)
         has_plan = first is not None or together is not None
-        found = (first, together, plan_in_turn(task, search, "shortest", has_plan=has_plan))
+        found = (first, together, _in_turn(task, search, has_plan=has_plan))
     plans = [plan for plan in found if plan is not None]
-    if not plans and (problem.resources is not None or not problem.is_open):
-        plans = [plan_fleet(task)]
+    if not plans:
+        is_simple = problem.resources is None and problem.is_open
+        together = _together(task) if is_simple else plan_fleet(task)
+        plans = [together] if together is not None else []
     if not plans:
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
     best = min(plans, key=lambda plan: cost_of(task.scenario, plan.tracks))
@@ -101,10 +106,9 @@ def _if_found(task: Task, search: FleetSearch, *, needed: bool) -> Draft | None:
 
 
 def _together(task: Task) -> Draft | None:
-    """Plan by LaCAM; fleets too large for prioritized planning may take all the time."""
-    share = SHARE if len(task.scenario.robots) <= MOST_ROBOTS else 1
+    """Plan by LaCAM in all the time left, by instants and then without clocks."""
     try:
-        draft = plan_fleet(replace(task, deadline=task.deadline.sooner(share)))
+        draft = plan_fleet(task)
     except GaveUp:
         return None
     task.better(lambda: draft.tracks)
@@ -112,10 +116,24 @@ def _together(task: Task) -> Draft | None:
 
 
 def _quickly_together(task: Task) -> Draft | None:
-    """Plan robots with a size by LaCAM: in an instant, or not at all, as in long narrow lanes."""
-    hurried = replace(task, deadline=task.deadline.sooner(SHARE_WITH_SIZES))
-    draft = plan_by_instants(hurried, effort=EFFORT_WITH_SIZES * len(task.scenario.robots))
-    return replace(draft, status="all together") if draft is not None else None
+    """Plan by LaCAM: in an instant, or not at all, as in long narrow lanes."""
+    share = SHARE if task.scenario.problem.resources is None else SHARE_WITH_SIZES
+    hurried = replace(task, deadline=task.deadline.sooner(share))
+    draft = plan_by_instants(hurried, effort=EFFORT * len(task.scenario.robots))
+    if draft is None:
+        return None
+    task.better(lambda: draft.tracks)
+    return replace(draft, status="all together")
+
+
+def _in_turn(task: Task, search: FleetSearch, *, has_plan: bool) -> Draft | None:
+    """Plan robots one after another; without a plan, LaCAM needs time for a second attempt."""
+    if not has_plan and task.scenario.problem.resources is None:
+        task = replace(task, deadline=task.deadline.sooner(SHARE_IN_TURN))
+    draft = plan_in_turn(task, search, "shortest", has_plan=has_plan)
+    if draft is not None:
+        task.better(lambda: draft.tracks)
+    return draft
 
 
 def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:

@@ -88,7 +88,7 @@ PLANNERS = (
     PlannerSpec(
         "auto",
         "rightofway.planners.auto:auto",
-        "The default: a plan at once, then better plans until time is up.",
+        "The default: a first plan early, then better plans until time is up.",
         options.AutoOptions,
         improves=True,
         knows_sizes=True,
