@@ -54,6 +54,7 @@ SLOW = (
     "studio/test_documents.py",  # a process for each studio
     "studio/test_drawing.py",  # a browser
     "studio/test_editing.py",  # a browser
+    "studio/test_faulty_plans.py",  # a browser
     "studio/test_guard.py",  # bodies of 100 MB
     "studio/test_languages.py",  # a browser
     "studio/test_page.py",  # a browser

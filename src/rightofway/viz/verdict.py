@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from rightofway.check import Report, check
+from rightofway.metrics.comparison import Comparison
 from rightofway.model import Plan
 
 LISTED_FAULTS = 1000
@@ -17,3 +20,11 @@ def verdict_on(plan: Plan) -> Report:
     if plan.run.name == "laps" and plan.run.status == plan.run.options.get("rule"):
         return Report(faults=(), counts={})
     return plan.once("verdict", lambda: check(plan, limit=LISTED_FAULTS))
+
+
+def compared_data(comparison: Comparison) -> dict[str, Any]:
+    """Return a comparison as plain data, with how many ``faults`` the judge finds in each plan."""
+    data = comparison.as_dict()
+    for figures, plan in zip(data["plans"], comparison.plans, strict=True):
+        figures["faults"] = verdict_on(plan).total
+    return data

@@ -4,6 +4,7 @@ import { html } from "./vendor/htm-preact.js";
 import { nameOf } from "./findings.js";
 import { robotsOf } from "./robots/fleet.js";
 import { Change } from "./runs/change.js";
+import { doNotRun } from "./runs/faults.js";
 import { sentenceOn } from "./runs/waits.js";
 import { words } from "./words.js";
 
@@ -32,6 +33,8 @@ function PlanHint({ studio }) {
   const { running, losses } = runs;
   if (stage.isPicking) return words.pressToClose;
   if (running) return words.planning;
+  if (stage.isPlan && stage.plan.faultCount)
+    return html`<b class="wrong">${doNotRun(stage.plan.faultCount)}</b>`;
   const { robot } = stage.choice ?? {};
   if (robot && robotsOf(store.document)) return words.dragPlaces(robot.name);
   if (robot || !losses) return words.watching;

@@ -31,6 +31,7 @@ from rightofway.io.text import json_text, parse_yaml
 from rightofway.metrics import inspect, measure
 from rightofway.model import Plan, Scenario
 from rightofway.studio.messages import Blobs, Emit, fault_data
+from rightofway.viz.verdict import verdict_on
 
 Result = tuple[Any, ...]
 
@@ -157,7 +158,7 @@ def digest_of(scenario: Scenario) -> str:
 def figures(plan: Plan) -> dict[str, Any]:
     """Return what a plan costs, in ticks and as people read it, and what it kept of an old plan.
 
-    ``scenario`` is the digest of the scenario that it is of.
+    ``scenario`` is the digest of the scenario that it is of, ``faults`` how many the judge finds.
     """
     metrics, duration = measure(plan), plan.scenario.quantities.duration
     costs = {
@@ -174,6 +175,7 @@ def figures(plan: Plan) -> dict[str, Any]:
         "tick": tick.as_integer_ratio(),
         "units": asdict(units),
         "scenario": digest_of(plan.scenario),
+        "faults": verdict_on(plan).total,
     }
     if plan.run.start is None:
         return found

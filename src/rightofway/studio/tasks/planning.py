@@ -7,7 +7,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from rightofway.check import check
 from rightofway.io import FOREIGN_FORMATS, plan_of, plan_text
 from rightofway.io.text import parse_json
 from rightofway.model import Plan
@@ -15,6 +14,7 @@ from rightofway.solve import improve as improved
 from rightofway.solve import solve
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import figures, loaded_of
+from rightofway.viz.verdict import verdict_on
 
 Result = tuple[Any, ...]
 
@@ -43,7 +43,7 @@ class Progress:
 
     def on_plan(self, plan: Plan) -> None:
         """Send what a plan costs, and the plan too where that does not take too much time."""
-        if not check(plan).ok:
+        if not verdict_on(plan).ok:
             return  # only plans that the judge has passed are shown
         self.best, seconds = plan, self._seconds()
         event = {

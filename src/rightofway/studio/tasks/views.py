@@ -23,6 +23,7 @@ from rightofway.viz import page_of, write_gif, write_page, write_png
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.table.result import write_result
+from rightofway.viz.verdict import compared_data
 
 Result = tuple[Any, ...]
 
@@ -115,7 +116,7 @@ def compared(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
     titled = _titled(blobs, shown)
     plans, titles = [plan for plan, _ in titled], [title for _, title in titled]
     found = compare(plans, titles)
-    data = found.as_dict()
+    data = compared_data(found)
     robots = [
         {
             "name": robot["name"],

@@ -54,7 +54,7 @@ from rightofway.viz.page.schema import (
 )
 from rightofway.viz.palette import robot_colours
 from rightofway.viz.placement import edge_length, vertices_in_line
-from rightofway.viz.verdict import LISTED_FAULTS, verdict_on
+from rightofway.viz.verdict import LISTED_FAULTS, compared_data, verdict_on
 
 Stoppages = Sequence[tuple[Tick, Tick | None]]
 """When each stoppage of a robot begins, and how long it lasts [ticks]."""
@@ -148,7 +148,7 @@ def _compare(plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload
             made["line"] = payload["line"]
             del made["map"]
         payload["others"].append(made)
-    payload["comparison"] = cast(ComparisonData, comparison.as_dict())
+    payload["comparison"] = cast(ComparisonData, compared_data(comparison))
 
 
 def room_of(scenario: Scenario) -> Fraction:

@@ -265,6 +265,7 @@ class ComparedPlan(TypedDict):
     lower_bound: int
     gap: float | None
     robots: int
+    faults: int
     text: FiguresText
     changes: list[ChangeData]
 

@@ -28,6 +28,7 @@ from rightofway.viz.table.lists import collision_list, decision_list, event_list
 from rightofway.viz.table.timespace import MAX_CELLS, table_of
 from rightofway.viz.table.workbook import (
     BOLD,
+    WRONG,
     cell_of,
     widen,
     write_legend,
@@ -35,6 +36,7 @@ from rightofway.viz.table.workbook import (
     write_table,
 )
 from rightofway.viz.table.writing import MAX_TICKS_OF_SHEET
+from rightofway.viz.verdict import verdict_on
 
 MOST_LINES = 100
 """Robots in the chart; a chart has 255 series, and nobody can tell more lines apart."""
@@ -119,6 +121,10 @@ def _write_summary(sheet: Any, plan: Plan, more: Sequence[tuple[str, str]]) -> N
     widen(sheet, 1, 1, {*(key for key, _ in rows), *map(str, robots.columns[0].values)})
     for number, heading in enumerate(headings[1:], 2):
         widen(sheet, number, number, {heading})
+    if faults := verdict_on(plan).total:
+        words = f"{faults} fault{'s' if faults > 1 else ''}: do not run this plan"
+        sheet.append([cell_of(sheet, words, font=WRONG)])
+        sheet.append([])
     for key, text in rows:
         sheet.append([cell_of(sheet, key, font=BOLD), cell_of(sheet, text)])
     sheet.append([])

@@ -26,6 +26,7 @@ FILLS: dict[Mark | None, Any] = {
 }
 FACE = {"name": "Calibri", "size": 11}
 BOLD, GREY = Font(bold=True, **FACE), Font(color="7F7F7F", **FACE)
+WRONG = Font(bold=True, color="C00000", **FACE)
 FONTS: dict[RowKind, Any] = {"planned": GREY, "final": None, "list 1": None, "list 2": None}
 
 LEGEND: tuple[tuple[str, str, Any, Mark | None], ...] = (

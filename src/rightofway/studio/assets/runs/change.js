@@ -4,6 +4,7 @@ import { html, useEffect } from "../vendor/htm-preact.js";
 import { Quantities } from "../../../viz/page/assets/quantities.js";
 import { changeInWords } from "../../../viz/page/assets/compared_table.js";
 import { words } from "../words.js";
+import { doNotRun, faultsOf } from "./faults.js";
 import { Term } from "./term.js";
 
 /** Robots whose completion time differs: name and difference [time unit], the largest gain first. */
@@ -36,6 +37,7 @@ export function Change({ studio }) {
     <section class="change" role="status" aria-busy=${String(comparison.runs[1] !== runs.shown)}>
       ${runs.run?.kind === "flip" && html`<p class="edit">${words.goesBefore(runs.run.request)}</p>`}
       ${changes.map((change) => html`<p class="edit">${changeInWords(change)}</p>`)}
+      ${faultsOf(runs.run) > 0 && html`<p class="wrong">${doNotRun(faultsOf(runs.run))}</p>`}
       <p><${Term} of="flowtime" /> <b>${after}</b>${before === after ? ` ${words.asBefore}` : `, ${words.wasBefore(before)}`}</p>
       <${Robots} studio=${studio} className="gain" label=${words.gains} found=${found.filter(({ by }) => by < 0)} />
       <${Robots} studio=${studio} className="lose" label=${words.losesTime} found=${found.filter(({ by }) => by > 0).reverse()} />

@@ -4,6 +4,7 @@ import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { secondsOf } from "./list.js";
+import { faultsOf } from "./faults.js";
 import { isOver } from "./run_store.js";
 import { Term } from "./term.js";
 
@@ -63,20 +64,20 @@ export function Curve({ run, others = [], quantities = null }) {
         html`<progress aria-label=${words.timeUsed} max=${limit}
           value=${Math.min(seconds, limit)}></progress>`
       }
-      <${Caption} run=${run} bound=${bound} seconds=${seconds} />
+      <${Caption} run=${run} isFaulty=${faultsOf(run) > 0} bound=${bound} seconds=${seconds} />
     </figure>`;
 }
 
-/** What has been reached, in figures. */
-function Caption({ run: { state, figures, status }, bound, seconds }) {
+/** What has been reached, in figures; those of a plan with faults are worth nothing. */
+function Caption({ run: { state, figures, status }, isFaulty, bound, seconds }) {
   const isLive = !isOver({ state });
-  const said = figures?.tick && new Quantities(figures.units, figures.tick);
+  const said = !isFaulty && figures?.tick && new Quantities(figures.units, figures.tick);
   return html`<figcaption>
     ${isLive && html`<span role="status">${words.states[state]}</span> `}
     ${state === "running" && `${seconds.toFixed(1)} s `}
     ${said && html`<${Term} of="flowtime" /> <b>${said.duration(figures.flowtime)}</b>, `}
     ${said && html`<${Term} of="bound" /> ${said.duration(figures.lower_bound)}`}
-    ${figures?.flowtime > bound && ` (+${figures.text.gap})`}
+    ${said && figures.flowtime > bound && ` (+${figures.text.gap})`}
     ${!isLive && status && html` <span class="hint" lang="en">${status}</span>`}
   </figcaption>`;
 }

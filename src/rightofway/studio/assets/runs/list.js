@@ -4,6 +4,7 @@ import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
 import { Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
+import { doNotRun, faultsOf, inShort } from "./faults.js";
 import { canBeShown, isOver, isWithoutPlan } from "./run_store.js";
 
 const MOST = 12; // that are listed at once; the others on request
@@ -20,9 +21,10 @@ export const secondsOf = ({ started, ended }) =>
 
 const SORTS = {
   number: ({ number }) => -number,
-  flowtime: ({ figures }) => {
+  flowtime: (run) => {
+    const { figures } = run;
     const [numerator, denominator] = figures?.tick ?? [1, 1];
-    return figures ? (figures.flowtime * numerator) / denominator : Infinity;
+    return figures && !faultsOf(run) ? (figures.flowtime * numerator) / denominator : Infinity;
   },
   took: (run) => secondsOf(run) || Infinity,
 };
@@ -159,7 +161,11 @@ function Row({ studio, run, order, isOwn }) {
       <td class="title"><${Field} value=${run.name} placeholder=${title} maxlength="200"
         spellcheck="false" aria-label=${`${words.runName} ${number}`} onChange=${rename} />
         <small title=${about}>${about}</small></td>
-      <td class="short">${flowtime}${figures?.text.gap && html`<${Gap} figures=${figures} />`}</td>
+      <td class="short">${
+        faultsOf(run)
+          ? html`<b class="wrong" title=${doNotRun(faultsOf(run))}>${inShort(faultsOf(run))}</b>`
+          : html`${flowtime}${figures?.text.gap && html`<${Gap} figures=${figures} />`}`
+      }</td>
       <td class="short">${took ? `${took.toFixed(1)} s` : ""}</td>
       <td class="do">${isOver(run) && remove}</td>
     </tr>

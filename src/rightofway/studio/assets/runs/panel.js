@@ -7,6 +7,7 @@ import { Change } from "./change.js";
 import { Comparison } from "./comparison.js";
 import { Curve, quantitiesOf } from "./curve.js";
 import { Exports } from "./exports.js";
+import { PlanFaults } from "./faults.js";
 import { RunList } from "./list.js";
 import { Settings } from "./settings.js";
 import { Report, Studies } from "./studies.js";
@@ -24,6 +25,7 @@ export function PlanPanel({ studio }) {
   return html`
     <div class="scroll">
       <${Settings} studio=${studio} />
+      <${PlanFaults} studio=${studio} />
       ${current && html`<${Curve} key=${current.number} run=${current} others=${running ? [] : runs.besides(current)} quantities=${quantitiesOf(current, studio)} />`}
       ${run && !runs.isOf(store.document) && html`<p class="aside">${words.changedSince} <button type="button" class="framed" onClick=${() => studio.takeBack()}>${words.takeBack}</button></p>`}
       ${!isChosen && change}

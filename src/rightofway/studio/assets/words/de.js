@@ -216,6 +216,7 @@ export const GERMAN = {
     work: "Arbeit",
     speed: "Tempo",
   },
+  moreFaults: (count) => `${count} weitere`,
   planSummary: (planner, seconds) => `${planner}, höchstens ${seconds} s`,
   plan: "Planen",
   limit: "Zeitgrenze [s]",

@@ -201,6 +201,7 @@ export const ENGLISH = {
     between === "stations" ? `Add ${count} between stations` : `Add ${count} at random`,
   betweenStations: "between stations",
   random: { count: "Robots", seed: "Seed", work: "Work", speed: "Speed" },
+  moreFaults: (count) => `${count} more`,
   planSummary: (planner, seconds) => `${planner}, up to ${seconds} s`,
   plan: "Plan",
   limit: "Time limit [s]",

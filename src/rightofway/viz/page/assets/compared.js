@@ -14,7 +14,10 @@ export class Compared extends Observable {
       title: titles[place],
     }));
     this.robots = robots; // { name, completion: [ticks or null in each plan] }
-    this.best = best; // places of the plans with the best figure, by its name
+    const isSound = (place) => !this.plans[place].faults;
+    this.best = Object.fromEntries(
+      Object.entries(best).map(([key, places]) => [key, places.filter(isSound)]),
+    ); // places of the plans with the best figure, by its name; a plan with faults is not good
     this.quantities = new Quantities(units, tick);
     this.base = 0;
   }

@@ -9,7 +9,9 @@ export class ComparedTable {
   constructor(compared, box) {
     Object.assign(this, { compared, box });
     const { plans } = compared;
+    const isFaulty = plans.some(({ faults }) => faults);
     const rows = [
+      isFaulty && this.#row("faults", ({ faults }) => this.#faults(faults)),
       this.#row("planner", ({ planner }) => planner),
       ...TIMES.map((key) => this.#row(key, (figures) => compared.time(figures[key]))),
       ...["gap", "seconds"].map((key) => this.#row(key, ({ text }) => text[key])),
@@ -34,10 +36,14 @@ export class ComparedTable {
     return element("thead", {}, element("tr", {}, element("td"), ...this.heads));
   }
 
+  #faults(count) {
+    return count ? element("b", { className: "wrong" }, texts.doNotRun(count)) : texts.none;
+  }
+
   /** A row of one figure; nothing where no plan has it. */
   #row(key, valueOf) {
     const values = this.compared.plans.map(valueOf);
-    if (!values.some((value) => value?.length)) return null;
+    if (!values.some((value) => value instanceof Element || value?.length)) return null;
     const best = this.compared.best[key] ?? [];
     const cells = values.map((value, place) => {
       const cell = element("td", {}, ...[value].flat());

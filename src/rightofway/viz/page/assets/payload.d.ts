@@ -52,6 +52,7 @@ export interface ComparedPlan {
   lower_bound: number;
   gap: number | null;
   robots: number;
+  faults: number;
   text: FiguresText;
   changes: ChangeData[];
 }

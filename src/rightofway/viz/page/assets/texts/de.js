@@ -226,6 +226,7 @@ export const GERMAN = {
     mapOf: (title) => `Karte von ${title}`,
     compareWith: (title) => `Die anderen mit ${title} vergleichen`,
     figures: {
+      faults: "Fehler",
       planner: "Verfahren",
       flowtime: "Summe der Ankünfte",
       makespan: "Letzte Ankunft",

@@ -233,6 +233,7 @@ export const ENGLISH = {
     mapOf: (title) => `Map of ${title}`,
     compareWith: (title) => `Compare the others with ${title}`,
     figures: {
+      faults: "Faults",
       planner: "Planner",
       flowtime: "Sum of arrivals",
       makespan: "Last arrival",

@@ -1,0 +1,47 @@
+/** What is wrong with the plan that is shown, before all else: how many faults, and each with its place and time. */
+
+import { html } from "../vendor/htm-preact.js";
+import { texts } from "../../../viz/page/assets/language.js";
+import { languageOfFault } from "../../../viz/page/assets/words.js";
+import { words } from "../words.js";
+
+const MOST = 5; // that are listed at once; the others on request
+
+/** How many faults the plan of a run has; 0 where none is known. */
+export const faultsOf = (run) => run?.figures?.faults ?? 0;
+
+/** "2 faults: do not run this plan", as the exported page has it. */
+export const doNotRun = (count) => texts.doNotRun(count);
+
+/** The same in few words: "2 faults". */
+export const inShort = (count) => texts.faults(count);
+
+export function PlanFaults({ studio }) {
+  const { stage } = studio;
+  if (!stage.isPlan || !stage.plan.faultCount) return null;
+  const { faults, faultCount } = stage.plan;
+  return html`
+    <section class="plan-faults" role="alert" aria-labelledby="plan-faults-title">
+      <h2 id="plan-faults-title" class="wrong">${doNotRun(faultCount)}</h2>
+      <ol>${faults.slice(0, MOST).map((fault, index) => html`<li><${Press} studio=${studio} fault=${fault} index=${index} /></li>`)}</ol>
+      ${
+        faults.length > MOST &&
+        html`<details><summary>${words.moreFaults(faultCount - MOST)}</summary>
+        <ol start=${MOST + 1}>${faults.slice(MOST).map((fault, index) => html`<li><${Press} studio=${studio} fault=${fault} index=${MOST + index} /></li>`)}</ol></details>`
+      }
+    </section>`;
+}
+
+/** A fault in a sentence; a press shows its place at its time. */
+function Press({ studio, fault, index }) {
+  const { plan, words: said, clock, choice } = studio.stage;
+  const look = () => {
+    clock.pause();
+    clock.seek(fault.tick);
+    choice.chooseFault(index);
+  };
+  const when = fault.reason ? "" : `, ${texts.at(said.moment(fault.tick))}`;
+  const isChosen = choice.fault === plan.faults[index];
+  return html`<button type="button" class="watch wrong" lang=${languageOfFault(fault)} aria-pressed=${String(isChosen)} onClick=${look}>
+    ${said.fault(fault)}${when}</button>`;
+}
