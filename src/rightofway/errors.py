@@ -37,6 +37,7 @@ __all__ = [
     "kernel_limits",
     "listed",
     "nearest",
+    "printable",
     "shown",
 ]
 
@@ -74,6 +75,10 @@ class InputFault:
     line: int | None = None
     named: str = ""
 
+    def __post_init__(self) -> None:
+        if not self.message.isprintable():
+            object.__setattr__(self, "message", printable(self.message))
+
     def __str__(self) -> str:
         return self.after("")
 
@@ -83,7 +88,7 @@ class InputFault:
             "" if self.line is None else f"{source}:{self.line}" if source else f"line {self.line}"
         )
         parts = (line or source, self.named or self.place, self.message)
-        return ": ".join(part for part in parts if part)
+        return printable(": ".join(part for part in parts if part))
 
     def within(self, outer: str) -> InputFault:
         """Return the same fault seen from outside ``outer``: ``a`` holding ``b`` is ``a.b``."""
@@ -229,6 +234,19 @@ def listed(names: Sequence[str]) -> str:
     if len(names) <= most:
         return joined(names) if names else ""
     return joined([*names[: most - 1], Phrase("{number} more", number=str(len(names) - most + 1))])
+
+
+def printable(text: str) -> str:
+    r"""Return text with escapes for what a terminal would obey, and for what is no character.
+
+    Examples
+    --------
+    >>> print(printable("a\x1b[2Jb\u202ec\ud800"))
+    a\x1b[2Jb\u202ec\ud800
+    """
+    if text.isprintable():
+        return text
+    return "".join(each if each.isprintable() else repr(each)[1:-1] for each in text)
 
 
 def is_printable(text: str) -> bool:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rightofway.errors import printable
 from rightofway.model.quantities import Value, decimal
 from rightofway.model.values import written
 
@@ -78,7 +79,7 @@ def say(message: str) -> None:
 
 def complain(message: str) -> None:
     """Write what is wrong to standard error, also for users who want no messages."""
-    click.echo(message, err=True)
+    click.echo("\n".join(map(printable, message.split("\n"))), err=True)
 
 
 def put_report(text: str) -> None:

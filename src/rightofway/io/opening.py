@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from rightofway.errors import InputError, InputFault
+from rightofway.errors import InputError, InputFault, shown
 from rightofway.io.faults import blaming
 from rightofway.io.foreign import read_foreign, recognized
 from rightofway.io.formats import SCENARIO_FORMAT
@@ -15,7 +15,7 @@ from rightofway.io.marks import document_of
 from rightofway.io.movingai import load_scen
 from rightofway.io.plan.reader import plan_of
 from rightofway.io.scenario.reader import Loaded, read_scenario
-from rightofway.io.text import read_text
+from rightofway.io.text import is_regular, read_text
 from rightofway.io.workbook import load_workbook_scenario
 from rightofway.model import Plan, Scenario
 
@@ -145,9 +145,9 @@ def _classic(path: Path, count: int | None) -> Loaded:
     """Return the scenario of the first rows of a `.scen` file, or of all."""
     map_name = re.split(r"[\\/]", load_scen(path)[0].map_name)[-1]
     beside = [Path(map_name), Path("..", "maps", map_name)]
-    found = next((each for each in beside if (path.parent / each).is_file()), None)
+    found = next((each for each in beside if is_regular(path.parent / each)), None)
     if found is None:
-        message = f"its map {map_name!r} is neither beside it nor in ../maps (put it there)"
+        message = f"its map {shown(map_name)} is neither beside it nor in ../maps (put it there)"
         raise InputError.at("", message)
     document = {
         "format": SCENARIO_FORMAT,

@@ -10,13 +10,16 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import re
+import stat
 import sys
 from collections import Counter
 from dataclasses import dataclass, field
 from decimal import Decimal
 from pathlib import Path
 from typing import Any, BinaryIO
+from weakref import WeakKeyDictionary
 
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.io.faults import blaming, place_of
@@ -99,28 +102,111 @@ def load_delays(path: Path | str) -> tuple[str, ...]:
 def read_text(path: Path) -> str:
     """Return the text of a file, UTF-8 with any kind of line end; ``-`` is standard input."""
     source = str(path)
-    try:
-        if source == "-":
-            data = _content(sys.stdin.buffer)
-        else:
-            with path.open("rb") as file:
-                data = _content(file)
-    except (OSError, ValueError) as error:
-        raise InputError.at("", _why_unreadable(error, path), source) from None
-    if not data.strip():
+    with blaming(source):
+        data = content_of(path)
+    if not data or data.isspace():
         raise InputError.at("", "the file is empty (give it some content)", source)
-    if len(data) > MAX_BYTES:
-        message = f"the file is longer than {MAX_BYTES} bytes (is it the right one?)"
-        raise InputError.at("", message, source)
     return _decoded(data, source).replace("\r\n", "\n").replace("\r", "\n")
 
 
-def _content(file: BinaryIO) -> bytes:
+def content_of(path: Path, most: int | None = None) -> bytes | bytearray:
+    """Return the bytes of a file, a pipe, or of standard input as ``-``.
+
+    Parameters
+    ----------
+    path
+        What the user named; files that a document names go through `refuse_special` first.
+    most
+        The largest number of bytes that is read, by default `MAX_BYTES`.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is a device or a directory, or is longer.
+
+    Notes
+    -----
+    A pipe can be read only once: what was read of one is kept.
+    """
+    most = MAX_BYTES if most is None else most
+    try:
+        if str(path) == "-":
+            data = _STREAMS.get(sys.stdin.buffer)
+            if data is None:
+                data = _STREAMS[sys.stdin.buffer] = _content(sys.stdin.buffer, most)
+        else:
+            data = _content_of_file(path, most)
+    except InputError:
+        raise
+    except (OSError, ValueError) as error:
+        raise InputError.at("", _why_unreadable(error, path)) from None
+    if len(data) > most:
+        raise _too_long(most)
+    return data
+
+
+_STREAMS: WeakKeyDictionary[BinaryIO, bytearray] = WeakKeyDictionary()
+"""What was read of each standard input."""
+
+_PIPES: dict[tuple[int, int], bytearray] = {}
+"""What was read of each pipe, by device and number."""
+
+
+def _content_of_file(path: Path, most: int) -> bytearray:
+    found = path.stat()
+    if stat.S_ISDIR(found.st_mode):
+        raise IsADirectoryError
+    is_pipe = stat.S_ISFIFO(found.st_mode) or stat.S_ISSOCK(found.st_mode)
+    if not (is_pipe or stat.S_ISREG(found.st_mode)):
+        raise InputError.at("", "this is a device (give a file)")
+    if found.st_size > most:
+        raise _too_long(most)
+    key = found.st_dev, found.st_ino
+    if is_pipe and key in _PIPES:
+        return _PIPES[key]
+    with path.open("rb") as file:
+        data = _content(file, most)
+    if is_pipe:
+        _PIPES[key] = data
+    return data
+
+
+def _content(file: BinaryIO, most: int) -> bytearray:
     """Return the bytes of a file up to the limit, in pieces: one read reserves all that it asks."""
     content = bytearray()
-    while len(content) <= MAX_BYTES and (piece := file.read(PIECE)):
+    while len(content) <= most and (piece := file.read(PIECE)):
         content += piece
-    return bytes(content)
+    return content
+
+
+def _too_long(most: int) -> InputError:
+    return InputError.at("", f"the file is longer than {most} bytes (is it the right one?)")
+
+
+def is_regular(path: Path) -> bool:
+    """Return whether a file is there, and is no directory, device or pipe."""
+    return os.path.isfile(path)  # noqa: PTH113 - Path.is_file raises for a name that is too long
+
+
+def refuse_special(path: Path) -> None:
+    """Refuse a device or a pipe where a document names a file.
+
+    Parameters
+    ----------
+    path
+        The file; one that is not there, or is a directory, is refused by its reader.
+
+    Raises
+    ------
+    InputError
+        If it is there, and is not a file like others.
+    """
+    if str(path) == "-":  # readers take it for standard input
+        raise InputError.at("", "'-' names no file here (name a file)")
+    is_there = os.path.exists(path)  # noqa: PTH110 - Path.exists raises for a long name
+    if is_there and not (is_regular(path) or path.is_dir()):
+        message = f"{shown(str(path))} is a device or a pipe, not a file (name a file)"
+        raise InputError.at("", message)
 
 
 def _why_unreadable(error: Exception, path: Path) -> str:
@@ -134,8 +220,8 @@ def _why_unreadable(error: Exception, path: Path) -> str:
     return f"the file cannot be read: {reason} (check the path and its permissions)"
 
 
-def _decoded(data: bytes, source: str) -> str:
-    if data[:2] in {b"\xff\xfe", b"\xfe\xff"}:
+def _decoded(data: bytes | bytearray, source: str) -> str:
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise InputError.at("", "the file is UTF-16 text (save it as UTF-8)", source)
     if b"\0" in data:
         at = data.index(b"\0")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
@@ -25,8 +25,8 @@ STRAIGHT = 2
 PIECE = re.compile("(.+)/[1-9][0-9]*")
 """The name of a vertex between two pieces of a lane."""
 
-MAX_PIECES = 1_000_000
-"""The most pieces that the lanes of a roadmap are split into."""
+MAX_PIECES = 100_000
+"""The most pieces that the lanes of a roadmap are split into: 50 km of lanes, each 0.5 m."""
 
 
 class SplitLanes(NamedTuple):
@@ -86,11 +86,7 @@ def split_lanes(
     for edge in edges:
         lane = _lane(edge, curves)
         longest[lane] = max(longest.get(lane, edge.length), edge.length)
-    count = 0 if spacing is None else sum(ceil(length / spacing) for length in longest.values())
-    if count > MAX_PIECES:
-        remedy = "give a larger spacing"
-        message = f"a spacing of {spacing} makes {count} pieces, more than {MAX_PIECES} ({remedy})"
-        raise InputError.at("", message)
+    refuse_many_pieces(longest.values(), spacing)
     found, split = dict(positions), list[Edge]()
     pieces: dict[tuple[str, str], list[tuple[str, str]]] = {}
     ways: dict[Lane, tuple[list[str], list[Fraction], Fraction]] = {}
@@ -110,25 +106,53 @@ def split_lanes(
                     message = f"{name!r} is the name of a piece of a lane (rename the vertex)"
                     raise InputError.at("vertices", message)
                 found[name] = point
-            whole = sum(parts, Fraction(0))
+            whole = sum(lengths, Fraction(0))
             least = whole if len(lengths) > 1 else Fraction(0)
-            ways[lane] = [edge.tail, *names, edge.head], [part / whole for part in parts], least
+            shares = _each(parts, whole.__rtruediv__)
+            ways[lane] = [edge.tail, *names, edge.head], shares, least
         way, shares, least = ways[lane]
         if way[0] != edge.tail:
             way, shares = way[::-1], shares[::-1]
         if len(shares) > 1:
             pieces[edge.tail, edge.head] = list(pairwise(way))
+        found_lengths = _each(shares, max(edge.length, least).__mul__)
+        surcharges = _each(shares, edge.surcharge.__mul__)
         split += [
-            replace(
-                edge,
-                tail=tail,
-                head=head,
-                length=max(edge.length, least) * share,
-                surcharge=edge.surcharge * share,
+            replace(edge, tail=tail, head=head, length=length, surcharge=surcharge)
+            for (tail, head), length, surcharge in zip(
+                pairwise(way), found_lengths, surcharges, strict=True
             )
-            for (tail, head), share in zip(pairwise(way), shares, strict=True)
         ]
     return SplitLanes(found, split, pieces)
+
+
+def refuse_many_pieces(lengths: Iterable[Fraction], spacing: Fraction | None) -> None:
+    """Refuse a spacing that makes too many pieces, before any is made.
+
+    Parameters
+    ----------
+    lengths
+        Of each lane [length unit].
+    spacing
+        The longest piece [length unit], above 0; None for none.
+
+    Raises
+    ------
+    InputError
+        If there would be more than `MAX_PIECES`.
+    """
+    count = 0 if spacing is None else sum(ceil(length / spacing) for length in lengths)
+    if count > MAX_PIECES:
+        remedy = "give a larger spacing"
+        message = f"a spacing of {spacing} makes {count} pieces, more than {MAX_PIECES} ({remedy})"
+        raise InputError.at("", message)
+
+
+def _each(parts: Sequence[Fraction], use: Callable[[Fraction], Fraction]) -> list[Fraction]:
+    """Return what becomes of each part; parts that are one number are worked out once."""
+    found = {id(part): part for part in parts}
+    made = {key: use(part) for key, part in found.items()}
+    return [made[id(part)] for part in parts]
 
 
 Lane = frozenset[str] | tuple[str, str]
@@ -163,11 +187,9 @@ def _cuts(
     inside, parts = list[Point](), list[Fraction]()
     for (begin, end), length in zip(pairwise(points), lengths, strict=True):
         count = 1 if spacing is None else ceil(length / spacing)
-        for k in range(1, count + 1):
-            share = Fraction(k, count)
-            x, y = (a + share * (b - a) for a, b in zip(begin, end, strict=True))
-            inside.append((x, y))
-            parts.append(length / count)
+        x_step, y_step = ((b - a) / count for a, b in zip(begin, end, strict=True))
+        inside += [(begin[0] + k * x_step, begin[1] + k * y_step) for k in range(1, count + 1)]
+        parts += [length / count] * count
     return inside[:-1], parts
 
 

@@ -9,7 +9,6 @@ are those of the agent's row, so that the plan is one of the very scenario that 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -22,6 +21,7 @@ from rightofway.io.faults import Faults
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.movingai import ScenRow, load_map, load_scen
 from rightofway.io.scenario.reader import read_scenario
+from rightofway.io.text import is_regular
 from rightofway.model import Grid, Plan, PlannerRun, Scenario, Track
 from rightofway.model.grid import FREE
 
@@ -138,9 +138,8 @@ def _map_beside(path: Path, named: str | None) -> Path:
         raise InputError.at("", "the plan does not name its map (give it with --map FILE)")
     name = Path(named.replace("\\", "/")).name
     for beside in (path.parent / name, path.parent / ".." / "maps" / name):
-        with suppress(OSError):  # of a name that is too long
-            if beside.is_file():
-                return beside
+        if is_regular(beside):
+            return beside
     raise InputError.at("", f"its map {shown(name)} is not beside it (give it with --map FILE)")
 
 

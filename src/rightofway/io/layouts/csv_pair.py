@@ -12,7 +12,7 @@ from pathlib import Path
 from rightofway.errors import InputError, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.parts import Part, number_in
-from rightofway.io.text import read_text
+from rightofway.io.text import is_regular, read_text
 from rightofway.model.layout import Layout, LayoutVertex
 
 NAMES = ("name", "id", "node", "vertex", "nodeid", "node_id")
@@ -73,7 +73,7 @@ def _beside(path: Path, is_nodes: bool) -> Path:
         if word in path.name:
             for other in there:
                 found = path.with_name(path.name.replace(word, other))
-                if found.is_file():
+                if is_regular(found):
                     return found
     mine, wanted = ("nodes", "edges") if is_nodes else ("edges", "nodes")
     remedy = f"name this file {mine}.csv and put {wanted}.csv beside it"

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, pairwise
 
-from rightofway.errors import InputError, nearest, shown
+from rightofway.errors import InputError, is_printable, nearest, shown
 from rightofway.io.faults import Faults
+from rightofway.io.layouts.parts import LONGEST_NAME
 from rightofway.model.drawing import Picture
 from rightofway.model.geometry import (
     Point,
@@ -134,7 +135,9 @@ class Draft:
         self.repairs: Counter[str] = Counter()
 
     def level(self, name: str = "") -> LevelDraft:
-        """Begin a level."""
+        """Begin a level; InputError for a name that cannot be shown."""
+        if name and not (is_printable(name) and len(name) <= LONGEST_NAME):
+            raise InputError.at("levels", f"{shown(name)} is no name (give printable text)")
         self.levels.append(LevelDraft(name))
         return self.levels[-1]
 

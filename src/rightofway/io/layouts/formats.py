@@ -16,7 +16,7 @@ from rightofway.io.layouts import csv_pair, graphml, lif, nav2, open_rmf, opentc
 from rightofway.io.layouts.xml_tree import Element, parse_xml
 from rightofway.io.marks import marked
 from rightofway.io.movingai import load_map
-from rightofway.io.text import parse_json, parse_yaml, read_text
+from rightofway.io.text import is_regular, parse_json, parse_yaml, read_text
 from rightofway.model.layout import Layout
 from rightofway.model.occupancy import CellMap, Occupancy
 
@@ -253,11 +253,13 @@ def _opened(text: str) -> tuple[LayoutFormat, Any] | None:
 
 
 def _refuse_picture(path: Path) -> None:
+    if not is_regular(path):
+        return  # reading the text says why
     try:
         with path.open("rb") as file:
             begin = file.read(8)
     except (OSError, ValueError):
-        return  # reading the text says why
+        return
     if begin.startswith(PICTURES):
         message = "this is a picture (give the YAML file beside it, which has its resolution)"
         raise InputError.at("", message)

@@ -28,6 +28,9 @@ MAX_PIECES = 200
 
 MAX_DEGREE, MAX_POINTS = 10, 1000
 
+BLOCK = 100_000
+"""Points of a curve that are worked out at once."""
+
 Points = NDArray[np.float64]
 
 
@@ -67,6 +70,9 @@ class Nurbs:
 
     def at(self, parameters: NDArray[np.float64]) -> Points:
         """Return the points of the curve at some parameters; shape (m, 2)."""
+        if len(parameters) > BLOCK:  # or the functions of all of them would fill the memory
+            blocks = range(0, len(parameters), BLOCK)
+            return np.concatenate([self.at(parameters[k : k + BLOCK]) for k in blocks])
         knots, n = self.knots, len(self.points)
         span = np.clip(np.searchsorted(knots, parameters, side="right") - 1, self.degree, n - 1)
         basis = np.zeros((len(parameters), len(knots) - 1))

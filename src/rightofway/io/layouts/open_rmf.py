@@ -143,6 +143,11 @@ def _own(item: Part, at: int) -> dict[str, Any]:
     }
 
 
+def _named(own: dict[str, Any], key: str, item: Part) -> str:
+    """Return a name among the parameters of a vertex or lane."""
+    return Part(own[key], (*item.steps, key)).text()
+
+
 def _add_vertex(
     level: LevelDraft, vertex: Part, index: int, transform: Transform | None, groups: Groups
 ) -> str:
@@ -169,7 +174,7 @@ def _add_vertex(
         vertex.place,
     )
     if own.get("mutex"):
-        groups.setdefault(str(own["mutex"]), ([], []))[0].append(name)
+        groups.setdefault(_named(own, "mutex", vertex), ([], []))[0].append(name)
     return name
 
 
@@ -185,14 +190,15 @@ def _add_lane(
     own = _own(lane, 2)
     speed = Part(own.get("speed_limit", 0), (*lane.steps, "speed_limit")).number()
     both = own.get("bidirectional") is True or own.get("is_bidirectional") is True
-    types = frozenset([f"graph {own.get('graph_idx', 0)}"]) if has_graphs else None
+    own.setdefault("graph_idx", 0)
+    types = frozenset([f"graph {_named(own, 'graph_idx', lane)}"]) if has_graphs else None
     max_speed = speed if speed > 0 else None
     for one, other in ((tail, head), (head, tail)) if both else ((tail, head),):
         level.connect(
             Lane(place=lane.place, tail=one, head=other, max_speed=max_speed, types=types)
         )
         if own.get("mutex"):
-            groups.setdefault(str(own["mutex"]), ([], []))[1].append((one, other))
+            groups.setdefault(_named(own, "mutex", lane), ([], []))[1].append((one, other))
 
 
 def _vertex(item: Part, names: list[str | None]) -> str | None:

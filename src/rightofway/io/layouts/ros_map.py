@@ -19,7 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
+from rightofway.io.faults import under
 from rightofway.io.layouts.parts import Part
+from rightofway.io.text import refuse_special
 from rightofway.model.drawing import Picture
 from rightofway.model.geometry import Frame
 from rightofway.model.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy
@@ -132,6 +134,8 @@ def _picture(image: Part, path: Path) -> tuple[NDArray[Any], int, NDArray[np.boo
     from PIL import Image
 
     file = path.parent / image.text()
+    with under(image.place):
+        refuse_special(file)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # large pictures are refused below, by a limit of ours

@@ -14,6 +14,7 @@ from rightofway.io.movingai import load_map
 from rightofway.io.scenario.curves import LaneCurve, lane_curve, spaced
 from rightofway.io.scenario.layouts import laid_out
 from rightofway.io.scenario.loaded_map import LoadedMap, curve_note, joined_note
+from rightofway.io.text import refuse_special
 from rightofway.model import (
     Edge,
     Floor,
@@ -35,7 +36,7 @@ from rightofway.model import (
 from rightofway.model.clustering import MAX_CELLS, free_cells
 from rightofway.model.drawing import Drawing
 from rightofway.model.quadtree import MAX_SMALLEST, roadmap_of_squares
-from rightofway.model.spacing import SplitLanes, split_lanes
+from rightofway.model.spacing import SplitLanes, refuse_many_pieces, split_lanes
 from rightofway.model.zones import NamedZone
 
 if TYPE_CHECKING:
@@ -65,7 +66,9 @@ def map_of(
     ``base``; without one, none may be read. Units are those that the scenario names.
     """
     if document.layout is not None:
-        return laid_out(document, file_beside(base, document.layout), units, radius, types)
+        with under("layout"):
+            file = file_beside(base, document.layout)
+        return laid_out(document, file, units, radius, types)
     if document.roadmap is not None:
         with under("roadmap"):
             return _drawn(document.roadmap, document, units, has_sizes=radius() > 0)
@@ -106,10 +109,14 @@ def _placed(
 
 
 def file_beside(base: Path | None, name: str) -> Path:
-    """Return the path of a file that a document names; InputError for a document in no file."""
+    """Return the path of a file that a document names.
+
+    InputError for a document in no file, and for devices, pipes and directories.
+    """
     if base is None:
         message = f"{shown(name)} is relative to no file (write the contents into the document)"
         raise InputError.at("", message)
+    refuse_special(base / name)
     return base / name
 
 
@@ -289,6 +296,7 @@ def _shapes(
     """Return the points at which curves are cut; for robots without a size by spacing alone."""
     if has_sizes or on.spacing is None:
         return {ends: curve.points for ends, curve in curves.items()}
+    refuse_many_pieces((curve.length for curve in curves.values()), on.spacing)
     return {
         (tail, head): spaced(curve, positions[tail], positions[head], on.spacing)
         for (tail, head), curve in curves.items()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from rightofway.errors import InputError, shown
 from rightofway.io.faults import under
 from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.io.text import refuse_special
 from rightofway.model.drawing import Picture
 
 if TYPE_CHECKING:
@@ -78,6 +79,8 @@ def _is_there(file: Path, name: str) -> bool:
     """Return whether a picture is there; its first bytes say how large it is."""
     from PIL import Image
 
+    with under("file"):
+        refuse_special(file)
     try:
         with Image.open(file, formats=KINDS) as image:
             columns, rows = image.size

@@ -89,28 +89,15 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
 
     The picture below its map is in ``pictures``, by default in ``base``, where other files are.
     """
-    from rightofway.io.scenario.shape import (
-        MapDocument,
-        RulesDocument,
-        ScenarioFrame,
-        UnitsDocument,
-    )
-
-    def rules_of(data: Any) -> Rules:
-        if data == "classic":
-            return CLASSIC
-        if isinstance(data, str):
-            remedy = "give classic, or a mapping like {headway: 1}"
-            raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
-        given = checked(RulesDocument, data).given
-        keys = ("occupancy", "headway", "turn", "ends", "laps", "rotations", "clearance")
-        return Rules(**given(*keys, "turn_rate", "walls"))
-
-    def units_of(data: Any) -> Units:
-        return Units(**checked(UnitsDocument, data).given("length", "time"))
+    from rightofway.io.scenario.shape import MapDocument, ScenarioFrame
 
     def loaded_map_of(data: Any) -> LoadedMap | None:
         drawn = checked(MapDocument, data)
+        if drawn.cell_size == "adaptive":  # may take seconds: first what is quick to check
+            wrong = Faults()
+            placed_robots(robots, None, rules, wrong, deals=deals)
+            if wrong.found:
+                return None
         found = map_of(
             drawn,
             speeds,
@@ -130,9 +117,10 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
             return read_scenario({**document, "robots": table.part}, base, pictures)
     faults = Faults()
     faults.attempt("", checked, ScenarioFrame, document)
-    rules = faults.part(document, "rules", rules_of) or Rules()
-    units = faults.part(document, "units", units_of) or Units()
+    rules = faults.part(document, "rules", _rules_of) or Rules()
+    units = faults.part(document, "units", _units_of) or Units()
     robots = faults.part(document, "robots", written_robots, base) or []
+    deals = document.get("homes") == "parking"
     speeds = speeds_of(robots)
     loaded = faults.part(document, "map", loaded_map_of)
     if loaded:
@@ -140,7 +128,6 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     if loaded and loaded.keeps_clear and rules.walls == "strict":
         remedy = "robots keep clear of what a map in pixels shows; take it out"
         faults.note("rules.walls", f"'strict' is for grids and floors ({remedy})")
-    deals = document.get("homes") == "parking"
     placed, more = placed_robots(robots, loaded, rules, faults, deals=deals)
     closures = faults.part(document, "closures", _closures, loaded) or []
     scenario = None
@@ -151,6 +138,25 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
     return Loaded(scenario=scenario, notes=(*_notes(loaded, scenario), *more))
+
+
+def _rules_of(data: Any) -> Rules:
+    from rightofway.io.scenario.shape import RulesDocument
+
+    if data == "classic":
+        return CLASSIC
+    if isinstance(data, str):
+        remedy = "give classic, or a mapping like {headway: 1}"
+        raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
+    given = checked(RulesDocument, data).given
+    keys = ("occupancy", "headway", "turn", "ends", "laps", "rotations", "clearance")
+    return Rules(**given(*keys, "turn_rate", "walls"))
+
+
+def _units_of(data: Any) -> Units:
+    from rightofway.io.scenario.shape import UnitsDocument
+
+    return Units(**checked(UnitsDocument, data).given("length", "time"))
 
 
 def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:

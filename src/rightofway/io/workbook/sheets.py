@@ -20,6 +20,7 @@ from typing import Any
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults
+from rightofway.io.text import content_of
 
 MAX_BYTES = 2**28
 """Largest content of a workbook that is read, unpacked [bytes]."""
@@ -119,17 +120,7 @@ def read_sheets(path: Path, wanted: Collection[str], faults: Faults) -> dict[str
 
 
 def _content(path: Path) -> bytes:
-    try:
-        is_small = path.stat().st_size <= MAX_BYTES
-        data = path.read_bytes() if is_small else b""
-    except FileNotFoundError:
-        raise InputError.at("", "there is no such file (check the path)") from None
-    except IsADirectoryError:
-        raise InputError.at("", "this is a directory (give a file in it)") from None
-    except (OSError, ValueError) as error:
-        raise InputError.at("", f"the file cannot be read: {error} (check the path)") from None
-    if not is_small:
-        raise _too_long()
+    data = bytes(content_of(path, MAX_BYTES))
     if data.startswith(OLD_OFFICE):
         message = "has a password, or is an old .xls file (save it as .xlsx without a password)"
         raise InputError.at("", message)
