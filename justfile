@@ -52,6 +52,14 @@ long *args:
 all-seeds *args:
     ALL_SEEDS=1 pytest -m "slow or not slow" -n 2 {{ args }}
 
+# Judge plans of random fleets, good and broken ones, by both judges: a million take half an hour
+judge count *args:
+    python -m tests.campaigns judge {{ count }} {{ args }}
+
+# Make delayed runs of plans of random fleets: ten million take a quarter of an hour
+delay count *args:
+    python -m tests.campaigns delay {{ count }} {{ args }}
+
 # Open broken layouts: 100 000 take about half an hour
 fuzz-layouts *args:
     python -m tests.builders.broken_layouts {{ args }}

@@ -24,7 +24,6 @@ SLOW = (
     "cli/test_bench_cluster.py",  # starts a Dask cluster
     "cli/test_process.py",  # starts the command as a process, and interrupts it
     "conformance/test_execution.py",  # hundreds of runs for each planner and scenario
-    "conformance/test_mixed_scenarios.py",  # a thousand scenarios
     "conformance/test_samples.py",  # plans on 36 real layouts
     "cyclic/test_closing.py",
     "docs/test_examples.py",  # runs every command on every page

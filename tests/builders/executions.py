@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterable
 from fractions import Fraction
 from functools import cache
 
 import rightofway
-from rightofway.model import NEVER, Plan, Rules, Tick
+from rightofway.execution import Outcome
+from rightofway.model import NEVER, Plan, Rules, Scenario, Tick
 from rightofway.precedence import (
     ActionDependencyGraph,
     DelayModel,
@@ -16,9 +18,17 @@ from rightofway.precedence import (
     Stoppage,
 )
 from tests.builders.fleets import random_fleet
-from tests.oracles import execution
+from tests.oracles import execution, judge
 
-__all__ = ["RULES", "oracle_of", "some_delays", "some_plan", "times"]
+__all__ = [
+    "RULES",
+    "any_delays",
+    "oracle_of",
+    "some_delays",
+    "some_plan",
+    "times",
+    "wrong_in",
+]
 
 RULES = (
     Rules(),
@@ -81,3 +91,36 @@ def oracle_of(adg: ActionDependencyGraph, delay_sample: DelaySample) -> executio
 def times(found: execution.Times | Execution) -> tuple[list[int], list[int], list[int]]:
     """Return when visits begin, when they are booked, and when robots complete."""
     return list(found.enter), list(found.start), list(found.completion)
+
+
+def any_delays(draw: random.Random, scenario: Scenario) -> str:
+    """Return one or two causes of delay in their notation."""
+    name = draw.choice(scenario.robots).name
+    causes = (
+        "exponential:0.5",
+        "uniform:-0.3..1",
+        "normal:0.1~0.3",
+        "chance:0.2x9",
+        "breaks:0.1",
+        f"slow:{name}x1.7",
+        f"early:{name}x0.6",
+        f"stop:{name}@{draw.randint(0, 20)}+{draw.randint(1, 30)}",
+        f"stop:{name}@{draw.randint(0, 20)}",
+    )
+    return ",".join(draw.sample(causes, draw.choice([1, 2])))
+
+
+def wrong_in(outcome: Outcome, traces: Iterable[int]) -> list[str]:
+    """Return what must not happen in runs: collisions and deadlocks, and faults of some traces.
+
+    A robot may only be stranded by one that broke down, or by a closure.
+    """
+    wrong = []
+    if outcome.collisions or outcome.deadlocks:
+        wrong.append(f"{outcome.collisions} collisions, {outcome.deadlocks} deadlocks")
+    if outcome.stranded and not (outcome.broken or outcome.plan.scenario.closures):
+        wrong.append(f"{outcome.stranded} robots are stranded, although none broke down")
+    for run in traces:
+        faults = judge.faults(outcome.plan, outcome.trace(run))
+        wrong += [f"run {run}: {kind} of robots {who}" for kind, who in sorted(faults)]
+    return wrong
