@@ -10,7 +10,7 @@ import pytest
 
 from tests.builders.browsers import chromium
 
-pytest_plugins = ["tests.builders.laws"]
+pytest_plugins = ["tests.builders.laws", "tests.builders.reruns"]
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -79,10 +79,6 @@ LONG = (
 """Those of them that CI leaves out, with the tests that are marked so: load in numbers."""
 
 
-PAGES = ("studio", "viewer")
-"""Folders of tests that wait for a browser: one that fails is tried twice more, and counted."""
-
-
 def files_of(lane: Iterable[str]) -> set[Path]:
     """Return the test files of a lane."""
     named = (TESTS / name for name in lane)
@@ -100,8 +96,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.slow)
         if item.path in long:
             item.add_marker(pytest.mark.long)
-        if item.path.parent.name in PAGES and item.config.pluginmanager.hasplugin("rerunfailures"):
-            item.add_marker(pytest.mark.flaky(reruns=2))
 
 
 @pytest.fixture(scope="module")
