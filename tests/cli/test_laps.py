@@ -61,7 +61,7 @@ def test_times_are_in_the_units_of_the_scenario_or_in_ticks(cli: Cli, slower: Pa
     assert "throughput  240 laps per hour\n" in ended.out
     assert "2 robots: period 30 s, from 8 s on\n" in ended.out
     assert "robot  laps/period  mean lap [s]  alone [s]  waits\n" in ended.out
-    assert "  (1.5, 2.5): R1 waits for R2, first lap at 12 s; each period at 19 s\n" in ended.out
+    assert "  N7 (1.5, 2.5): R1 waits for R2, first lap at 12 s; each period at 19 s\n" in ended.out
     assert "2 robots: period 30 ticks, from tick 8 on\n" in cli("laps", slower, "--ticks").out
     data = json.loads(cli("laps", slower, "--json").out)
     assert (data["tick"], data["units"]) == (1, {"length": "m", "time": "s"})

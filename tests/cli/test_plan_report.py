@@ -136,8 +136,9 @@ def test_a_log_tells_no_decisions_from_no_meetings() -> None:
     searched = replace(plan, run=replace(plan.run, decisions=()))
     words = " ".join(decision_log(searched, plan.scenario.quantities).split())
     assert words == (
-        "The search that found this plan records no decisions;"
-        " `rightofway table PLAN --events` lists each wait."
+        "The search that found this plan records no decisions, so no wait has a reason here"
+        " (`--planner two-level` plans with a reason for each decision;"
+        " `rightofway table PLAN --events` lists each wait and the robot waited for)."
     )
     apart = plan_of(["...", "..."], ([0, 1], [0, 1]), ([3, 4], [0, 1]))
     assert decision_log(apart, apart.scenario.quantities).startswith("No decision was needed")

@@ -11,6 +11,15 @@ import pytest
 
 from tests.cli.conftest import SWAP, Cli
 
+CROSSING = """\
+format: rightofway-scenario/1
+map: {grid: ["@.@", "...", "@.@"]}
+units: {length: m, time: s}
+robots:
+  - {name: R1, home: N3, target: N5}
+  - {name: R2, home: N1, target: N7}
+"""
+
 
 @pytest.fixture
 def plan(cli: Cli) -> str:
@@ -28,6 +37,20 @@ def test_the_window_is_given_in_time_or_in_ticks(cli: Cli) -> None:
     assert in_time.startswith("robot,row,1,1.5\n")
     in_ticks = cli("table", "fast.json", "--from", "2", "--to", "3", "--ticks", "-o", "-").out
     assert in_ticks == in_time.replace("1,1.5", "2,3")
+
+
+def test_a_place_has_one_number_in_report_log_table_and_collisions(cli: Cli) -> None:
+    """N3 is the home of R1, N4 the crossing: 1.5 to the right and 1.5 down."""
+    Path("crossing.yaml").write_text(CROSSING, encoding="utf-8")
+    planned = cli("plan", "crossing.yaml", "--planner", "two-level", "--log", "-o", "p.json")
+    assert "R1 waits 1 s in the home of R1 (N3) at 0 s, for R2 to leave N4 (1.5, 1.5)." in (
+        " ".join(planned.out.split())
+    )
+    assert "At 1 s, N4 (1.5, 1.5): R1 waits 1 s in the home of R1 (N3)" in planned.out
+    shown = cli("table", "p.json").out
+    assert "R1 final    3= 3" in shown
+    assert "3: the cell N3 of reports" in shown
+    assert "N4     collision" in cli("collisions", "p.json").out
 
 
 @pytest.mark.parametrize(
@@ -110,6 +133,8 @@ def test_collisions_of_a_scenario_are_those_of_free_running_robots(cli: Cli) -> 
     out = cli("collisions", "swap.yaml").out
     assert out.startswith("On the shortest routes, without waits: 1 collision and 0 swaps.\n")
     assert "R1       R2          6      7  N7     collision" in out
+    told = "On the shortest routes, without waits: 1 collision and 0 swaps, in 1 tick.\n"
+    assert cli("collisions", "swap.yaml", "--each-tick").out.startswith(told)
     ticks = cli("collisions", "swap.yaml", "--each-tick", "-o", "-").out
     assert ticks == "i,j,t,n,kind\nR1,R2,6,N7,collision\n"
 

@@ -31,6 +31,15 @@ def test_homes_and_only_stops_go_by_their_robot() -> None:
     assert place.where(0) == "(0.5, 0.5)"
 
 
+def test_numbered_names_have_the_number_that_tables_have() -> None:
+    place = PlaceNames(scenario(("N0", "N3")), numbered=True)
+    assert [place(vertex) for vertex in (0, 3, 5)] == [
+        "the home of R1 (N0)", "the stop of R1 (N3)", "N5 (1.5, 1.5)",
+    ]  # fmt: skip
+    assert place.where(0) == "N0 (0.5, 0.5)"
+    assert PlaceNames(scenario(("N0", "N3"), units=Units()), numbered=True)(5) == "N5"
+
+
 def test_a_stop_of_two_robots_goes_by_its_middle() -> None:
     place = PlaceNames(scenario(("N0", "N3"), ("N4", "N3")))
     assert place(3) == "(3.5, 0.5)"

@@ -9,8 +9,10 @@ import pytest
 import rightofway
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Rules, Scenario
+from rightofway.planners.routing import chosen_routes
+from rightofway.planners.task import Task
 from rightofway.planners.two_level import movement_groups
-from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
+from tests.builders.fleets import PAPER, grid_fleet, paper_scenario, random_fleet
 
 CASES = {case["name"]: case for case in PAPER}
 DOOR = ["...", "@.@", "..."]
@@ -127,6 +129,26 @@ def test_a_deadlock_that_waiting_cannot_open_is_opened_by_another_way() -> None:
     assert plan.run.status == "re-routed R2"
     assert plan.scenario.roadmap.vertex("N8") in plan.tracks[1].vertices
     assert "waiting cannot keep R1 and R2 apart" in plan.run.reroutes[0].because
+
+
+def test_a_robot_planned_again_on_its_own_route_is_not_called_rerouted() -> None:
+    """R3 and R5 make way for R7, are planned again, and find that their own routes serve."""
+    scenario = random_fleet(29, size=6, robots=8)
+    plan = solve(scenario)
+    assert plan.run.status == "re-routed R7"
+    _, routes = chosen_routes(Task(scenario=scenario, options={"routes": "clear"}))
+    driven = [tuple(track.vertices.tolist()) for track in plan.tracks]
+    other = [robot for robot, route in enumerate(routes) if driven[robot] != route.vertices]
+    assert other == [reroute.robot for reroute in plan.run.reroutes] == [6]
+
+
+def test_a_rerouted_robot_names_the_robot_that_it_makes_way_for() -> None:
+    plan = solve(random_fleet(21, size=6, robots=8))
+    assert [reroute.because for reroute in plan.run.reroutes] == [
+        "it makes way for R6",
+        "it makes way for R6",
+        "waiting cannot keep R4 and R6 apart at N28",
+    ]
 
 
 def test_where_one_robot_at_a_time_finds_no_way_all_are_planned_together() -> None:

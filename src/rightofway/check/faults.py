@@ -190,7 +190,7 @@ class Names:
     @cached_property
     def places(self) -> PlaceNames:
         """What people call the vertices."""
-        return PlaceNames(self.scenario)
+        return PlaceNames(self.scenario, numbered=True)
 
     def moment(self, tick: int) -> str:
         """Return a point in time: ``time 2``, ``6 min 23 s``."""

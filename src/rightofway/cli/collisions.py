@@ -11,7 +11,7 @@ from rightofway.cli.completion import SCENARIOS, files, planners
 from rightofway.cli.inputs import count_option, foreign_options, read_either
 from rightofway.cli.options import as_json_option, quantities_of, ticks_option, writable
 from rightofway.cli.tables import clock_data, put_lists
-from rightofway.cli.terminal import progress, put_json
+from rightofway.cli.terminal import counted, progress, put_json
 
 if TYPE_CHECKING:
     from rightofway.metrics import NamedCollision
@@ -28,7 +28,7 @@ Examples:
 
 
 LEGEND = """\
-before, left: conflicts of the whole fleet before and after the decision
+before, left: conflicts of the whole fleet before and after the decision, counted tick by tick
 if i, if j: conflicts left if robot i waits, and if robot j waits"""
 
 
@@ -89,7 +89,8 @@ def collisions(
         put_json(_collision_data(listed, plan, quantities))
     elif not output:
         routes = "shortest routes" if plan is None else "routes of the plan"
-        parts = [f"On the {routes}, without waits: {_counted(listed)}.", *_texts(lists)]
+        ticks = f", in {counted(len(lists[0]), 'tick')}" if each_tick and listed else ""
+        parts = [f"On the {routes}, without waits: {_counted(listed)}{ticks}.", *_texts(lists)]
         if len(lists) > 1:
             parts[-1] += f"\n\n{LEGEND}"
         if plan is not None:

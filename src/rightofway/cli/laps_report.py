@@ -325,7 +325,7 @@ def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
     """Yield which robots make no lap in a pattern, where they stand and where they want to go."""
     counts = group.pattern.counts if group.pattern else ()
     stuck = [robot for robot, laps in enumerate(counts) if not laps]
-    place, listed = PlaceNames(scenario), list[str]()
+    place, listed = PlaceNames(scenario, numbered=True), list[str]()
     for robot in stuck[:MAX_LINES]:
         name = scenario.robots[group.robots[robot]].name
         route, last = group.context.routes[robot], len(group.history[robot]) - 1
@@ -344,7 +344,7 @@ def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) 
     first, periodic = _sites(group.first_waits()), _sites(group.waits())
     both = len(first.keys() & periodic.keys())
     yield f"waits: {len(first)} in the first lap, {len(periodic)} in each period, {both} in both"
-    robots, place = scenario.robots, PlaceNames(scenario)
+    robots, place = scenario.robots, PlaceNames(scenario, numbered=True)
     sites = list(periodic | first)
     for site in sites[:MAX_LINES]:
         vertex, beside, waiting, awaited = site
@@ -402,7 +402,7 @@ def _change(scenario: Scenario, effect: ParameterEffect) -> str:
         return f"{robot.name} 10% faster"
     if effect.stop is None:
         return f"{robot.name} 10% less turning"
-    where = PlaceNames(scenario).where(robot.stops[effect.stop].at)
+    where = PlaceNames(scenario, numbered=True).where(robot.stops[effect.stop].at)
     return f"{robot.name} 10% less work at {where}"
 
 

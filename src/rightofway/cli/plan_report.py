@@ -59,7 +59,7 @@ class Words:
     @cached_property
     def places(self) -> PlaceNames:
         """What people call the vertices."""
-        return PlaceNames(self.plan.scenario)
+        return PlaceNames(self.plan.scenario, numbered=True)
 
     def time(self, ticks: int) -> str:
         """Return how long a number of ticks lasts."""
@@ -314,8 +314,10 @@ def decision_log(plan: Plan, quantities: Quantities) -> str:
     tracks = free_running(plan)
     if not collisions(plan.scenario, tracks) and not swaps(tracks):
         return "No decision was needed: no two robots meet."
-    records = "The search that found this plan records no decisions"
-    return "\n".join(wrapped(f"{records}; `rightofway table PLAN --events` lists each wait."))
+    records = "The search that found this plan records no decisions, so no wait has a reason here"
+    remedy = "`--planner two-level` plans with a reason for each decision"
+    waits_listed = "`rightofway table PLAN --events` lists each wait and the robot waited for"
+    return "\n".join(wrapped(f"{records} ({remedy}; {waits_listed})."))
 
 
 def decision_in_words(words: Words, decision: Decision) -> str:

@@ -254,7 +254,7 @@ def _sources(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
     if not sources:
         return
     scenario = outcome.plan.scenario
-    robots, place = scenario.robots, PlaceNames(scenario).where
+    robots, place = scenario.robots, PlaceNames(scenario, numbered=True).where
     listed, cell = sources[:MAX_SOURCES], quantities.cell
     names = [f"{short(robots[one.robot].name)} at {place(one.vertex)}" for one in listed]
     rows = [("itself", "others"), *((cell(one.own), cell(one.of_others)) for one in listed)]

@@ -313,7 +313,7 @@ def _group_words(
     quantities: Quantities,
 ) -> list[str]:
     i, j = (found.scenario.robots[robot].name for robot in decision.robots)
-    place = PlaceNames(found.scenario)(decision.vertices[0])
+    place = PlaceNames(found.scenario, numbered=True)(decision.vertices[0])
     lines = [f"{i} and {j} meet at {place} at {quantities.moment(decision.tick)}."]
     for number, pair in enumerate(completions, 1):
         if pair is None:

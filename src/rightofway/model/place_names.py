@@ -36,10 +36,14 @@ class PlaceNames:
     ----------
     scenario
         The scenario.
+    numbered
+        Whether each of these names comes with the number of the cell, as in tables:
+        ``N24 (3.5, 3.5)``, ``Press (N24)``, ``the home of R1 (N24)``.
     """
 
-    def __init__(self, scenario: Scenario) -> None:
+    def __init__(self, scenario: Scenario, *, numbered: bool = False) -> None:
         self.scenario = scenario
+        self.numbered = numbered
         self.is_measured = scenario.roadmap.has_cells and bool(scenario.units.length)
 
     def where(self, vertex: int) -> str:
@@ -53,7 +57,10 @@ class PlaceNames:
         roadmap = self.scenario.roadmap
         if not self.is_measured:
             return roadmap.name(vertex)
-        return self._stations.get(vertex) or f"({middle(roadmap, vertex)})"
+        if vertex in self._stations:
+            return self._with_number(self._stations[vertex], vertex)
+        number = f"{roadmap.name(vertex)} " if self.numbered else ""
+        return f"{number}({middle(roadmap, vertex)})"
 
     def __call__(self, vertex: int) -> str:
         """Return what a sentence calls a vertex: ``the home of R1``, else where it is.
@@ -65,7 +72,12 @@ class PlaceNames:
         """
         if not self.is_measured or vertex in self._stations:
             return self.where(vertex)
-        return self._of_robots.get(vertex) or self.where(vertex)
+        if vertex in self._of_robots:
+            return self._with_number(self._of_robots[vertex], vertex)
+        return self.where(vertex)
+
+    def _with_number(self, name: str, vertex: int) -> str:
+        return f"{name} ({self.scenario.roadmap.name(vertex)})" if self.numbered else name
 
     @cached_property
     def _stations(self) -> dict[int, str]:

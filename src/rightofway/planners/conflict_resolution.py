@@ -186,28 +186,35 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
     """Resolve all conflicts, then reroute the robots that were deferred."""
     plan.resolve_all(rule)
     tracks = {r: t for r, t in enumerate(plan.graph.tracks()) if r not in plan.deferred}
-    rerouted = reroute(task, distances, tracks, list(plan.deferred))
-    if rerouted is None:
+    made_way = reroute(task, distances, tracks, list(plan.deferred))
+    if made_way is None:
         because = "one robot at a time finds no way, so all were planned together"
         return _plan_together(task, because)
     ordered = [track for _, track in sorted(tracks.items())]
-    status = "waits only"
-    if rerouted:  # shift the visits of robots that waited for a robot on its former route
+    status, names = "waits only", [robot.name for robot in task.scenario.robots]
+    if made_way:  # shift the visits of robots that waited for a robot on its former route
         ordered = graph_of(task.scenario, ordered).tracks()
-        names = [task.scenario.robots[robot].name for robot in rerouted]
-        status = f"re-routed {', '.join(names)}"
+    rerouted = [
+        robot
+        for robot in sorted(made_way)
+        if tuple(ordered[robot].vertices.tolist()) != plan.routes[robot].vertices
+    ]
+    if rerouted:
+        status = f"re-routed {', '.join(names[robot] for robot in rerouted)}"
     return Draft(
         tracks=tuple(ordered),
         status=status,
-        decisions=tuple(one for one in plan.decisions if not set(one.robots) & set(rerouted)),
+        decisions=tuple(one for one in plan.decisions if not made_way.keys() & set(one.robots)),
         reroutes=tuple(
-            Reroute(
-                robot=robot, because=plan.deferred.get(robot, "stood in the way of another one")
-            )
+            Reroute(robot=robot, because=plan.deferred.get(robot) or _for(names, made_way[robot]))
             for robot in rerouted
         ),
         keeps_swaps=not plan.sees_swaps,
     )
+
+
+def _for(names: Sequence[str], robot: int | None) -> str:
+    return f"it makes way for {'another robot' if robot is None else names[robot]}"
 
 
 def _plan_together(task: Task, because: str) -> Draft:
@@ -284,7 +291,7 @@ class _Reservations:
 
 def reroute(
     task: Task, distances: Distances, tracks: dict[int, Track], deferred: list[int]
-) -> list[int] | None:
+) -> dict[int, int | None] | None:
     """Add a track among the others to ``tracks`` for each robot without one.
 
     A robot that finds no way evicts the robots in its way, and these follow it in any order. The
@@ -292,9 +299,9 @@ def reroute(
 
     Returns
     -------
-    list of int or None
-        All robots whose route was changed, in the order of the fleet; None if that failed in a
-        bounded number of tries.
+    dict or None
+        All robots that were planned again, and the robot that each had to make way for first, None
+        for the deferred ones; None if that failed in a bounded number of tries.
 
     Raises
     ------
@@ -302,14 +309,14 @@ def reroute(
         When time ran out.
     """
     table = _Reservations(task, distances, tracks)
-    waiting, changed = deque(deferred), set(deferred)
+    waiting, made_way = deque(deferred), dict[int, int | None].fromkeys(deferred)
     failures: Counter[int] = Counter()
     draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
     for robot in deferred:
         table.hold_home(robot)
     for _ in range(TRIES_PER_ROBOT * len(table.itineraries)):
         if not waiting:
-            return sorted(changed)
+            return made_way
         task.deadline.check("sending robots another way")
         robot = waiting.popleft()
         if table.place(robot):
@@ -318,6 +325,6 @@ def reroute(
         failures[robot] += 1
         evicted = table.evict(table.blockers(robot).union(more))
         draw.shuffle(evicted)
-        changed |= set(evicted)
+        made_way = dict.fromkeys(evicted, robot) | made_way
         waiting.extend(evicted if table.place(robot) else [robot, *evicted])
     return None

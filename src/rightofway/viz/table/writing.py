@@ -127,6 +127,9 @@ def _legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
         notes.append(f"a column lasts {quantities.duration(table.step)}")
     if table.changes:
         notes.append("columns without a change are left out")
+    number = next((run.cell.place for row in table.rows for run in row.runs), None)
+    if quantities.units.length and isinstance(number, int):
+        notes.append(f"{number}: the cell N{number} of reports")
     lines: list[str] = []
     for note in notes:
         if lines and text_width(lines[-1]) + len("   ") + text_width(note) <= width:
