@@ -170,7 +170,7 @@ def test_all_faults_are_counted_but_only_the_earliest_listed() -> None:
     report = check(plan_of(grid_fleet(OPEN, ends, rules=Rules(ends="none")), CROWD), limit=1)
     assert told(report) == [("vertex conflict", (0, 1), (4,), 2)]
     assert (report.ok, report.total, report.counts) == (False, 3, {"vertex conflict": 3})
-    assert report.summary == "3 faults: 3 vertex conflict"
+    assert report.summary == "3 faults: 3 vertex conflicts"
     assert str(report).splitlines()[-1] == "and 2 more (raise the limit to list them)"
 
 

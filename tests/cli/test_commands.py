@@ -13,6 +13,8 @@ from PIL import Image
 from rightofway.cli.main import commands
 from tests.cli.conftest import EXAMPLES, SWAP, Cli
 
+DATA = Path(__file__).parents[1] / "data"
+
 STUCK = """format: rightofway-scenario/1
 map: {grid: ["...."]}
 robots:
@@ -337,6 +339,48 @@ def test_convert_writes_robots_with_a_radius_for_a_layout(cli: Cli) -> None:
     )
     lif = cli("convert", "nodes.csv", "--radius", "1", "--to", "lif", "-o", "-")
     assert "--radius is for a scenario" in lif.err
+
+
+@pytest.mark.parametrize(
+    ("ending", "begins"),
+    [(".geojson", '{"type": "FeatureCollection"'), (".graphml", "<?xml"), (".lif.json", "{")],
+)
+def test_convert_writes_a_layout_in_the_format_of_its_ending(
+    cli: Cli, ending: str, begins: str
+) -> None:
+    """The content is that of --to; a file that ends in .json only is a scenario."""
+    source = DATA / "layouts" / "hall.lif.json"
+    name = {".geojson": "nav2", ".graphml": "graphml", ".lif.json": "lif"}[ending]
+    assert cli("convert", source, "-o", f"site{ending}").code == 0
+    assert cli("convert", source, "--to", name, "-o", "other.txt").code == 0
+    written = Path(f"site{ending}").read_text("utf-8")
+    assert written == Path("other.txt").read_text("utf-8")
+    assert " ".join(written.split()).replace("{ ", "{").startswith(begins)
+    assert cli("convert", source, "-o", "site.json").code == 0
+    assert "rightofway-scenario/1" in Path("site.json").read_text("utf-8")
+
+
+def test_convert_writes_no_scenario_to_an_ending_of_layouts(cli: Cli, door: Path) -> None:
+    done = cli("convert", door, "-o", "door.geojson")
+    assert done.code == 2
+    assert f"'door.geojson' ends as layouts do, and {door} is none" in " ".join(done.err.split())
+
+
+def test_a_plan_of_another_program_and_an_own_one_are_shown_and_checked_together(cli: Cli) -> None:
+    """The map and the .scen file are for the other one; own plans hold theirs."""
+    folder = DATA / "bad"
+    files = ("--map", folder / "hall.map", "--scen", "own.scen")
+    row = "0\thall.map\t3\t2\t0\t0\t1\t0\t1\n"
+    Path("own.scen").write_text(f"version 1\n{row}", encoding="utf-8")
+    Path("paths.txt").write_text("Agent 0: (0,0)->(0,1)->\n", encoding="utf-8")
+    assert cli("convert", "paths.txt", *files, "-o", "own.json").code == 0
+    for plans in (("paths.txt", "own.json"), ("own.json", "paths.txt")):
+        shown = cli("show", *plans, *files, "--page", "both.html")
+        assert (shown.code, shown.err.splitlines()[-1]) == (0, "wrote both.html")
+        checked = cli("check", *plans, *files)
+        assert (checked.code, checked.out.count("no fault in 1 robot")) == (0, 2)
+    alone = cli("check", "own.json", "own.json", *files)
+    assert "leave out --map and --scen" in " ".join(alone.err.split())
 
 
 def test_convert_refuses_an_unknown_format_before_it_asks_for_a_file(cli: Cli) -> None:

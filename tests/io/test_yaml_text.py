@@ -84,6 +84,13 @@ def test_yaml_faults_are_told_with_their_line(text: str, fault: str) -> None:
 
 
 @either_parser
+def test_a_tab_in_yaml_is_called_a_tab() -> None:
+    """Nobody sees a tab in an editor: "a character that cannot start any token" is no help."""
+    with pytest.raises(InputError) as caught:
+        parse_yaml("a:\n\t- b\n")
+    assert str(caught.value) == "line 2: a tab stands where YAML wants spaces (use spaces)"
+
+
 def test_aliases_are_counted_in_full_before_they_are_followed() -> None:
     # 10 values in each list of aliases: the fifth level stands for 10^5 and more.
     levels = ["a0: &a0 [x, x, x, x, x, x, x, x, x]"]

@@ -59,6 +59,23 @@ FaultKind = Literal[
 """
 
 
+PLURALS: Mapping[FaultKind, str] = {
+    "unknown vertex": "unknown vertices",
+    "wrong home": "wrong homes",
+    "jump": "jumps",
+    "turn cut short": "turns cut short",
+    "stop missed": "stops missed",
+    "wrong end": "wrong ends",
+    "vertex conflict": "vertex conflicts",
+    "headway": "headways",
+    "swap conflict": "swap conflicts",
+    "rotation": "rotations",
+    "space conflict": "space conflicts",
+    "zone conflict": "zone conflicts",
+}
+"""Of several faults of a kind; a kind that is no noun has none."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fault:
     """One place where a plan breaks a rule.
@@ -120,7 +137,10 @@ class Report:
     @property
     def summary(self) -> str:
         """The number of faults of each kind, in a line."""
-        kinds = ", ".join(f"{count} {kind}" for kind, count in self.counts.items())
+        kinds = ", ".join(
+            f"{count} {kind if count == 1 else PLURALS.get(kind, kind)}"
+            for kind, count in self.counts.items()
+        )
         return f"{self.total} fault{'s' * (self.total != 1)}: {kinds}" if kinds else "no fault"
 
     def __str__(self) -> str:

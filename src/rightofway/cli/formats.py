@@ -29,8 +29,11 @@ Examples:
   rightofway convert plan.json --to nav2 -o paths.json
   rightofway convert hall.lif.json -o hall.yaml
   rightofway convert room.yaml --radius 0.3 -o hall.yaml
-  rightofway convert hall.lif.json --to nav2 -o hall.geojson
+  rightofway convert hall.lif.json -o hall.geojson
 """
+
+ENDINGS = {".geojson": "nav2", ".graphml": "graphml", ".lif.json": "lif"}
+"""Endings of files that say in which format a layout is written, without ``--to``."""
 
 SUFFIXES = (".yaml", ".yml", ".json", ".xlsx", ".scen")
 
@@ -98,8 +101,8 @@ def convert(
     command reports which of these it left out. A plan is written as .json, or with --to for a
     program on the site or another planner. A layout of another program (LIF, Nav2, Open-RMF, ROS
     map, openTCS, GraphML, CSV) becomes a scenario, .yaml or .json, that has the layout as its map
-    and a few robots to begin with; with --to it is written for another program, and a message names
-    what its format cannot say.
+    and a few robots to begin with. With --to, or to a file that ends in .geojson (Nav2), .graphml
+    or .lif.json, it is written for another program, and a message names what its format cannot say.
     """
     from rightofway.model import Plan
 
@@ -107,11 +110,14 @@ def convert(
     if (target is None) == (output is None):
         raise click.UsageError("give one file to write: convert SOURCE -o TARGET")
     path = target or output or ""
-    if name is None:
+    ending = _layout_ending(path) if name is None else None
+    if name is None and ending is None:
         _check_ending(path)
     if _is_layout(source):
-        _write_layout(source, path, name, radius)
+        _write_layout(source, path, name or ENDINGS.get(ending or ""), radius)
         return
+    if ending in ENDINGS and ending != ".lif.json":
+        raise click.UsageError(f"{path!r} ends as layouts do, and {source} is none")
     if radius is not None:
         raise click.UsageError(f"--radius is for layouts, and {source} is none")
     _refuse_layout_format(source, name)
@@ -131,6 +137,11 @@ def _check_format(name: str | None) -> None:
         meant = nearest(name, known)
         hint = f"did you mean {meant}?" if meant else f"give one of {', '.join(known)}"
         raise click.BadParameter(f"{name!r} is no format ({hint})", param_hint="--to")
+
+
+def _layout_ending(path: str) -> str | None:
+    """Return the ending of a file that only a layout of another program has."""
+    return next((each for each in ENDINGS if path.lower().endswith(each)), None)
 
 
 def _check_ending(path: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -67,19 +68,29 @@ def _files() -> dict[str, str | None]:
     return {"map_file": meta.get(f"{FILES}map"), "scen": meta.get(f"{FILES}scen")}
 
 
-def read_plan(path: str) -> Plan:
+def own_among(paths: Sequence[str]) -> Collection[str]:
+    """Return the plans that need no files of `foreign_options`, because others among them do."""
+    from rightofway.io import is_foreign
+
+    if len(paths) == 1 or not any(_files().values()):
+        return ()
+    own = [path for path in paths if not is_foreign(path)]
+    return own if len(own) < len(paths) else ()
+
+
+def read_plan(path: str, own: Collection[str] = ()) -> Plan:
     """Read a plan, ours or of another program; ``-`` is standard input."""
     from rightofway.io import load_plan
 
-    return load_plan(path, **_files())
+    return load_plan(path) if path in own else load_plan(path, **_files())
 
 
-def read_either(path: str, count: int | None = None) -> Plan | Scenario:
+def read_either(path: str, count: int | None = None, own: Collection[str] = ()) -> Plan | Scenario:
     """Read a plan or a scenario; ``-`` is standard input."""
     from rightofway.io import Loaded, load_either
 
     point_to_examples(path)
-    found = load_either(path, count=count, **_files())
+    found = load_either(path, count=count, **({} if path in own else _files()))
     return _noted(found, path) if isinstance(found, Loaded) else found
 
 

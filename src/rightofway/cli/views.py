@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.completion import PLANS, SCENARIOS, files
-from rightofway.cli.inputs import count_option, foreign_options, read_either, read_plan
+from rightofway.cli.inputs import (
+    count_option,
+    foreign_options,
+    own_among,
+    read_either,
+    read_plan,
+)
 from rightofway.cli.options import Time, as_json_option, quantities_of, ticks_option, writable
 from rightofway.cli.outputs import PAGE_SUFFIXES
 from rightofway.cli.terminal import complain, file_title, progress, put_json, put_report, say
@@ -62,10 +68,10 @@ def check(*, plans: tuple[str, ...], limit: int, in_ticks: bool, as_json: bool) 
     """
     from rightofway.check import check as judge
 
-    code, reports = 0, []
+    code, reports, own = 0, [], own_among(plans)
     for path in plans:
         try:
-            found = read_plan(path)
+            found = read_plan(path, own)
         except InputError as error:  # the other plans are checked all the same
             complain(str(error))
             code = 2
@@ -161,7 +167,8 @@ def show(
         message = f"{len(others) + 1} plans are too many to compare"
         raise click.UsageError(f"{message} (give at most {MAX_COMPARED})")
     _check_background(background, background_scale, [page, output])
-    found = read_either(plan, count)
+    own = own_among([plan, *others])
+    found = read_either(plan, count, own)
     if isinstance(found, Scenario):
         with progress(LIMIT) as report:
             found = solve(found, time_limit=LIMIT, report=report)
@@ -170,7 +177,7 @@ def show(
     extras: dict[str, Any] = {
         "title": first,
         "background": _background(background, background_scale, found),
-        "others": list(zip(map(read_plan, others), titles, strict=True)),
+        "others": list(zip((read_plan(each, own) for each in others), titles, strict=True)),
     }
     if page:
         _write(found, page, extras)

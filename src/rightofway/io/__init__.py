@@ -5,7 +5,7 @@
 else in the package.
 """
 
-from rightofway.io.foreign import FOREIGN_FORMATS, foreign_text
+from rightofway.io.foreign import FOREIGN_FORMATS, foreign_text, is_foreign
 from rightofway.io.formats import schema
 from rightofway.io.layouts import (
     LAYOUT_WRITERS,
@@ -34,6 +34,7 @@ __all__ = [
     "dump_scenario",
     "example_of_layout",
     "foreign_text",
+    "is_foreign",
     "is_layout",
     "layout_of_graph",
     "layout_text",

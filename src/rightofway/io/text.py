@@ -350,7 +350,12 @@ def parse_yaml(text: str, *, number_keys: bool = False) -> Any:
     except InputError:
         raise
     except yaml.MarkedYAMLError as error:
-        line = error.problem_mark.line + 1 if error.problem_mark else 1
+        mark = error.problem_mark
+        line = mark.line + 1 if mark else 1
+        rest = text.split("\n")[mark.line :] if mark else []
+        if mark and rest and rest[0][mark.column : mark.column + 1] == "\t":
+            message = "a tab stands where YAML wants spaces (use spaces)"
+            raise _fault(line, message) from None
         raise _fault(line, f"{error.problem} (check the YAML there)") from None
     except (yaml.YAMLError, ValueError, OverflowError) as error:
         reason = getattr(error, "reason", None) or "characters that no YAML file may hold"

@@ -1,5 +1,6 @@
 """Known points land where the source says; all numbers are worked out by hand."""
 
+import json
 from fractions import Fraction
 from math import pi
 from pathlib import Path
@@ -90,7 +91,8 @@ def test_nav2_edges_are_directed_and_limits_in_metres_per_second() -> None:
     assert any("percentage of a robot's speed" in note for note in found.notes)
 
 
-def test_graphml_lengths_below_the_straight_line_are_mended() -> None:
+def test_graphml_weights_that_contradict_the_positions_are_no_lengths() -> None:
+    """The weight of a > b is 1, and the line is 5 m long: that of b > c, 12.5, is none either."""
     found = read_layout(HERE / "hall.graphml")
     assert isinstance(found, Layout)
     assert points(found.level()) == {
@@ -98,11 +100,41 @@ def test_graphml_lengths_below_the_straight_line_are_mended() -> None:
     }  # fmt: skip
     assert lanes(found.level()) == {
         "a > b": (5, None), "b > a": (5, None),
-        "b > c": (12.5, None), "c > b": (12.5, None), "c > a": (5, None),
+        "b > c": (8, None), "c > b": (8, None), "c > a": (5, None),
     }  # fmt: skip
-    assert found.notes == (
-        "2 times: a lane shorter than the straight line gets the straight length",
+    (note,) = found.notes
+    assert note == (
+        "the attribute 'weight' is no length: by it, 2 lanes are shorter than the straight line;"
+        " all lanes get the straight length"
     )
+
+
+def test_graphml_weights_that_agree_with_the_positions_are_lengths(tmp_path: Path) -> None:
+    """A lane of 12.5 m between points 8 m apart is a curve."""
+    text = (HERE / "hall.graphml").read_text("utf-8").replace(">1<", ">5<")
+    (tmp_path / "hall.graphml").write_text(text, "utf-8")
+    found = read_layout(tmp_path / "hall.graphml")
+    assert isinstance(found, Layout)
+    assert lanes(found.level())["b > c"] == (12.5, None)
+    assert found.notes == ()
+
+
+def test_lif_numbers_that_are_text_are_named_in_a_note(tmp_path: Path) -> None:
+    """Also those that no plan depends on: a height, an angle, a weight of a trajectory."""
+    text = (HERE / "hall.lif.json").read_text("utf-8")
+    document = json.loads(text)
+    before = read_layout(HERE / "hall.lif.json")
+    node = document["layouts"][0]["nodes"][1]
+    node["nodePosition"]["x"] = str(node["nodePosition"]["x"])
+    document["layouts"][0]["stations"][0]["stationHeight"] = "0.55"
+    document["layouts"][0]["stations"][0]["stationPosition"] = {"x": 1, "y": 2, "theta": "3.1"}
+    (tmp_path / "hall.lif.json").write_text(json.dumps(document), "utf-8")
+    found = read_layout(tmp_path / "hall.lif.json")
+    assert isinstance(before, Layout)
+    assert isinstance(found, Layout)
+    assert found.levels == before.levels
+    assert "a number is written as text" in before.notes  # one in the file
+    assert "4 times: a number is written as text" in found.notes
 
 
 def test_opentcs_millimetres_become_metres_and_a_speed_of_zero_is_no_lane() -> None:

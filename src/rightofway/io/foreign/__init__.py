@@ -10,6 +10,12 @@ schedule    multi_agent_path_planning (atb033), libMultiRobotPlanning: a YAML sc
 ==========  ========================================================================
 """
 
-from rightofway.io.foreign.formats import FOREIGN_FORMATS, foreign_text, read_foreign, recognized
+from rightofway.io.foreign.formats import (
+    FOREIGN_FORMATS,
+    foreign_text,
+    is_foreign,
+    read_foreign,
+    recognized,
+)
 
-__all__ = ["FOREIGN_FORMATS", "foreign_text", "read_foreign", "recognized"]
+__all__ = ["FOREIGN_FORMATS", "foreign_text", "is_foreign", "read_foreign", "recognized"]

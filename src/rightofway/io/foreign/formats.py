@@ -11,6 +11,7 @@ from rightofway.errors import InputError, InputFault
 from rightofway.io.foreign import lacam, lns2, planviz, schedule
 from rightofway.io.foreign.trajectories import ForeignPlan, plan_of_trajectories
 from rightofway.io.marks import marked
+from rightofway.io.text import read_text
 from rightofway.model import Plan
 
 _LINE = re.compile("line ([0-9]+)")
@@ -71,6 +72,20 @@ def recognized(text: str) -> ForeignFormat | None:
         The content of a file.
     """
     return next((each for each in FOREIGN_FORMATS.values() if each.recognizes(text)), None)
+
+
+def is_foreign(path: Path | str) -> bool:
+    """Return whether a file is a plan in a format of another program, perhaps one with faults.
+
+    Parameters
+    ----------
+    path
+        The file; ``-`` is standard input.
+    """
+    try:
+        return recognized(read_text(Path(path))) is not None
+    except InputError:
+        return False
 
 
 def read_foreign(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, pairwise
@@ -51,6 +52,8 @@ class Lane:
         As those of `LayoutEdge`.
     length
         Its length [m]; None for the straight distance.
+    attribute
+        Where that is an attribute of a graph, which may be no length, its name.
     curve
         Points of the curve that it is driven along, both ends included [m]; empty for none.
     chord_error
@@ -61,6 +64,7 @@ class Lane:
     tail: str
     head: str
     length: Fraction | None = None
+    attribute: str = ""
     max_speed: Fraction | None = None
     types: frozenset[str] | None = None
     shape: tuple[Point, ...] = ()
@@ -105,6 +109,11 @@ def _in_micrometres(point: Point) -> tuple[int, int]:
 def _square(one: tuple[int, int], other: tuple[int, int]) -> int:
     """Return the squared distance of two points; whole numbers are quicker than fractions."""
     return (one[0] - other[0]) ** 2 + (one[1] - other[1]) ** 2
+
+
+def _is_short(length: Fraction, square: int) -> bool:
+    """Return whether a length is below the straight one by more than rounding makes of it."""
+    return length < 0 or ((length + SHORTEST) * MICRO) ** 2 < square
 
 
 class _Straight(dict[int, Fraction]):
@@ -175,7 +184,10 @@ class Draft:
             for lane in level.lanes
         ]
         straight = _Straight(rounding_step({Fraction(each, MICRO**2) for each in set(squares)}))
+        no_lengths = self._no_lengths(level.lanes, squares)
         for lane, square in zip(level.lanes, squares, strict=True):
+            if lane.attribute in no_lengths:
+                lane = replace(lane, length=None)  # noqa: PLW2901
             missing = [end for end in (lane.tail, lane.head) if end not in vertices]
             if any(end not in elsewhere for end in missing):
                 near = nearest(missing[0], vertices)
@@ -205,13 +217,28 @@ class Draft:
             picture=level.picture,
         )
 
+    def _no_lengths(self, lanes: Sequence[Lane], squares: Sequence[int]) -> set[str]:
+        """Return attributes that contradict the positions of one lane: they mean something else."""
+        wrong = Counter(
+            lane.attribute
+            for lane, square in zip(lanes, squares, strict=True)
+            if lane.attribute and lane.length is not None and _is_short(lane.length, square)
+        )
+        for name, count in wrong.items():
+            lane_is = "1 lane is" if count == 1 else f"{count} lanes are"
+            self.repair(
+                f"the attribute {shown(name)} is no length: by it, {lane_is} shorter than the"
+                " straight line; all lanes get the straight length"
+            )
+        return set(wrong)
+
     def _edge(self, lane: Lane, square: int, straight: Fraction) -> LayoutEdge:
         length = lane.length
         if square == 0:
             self.repair("a lane between two vertices at one position counts as 1 mm long")
             length = max(length or SHORTEST, SHORTEST)
         elif length is not None and length < straight:
-            if ((length + SHORTEST) * MICRO) ** 2 < square:
+            if _is_short(length, square):
                 self.repair("a lane shorter than the straight line gets the straight length")
             length = None
         return LayoutEdge(

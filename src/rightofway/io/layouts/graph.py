@@ -84,10 +84,19 @@ def _add_edge(
     tail, head = map(str, ends)
     place = f"edge {shown(tail)} to {shown(head)}"
 
-    def first(names: tuple[str, ...]) -> Fraction | None:
-        found = next((data[name] for name in names if data.get(name) is not None), None)
-        return None if found is None else number_in(found, place)
+    def first(names: tuple[str, ...]) -> tuple[str, Fraction | None]:
+        found = next((name for name in names if data.get(name) is not None), "")
+        return found, number_in(data[found], place) if found else None
 
-    length, max_speed = first(LENGTHS), first(SPEEDS)
+    (attribute, length), (_, max_speed) = first(LENGTHS), first(SPEEDS)
     for one, other in ((tail, head),) if is_directed else ((tail, head), (head, tail)):
-        level.connect(Lane(place=place, tail=one, head=other, length=length, max_speed=max_speed))
+        level.connect(
+            Lane(
+                place=place,
+                tail=one,
+                head=other,
+                length=length,
+                attribute=attribute,
+                max_speed=max_speed,
+            )
+        )

@@ -93,11 +93,11 @@ def _add_edge(level: LevelDraft, edge: Element, keys: dict[str, str], is_directe
     one_way = own.get("directed", str(is_directed)).lower() in {"true", "1"}
     tail, head = edge.label("source"), edge.label("target")
 
-    def first(names: tuple[str, ...]) -> Fraction | None:
-        found = next((own[name] for name in names if own.get(name)), None)
-        return None if found is None else number_in(found, edge.place)
+    def first(names: tuple[str, ...]) -> tuple[str, Fraction | None]:
+        found = next((name for name in names if own.get(name)), "")
+        return found, number_in(own[found], edge.place) if found else None
 
-    length, max_speed = first(LENGTHS), first(SPEEDS)
+    (attribute, length), (_, max_speed) = first(LENGTHS), first(SPEEDS)
     for ends in ((tail, head),) if one_way else ((tail, head), (head, tail)):
         level.connect(
             Lane(
@@ -105,6 +105,7 @@ def _add_edge(level: LevelDraft, edge: Element, keys: dict[str, str], is_directe
                 tail=ends[0],
                 head=ends[1],
                 length=length,
+                attribute=attribute,
                 max_speed=max_speed,
             )
         )

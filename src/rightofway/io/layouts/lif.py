@@ -11,6 +11,7 @@ VDMA, *Layout Interchange Format (LIF)*, version 1.0.0, 2024. The examples of th
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
@@ -30,6 +31,10 @@ NODE_PROPERTIES = ("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties")
 EDGE_PROPERTIES = ("vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties")
 ACTIONS = ("actions", "requiredActions", "feasibleActions")
 SPEEDS = ("maxSpeed", "maximumSpeed")
+
+NUMBERS = {"x", "y", "theta", *SPEEDS, "maxRotationSpeed", "maximumRotationSpeed", "minHeight",
+           "maxHeight", "stationHeight", "degree", "knotVector", "weight"}  # fmt: skip
+"""Keys of numbers, in both versions."""
 
 CHARGING = "startCharging"
 """The action that makes a node a charging place."""
@@ -51,12 +56,14 @@ def read(document: Any) -> Layout:
         With every node, edge and station that cannot be used.
     """
     draft, root = Draft("LIF layout"), Part(document)
+    for _ in _numbers_as_text(document):
+        draft.repair("a number is written as text")
     origins = [root] if root.get("origins") is None else root.need("origins").items()
     layouts = [layout for origin in origins for layout in origin.need("layouts").items()]
     for part, name in zip(layouts, _level_names(layouts), strict=True):
         level = draft.level(name)
         for node in part.need("nodes").items():
-            draft.faults.attempt("", _add_node, level, node, draft)
+            draft.faults.attempt("", _add_node, level, node)
         for edge in _items(part, "edges", draft):
             draft.faults.attempt("", _add_edge, level, edge, draft)
         for station in _items(part, "stations", draft):
@@ -82,18 +89,24 @@ def _items(part: Part, key: str, draft: Draft) -> list[Part]:
     return found.items()
 
 
-def _number(part: Part, draft: Draft) -> Fraction:
-    if isinstance(part.value, str):
-        draft.repair("a number is written as text")
-    return part.number()
+def _numbers_as_text(value: Any, is_number: bool = False) -> Iterator[str]:
+    """Yield the numbers of a document that are text, also those that nothing here depends on."""
+    if isinstance(value, dict):
+        for key, child in value.items():
+            yield from _numbers_as_text(child, key in NUMBERS)
+    elif isinstance(value, list):
+        for child in value:
+            yield from _numbers_as_text(child, is_number)
+    elif is_number and isinstance(value, str):
+        yield value
 
 
-def _add_node(level: LevelDraft, node: Part, draft: Draft) -> None:
+def _add_node(level: LevelDraft, node: Part) -> None:
     name, at = node.need("nodeId").text(), node.need("nodePosition")
     level.add(
         LayoutVertex(
             name=name,
-            at=(_number(at.need("x"), draft), _number(at.need("y"), draft)),
+            at=(at.need("x").number(), at.need("y").number()),
             is_charging=any(
                 action.value.get("actionType") == CHARGING
                 for own in _listed(node, *NODE_PROPERTIES)
@@ -120,7 +133,7 @@ def _add_edge(level: LevelDraft, edge: Part, draft: Draft) -> None:
     ways: dict[tuple[Fraction | None, Curve], set[str]] = {}
     for each in own:
         speed = next(filter(None, map(each.get, SPEEDS)), None)
-        limit = None if speed is None else _number(speed, draft)
+        limit = None if speed is None else speed.number()
         way = limit, _curve(each, draft)
         ways.setdefault(way, set()).update(_types(each))
     for (limit, (curve, error)), types in ways.items():  # one lane for all types with one way
@@ -151,7 +164,7 @@ def _curve(own: Part, draft: Draft) -> Curve:
     if trajectory is None:
         return (), Fraction(0)
     try:
-        found = _nurbs(trajectory, draft)
+        found = _nurbs(trajectory)
         pieces = found.pieces()
     except (InputError, ValueError):
         draft.repair("a trajectory that cannot be read: its edge counts as straight")
@@ -164,17 +177,15 @@ def _curve(own: Part, draft: Draft) -> Curve:
     return points, error
 
 
-def _nurbs(trajectory: Part, draft: Draft) -> Nurbs:
+def _nurbs(trajectory: Part) -> Nurbs:
     degree = trajectory.get("degree")
     controls = trajectory.need("controlPoints").items()
-    knots = [float(_number(each, draft)) for each in trajectory.need("knotVector").items()]
+    knots = [float(each.number()) for each in trajectory.need("knotVector").items()]
     weights = (each.get("weight") for each in controls)
     return Nurbs(
-        degree=1 if degree is None else int(_number(degree, draft)),
+        degree=1 if degree is None else int(degree.number()),
         knots=np.array(knots),
-        points=np.array(
-            [[float(_number(each.need(axis), draft)) for axis in "xy"] for each in controls]
-        ),
+        points=np.array([[float(each.need(axis).number()) for axis in "xy"] for each in controls]),
         weights=np.array([1.0 if each is None else float(each.number()) for each in weights]),
     )
 
