@@ -63,7 +63,11 @@ Document = dict[str, Any]
 
 
 def any_fleet(
-    *, robots: tuple[int, int] = (1, 4), without: Collection[str] = (), always: Collection[str] = ()
+    *,
+    robots: tuple[int, int] = (1, 4),
+    without: Collection[str] = (),
+    always: Collection[str] = (),
+    apart: bool = False,
 ) -> st.SearchStrategy[Scenario]:
     """Return fleets of any kind; some have no plan.
 
@@ -75,8 +79,11 @@ def any_fleet(
         Features that no fleet has: those that the contract of the tested function refuses.
     always
         Features that each fleet has.
+    apart
+        Whether no robot ends its work at a home.
     """
-    return fleet_documents(robots=robots, without=without, always=always).map(_scenario)
+    drawn = fleet_documents(robots=robots, without=without, always=always, apart=apart)
+    return drawn.map(_scenario)
 
 
 def _scenario(document: Document) -> Scenario:
@@ -89,7 +96,12 @@ def _scenario(document: Document) -> Scenario:
 
 @st.composite
 def fleet_documents(
-    draw: st.DrawFn, *, robots: tuple[int, int], without: Collection[str], always: Collection[str]
+    draw: st.DrawFn,
+    *,
+    robots: tuple[int, int],
+    without: Collection[str],
+    always: Collection[str],
+    apart: bool,
 ) -> Document:
     """Return scenario files, read."""
     unknown = {*without, *always} - set(FEATURES)
@@ -98,8 +110,9 @@ def fleet_documents(
     has = {*always, *draw(st.sets(st.sampled_from(may), max_size=7) if may else st.just(set()))}
     site, places = _site(draw, has)
     count = draw(st.sampled_from(range(robots[0], min(robots[1], len(places) // 2) + 1)))
-    some = st.lists(st.sampled_from(places), min_size=count, max_size=count, unique=True)
-    homes, targets = draw(some), draw(some)
+    homes = draw(st.lists(st.sampled_from(places), min_size=count, max_size=count, unique=True))
+    left = [place for place in places if not apart or place not in homes]
+    targets = draw(st.lists(st.sampled_from(left), min_size=count, max_size=count, unique=True))
     ways = site.get("roadmap", {}).get("edges", [])
     return {
         "format": "rightofway-scenario/1",

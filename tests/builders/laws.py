@@ -30,7 +30,7 @@ from hypothesis.strategies import SearchStrategy
 from rightofway.io import scenario_text
 from rightofway.model import Scenario
 
-__all__ = ["law", "leave"]
+__all__ = ["law", "leave", "once"]
 
 FEWEST = 3
 """Cases that a law judges, however short its budget."""
@@ -68,6 +68,7 @@ def law(
         For the last parameters of the test, in their order.
     named
         For parameters by name. All others are fixtures or parameters of pytest.
+
     """
 
     def decorate(test: Callable[..., None]) -> Callable[..., None]:
@@ -76,7 +77,12 @@ def law(
         drawn = {**dict(zip(last[len(last) - len(strategies) :], strategies, strict=True)), **named}
 
         def run(law_run: LawRun, **given_by_pytest: Any) -> None:
-            law_run.hold(lambda **case: test(**given_by_pytest, **case), drawn)
+            def case(**drawn: Any) -> None:
+                test(**given_by_pytest, **drawn)
+
+            for found in getattr(test, "found_once", ()):
+                case(**found)
+            law_run.hold(case, drawn)
 
         run.__name__, run.__doc__, run.__module__ = test.__name__, test.__doc__, test.__module__
         kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
@@ -84,6 +90,16 @@ def law(
         run.__signature__ = inspect.Signature([inspect.Parameter("law_run", kind), *rest])  # type: ignore[attr-defined]
         run.__dict__.update(test.__dict__)
         return run
+
+    return decorate
+
+
+def once(**found: Any) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Have a law judge a case that was found once, each time and first; stands below ``@law``."""
+
+    def decorate(test: Callable[..., None]) -> Callable[..., None]:
+        test.__dict__.setdefault("found_once", []).append(found)
+        return test
 
     return decorate
 

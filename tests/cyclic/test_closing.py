@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import islice
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 
 from rightofway.cyclic import run_laps
@@ -23,13 +23,12 @@ from rightofway.errors import InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline
 from tests.builders.fleets import random_fleet
+from tests.builders.laws import law
 from tests.builders.seeds import seeds
 from tests.builders.sizes import repeated
 from tests.oracles import periodic_bookings as oracle
 from tests.oracles import periodic_space
 
-few = settings(max_examples=30, derandomize=True, deadline=None)
-many = settings(max_examples=60, derandomize=True, deadline=None)
 RULES = [Rules(), Rules(headway=Fraction(2)), Rules(occupancy="both"), Rules(rotations=False)]
 PERIODS = 6
 """How many periods of a pattern the history of an open group holds."""
@@ -82,8 +81,7 @@ def open_run(scenario: Scenario) -> tuple[GroupResult, Pattern]:
     return replace(run, ends="open", history=history, pattern=None), pattern
 
 
-@few
-@given(fleets())
+@law(fleets())
 def test_closed_windows_keep_every_rule_across_the_seam(scenario: Scenario) -> None:
     run, _ = open_run(scenario)
     problem, context = problem_of(run), run.context
@@ -95,8 +93,7 @@ def test_closed_windows_keep_every_rule_across_the_seam(scenario: Scenario) -> N
         assert oracle.faults(timetable, headway=context.headway, books_ahead=ahead) == []
 
 
-@few
-@given(fleets())
+@law(fleets())
 def test_the_best_window_is_not_below_the_run_in_the_long_run(scenario: Scenario) -> None:
     run, pattern = open_run(scenario)
     problem = problem_of(run)
@@ -124,8 +121,7 @@ def long_runs(draw: st.DrawFn) -> GroupResult:
     return run
 
 
-@many
-@given(long_runs(), st.integers(3, 15), st.integers(1, 3))
+@law(long_runs(), st.integers(3, 15), st.integers(1, 3))
 def test_a_closed_stretch_keeps_every_rule_across_the_seam(
     run: GroupResult, laps: int, begins: int
 ) -> None:
@@ -145,8 +141,7 @@ def test_a_closed_stretch_keeps_every_rule_across_the_seam(
         assert oracle.faults(timetable, headway=context.headway, books_ahead=ahead) == []
 
 
-@many
-@given(long_runs())
+@law(long_runs())
 def test_the_value_of_a_stretch_is_a_bound(run: GroupResult) -> None:
     problem = problem_of(run)
     for value, stretch in stretches(problem, run)[:2]:

@@ -3,7 +3,7 @@
 import random
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 
 from rightofway.cyclic.pattern import pattern_of
@@ -15,6 +15,7 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline
 from tests.builders.fleets import fleet_on, random_grid
+from tests.builders.laws import law
 from tests.builders.seeds import seeds
 from tests.builders.sizes import repeated
 from tests.oracles.lap_rules import rolling
@@ -55,8 +56,7 @@ def outcome(simulation: Simulation) -> tuple[int, int] | Deadlock | None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("rule", NATIVE_RULES)
-@settings(max_examples=150, deadline=None)
-@given(seed=st.integers(0, 2**32), rules=some_rules)
+@law(seed=st.integers(0, 2**32), rules=some_rules)
 def test_the_kernel_decides_as_one_window_after_the_other_does(
     rule: str, seed: int, rules: Rules
 ) -> None:
@@ -96,8 +96,7 @@ def test_the_kernel_decides_as_windows_do_for_robots_with_a_size(seed: int, rule
 
 
 @pytest.mark.parametrize("rule", RULES)
-@settings(max_examples=60, deadline=None)
-@given(seed=st.integers(0, 2**32), rules=some_rules)
+@law(seed=st.integers(0, 2**32), rules=some_rules)
 def test_what_follows_a_recurrence_is_the_pattern(rule: str, seed: int, rules: Rules) -> None:
     """The rule continues to decide, without the states seen so far."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)

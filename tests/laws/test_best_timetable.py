@@ -6,7 +6,7 @@ import math
 from fractions import Fraction
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 
 from rightofway.cyclic import Comparison, CyclicResult, best_timetable, plan_of, run_laps
@@ -15,9 +15,9 @@ from rightofway.model import Rules, Scenario
 from rightofway.planners import planning_headway
 from rightofway.precedence import TimedEventGraph
 from tests.builders.fleets import grid_fleet, random_fleet
+from tests.builders.laws import law
 from tests.oracles import periodic_bookings as oracle
 
-law = settings(max_examples=30, derandomize=True, deadline=None)
 RULES = [Rules(), Rules(headway=Fraction(2)), Rules(occupancy="both"), Rules(rotations=False)]
 
 
@@ -45,8 +45,7 @@ def comparisons(result: CyclicResult) -> list[Comparison]:
     return [group.comparison for group in result.groups if group.comparison is not None]
 
 
-@law
-@given(fleets())
+@law(fleets())
 def test_three_periods_of_a_chosen_timetable_have_no_fault(scenario: Scenario) -> None:
     result = chosen(scenario)
     headway, ahead = planning_headway(scenario), scenario.rules.books_ahead
@@ -69,8 +68,7 @@ def test_three_periods_of_a_chosen_timetable_have_no_fault(scenario: Scenario) -
     assert sum(map(len, places)) == len(set().union(*places))
 
 
-@law
-@given(fleets())
+@law(fleets())
 def test_it_is_never_below_first_come_first_served(scenario: Scenario) -> None:
     own_groups = comparisons(chosen(scenario))
     baseline = run_laps(scenario, "first-come", time_limit=None)
@@ -83,8 +81,7 @@ def test_it_is_never_below_first_come_first_served(scenario: Scenario) -> None:
             assert starves or own.throughput >= own.baseline
 
 
-@settings(law, max_examples=10)
-@given(fleets())
+@law(fleets())
 def test_the_same_seed_and_rounds_give_the_same_timetable(scenario: Scenario) -> None:
     one, other = chosen(scenario, rounds=3), chosen(scenario, rounds=3)
     for first, second in zip(one.groups, other.groups, strict=True):
@@ -94,8 +91,7 @@ def test_the_same_seed_and_rounds_give_the_same_timetable(scenario: Scenario) ->
         assert [list(past) for past in first.history] == [list(past) for past in second.history]
 
 
-@law
-@given(fleets())
+@law(fleets())
 def test_the_judge_passes_its_laps_as_a_plan(scenario: Scenario) -> None:
     run = chosen(scenario)
     homes = {robot.home for robot in scenario.robots}

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway import _core
+from tests.builders.laws import law
 from tests.oracles.congestion import Congestion
 from tests.oracles.distances import Edge, distances_to
-
-law = settings(max_examples=200, derandomize=True, deadline=None)
 
 
 @st.composite
@@ -57,8 +55,7 @@ def kernel_of(floor: Congestion) -> _core.Congestion:
     return _core.Congestion(problem, floor.shares, np.array(floor.station, np.int64))
 
 
-@law
-@given(floors(), st.data())
+@law(floors(), st.data())
 def test_each_robots_path_is_the_cheapest_among_those_before(
     floor: Congestion, data: st.DataObject
 ) -> None:

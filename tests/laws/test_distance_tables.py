@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway._core import DistanceTables
+from tests.builders.laws import law
 from tests.oracles.distances import Edge, distances_to
-
-law = settings(max_examples=150, derandomize=True, deadline=None)
 
 
 @st.composite
@@ -29,8 +27,7 @@ def tables(n_vertices: int, edges: list[Edge]) -> DistanceTables:
     return DistanceTables(indptr, np.array([edge.end for edge in edges], np.int32))
 
 
-@law
-@given(graphs())
+@law(graphs())
 def test_every_table_is_what_a_plain_search_finds(graph: tuple[int, list[Edge]]) -> None:
     n_vertices, edges = graph
     ticks = np.array([edge.ticks for edge in edges], np.int32)
@@ -40,8 +37,7 @@ def test_every_table_is_what_a_plain_search_finds(graph: tuple[int, list[Edge]])
         assert kernel.to(target, ticks).tolist() == distances_to(target, n_vertices, edges)
 
 
-@law
-@given(graphs(), st.integers(2, 5))
+@law(graphs(), st.integers(2, 5))
 def test_slower_robots_have_the_same_tables_in_longer_ticks(
     graph: tuple[int, list[Edge]], factor: int
 ) -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.model import Rules, Scenario, route_of
 from rightofway.search import Distances, earliest_track
 from tests.builders.booked import booked_on, table_of
 from tests.builders.fleets import grid_fleet
+from tests.builders.laws import law
 from tests.oracles.sipp import Booked, earliest_completion
 
 GRIDS = (["...", ".@.", "..."], ["....", "@.@@"], [".....", "..@..", "....."])
@@ -33,8 +33,7 @@ def problems(draw: st.DrawFn) -> tuple[Scenario, list[Booked]]:
     return scenario, draw(booked_on(scenario.roadmap))
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
-@given(problems())
+@law(problems())
 def test_the_search_finds_the_earliest_completion(drawn: tuple[Scenario, list[Booked]]) -> None:
     scenario, booked = drawn
     problem, both = scenario.problem, scenario.rules.occupancy == "both"

@@ -9,13 +9,14 @@ from math import prod
 from typing import TYPE_CHECKING
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 
 import rightofway
 from rightofway.metrics import measure
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
 from tests.builders.fleets import random_fleet
+from tests.builders.laws import law
 from tests.builders.small import STRICT
 from tests.oracles import precedence
 from tests.oracles.fixed_routes import best_on, least_flowtime, routes_of
@@ -116,8 +117,7 @@ def comes_round(heads: dict[int, int], start: int) -> bool:
     return False
 
 
-@settings(max_examples=300, derandomize=True, deadline=None)
-@given(systems(), st.booleans())
+@law(systems(), st.booleans())
 def test_the_optimum_is_the_least_flowtime_of_all_orders(system: System, rotations: bool) -> None:
     orders = choices(system)
     assume(prod(map(len, orders)) <= MOST_ORDERS)

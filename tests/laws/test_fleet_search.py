@@ -6,7 +6,6 @@ import random
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.check import check
@@ -23,8 +22,7 @@ from rightofway.model import (
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 from tests.builders.fleets import grid_fleet, random_fleet
-
-law = settings(max_examples=25, deadline=None, derandomize=True)
+from tests.builders.laws import law
 
 RULES = st.builds(
     Rules,
@@ -50,8 +48,7 @@ def judged(scenario: Scenario, tracks: tuple[Track, ...]) -> bool:
     return check(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="any"))).ok
 
 
-@law
-@given(FLEETS, st.integers(0, 99))
+@law(FLEETS, st.integers(0, 99))
 def test_plans_are_sound_better_each_time_and_the_same_on_any_number_of_threads(
     scenario: Scenario, seed: int
 ) -> None:
@@ -73,14 +70,12 @@ def test_plans_are_sound_better_each_time_and_the_same_on_any_number_of_threads(
     assert all(search.tracks() == better for search in searches)
 
 
-@law
-@given(FLEETS)
+@law(FLEETS)
 def test_the_least_completions_are_those_of_the_metrics(scenario: Scenario) -> None:
     assert tuple(search_of(scenario).alone()) == alone_completions(scenario)
 
 
-@law
-@given(FLEETS)
+@law(FLEETS)
 def test_tracks_that_are_taken_over_come_back_as_they_are(scenario: Scenario) -> None:
     one, other = search_of(scenario), search_of(scenario)
     if one.prioritize(range(len(scenario.robots)), searches=500, time_limit=None):
@@ -89,8 +84,7 @@ def test_tracks_that_are_taken_over_come_back_as_they_are(scenario: Scenario) ->
         assert other.cost == one.cost
 
 
-@law
-@given(FLEETS, st.integers(0, 99))
+@law(FLEETS, st.integers(0, 99))
 def test_retiming_gives_the_timetable_of_the_precedence_graph(
     scenario: Scenario, seed: int
 ) -> None:

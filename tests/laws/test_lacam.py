@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.model import Rules, Scenario, Track
@@ -12,6 +11,7 @@ from rightofway.planners import planning_problem
 from rightofway.precedence import graph_of
 from rightofway.search import plan_by_lacam
 from tests.builders.fleets import grid_fleet
+from tests.builders.laws import law
 from tests.oracles.lacam import Fleet, tracks_by_lacam
 
 GRIDS = (
@@ -50,8 +50,7 @@ def fleets(draw: st.DrawFn) -> Scenario:
     )
 
 
-@settings(max_examples=300, derandomize=True, deadline=None)
-@given(fleets(), st.integers(0, 2**64 - 1))
+@law(fleets(), st.integers(0, 2**64 - 1))
 def test_the_kernel_finds_the_plan_of_the_oracle(scenario: Scenario, seed: int) -> None:
     """Both tell one robot more where to go where robots that choose alone get stuck."""
     problem = planning_problem(scenario)

@@ -6,21 +6,19 @@ import random
 from dataclasses import replace
 
 import numpy as np
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.model import Lap, Tick, VertexId
 from rightofway.precedence import TimedEventGraph
 from rightofway.search import PeriodicBookings
+from tests.builders.laws import law
 from tests.builders.periodic import random_timetable
 from tests.oracles import periodic_bookings as oracle
 
-law = settings(max_examples=300, derandomize=True, deadline=None)
 CORRIDOR = 4
 
 
-@law
-@given(
+@law(
     st.integers(0, 10**9),
     st.integers(2, 4),
     st.sampled_from([0, 0, 1, 2]),
@@ -99,8 +97,7 @@ def others(draw: st.DrawFn) -> list[oracle.Visit]:
     return visits
 
 
-@law
-@given(
+@law(
     lap=trips(),
     visits=others(),
     count=st.integers(0, 2),

@@ -6,7 +6,7 @@ import random
 from dataclasses import replace
 from fractions import Fraction
 
-from hypothesis import assume, given, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 
 from rightofway.cyclic.route import cyclic_routes
@@ -15,10 +15,10 @@ from rightofway.planners import planning_headway
 from rightofway.precedence import CyclicSchedule
 from rightofway.search import Distances, PeriodicBookings, RoundTrip
 from tests.builders.fleets import grid_fleet, random_fleet
+from tests.builders.laws import law
 from tests.builders.periodic import timetable_of
 from tests.oracles import periodic_bookings as oracle
 
-law = settings(max_examples=60, derandomize=True, deadline=None)
 RULES = [Rules(), Rules(headway=Fraction(1)), Rules(occupancy="both"), Rules(rotations=False)]
 
 
@@ -58,8 +58,7 @@ def does_its_work(scenario: Scenario, itinerary: Itinerary, lap: Lap) -> bool:
     )
 
 
-@law
-@given(st.integers(0, 10**6), st.integers(2, 4), st.sampled_from(RULES))
+@law(st.integers(0, 10**6), st.integers(2, 4), st.sampled_from(RULES))
 def test_a_route_is_found_exactly_where_there_is_one(seed: int, robots: int, rules: Rules) -> None:
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
     size = 3 if robots == 2 else 4

@@ -5,13 +5,13 @@ from __future__ import annotations
 from fractions import Fraction
 from math import floor
 
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, scenario_of
 from rightofway.model import Roadmap, Robot, Scenario, Stop, VertexId, roadmap_of_grid
 from rightofway.model.places import Spot, vertex_at
+from tests.builders.laws import law
 
 sizes = st.fractions(Fraction(1, 20), 5, max_denominator=40)
 coordinates = st.fractions(-50, 50, max_denominator=40)
@@ -33,8 +33,7 @@ def vertex_or_none(roadmap: Roadmap, spot: Spot) -> int | None:
         return None
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
-@given(grids(), st.fractions(0, 1, max_denominator=20), st.fractions(0, 1, max_denominator=20))
+@law(grids(), st.fractions(0, 1, max_denominator=20), st.fractions(0, 1, max_denominator=20))
 def test_every_point_inside_a_free_cell_is_that_cell(
     roadmap: Roadmap, right: Fraction, up: Fraction
 ) -> None:
@@ -49,8 +48,7 @@ def test_every_point_inside_a_free_cell_is_that_cell(
         assert found == vertex or {right, up} & {0, 1}
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
-@given(grids(), coordinates, coordinates)
+@law(grids(), coordinates, coordinates)
 def test_a_point_is_in_the_cell_that_counting_from_the_corner_gives(
     roadmap: Roadmap, x: Fraction, y: Fraction
 ) -> None:
@@ -65,8 +63,7 @@ def test_a_point_is_in_the_cell_that_counting_from_the_corner_gives(
     assert vertex_or_none(roadmap, Spot(x, y)) == (None if expected < 0 else expected)
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
-@given(grids(), st.data())
+@law(grids(), st.data())
 def test_a_scenario_with_points_is_the_one_with_names(
     roadmap: Roadmap, data: st.DataObject
 ) -> None:

@@ -10,16 +10,12 @@ from itertools import accumulate
 from typing import Literal, NamedTuple
 
 import numpy as np
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway._core import PrecedenceGraph
+from tests.builders.laws import law
 from tests.oracles import precedence as oracle
 from tests.oracles.precedence import Right, System
-
-law = settings(max_examples=120, derandomize=True, deadline=None)
-main_law = settings(law, max_examples=300)
-
 
 Kind = Literal["give", "take back", "flip", "go back"]
 
@@ -221,8 +217,7 @@ def take(step: Step, twin: Twin, kernel: PrecedenceGraph) -> tuple[bool, bool]:
     return possible, twin.do(step)
 
 
-@main_law
-@given(runs())
+@law(runs())
 def test_kernel_and_twin_agree_after_every_step(run: tuple[System, list[Step]]) -> None:
     system, todo = run
     kernel, twin = system.kernel(), Twin(system)
@@ -237,8 +232,7 @@ def test_kernel_and_twin_agree_after_every_step(run: tuple[System, list[Step]]) 
     check(system, twin.rights, kernel)
 
 
-@law
-@given(runs())
+@law(runs())
 def test_times_never_decrease_when_a_right_of_way_is_given(run: tuple[System, list[Step]]) -> None:
     system, todo = run
     kernel = system.kernel()
@@ -249,8 +243,7 @@ def test_times_never_decrease_when_a_right_of_way_is_given(run: tuple[System, li
             assert (kernel.enter() >= before).all()
 
 
-@law
-@given(runs())
+@law(runs())
 def test_times_never_increase_when_a_right_of_way_is_taken_back(
     run: tuple[System, list[Step]],
 ) -> None:
@@ -266,8 +259,7 @@ def test_times_never_increase_when_a_right_of_way_is_taken_back(
     check(system, [], kernel)
 
 
-@law
-@given(runs())
+@law(runs())
 def test_a_refusal_changes_nothing_and_its_cycle_is_a_real_one(
     run: tuple[System, list[Step]],
 ) -> None:
@@ -292,8 +284,7 @@ def test_a_refusal_changes_nothing_and_its_cycle_is_a_real_one(
         assert length > 0 or (length == 0 and len(cycle) == 2 and system.swaps_conflict)
 
 
-@law
-@given(runs())
+@law(runs())
 def test_going_back_to_the_start_restores_the_start(run: tuple[System, list[Step]]) -> None:
     system, todo = run
     kernel, twin = system.kernel(), Twin(system)
@@ -307,8 +298,7 @@ def test_going_back_to_the_start_restores_the_start(run: tuple[System, list[Step
     check(system, [], kernel)
 
 
-@law
-@given(runs())
+@law(runs())
 def test_marks_nest_and_can_be_gone_back_to_more_than_once(
     run: tuple[System, list[Step]],
 ) -> None:
@@ -326,8 +316,7 @@ def test_marks_nest_and_can_be_gone_back_to_more_than_once(
         take(step, twin, kernel)
 
 
-@law
-@given(runs(), st.integers(0, 3))
+@law(runs(), st.integers(0, 3))
 def test_who_is_withdrawn_is_as_if_never_there_and_the_others_keep_their_rights(
     run: tuple[System, list[Step]], who: int
 ) -> None:

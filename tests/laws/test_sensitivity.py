@@ -5,19 +5,17 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.precedence import TimedEventGraph, critical_circuit_without, sensitivity
+from tests.builders.laws import law
 from tests.builders.periodic import patterns
 
-law = settings(max_examples=150, derandomize=True, deadline=None)
 LITTLE = Fraction(1, 10**5)
 """A part so small that no other circuit of these small fleets takes over within it."""
 
 
-@law
-@given(patterns(), st.randoms(use_true_random=False))
+@law(patterns(), st.randoms(use_true_random=False))
 def test_gain_loss_and_reach_are_those_of_the_cycle_time_itself(
     graph: TimedEventGraph, draw: np.random.Generator
 ) -> None:

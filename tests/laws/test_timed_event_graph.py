@@ -6,46 +6,40 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway import _core
 from rightofway.model import Tick
 from rightofway.precedence import CyclicSchedule, TimedEventGraph, unrolled
+from tests.builders.laws import law
 from tests.builders.periodic import patterns
 from tests.oracles import timed_event_graph as oracle
-
-law = settings(max_examples=300, derandomize=True, deadline=None)
 
 
 def slow_arcs(graph: TimedEventGraph) -> list[oracle.Arc]:
     return oracle.arcs_of(graph.timetable, headway=graph.headway, books_ahead=graph.books_ahead)
 
 
-@law
-@given(patterns())
+@law(patterns())
 def test_arcs_are_those_of_the_visits_laid_out_one_by_one(graph: TimedEventGraph) -> None:
     arcs = graph.arcs
     rows = zip(arcs.tail, arcs.head, arcs.length, arcs.height, strict=True)
     assert sorted(tuple(map(int, row)) for row in rows) == sorted(slow_arcs(graph))
 
 
-@law
-@given(patterns())
+@law(patterns())
 def test_the_period_by_theory_is_the_period_of_the_running_fleet(graph: TimedEventGraph) -> None:
     arcs = oracle.turned(graph.timetable, slow_arcs(graph))
     assert graph.critical_circuit().cycle_time == oracle.run_until_it_repeats(len(graph), arcs)
 
 
-@settings(law, max_examples=100)
-@given(patterns())
+@law(patterns())
 def test_policy_iteration_finds_what_karp_does(graph: TimedEventGraph) -> None:
     arcs = oracle.turned(graph.timetable, slow_arcs(graph))
     assert graph.critical_circuit().cycle_time == oracle.karp(len(graph), arcs)
 
 
-@law
-@given(patterns())
+@law(patterns())
 def test_the_critical_circuit_is_one_and_as_long_as_it_says(graph: TimedEventGraph) -> None:
     found, arcs = graph.critical_circuit(), graph.arcs
     on = arcs.chosen(found.arcs)
@@ -53,8 +47,7 @@ def test_the_critical_circuit_is_one_and_as_long_as_it_says(graph: TimedEventGra
     assert Fraction(int(on.length.sum()), int(on.height.sum())) == found.cycle_time
 
 
-@law
-@given(patterns(), st.integers(0, 50))
+@law(patterns(), st.integers(0, 50))
 def test_the_earliest_timetable_keeps_all_arcs_and_all_orders(
     graph: TimedEventGraph, spare: int
 ) -> None:
@@ -79,8 +72,7 @@ def is_well_formed(timetable: CyclicSchedule) -> None:
         assert enter[-1] < enter[0] + timetable.period
 
 
-@law
-@given(patterns())
+@law(patterns())
 def test_nothing_is_possible_below_the_cycle_time(graph: TimedEventGraph) -> None:
     cycle_time = graph.critical_circuit().cycle_time
     with pytest.raises(ValueError, match="is less than the cycle time"):
@@ -102,8 +94,7 @@ def graphs(draw: st.DrawFn) -> tuple[int, list[oracle.Arc]]:
     ]
 
 
-@settings(law, max_examples=500)
-@given(graphs())
+@law(graphs())
 def test_policy_iteration_finds_what_karp_does_on_any_graph(
     graph: tuple[int, list[oracle.Arc]],
 ) -> None:

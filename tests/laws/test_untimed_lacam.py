@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rightofway
@@ -12,6 +11,7 @@ from rightofway.model import Plan, PlannerRun, Rules, Scenario
 from rightofway.planners.lacam import timetable_of
 from rightofway.search import untimed_lacam
 from tests.builders.fleets import grid_fleet
+from tests.builders.laws import law
 from tests.oracles.untimed_lacam import can_get_through, is_step
 
 GRIDS = (["...", "@.@"], ["..", ".."], [".....", "@@.@@"], ["...", ".@.", "..."], ["...."])
@@ -31,8 +31,7 @@ def fleets(draw: st.DrawFn) -> Scenario:
     return grid_fleet(grid, list(zip(homes, targets, strict=True)), rules=rules)
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
-@given(fleets(), st.integers(0, 3))
+@law(fleets(), st.integers(0, 3))
 def test_steps_are_found_exactly_where_there_are_any(scenario: Scenario, seed: int) -> None:
     may_rotate = scenario.rules.occupancy == "one"
     try:
@@ -45,8 +44,7 @@ def test_steps_are_found_exactly_where_there_are_any(scenario: Scenario, seed: i
         assert is_step(scenario.roadmap, at, after, may_rotate=may_rotate)
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
-@given(fleets())
+@law(fleets())
 def test_the_timetable_of_steps_is_a_plan_without_fault(scenario: Scenario) -> None:
     try:
         steps = untimed_lacam(scenario.problem)
@@ -57,8 +55,7 @@ def test_the_timetable_of_steps_is_a_plan_without_fault(scenario: Scenario) -> N
     assert rightofway.check(plan).faults == ()
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
-@given(fleets(), st.integers(0, 3))
+@law(fleets(), st.integers(0, 3))
 def test_robots_that_may_end_anywhere_only_make_it_easier(scenario: Scenario, robot: int) -> None:
     """One robot need not end at its last stage; the others do, and it passes its other stages."""
     free = robot % len(scenario.robots)

@@ -1,4 +1,4 @@
-"""Repeated laps of robots with a size, the slow way: all bookings round a circle of time."""
+"""Repeated laps of any fleet, the slow way: all bookings round a circle of time."""
 
 from __future__ import annotations
 
@@ -32,14 +32,17 @@ def cycles_of(timetable: CyclicSchedule) -> list[Cycle]:
 
 
 def bookings(scenario: Scenario, cycle: Cycle, period: int) -> Iterator[Booked]:
-    """Yield what a robot books in one period."""
+    """Yield what a robot books in one period; without booking ahead, only where it stays."""
     headway, n = int(scenario.problem.headway), len(cycle.lap)
+    ahead = scenario.problem.books_ahead
     leaves = [*cycle.enter[1:], cycle.enter[0] + period]
     for k, (enter, leave) in enumerate(zip(cycle.enter, leaves, strict=True)):
         here, there = cycle.lap.vertices[k % n], cycle.lap.vertices[(k + 1) % n]
         drive_in, drive_out = cycle.lap.drive[k % n], cycle.lap.drive[(k + 1) % n]
-        yield Booked((here,), enter - drive_in, leave - enter + drive_in + headway)
-        yield Booked((here, there), leave - drive_out, drive_out + headway)
+        approach = drive_in if ahead else 0
+        yield Booked((here,), enter - approach, leave - enter + approach + headway)
+        if ahead:
+            yield Booked((here, there), leave - drive_out, drive_out + headway)
 
 
 def is_kept(cycle: Cycle, period: int) -> bool:
@@ -103,10 +106,12 @@ def least_period(scenario: Scenario, laps: Sequence[Lap], most: int) -> int | No
 def load(scenario: Scenario, timetable: CyclicSchedule) -> int:
     """Return a lower bound of the period: the longest time that one place or zone is in use.
 
-    Robots use it one after another. A robot uses it from the start of the drive in until it leaves
-    the last one of consecutive visits; each robot's use is followed by the headway at least once.
+    Robots use it one after another. A robot uses it from when it enters, or where robots book ahead
+    from the start of the drive in, until it leaves the last one of consecutive visits; each robot's
+    use is followed by the headway at least once.
     """
     roadmap, headway = scenario.roadmap, int(scenario.problem.headway)
+    ahead = scenario.problem.books_ahead
     cliques = [{vertex} for vertex in {int(v) for lap in timetable.laps for v in lap.vertices}] + [
         set(map(int, zone.vertices)) for zone in roadmap.zones
     ]
@@ -118,7 +123,7 @@ def load(scenario: Scenario, timetable: CyclicSchedule) -> int:
         for lap, count in zip(timetable.laps, timetable.counts, strict=True):
             inside = [int(vertex) in clique for vertex in lap.vertices]
             used = sum(
-                lap.least(k) + (0 if inside[k - 1] else lap.drive[k])
+                lap.least(k) + (lap.drive[k] if ahead and not inside[k - 1] else 0)
                 for k in range(len(lap))
                 if inside[k]
             )
