@@ -20,7 +20,7 @@ from rightofway.io import dump_scenario, example_of_layout, load_map, scenario_o
 from rightofway.io.text import parse_yaml
 from rightofway.model import Scenario
 
-__all__ = ["FEATURES", "any_fleet", "fleet_documents"]
+__all__ = ["FEATURES", "LAPS_REFUSE", "any_fleet", "fleet_documents"]
 
 SAMPLES = Path(__file__).parents[1] / "data" / "samples"
 
@@ -45,6 +45,9 @@ FEATURES = (
     "zones",
 )
 """What a fleet may have; without any of them it is the paper's: points of speed 1 on a grid."""
+
+LAPS_REFUSE = {"closures", "one way", "turn rates"}
+"""Features that repeated laps refuse (test_laps.py has the messages)."""
 
 LAYOUTS = (
     "lif/example_10_7_station_with_two_nodes.lif.json",

@@ -7,8 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 
-import pytest
-from hypothesis import assume
+from hypothesis import reject
 from hypothesis import strategies as st
 
 from rightofway.cyclic import run_laps
@@ -22,10 +21,9 @@ from rightofway.cyclic.simulator import CyclicSimulator
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline
+from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.fleets import random_fleet
-from tests.builders.laws import law
-from tests.builders.seeds import seeds
-from tests.builders.sizes import repeated
+from tests.builders.laws import law, leave
 from tests.oracles import periodic_bookings as oracle
 from tests.oracles import periodic_space
 
@@ -63,12 +61,12 @@ def fleets(draw: st.DrawFn, most_robots: int = 4) -> Scenario:
 
 def open_run(scenario: Scenario) -> tuple[GroupResult, Pattern]:
     """Return the largest group first come first served, as if its end were open."""
-    assume(all(robot.stops[0].at != robot.home for robot in scenario.robots))
+    if any(robot.stops[0].at == robot.home for robot in scenario.robots):
+        leave("a robot works at its home")
     run = max(run_laps(scenario, time_limit=None).groups, key=lambda group: len(group.context))
-    assume(len(run.context) > 1)
-    assume(run.pattern is not None and all(run.pattern.counts))
     pattern = run.pattern
-    assert pattern is not None
+    if len(run.context) == 1 or pattern is None or not all(pattern.counts):
+        leave("no several robots that all make laps")
     history = tuple(
         tuple(
             pattern.enter(robot, visit)
@@ -108,16 +106,19 @@ def long_runs(draw: st.DrawFn) -> GroupResult:
     try:
         routes = cyclic_routes(scenario, draw(st.sampled_from(["clear", "direct"])))
     except (InputError, NoPlanExists):
-        assume(False)
+        reject()
+        raise
     group = max(independent_groups(scenario, routes), key=len)
-    assume(len(group) > 1)
+    if len(group) == 1:
+        reject()
     context = GroupContext(scenario=scenario, routes=tuple(group))
     simulation = CyclicSimulator(context, draw(st.sampled_from(["first-come", "least-loss"])))
     run = advance(simulation, Deadline())
     while run.ends == "repeats" and max(past[-1] for past in run.history) < LAPS * context.longest:
         simulation.reset_states()
         run = advance(simulation, Deadline())
-    assume(all(run.mean_laps()) and run.ends == "repeats")
+    if not all(run.mean_laps()) or run.ends != "repeats":
+        reject()
     return run
 
 
@@ -127,10 +128,11 @@ def test_a_closed_stretch_keeps_every_rule_across_the_seam(
 ) -> None:
     problem, context = problem_of(run), run.context
     stretch = Stretch(begins=begins * context.longest, period=laps * context.longest)
-    assume(stretch.begins + stretch.period <= max(past[-1] for past in run.history))
+    if stretch.begins + stretch.period > max(past[-1] for past in run.history):
+        leave("a stretch beyond the run")
     closed = close_stretch(problem, run, stretch)
-    assume(closed is not None)
-    assert closed is not None
+    if closed is None:
+        leave("a stretch that cannot be closed")
     timetable = closed.timetable
     assert timetable.period == stretch.period
     graph = problem.graph(timetable)
@@ -151,14 +153,13 @@ def test_the_value_of_a_stretch_is_a_bound(run: GroupResult) -> None:
             assert value <= problem.bound + Fraction(1, 10**9)
 
 
-@pytest.mark.parametrize("seed", seeds(40, 1))
-def test_closings_with_sizes_keep_every_rule_across_the_seam(seed: int) -> None:
+@law(any_fleet(robots=(2, 3), without=LAPS_REFUSE, always={"sizes", "both"}, apart=True))
+def test_closings_of_any_fleet_keep_every_rule_across_the_seam(scenario: Scenario) -> None:
     """Windows closed by their orders, and stretches closed at a seam."""
-    scenario = repeated(seed)
     try:
         routes = cyclic_routes(scenario)
     except NoPlanExists:
-        pytest.skip("no routes")
+        leave("no laps exist")
     group = max(independent_groups(scenario, routes), key=len)
     context = GroupContext(scenario=scenario, routes=tuple(group))
     simulation = CyclicSimulator(context, "first-come")
@@ -167,7 +168,7 @@ def test_closings_with_sizes_keep_every_rule_across_the_seam(seed: int) -> None:
         simulation.reset_states()
         run = advance(simulation, Deadline())
     if len(group) < 2 or run.ends != "repeats" or not all(run.mean_laps()):
-        pytest.skip("no run of several robots that all make laps")
+        leave("no run of several robots that all make laps")
     problem = problem_of(run)
     short = (window for window in closed_windows(problem, run) if window.n_visits <= 150)
     closed = [

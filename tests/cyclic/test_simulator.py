@@ -3,7 +3,6 @@
 import random
 
 import pytest
-from hypothesis import assume
 from hypothesis import strategies as st
 
 from rightofway.cyclic.pattern import pattern_of
@@ -14,10 +13,9 @@ from rightofway.cyclic.simulator import Deadlock
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline
+from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.fleets import fleet_on, random_grid
-from tests.builders.laws import law
-from tests.builders.seeds import seeds
-from tests.builders.sizes import repeated
+from tests.builders.laws import law, leave
 from tests.oracles.lap_rules import rolling
 
 some_rules = st.sampled_from(
@@ -40,7 +38,7 @@ def groups_of(
         scenario: Scenario = fleet_on(grid, draw, robots=robots, rules=rules)
         groups = independent_groups(scenario, cyclic_routes(scenario, draw.choice(ROUTES)))
     except (InputError, NoPlanExists, ValueError):
-        assume(False)
+        leave("a robot has nowhere to go")
     return [GroupContext(scenario=scenario, routes=tuple(group)) for group in groups]
 
 
@@ -83,14 +81,18 @@ def check_decisions(context: GroupContext, rule: str) -> None:
     assert [list(past) for past in fast.history] == [list(past) for past in slow.history]
 
 
-@pytest.mark.parametrize("rule", NATIVE_RULES)
-@pytest.mark.parametrize("seed", seeds(60, 5))
-def test_the_kernel_decides_as_windows_do_for_robots_with_a_size(seed: int, rule: str) -> None:
-    scenario = repeated(seed)
+@law(
+    any_fleet(robots=(2, 4), without=LAPS_REFUSE, apart=True),
+    st.sampled_from(NATIVE_RULES),
+    st.sampled_from(ROUTES),
+)
+def test_the_kernel_decides_as_windows_do_for_any_fleet(
+    scenario: Scenario, rule: str, routed: str
+) -> None:
     try:
-        routes = cyclic_routes(scenario, ROUTES[seed % len(ROUTES)])
+        routes = cyclic_routes(scenario, routed)
     except NoPlanExists:
-        pytest.skip("no routes")
+        leave("no laps exist")
     for group in independent_groups(scenario, routes):
         check_decisions(GroupContext(scenario=scenario, routes=tuple(group)), rule)
 

@@ -9,14 +9,13 @@ from math import prod
 from typing import TYPE_CHECKING
 
 import pytest
-from hypothesis import assume
 from hypothesis import strategies as st
 
 import rightofway
 from rightofway.metrics import measure
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
 from tests.builders.fleets import random_fleet
-from tests.builders.laws import law
+from tests.builders.laws import law, leave
 from tests.builders.small import STRICT
 from tests.oracles import precedence
 from tests.oracles.fixed_routes import best_on, least_flowtime, routes_of
@@ -120,7 +119,8 @@ def comes_round(heads: dict[int, int], start: int) -> bool:
 @law(systems(), st.booleans())
 def test_the_optimum_is_the_least_flowtime_of_all_orders(system: System, rotations: bool) -> None:
     orders = choices(system)
-    assume(prod(map(len, orders)) <= MOST_ORDERS)
+    if prod(map(len, orders)) > MOST_ORDERS:
+        leave("too many orders")
     least = min(flowtimes(system, orders, rotations=rotations), default=None)
 
     found = least_flowtime(system, rotations=rotations)

@@ -15,16 +15,14 @@ from rightofway.cyclic.to_plan import whole_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Closure, Plan, Scenario, Tick, VertexId
 from rightofway.planners import planning_headway
-from tests.builders.any_fleet import any_fleet
+from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
 from tests.oracles import periodic_space as oracle
 from tests.oracles.laps import largest_mean_cycle_is, replay
 
-REFUSED = {"closures", "turn rates", "one way"}
-
-LAPS = any_fleet(robots=(2, 4), without={*REFUSED, "zones"}, apart=True) | any_fleet(
-    robots=(2, 3), without=REFUSED, always={"both", "zones"}, apart=True
+LAPS = any_fleet(robots=(2, 4), without={*LAPS_REFUSE, "zones"}, apart=True) | any_fleet(
+    robots=(2, 3), without=LAPS_REFUSE, always={"both", "zones"}, apart=True
 )
 """Laps refuse closures, turn rates and trips that end at the last stop (see the last tests).
 

@@ -84,8 +84,11 @@ def drive(scenario: Scenario, robot: int, tail: int, head: int) -> Fraction:
     roadmap = scenario.roadmap
     edge = roadmap.edge(tail, head)
     assert edge is not None
-    speed, tick = scenario.robots[robot].speed, scenario.problem.clock.tick
-    return Fraction(-(-(roadmap.lengths[roadmap.length_class[edge]] / speed) // tick))
+    kind = int(roadmap.length_class[edge])
+    limit = roadmap.max_speeds[kind] if roadmap.max_speeds else None
+    own, tick = scenario.robots[robot].speed, scenario.problem.clock.tick
+    speed = own if limit is None else min(own, limit)
+    return Fraction(-(-(roadmap.lengths[kind] / speed) // tick))
 
 
 def zones_with(roadmap: Roadmap, edge: Shape) -> set[int]:

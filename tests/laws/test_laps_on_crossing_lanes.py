@@ -1,4 +1,4 @@
-"""Robots with a size that repeat their laps: bookings never overlap, period after period."""
+"""Laps on lanes that cross, where all timetables can be tried: rights of way, periods, groups."""
 
 from __future__ import annotations
 
@@ -8,29 +8,25 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from hypothesis import strategies as st
 
-import rightofway
-from rightofway.cyclic import RULES, CyclicResult, best_timetable, in_words, run_laps
+from rightofway.cyclic import CyclicResult, best_timetable, in_words, run_laps
 from rightofway.cyclic.route import CyclicRoute, GroupContext, cyclic_routes, independent_groups
-from rightofway.cyclic.to_plan import plan_of, whole_laps
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import (
     Edge,
     Lap,
-    Plan,
     Robot,
     Rules,
     Scenario,
     Stop,
     Tick,
-    VertexId,
     roadmap_of_edges,
 )
-from rightofway.model.zones import Zone
 from rightofway.precedence import CyclicSchedule
 from rightofway.search import PeriodicBookings, RowsOfLaps
-from tests.builders.seeds import seeds
-from tests.builders.sizes import crossing, repeated
+from tests.builders.laws import law
+from tests.builders.sizes import crossing
 from tests.oracles import periodic_space as oracle
 
 
@@ -51,42 +47,6 @@ def check_result(run: CyclicResult) -> None:
         again = oracle.cycles_of(graph.earliest(shortest))
         assert all(oracle.is_kept(cycle, shortest) for cycle in again)
         assert not oracle.conflicts(run.scenario, again, shortest)
-
-
-def check_plan(plan: Plan, since: int = 0) -> None:
-    """Let the judge look at unrolled laps, until the first robot stays at home."""
-    ends = min(int(track.enter[-1]) for track in plan.tracks)
-    found = rightofway.check(plan).faults
-    assert not [fault for fault in found if fault.tick is None or since <= fault.tick < ends]
-
-
-@pytest.mark.parametrize("seed", seeds(40, 3))
-def test_laps_by_every_rule_have_no_fault(seed: int) -> None:
-    scenario = repeated(seed)
-    for rule in RULES:
-        run = run_laps(scenario, rule, time_limit=3)
-        check_result(run)
-        try:
-            plan = whole_laps(run)
-        except GaveUp:  # a robot waits for ever
-            continue
-        check_plan(plan)
-
-
-@pytest.mark.parametrize("seed", seeds(24, 2))
-def test_a_chosen_timetable_has_no_fault_and_is_not_below_first_come_first_served(
-    seed: int,
-) -> None:
-    try:
-        run = best_timetable(repeated(seed), time_limit=None, rounds=5)
-    except (GaveUp, NoPlanExists):
-        pytest.skip("no timetable")
-    check_result(run)
-    starts = max(group.pattern.transient for group in run.groups if group.pattern)
-    check_plan(whole_laps(run, 5), since=starts)
-    for group in run.groups:
-        if group.comparison is not None and group.comparison.baseline_ends == "repeats":
-            assert group.comparison.throughput >= group.comparison.baseline
 
 
 def laps_of(scenario: Scenario) -> list[Lap]:
@@ -134,7 +94,7 @@ def bookings_of(scenario: Scenario, period: int) -> PeriodicBookings:
     )
 
 
-@pytest.mark.parametrize("seed", seeds(60, 3))
+@law(st.integers(0, 10**9))
 def test_a_lap_among_bookings_is_found_exactly_where_there_is_one(seed: int) -> None:
     """R1 waits here and there; all phases and waits of R2 are tried by the oracle."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
@@ -156,7 +116,7 @@ def test_a_lap_among_bookings_is_found_exactly_where_there_is_one(seed: int) -> 
         assert not oracle.conflicts(scenario, [own, way], period)
 
 
-@pytest.mark.parametrize("seed", seeds(12, 2))
+@law(st.integers(0, 10**9))
 def test_crossing_lanes_get_the_least_period_of_one_lap_each(seed: int) -> None:
     """No timetable has fewer laps per tick than the best one with a lap of each robot."""
     scenario = crossing_lanes(random.Random(seed), "B")  # noqa: S311
@@ -223,47 +183,6 @@ def test_groups_are_connected_by_what_excludes_each_other() -> None:
         return independent_groups(scenario, cyclic_routes(scenario))
 
     assert [len(groups(radius)) for radius in ("0.9", "1.1")] == [2, 1]
-
-
-@pytest.mark.parametrize("seed", seeds(10, 2))
-def test_laps_keep_zones(seed: int) -> None:
-    """Points; some places of a zone lie on several laps."""
-    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
-    scenario = repeated(2 * seed + 1)
-    places = {one.home for one in scenario.robots}
-    places |= {stop.at for one in scenario.robots for stop in one.stops}
-    free = [VertexId(v) for v in range(scenario.roadmap.n_vertices) if v not in places]
-    zone = Zone(name="Z", vertices=tuple(draw.sample(free, 6)))
-    robots = tuple(replace(robot, radius=Fraction(0)) for robot in scenario.robots)
-    roadmap = replace(scenario.roadmap, zones=(zone,))
-    scenario = replace(scenario, roadmap=roadmap, robots=robots)
-    for run in (
-        run_laps(scenario, "first-come", time_limit=20),
-        best_timetable(scenario, time_limit=None, rounds=3),
-    ):
-        for group in run.groups:
-            timetable = group.timetable
-            if timetable is not None:
-                assert oracle.load(scenario, timetable) <= timetable.period
-        starts = max((one.pattern.transient for one in run.groups if one.pattern), default=0)
-        try:
-            check_plan(whole_laps(run), since=starts)
-        except GaveUp:
-            continue
-
-
-@pytest.mark.parametrize("seed", seeds(12, 2))
-def test_laps_that_are_late_keep_their_rights_of_way_without_contact(seed: int) -> None:
-    scenario = repeated(seed + 100)
-    try:
-        plan = plan_of(run_laps(scenario, "first-come", time_limit=20), 3)
-    except GaveUp:
-        pytest.skip("no plan of whole laps")
-    outcome = rightofway.simulate(plan, "exponential:0.5", runs=20)
-    assert (outcome.collisions, outcome.deadlocks, outcome.stranded) == (0, 0, 0)
-    assert rightofway.check(replace(plan, tracks=outcome.trace(3).tracks)).ok
-    replanned = rightofway.simulate(plan, "chance:0.05x20", runs=2, replan=True)
-    assert (replanned.collisions, replanned.deadlocks, replanned.stranded) == (0, 0, 0)
 
 
 def test_rights_of_way_are_those_of_some_periods_laid_out_one_by_one() -> None:

@@ -1,12 +1,11 @@
-"""Rights of way between robots with a size: conflicts, earliest times, segments, executions."""
+"""Rights of way between robots that book ahead: conflicts, earliest times, segments, delays."""
 
 from __future__ import annotations
 
-import random
 from itertools import combinations, product
 
 import numpy as np
-import pytest
+from hypothesis import strategies as st
 
 from rightofway import solve
 from rightofway.errors import GaveUp, NoPlanExists
@@ -22,8 +21,9 @@ from rightofway.precedence import (
     graph_on,
 )
 from rightofway.search import Distances
-from tests.builders.seeds import seeds
-from tests.builders.sizes import crossing, sized, sized_on_lanes, tiny
+from tests.builders.any_fleet import any_fleet
+from tests.builders.laws import law, leave
+from tests.builders.sizes import crossing, sized
 from tests.oracles.space import (
     bookings,
     bookings_meet,
@@ -35,9 +35,14 @@ from tests.oracles.space import (
 DELAYS = ("exponential:0.5", "uniform:-0.6..1", "chance:0.3x7")
 
 
-def fleet(seed: int) -> Scenario:
-    """Return a fleet on a grid, on lanes that cross, or on a tiny roadmap of these."""
-    return (sized, sized_on_lanes, tiny)[seed % 3](seed)
+FLEETS = any_fleet(robots=(2, 4), without={"closures", "zones"}, always={"both", "sizes"})
+"""The oracle of delayed robots knows bookings that exclude each other by place, ahead of a drive.
+
+Closures and zones are held by the laws of plans, whose judge knows all features.
+"""
+
+PLANNERS = st.sampled_from(["two-level", "fixed-priority", "prioritized"])
+"""Planners that give rights of way."""
 
 
 def undecided(scenario: Scenario) -> PrecedenceGraph:
@@ -45,7 +50,7 @@ def undecided(scenario: Scenario) -> PrecedenceGraph:
     try:
         return graph_on(scenario, shortest_routes(scenario, Distances(scenario.roadmap)))
     except NoPlanExists:
-        pytest.skip("a robot has no way")
+        leave("a robot has no way")
 
 
 def all_can_be_decided(
@@ -68,18 +73,16 @@ def all_can_be_decided(
             return True
 
 
-def some_plan(seed: int) -> Plan:
-    """Return a plan by one of the planners that give rights of way."""
-    planner = ("two-level", "fixed-priority", "prioritized")[seed % 4 % 3]
+def some_plan(scenario: Scenario, planner: str) -> Plan:
+    """Return a plan, or leave the case out."""
     try:
-        return solve(fleet(seed), planner)
-    except (NoPlanExists, GaveUp):
-        pytest.skip("no plan")
+        return solve(scenario, planner)
+    except (NoPlanExists, GaveUp) as reason:
+        leave(type(reason).__name__)
 
 
-@pytest.mark.parametrize("seed", seeds(60, 3))
-def test_the_earliest_conflict_of_two_robots_is_that_of_their_bookings(seed: int) -> None:
-    scenario = fleet(seed)
+@law(FLEETS)
+def test_the_earliest_conflict_of_two_robots_is_that_of_their_bookings(scenario: Scenario) -> None:
     graph = undecided(scenario)
     booked = [list(bookings(scenario, robot, track)) for robot, track in enumerate(graph.tracks())]
     for i, j in combinations(range(len(booked)), 2):
@@ -94,17 +97,17 @@ def test_the_earliest_conflict_of_two_robots_is_that_of_their_bookings(seed: int
         assert (meeting and meeting.tick) == min(overlaps, default=None)
 
 
-@pytest.mark.parametrize("seed", seeds(60, 3))
-def test_one_robot_goes_first_in_a_whole_segment(seed: int) -> None:
+@law(FLEETS)
+def test_one_robot_goes_first_in_a_whole_segment(scenario: Scenario) -> None:
     """Other orders leave a pair undecidable; what a segment gives implies each pair's order."""
-    scenario = fleet(seed)
     graph = undecided(scenario)
     for i, j in combinations(range(len(graph.routes)), 2):
         meeting = graph.next_meeting_of(i, j)
         if meeting is None:
             continue
         segment = graph.segment(*meeting.visits)
-        assert isinstance(segment, SegmentOfSizes)
+        if not isinstance(segment, SegmentOfSizes):
+            leave("points")
         i_first = [(graph.visit(i, p.i), graph.visit(j, p.j_starts)) for p in segment.pairs]
         j_first = [(graph.visit(j, p.j), graph.visit(i, p.i_starts)) for p in segment.pairs]
         mark = graph.checkpoint()
@@ -137,9 +140,9 @@ def test_lanes_that_cross_are_one_decision() -> None:
     assert segment.i_vertices == (0, 1)
 
 
-@pytest.mark.parametrize("seed", seeds(60, 3))
-def test_the_order_of_a_plan_gives_the_earliest_times(seed: int) -> None:
-    plan = some_plan(seed)
+@law(FLEETS, PLANNERS)
+def test_the_order_of_a_plan_gives_the_earliest_times(scenario: Scenario, planner: str) -> None:
+    plan = some_plan(scenario, planner)
     graph = graph_of(plan.scenario, plan.tracks)
     dwell, drive = ([getattr(route, name) for route in graph.routes] for name in ("dwell", "drive"))
     _, enter = executed(plan.scenario, plan.tracks, dwell, drive)
@@ -147,12 +150,12 @@ def test_the_order_of_a_plan_gives_the_earliest_times(seed: int) -> None:
     assert graph.next_meeting() is None
 
 
-@pytest.mark.parametrize("delays", DELAYS)
-@pytest.mark.parametrize("seed", seeds(40, 3))
-def test_delayed_robots_wait_just_as_long_as_they_must(seed: int, delays: str) -> None:
+@law(FLEETS, PLANNERS, st.sampled_from(DELAYS), st.integers(0, 999))
+def test_delayed_robots_wait_just_as_long_as_they_must(
+    scenario: Scenario, planner: str, delays: str, seed: int
+) -> None:
     """Times are those of the oracle; bookings never overlap, discs never meet."""
-    plan = some_plan(seed)
-    scenario = plan.scenario
+    plan = some_plan(scenario, planner)
     model = delay_model_of(read_delays(delays, scenario), scenario)
     adg = ActionDependencyGraph(scenario, plan.tracks, model)
     assert adg.deadlocked() == []
@@ -171,22 +174,23 @@ def test_delayed_robots_wait_just_as_long_as_they_must(seed: int, delays: str) -
     assert run.collisions[:3].tolist() == [0, 0, 0]
 
 
-@pytest.mark.parametrize("seed", seeds(40, 3))
-def test_the_kernel_counts_what_meets_by_the_clock(seed: int) -> None:
+@law(FLEETS, PLANNERS, st.integers(0, 999))
+def test_the_kernel_counts_what_meets_by_the_clock(
+    scenario: Scenario, planner: str, seed: int
+) -> None:
     """Robots that keep their planned times collide; the oracle finds just as well whether."""
-    plan, draw = some_plan(seed), random.Random(seed)  # noqa: S311
-    scenario = plan.scenario
+    plan = some_plan(scenario, planner)
     model = delay_model_of(read_delays("exponential:0.7", scenario), scenario)
     adg = ActionDependencyGraph(scenario, plan.tracks, model)
-    run = adg.execute(adg.delay_sample(draw.randrange(1000), 0), clock=True)
+    run = adg.execute(adg.delay_sample(seed, 0), clock=True)
     start = [part.tolist() for part in np.split(run.start, adg.first_visit[1:-1])]
     meets = bookings_meet(scenario, adg.tracks_at(run.enter), start)
     assert (run.collisions[:3].sum() > 0) == meets
 
 
-@pytest.mark.parametrize("seed", seeds(30, 3))
-def test_robots_that_break_down_are_waited_for(seed: int) -> None:
-    plan = some_plan(seed)
+@law(FLEETS, PLANNERS, st.integers(0, 999))
+def test_robots_that_break_down_are_waited_for(scenario: Scenario, planner: str, seed: int) -> None:
+    plan = some_plan(scenario, planner)
     model = delay_model_of(read_delays("breaks:0.4,chance:0.3x5", plan.scenario), plan.scenario)
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, model)
     batch = adg.runs(seed, 0, 50)
@@ -195,9 +199,13 @@ def test_robots_that_break_down_are_waited_for(seed: int) -> None:
     assert batch.is_broken[stuck].any(axis=1).all()
 
 
-@pytest.mark.parametrize("seed", seeds(20, 2))
-def test_rights_of_way_are_switched_without_collision_and_deadlock(seed: int) -> None:
-    outcome = simulate(some_plan(seed), "chance:0.4x9", runs=10, seed=seed, switch=True)
+@law(FLEETS, PLANNERS, st.integers(0, 999))
+def test_rights_of_way_are_switched_without_collision_and_deadlock(
+    scenario: Scenario, planner: str, seed: int
+) -> None:
+    outcome = simulate(
+        some_plan(scenario, planner), "chance:0.4x9", runs=10, seed=seed, switch=True
+    )
     assert (outcome.collisions, outcome.deadlocks, outcome.stranded) == (0, 0, 0)
 
 
