@@ -25,25 +25,16 @@ SLOW = (
     "cli/test_process.py",  # starts the command as a process, and interrupts it
     "conformance/test_execution.py",  # hundreds of runs for each planner and scenario
     "conformance/test_samples.py",  # plans on 36 real layouts
-    "cyclic/test_closing.py",
     "docs/test_examples.py",  # runs every command on every page
     "laws/test_best_timetable.py",
-    "laws/test_periodic_search.py",
-    "laws/test_fixed_routes.py",
     "laws/test_io_fuzz.py",
-    "laws/test_io_round_trip.py",
     "laws/test_lacam_plans.py",
     "laws/test_layout_fuzz.py",  # hundreds of broken files
-    "laws/test_laps.py",
-    "laws/test_laps_theory.py",
     "laws/test_optimum_with_sizes.py",
-    "laws/test_precedence_graph.py",
     "laws/test_space.py",
     "laws/test_monitor.py",
     "laws/test_replan.py",
-    "laws/test_timed_event_graph.py",
     "laws/test_turning.py",  # every planner
-    "laws/test_untimed_lacam.py",
     "laws/test_workbook_fuzz.py",
     "planners/test_limits.py",  # limits of time, and interrupts
     "studio/test_accessibility.py",  # a browser

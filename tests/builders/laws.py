@@ -1,9 +1,10 @@
 """Laws: claims on random cases, each with a budget of time instead of a number of cases.
 
 ``@law(strategies)`` draws cases until the law's share of its file's seconds is over (option
-``--law-seconds``). Each session has a fresh seed; a law that fails prints the option that draws the
-same cases again. A case that a law cannot judge is left out with `leave`, and counted: a law that
-leaves out significantly more than half of its cases fails.
+``--law-seconds``, seconds of the processor, so that a busy machine thins no law). Each session has
+a fresh seed; a law that fails prints the option that draws the same cases again. A case that a law
+cannot judge is left out with `leave`, and counted: a law that leaves out significantly more than
+half of its cases fails.
 
 The module is a plugin of pytest; ``tests/conftest.py`` names it.
 """
@@ -19,7 +20,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import SystemRandom
-from time import perf_counter
+from time import process_time
 from typing import Any, NoReturn
 
 import pytest
@@ -38,7 +39,7 @@ FEWEST = 3
 MOST_LEFT = 60
 """A law that leaves out all of its first cases, as many as this, fails."""
 
-ROUND = (5, 100)
+ROUND = (3, 100)
 """Cases of the first round, and of a round at most; each round draws with a seed of its own."""
 
 
@@ -130,20 +131,20 @@ class LawRun:
 
     def hold(self, test: Callable[..., None], strategies: dict[str, SearchStrategy[Any]]) -> None:
         """Judge cases, round after round, until the budget is over."""
-        start = perf_counter()
+        start = process_time()
         session, *again = self.seed.split(":")
         try:
             if again:
                 self._round(test, strategies, session, int(again[0]), int(again[1]))
                 return
             number, cases = 0, ROUND[0]
-            while self._goes_on(perf_counter() - start):
+            while self._goes_on(process_time() - start):
                 self._round(test, strategies, session, number, cases)
-                number, self.spent = number + 1, perf_counter() - start
-                pace = (self.judged + self.left.total()) / self.spent
+                number, self.spent = number + 1, process_time() - start
+                pace = (self.judged + self.left.total()) / max(self.spent, 1e-3)
                 cases = min(max(int(pace * (self.seconds - self.spent)), ROUND[0]), ROUND[1])
         finally:
-            self.spent = perf_counter() - start
+            self.spent = process_time() - start
             self.properties.append(("law", self.row()))
         self._refuse_emptiness()
 
@@ -225,7 +226,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--law-seconds",
         type=float,
         default=0.5,
-        help="seconds for the laws of each file (default: 0.5)",
+        help="seconds of the processor for the laws of each file (default: 0.5)",
     )
     group.addoption("--law-seed", help="seed of random cases, as a failure prints it")
     group.addoption("--law-report", type=Path, help="write cases by law to this JSON file")

@@ -7,6 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 
+import pytest
 from hypothesis import reject
 from hypothesis import strategies as st
 
@@ -153,6 +154,7 @@ def test_the_value_of_a_stretch_is_a_bound(run: GroupResult) -> None:
             assert value <= problem.bound + Fraction(1, 10**9)
 
 
+@pytest.mark.slow
 @law(any_fleet(robots=(2, 3), without=LAPS_REFUSE, always={"sizes", "both"}, apart=True))
 def test_closings_of_any_fleet_keep_every_rule_across_the_seam(scenario: Scenario) -> None:
     """Windows closed by their orders, and stretches closed at a seam."""

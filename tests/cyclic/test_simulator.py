@@ -52,7 +52,6 @@ def outcome(simulation: Simulation) -> tuple[int, int] | Deadlock | None:
         return None
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("rule", NATIVE_RULES)
 @law(seed=st.integers(0, 2**32), rules=some_rules)
 def test_the_kernel_decides_as_one_window_after_the_other_does(

@@ -85,7 +85,7 @@ def drive(scenario: Scenario, robot: int, tail: int, head: int) -> Fraction:
     edge = roadmap.edge(tail, head)
     assert edge is not None
     kind = int(roadmap.length_class[edge])
-    limit = roadmap.max_speeds[kind] if roadmap.max_speeds else None
+    limit = roadmap.speed_limits[kind] if roadmap.speed_limits else None
     own, tick = scenario.robots[robot].speed, scenario.problem.clock.tick
     speed = own if limit is None else min(own, limit)
     return Fraction(-(-(roadmap.lengths[kind] / speed) // tick))
