@@ -32,8 +32,6 @@ SLOW = (
     "laws/test_layout_fuzz.py",  # hundreds of broken files
     "laws/test_optimum_with_sizes.py",
     "laws/test_space.py",
-    "laws/test_monitor.py",
-    "laws/test_replan.py",
     "laws/test_turning.py",  # every planner
     "laws/test_workbook_fuzz.py",
     "planners/test_limits.py",  # limits of time, and interrupts

@@ -71,6 +71,7 @@ def any_fleet(
     without: Collection[str] = (),
     always: Collection[str] = (),
     apart: bool = False,
+    tiny: bool = False,
 ) -> st.SearchStrategy[Scenario]:
     """Return fleets of any kind; some have no plan.
 
@@ -84,8 +85,11 @@ def any_fleet(
         Features that each fleet has.
     apart
         Whether no robot ends its work at a home.
+    tiny
+        Whether sites have at most nine vertices, not counting those of `spacing`, for oracles that
+        search where all robots may be; none of the layouts is so small.
     """
-    drawn = fleet_documents(robots=robots, without=without, always=always, apart=apart)
+    drawn = fleet_documents(robots=robots, without=without, always=always, apart=apart, tiny=tiny)
     return drawn.map(_scenario)
 
 
@@ -104,14 +108,15 @@ def fleet_documents(
     robots: tuple[int, int],
     without: Collection[str],
     always: Collection[str],
-    apart: bool,
+    apart: bool = False,
+    tiny: bool = False,
 ) -> Document:
     """Return scenario files, read."""
     unknown = {*without, *always} - set(FEATURES)
     assert not unknown, f"no such features: {unknown}"
     may = [feature for feature in FEATURES if feature not in {*without, *always}]
     has = {*always, *draw(st.sets(st.sampled_from(may), max_size=7) if may else st.just(set()))}
-    site, places = _site(draw, has)
+    site, places = _site(draw, has - {"layouts"} if tiny else has, 3 if tiny else 6)
     count = draw(st.sampled_from(range(robots[0], min(robots[1], len(places) // 2) + 1)))
     homes = draw(st.lists(st.sampled_from(places), min_size=count, max_size=count, unique=True))
     left = [place for place in places if not apart or place not in homes]
@@ -129,7 +134,7 @@ def fleet_documents(
     }
 
 
-def _site(draw: st.DrawFn, has: set[str]) -> tuple[Document, list[str]]:
+def _site(draw: st.DrawFn, has: set[str], side: int) -> tuple[Document, list[str]]:
     """Return a map, and the places where robots may start and work."""
     if "layouts" in has:
         name = draw(st.sampled_from(("grid", *LAYOUTS)))
@@ -139,10 +144,10 @@ def _site(draw: st.DrawFn, has: set[str]) -> tuple[Document, list[str]]:
     if not has & {"barred", "limits", "one-way lanes", "spacing", "surcharges", "zones"} and draw(
         st.booleans()
     ):
-        width = draw(st.integers(3, 6))
+        width = draw(st.integers(3, side))
         cells = st.lists(st.sampled_from("....@"), min_size=width, max_size=width).map("".join)
-        return _grid(["." * width, *draw(st.lists(cells, min_size=1, max_size=4))])
-    return _on_lanes(draw, has, *_drawn(draw, has))
+        return _grid(["." * width, *draw(st.lists(cells, min_size=1, max_size=side - 1))])
+    return _on_lanes(draw, has, *_drawn(draw, has, side))
 
 
 def _window(draw: st.DrawFn) -> list[str]:
@@ -165,10 +170,10 @@ def _grid(rows: list[str]) -> tuple[Document, list[str]]:
     return {"grid": rows}, free
 
 
-def _drawn(draw: st.DrawFn, has: set[str]) -> tuple[Document, list[str]]:
+def _drawn(draw: st.DrawFn, has: set[str], side: int) -> tuple[Document, list[str]]:
     """Return vertices anywhere, lanes that join all of them, and lanes that may cross those."""
-    lattice = st.tuples(st.integers(0, 6), st.integers(0, 5))
-    at = draw(st.lists(lattice, min_size=4, max_size=10, unique=True))
+    lattice = st.tuples(st.integers(0, side), st.integers(0, side - 1))
+    at = draw(st.lists(lattice, min_size=4, max_size=side + 4, unique=True))
     tree = [(draw(st.integers(0, k - 1)), k) for k in range(1, len(at))]
     ends = st.integers(0, len(at) - 1)
     more = draw(st.lists(st.tuples(ends, ends), max_size=6))

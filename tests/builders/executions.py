@@ -1,15 +1,12 @@
-"""Plans, delays and oracles of executions."""
+"""Delays and oracles of executions."""
 
 from __future__ import annotations
 
 import random
 from collections.abc import Iterable
-from fractions import Fraction
-from functools import cache
 
-import rightofway
 from rightofway.execution import Outcome
-from rightofway.model import NEVER, Plan, Rules, Scenario, Tick
+from rightofway.model import NEVER, Plan, Scenario, Tick
 from rightofway.precedence import (
     ActionDependencyGraph,
     DelayModel,
@@ -17,40 +14,27 @@ from rightofway.precedence import (
     Execution,
     Stoppage,
 )
-from tests.builders.fleets import random_fleet
 from tests.oracles import execution, judge
 
 __all__ = [
-    "RULES",
+    "ONE_CHAIN",
     "any_delays",
+    "late",
     "oracle_of",
     "some_delays",
-    "some_plan",
     "times",
     "wrong_in",
 ]
 
-RULES = (
-    Rules(),
-    Rules(occupancy="both"),
-    Rules(headway=Fraction(1)),
-    Rules(occupancy="both", headway=Fraction(1, 2)),
-    Rules(ends="none"),
-    Rules(laps=2, occupancy="both"),
-)
+ONE_CHAIN = frozenset({"sizes", "zones", "closures"})
+"""What the oracle of robots that look does not know: its order is one chain of visits a vertex."""
+
 RANDOM = (
     (),
     (("exponential", 0.5, 0.0),),
     (("uniform", -0.5, 1.0), ("chance", 0.1, 7.0)),
     (("normal", 0.2, 0.3), ("breaks", 0.1, 0.0)),
 )
-
-
-@cache
-def some_plan(seed: int, rules: int) -> Plan:
-    """Return a plan of five robots on a small grid."""
-    scenario = random_fleet(seed, size=5, robots=5, rules=RULES[rules])
-    return rightofway.solve(scenario, "lacam" if seed % 2 else "two-level")
 
 
 def some_delays(draw: random.Random, robots: int, makespan: int) -> DelayModel:
@@ -69,6 +53,13 @@ def some_delays(draw: random.Random, robots: int, makespan: int) -> DelayModel:
         pace=tuple(draw.choice([1.0, 1.0, 1.7, 0.6]) for _ in range(robots)),
         stoppages=tuple(stoppages() for _ in range(robots)),
     )
+
+
+def late(plan: Plan, draw: random.Random) -> ActionDependencyGraph:
+    """Return a plan as it is executed with some delays."""
+    last = max(int(track.enter[-1]) for track in plan.tracks)
+    delays = some_delays(draw, len(plan.tracks), last)
+    return ActionDependencyGraph(plan.scenario, plan.tracks, delays)
 
 
 def oracle_of(adg: ActionDependencyGraph, delay_sample: DelaySample) -> execution.Orders:

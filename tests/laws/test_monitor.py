@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import random
 from dataclasses import replace
+from fractions import Fraction
 from itertools import pairwise
 
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rightofway
 from rightofway.check import check
+from rightofway.errors import InputError
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
-from rightofway.model import NEVER, Tick
+from rightofway.model import NEVER, Closure, Rules, Scenario, Tick, VertexId
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
-from tests.builders.executions import RULES, oracle_of, some_delays, some_plan, times
-from tests.builders.fleets import random_fleet
+from tests.builders.any_fleet import any_fleet
+from tests.builders.any_plan import STRICT, planned
+from tests.builders.executions import ONE_CHAIN, late, oracle_of, times
+from tests.builders.fleets import grid_fleet, random_fleet
+from tests.builders.laws import law
 from tests.oracles import execution
 
 POLICIES = (
@@ -26,21 +30,18 @@ POLICIES = (
     ExecutionPolicy(replan=True),
     ExecutionPolicy(switch=True, replan=True),
 )
+CLOSURES = {"closures"}
+"""Refused: the refusal has a test of its own."""
+
+planners, policies = st.sampled_from(STRICT), st.sampled_from(POLICIES)
+seeds = st.integers(0, 2**32 - 1)
 
 
-@given(
-    seed=st.integers(0, 5),
-    rules=st.integers(0, len(RULES) - 1),
-    chance=st.integers(0, 2**32 - 1),
-    policy=st.sampled_from(POLICIES),
-)
-@settings(max_examples=100, deadline=None)
+@law(any_fleet(without=ONE_CHAIN), planners, seeds, policies)
 def test_robots_that_look_find_the_new_plan_possible(
-    seed: int, rules: int, chance: int, policy: ExecutionPolicy
+    fleet: Scenario, planner: str, chance: int, policy: ExecutionPolicy
 ) -> None:
-    plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
-    delays = some_delays(draw, len(plan.tracks), 20)
-    adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
+    adg = late(planned(fleet, planner), random.Random(chance))  # noqa: S311
     monitor = ExecutionMonitor(adg, policy, chance, 0, Deadline())
     slow = oracle_of(monitor.adg, monitor.delay_sample)
     expected = execution.by_right_of_way(slow)
@@ -49,38 +50,41 @@ def test_robots_that_look_find_the_new_plan_possible(
     assert monitor.adg.deadlocked() == []
 
 
-@given(
-    seed=st.integers(0, 5),
-    rules=st.integers(0, len(RULES) - 1),
-    chance=st.integers(0, 2**32 - 1),
-    policy=st.sampled_from(POLICIES),
-)
-@settings(max_examples=100, deadline=None)
+@law(any_fleet(without=CLOSURES), planners, seeds, policies)
 def test_the_judge_finds_all_work_done_and_no_robots_meeting(
-    seed: int, rules: int, chance: int, policy: ExecutionPolicy
+    fleet: Scenario, planner: str, chance: int, policy: ExecutionPolicy
 ) -> None:
     """Robots are late, never early: the judge would find them too fast."""
-    plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
+    plan, draw = planned(fleet, planner), random.Random(chance)  # noqa: S311
     delays = DelayModel(
         random=draw.choice([(("chance", 0.1, 9.0),), (("exponential", 0.5, 0.0),)]),
         pace=tuple(draw.choice([1.0, 1.0, 2.0]) for _ in plan.tracks),
         stoppages=tuple(() for _ in plan.tracks),
     )
-    adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
+    adg = ActionDependencyGraph(fleet, plan.tracks, delays)
     monitor = ExecutionMonitor(adg, policy, chance, 0, Deadline())
     assert (monitor.completion < NEVER).all()
     found = check(replace(plan, tracks=monitor.adg.tracks_at(monitor.execution.enter)))
     assert found.ok, found
 
 
-@pytest.mark.parametrize("policy", POLICIES)
-@given(seed=st.integers(0, 5), rules=st.integers(0, len(RULES) - 1))
+@law(any_fleet(without=CLOSURES), planners, policies)
 def test_nothing_is_changed_where_no_robot_is_late(
-    policy: ExecutionPolicy, seed: int, rules: int
+    fleet: Scenario, planner: str, policy: ExecutionPolicy
 ) -> None:
-    plan = some_plan(seed, rules)
-    adg = ActionDependencyGraph(plan.scenario, plan.tracks, DelayModel.none(len(plan.tracks)))
+    plan = planned(fleet, planner)
+    adg = ActionDependencyGraph(fleet, plan.tracks, DelayModel.none(len(plan.tracks)))
     assert ExecutionMonitor(adg, policy, 0, 0, Deadline()).adg is adg
+
+
+@pytest.mark.parametrize("change", ["switch", "replan"])
+def test_fleets_with_closures_are_refused(change: str) -> None:
+    fleet = grid_fleet(["..."], [("N0", "N1")])
+    closed = replace(fleet, closures=(Closure(at=VertexId(2), from_=Fraction(1)),))
+    plan = rightofway.solve(closed, "prioritized")
+    what = {"switch": "switching rights of way", "replan": "replanning during execution"}
+    with pytest.raises(InputError, match=f"{what[change]} does not know closures"):
+        rightofway.simulate(plan, runs=1, **{change: True})  # type: ignore[arg-type]
 
 
 def booked_until(monitor: ExecutionMonitor, tick: int) -> list[list[tuple[int, int]]]:
@@ -108,25 +112,19 @@ class Witness(ExecutionMonitor):
         Witness.seen += self.switches + self.replans
 
 
-@given(
-    seed=st.integers(0, 5),
-    rules=st.integers(0, len(RULES) - 1),
-    chance=st.integers(0, 2**32 - 1),
-    policy=st.sampled_from(POLICIES),
-)
-@settings(max_examples=100, deadline=None)
+@law(any_fleet(without=CLOSURES), planners, seeds, policies)
 def test_no_change_reaches_into_the_past(
-    seed: int, rules: int, chance: int, policy: ExecutionPolicy
+    fleet: Scenario, planner: str, chance: int, policy: ExecutionPolicy
 ) -> None:
     """A robot that has waited until now for its right of way goes now, not earlier."""
-    plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
-    delays = some_delays(draw, len(plan.tracks), 20)
-    adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
+    adg = late(planned(fleet, planner), random.Random(chance))  # noqa: S311
     Witness(adg, policy, chance, 0, Deadline()).look()
 
 
 def test_the_witness_has_seen_changes() -> None:
-    plan = some_plan(0, 1)
+    plan = rightofway.solve(
+        random_fleet(0, size=5, robots=5, rules=Rules(occupancy="both")), "two-level"
+    )
     delays = replace(DelayModel.none(len(plan.tracks)), random=(("chance", 0.1, 20.0),))
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
     for run in range(20):
@@ -134,13 +132,12 @@ def test_the_witness_has_seen_changes() -> None:
     assert Witness.seen > 0
 
 
-@given(chance=st.integers(0, 2**32 - 1), cut=st.integers(1, 40), policy=st.sampled_from(POLICIES))
-@settings(max_examples=100, deadline=None)
+@law(any_fleet(without=CLOSURES), planners, seeds, st.integers(1, 40), policies)
 def test_what_is_still_to_come_decides_nothing(
-    chance: int, cut: int, policy: ExecutionPolicy
+    fleet: Scenario, planner: str, chance: int, cut: int, policy: ExecutionPolicy
 ) -> None:
     """Runs with the same stops before a tick are the same until that tick."""
-    plan, draw = some_plan(chance % 6, chance % len(RULES)), random.Random(chance)  # noqa: S311
+    plan, draw = planned(fleet, planner), random.Random(chance)  # noqa: S311
     stops = [
         Stoppage(Tick(draw.randint(0, 30)), Tick(draw.choice([3, 10, 20]))) for _ in plan.tracks
     ]

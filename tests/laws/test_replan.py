@@ -6,46 +6,27 @@ import random
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
-from fractions import Fraction
 
 import numpy as np
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import rightofway
 from rightofway.check import check
-from rightofway.errors import NoPlanExists
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.replan import commitment_of, held_by_broken, replan
-from rightofway.model import NEVER, Plan, Rules, Stage, Tick
+from rightofway.model import NEVER, Plan, Scenario, Stage, Tick
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
-from tests.builders.fleets import fleet_on
+from tests.builders.any_fleet import any_fleet
+from tests.builders.any_plan import STRICT, planned
+from tests.builders.executions import ONE_CHAIN
+from tests.builders.laws import law
 from tests.oracles.cut_off import most_who_can_finish
 
-GRIDS = (
-    ["...", "@.@", "..."],
-    ["....", ".@@.", "...."],
-    [".....", "@@.@@"],
-    ["...", "..."],
-    ["..@", "...", "@.."],
-)
-MEETINGS = {"vertex conflict", "swap conflict", "headway", "rotation"}
+MEETINGS = {"vertex conflict", "swap conflict", "headway", "rotation", "zone conflict"}
+MEETINGS |= {"space conflict", "too close"}
 
-
-def small_plan(draw: random.Random, robots: int) -> Plan | None:
-    rules = Rules(
-        occupancy=draw.choice(["one", "both"]),
-        ends=draw.choice(["home", "home", "none"]),
-        headway=Fraction(draw.choice([0, 0, 1])),
-        laps=1,
-    )
-    try:
-        scenario = fleet_on(draw.choice(GRIDS), draw, robots=robots, rules=rules)
-        return rightofway.solve(scenario, "two-level")
-    except NoPlanExists:
-        return None
+planners, seeds = st.sampled_from(STRICT), st.integers(0, 2**32 - 1)
 
 
 def with_breakdowns(draw: random.Random, plan: Plan, most: int) -> ActionDependencyGraph:
@@ -86,14 +67,10 @@ def most_by_brute_force(forecast: Forecast, stages: Sequence[tuple[Stage, ...]])
     )
 
 
-@given(chance=st.integers(0, 2**32 - 1))
-@settings(max_examples=80, deadline=None)
-def test_as_many_finish_as_brute_force_finds(chance: int) -> None:
+@law(any_fleet(robots=(2, 3), without=ONE_CHAIN, tiny=True), planners, seeds)
+def test_as_many_finish_as_brute_force_finds(fleet: Scenario, planner: str, chance: int) -> None:
     """One robot breaks down; no other choice of robots that are cut off would be smaller."""
-    draw = random.Random(chance)  # noqa: S311
-    plan = small_plan(draw, robots=draw.randint(2, 4))
-    if plan is None:
-        return
+    plan, draw = planned(fleet, planner), random.Random(chance)  # noqa: S311
     adg = with_breakdowns(draw, plan, most=1)
     sample = adg.delay_sample(chance, 0)
     since, broken = min((sample.breakdown(robot), robot) for robot in range(len(plan.tracks)))
@@ -105,19 +82,15 @@ def test_as_many_finish_as_brute_force_finds(chance: int) -> None:
     assert finishing == most_by_brute_force(forecast, stages)
 
 
-@given(chance=st.integers(0, 2**32 - 1), switch=st.booleans())
-@settings(max_examples=60, deadline=None)
+@law(any_fleet(robots=(2, 4), without={"closures"}), planners, seeds, st.booleans())
 def test_no_robots_collide_over_all_plans_of_a_run_and_the_rest_complete(
-    chance: int, switch: bool
+    fleet: Scenario, planner: str, chance: int, switch: bool
 ) -> None:
-    draw = random.Random(chance)  # noqa: S311
-    plan = small_plan(draw, robots=draw.randint(2, 4))
-    if plan is None:
-        return
+    """Replanning refuses closures."""
+    plan, draw = planned(fleet, planner), random.Random(chance)  # noqa: S311
     adg = with_breakdowns(draw, plan, most=2)
-    monitor = ExecutionMonitor(
-        adg, ExecutionPolicy(switch=switch, replan=True), chance, 0, Deadline()
-    )
+    policy = ExecutionPolicy(switch=switch, replan=True)
+    monitor = ExecutionMonitor(adg, policy, chance, 0, Deadline())
     tracks = monitor.adg.tracks_at(monitor.execution.enter)
     report = check(replace(plan, tracks=tracks))
     assert not MEETINGS & set(report.counts)

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from rightofway.model import ExecutionTrace, Plan, Roadmap, Robot, Scenario
 
-__all__ = ["faults"]
+__all__ = ["Booking", "Site", "faults", "is_shut"]
 
 Point = tuple[Fraction, Fraction]
 Shape = tuple[int, ...]
@@ -190,7 +190,7 @@ def faults(plan: Plan, trace: ExecutionTrace | None = None) -> set[Fault]:
     driven = [list(_motions(site, way)) for way in ways]
     if trace is None:
         found |= {
-            ("closure", (k,)) for k, robot in enumerate(robots) if _is_shut(site, robot, booked[k])
+            ("closure", (k,)) for k, robot in enumerate(robots) if is_shut(site, robot, booked[k])
         }
     for i, j in combinations(range(len(robots)), 2):
         both = (booked[i], booked[j]), (driven[i], driven[j])
@@ -346,13 +346,13 @@ def _rotations(ways: Sequence[Way]) -> Iterator[Fault]:
                 yield "rotation", tuple(sorted(circle))
 
 
-def _is_shut(site: Site, robot: Robot, booked: Sequence[Booking]) -> bool:
+def is_shut(site: Site, robot: Robot, booked: Sequence[Booking]) -> bool:
     """Tell whether a robot books something while it is closed."""
     for closure in site.scenario.closures:
         start = floor(closure.from_ / site.tick)
         end = inf if closure.until is None else ceil(closure.until / site.tick)
-        is_shut = _shut(site, robot, closure.at, closure.edge, closure.radius)
-        if any(one.start < end and start < one.end and is_shut(one.shape) for one in booked):
+        shuts = _shut(site, robot, closure.at, closure.edge, closure.radius)
+        if any(one.start < end and start < one.end and shuts(one.shape) for one in booked):
             return True
     return False
 
@@ -370,7 +370,7 @@ def _shut(
     inner = set(_pieces(site.roadmap, *edge)) if edge else set()
     reach = None if radius is None else robot.radius + radius + site.rules.clearance
 
-    def is_shut(shape: Shape) -> bool:
+    def shuts(shape: Shape) -> bool:
         if sorted(shape) == sorted(own) or inner & set(shape):
             return True
         return (
@@ -379,7 +379,7 @@ def _shut(
             and (site.square(shape, own) < reach**2)
         )
 
-    return is_shut
+    return shuts
 
 
 def _pieces(roadmap: Roadmap, one: int, other: int) -> Iterator[int]:
