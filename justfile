@@ -60,9 +60,9 @@ judge count *args:
 delay count *args:
     python -m tests.campaigns delay {{ count }} {{ args }}
 
-# Open broken layouts: 100 000 take about half an hour
-fuzz-layouts *args:
-    python -m tests.builders.broken_layouts {{ args }}
+# Break files of all formats that are read: a million take about an hour
+fuzz-files count *args:
+    python -m tests.builders.broken_files {{ count }} {{ args }}
 
 # The native tests under AddressSanitizer and UndefinedBehaviorSanitizer, warnings as errors
 native:

@@ -29,11 +29,9 @@ SLOW = (
     "laws/test_best_timetable.py",
     "laws/test_io_fuzz.py",
     "laws/test_lacam_plans.py",
-    "laws/test_layout_fuzz.py",  # hundreds of broken files
     "laws/test_optimum_with_sizes.py",
     "laws/test_space.py",
     "laws/test_turning.py",  # every planner
-    "laws/test_workbook_fuzz.py",
     "planners/test_limits.py",  # limits of time, and interrupts
     "studio/test_accessibility.py",  # a browser
     "studio/test_attacks.py",  # thousands of requests

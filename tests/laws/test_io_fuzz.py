@@ -2,7 +2,6 @@
 
 import copy
 import json
-import tempfile
 from collections.abc import Callable, Iterator
 from decimal import Decimal
 from pathlib import Path
@@ -15,10 +14,6 @@ from hypothesis import strategies as st
 from rightofway.errors import InputError, InputFault
 from rightofway.io import (
     dump_plan,
-    load,
-    load_map,
-    load_plan,
-    load_scen,
     plan_of,
     scenario_of,
     schema,
@@ -199,19 +194,3 @@ def test_any_data(data: Any) -> None:
 def test_any_text(text: str) -> None:
     accepts(parse_yaml, text)
     accepts(parse_json, text)
-
-
-@given(
-    st.sampled_from(["a.yaml", "a.json", "a.map", "a.scen", "a"]),
-    st.one_of(
-        st.binary(max_size=60),
-        st.text(alphabet="type octile\nheight 3width1map.@\tversion0", max_size=80).map(str.encode),
-    ),
-)
-@settings(max_examples=200, deadline=None)
-def test_any_file(name: str, content: bytes) -> None:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, name)
-        path.write_bytes(content)
-        for read in (load, load_plan, load_map, load_scen):
-            accepts(read, path)
