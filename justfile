@@ -64,6 +64,20 @@ delay count *args:
 fuzz-files count *args:
     python -m tests.builders.broken_files {{ count }} {{ args }}
 
+# Broken calls of the native core at random, until stopped, or `--count 100000`: some minutes
+fuzz-bindings *args:
+    python -m tests.builders.broken_calls {{ args }}
+
+# The same under AddressSanitizer and UndefinedBehaviorSanitizer: builds the module with them first
+fuzz-bindings-sanitized *args:
+    cmake -S . -B build/sanitized-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
+        -DRIGHTOFWAY_BINDING=ON -DRIGHTOFWAY_SANITIZE=ON -DPython_EXECUTABLE="$(which python)" \
+        -Dnanobind_DIR="$(python -m nanobind --cmake_dir)"
+    cmake --build build/sanitized-core --parallel
+    CORE="$(echo build/sanitized-core/_core*.so)" ASAN_OPTIONS=detect_leaks=0 \
+        LD_PRELOAD="$(${CXX:-c++} -print-file-name=libasan.so) $(${CXX:-c++} -print-file-name=libstdc++.so)" \
+        python -m tests.builders.broken_calls {{ args }}
+
 # The native tests under AddressSanitizer and UndefinedBehaviorSanitizer, warnings as errors
 native:
     cmake --preset sanitize

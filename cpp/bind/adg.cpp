@@ -46,11 +46,20 @@ first_right, rights : int32[N + 1], int32[M] or None
     Where robots have sizes: visit ``x`` starts when the visits ``rights[first_right[x]] ..`` have
     ended; ``before`` is then -1.
 vertex_row, edge_row, first_excluded, excluded : int32 or None
-    Where robots have sizes: as ``PrecedenceGraph`` takes them.)";
+    Where robots have sizes: as ``PrecedenceGraph`` takes them.
+first_closed, closed_from, closed_until : int32[2 N + 1], int64[K], int64[K] or None
+    When the places of visits are closed: as ``PrecedenceGraph`` takes them. [ticks])";
 
 constexpr auto runs_doc = R"(Run the plan many times by right of way, and by the clock.
 
-Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
+Parameters
+----------
+seed : int
+    For the delays.
+first, count : int
+    Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s]
 
 Returns
 -------
@@ -63,19 +72,50 @@ by_right_of_way, by_clock : int64[K, 4]
 own, of_others : int64[N]
     Ticks of lateness that began at each visit: of its own robot, of others.
 between : int64[P, 3]
-    Robot, another, and the ticks that the first is late because of the other.)";
+    Robot, another, and the ticks that the first is late because of the other.
+is_caught : uint8[K, R]
+    Whether each robot books something while it is closed.)";
 
 constexpr auto sample_doc =
-    R"(Return the delays of one run: dwells and drives, and stoppages as the class takes them.)";
+    R"(Return the delays of one run.
 
-constexpr auto execute_doc =
-    R"(Run the plan once by the clock or by right of way, with delays as `delay_sample` returns them.
+Parameters
+----------
+seed, run : int
+    As for `runs`.
 
 Returns
 -------
-tuple of (int64[N], int64[N], int64[R], uint8[R], int64[4])
-    When each visit begins, when its booking begins, when robots complete, which stand still for
-    ever, and the conflicts as `runs` counts them.)";
+dwell, drive : int64[N], int64[N]
+    The real duration of each visit without the drive after it, and of the drive into it. [ticks]
+first_stoppage, stoppage_tick, stoppage_ticks : int32[R + 1], int64[S], int64[S]
+    Stoppages as the class takes them.)";
+
+constexpr auto execute_doc =
+    R"(Run the plan once by the clock or by right of way, with given delays.
+
+Parameters
+----------
+dwell, drive, first_stoppage, stoppage_tick, stoppage_ticks : ndarray
+    The delays, as `delay_sample` returns them.
+clock : bool
+    Whether robots go by the clock, instead of by right of way.
+
+Returns
+-------
+enter, start : int64[N], int64[N]
+    When each visit begins, and when its booking begins. [ticks]
+completion, is_broken : int64[R], uint8[R]
+    When each robot completes; whether it stands still for ever. [ticks]
+collisions : int64[4]
+    As `runs` counts them.
+is_caught : uint8[R]
+    Whether each robot books something while it is closed.)";
+
+// Of a stay or a drive, however late: the sum of two stays below `never`.
+constexpr Tick longest = Tick{1} << 60;
+
+constexpr std::size_t most_runs = std::size_t{1} << 31;
 
 std::vector<Stoppage> stoppages_of(const ArrayIn<Tick>& tick, const ArrayIn<Tick>& ticks) {
     require_length("stoppage_ticks", ticks.size(), tick.size());
@@ -92,12 +132,14 @@ DelaySample sample_of(const ActionDependencyGraph& plan, const ArrayIn<Tick>& dw
     const auto n_visits = static_cast<std::size_t>(plan.n_visits());
     require_length("dwell", dwell.size(), n_visits);
     require_length("drive", drive.size(), n_visits);
-    require_stoppages(view(first), static_cast<std::size_t>(plan.n_robots()), tick.size());
+    require_ranges("dwell", view(dwell), 0, longest);
+    require_ranges("drive", view(drive), 0, longest);
     DelaySample out;
     out.dwell.assign(view(dwell).begin(), view(dwell).end());
     out.drive.assign(view(drive).begin(), view(drive).end());
     out.first_stoppage.assign(view(first).begin(), view(first).end());
     out.stoppages = stoppages_of(tick, ticks);
+    require_stoppages(out.first_stoppage, static_cast<std::size_t>(plan.n_robots()), out.stoppages);
     return out;
 }
 
@@ -139,6 +181,10 @@ class BoundAdg {
     auto runs(std::uint64_t seed, std::uint64_t first, std::size_t count,
               std::optional<double> time_limit) {
         const Deadline deadline(time_limit);
+        if (count > most_runs) {
+            throw std::invalid_argument("count: " + std::to_string(count) + " is above " +
+                                        std::to_string(most_runs));
+        }
         LatenessSources sources(plan_);
         RunBatch out;
         {
@@ -214,11 +260,17 @@ void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Ver
           const std::optional<ArrayIn<std::int32_t>>& first_closed,
           const std::optional<ArrayIn<Tick>>& closed_from,
           const std::optional<ArrayIn<Tick>>& closed_until) {
+    are_given("first_right, rights, vertex_row, edge_row, first_excluded, excluded", first_right,
+              rights, vertex_row, edge_row, first_excluded, excluded);
+    are_given("first_closed, closed_from, closed_until", first_closed, closed_from, closed_until);
+    require_not_empty("first_excluded", first_excluded);
+    require_not_empty("first_closed", first_closed);
+    require_length("since", since.size(), vertex.size());
     require_length("delay_a", delay_a.size(), delay_kind.size());
     require_length("delay_b", delay_b.size(), delay_kind.size());
     std::vector<Delay> delays;
+    require_ids("delay_kind", view(delay_kind), 5);
     for (std::size_t k = 0; k < delay_kind.size(); ++k) {
-        require_id("delay_kind", view(delay_kind)[k], 5);
         delays.push_back(
             {static_cast<DelayKind>(view(delay_kind)[k]), view(delay_a)[k], view(delay_b)[k]});
     }

@@ -8,10 +8,13 @@
 #include <nanobind/ndarray.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -63,15 +66,41 @@ ArrayOut<T> to_numpy(std::span<const T> values) {
     return to_numpy(std::vector<T>(values.begin(), values.end()));
 }
 
+// Throws unless arrays that go together are all given, or none of them.
+template <class... Arrays>
+bool are_given(const char* names, const Arrays&... arrays) {
+    const std::size_t n_given = (std::size_t{arrays.has_value()} + ...);
+    if (n_given != 0 && n_given != sizeof...(arrays)) {
+        throw std::invalid_argument(std::string(names) + ": " + std::to_string(n_given) + " of " +
+                                    std::to_string(sizeof...(arrays)) +
+                                    " arrays are given (give all, or none)");
+    }
+    return n_given != 0;
+}
+
+// Throws if an array that is given has no entry, because the kernels take that for none given.
+template <class T>
+void require_not_empty(const char* name, const std::optional<ArrayIn<T>>& array) {
+    if (array && array->size() == 0) {
+        throw std::invalid_argument(std::string(name) +
+                                    ": its length is 0, but must be at least 1");
+    }
+}
+
 // What long searches are asked now and then: is the time over, has the user had enough?
 class Deadline {
   public:
-    // So many seconds from now; never, without.
-    explicit Deadline(std::optional<double> seconds) {
-        if (seconds) {
-            at_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                     std::chrono::duration<double>(*seconds));
+    // Some seconds from now: at once for 0 or less; never without a limit, or beyond 30 years.
+    explicit Deadline(std::optional<double> seconds, const char* name = "time_limit") {
+        if (!seconds || *seconds > endless) {
+            return;
         }
+        if (std::isnan(*seconds)) {
+            throw std::invalid_argument(std::string(name) + ": nan is no number of seconds");
+        }
+        at_ = *seconds <= 0 ? Clock::time_point::min()
+                            : Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                 std::chrono::duration<double>(*seconds));
     }
 
     // Asked while the GIL is released: takes it to look for Ctrl-C.
@@ -84,6 +113,7 @@ class Deadline {
     }
 
   private:
+    static constexpr double endless = 1e9;
     using Clock = std::chrono::steady_clock;
     std::optional<Clock::time_point> at_;
 };

@@ -8,14 +8,28 @@ namespace {
 constexpr auto class_doc =
     R"(Least ticks from every vertex to one target, on a graph in compressed rows.
 
-The edges that leave vertex ``v`` are ``indptr[v] .. indptr[v + 1] - 1``, and edge ``e`` ends at
-``indices[e]``. The graph is copied (reversed) once; several threads may ask one object at once.)";
+The graph is copied (reversed) once; several threads may ask one object at once.
+
+Parameters
+----------
+indptr, indices : int32[V + 1], int32[E]
+    The edges that leave vertex ``v`` are ``indptr[v] .. indptr[v + 1] - 1``, and edge ``e`` ends at
+    ``indices[e]``.)";
 
 constexpr auto to_doc =
     R"(Return the least time from each vertex to a target, -1 where no way leads there, int32[V].
 
-``edge_ticks`` (int32[E], above 0) has what each edge takes. OverflowError if a least time does not
-fit int32.)";
+Parameters
+----------
+target : int
+    The vertex to reach.
+edge_ticks : int32[E]
+    What each edge takes, above 0; -1 where it is barred. [ticks]
+
+Raises
+------
+OverflowError
+    If a least time does not fit int32.)";
 
 void init(DistanceTables* self, const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices) {
     const nb::gil_scoped_release released;
@@ -35,16 +49,40 @@ ArrayOut<std::int32_t> to(const DistanceTables& self, VertexId target,
 constexpr auto congestion_doc = R"(Cheapest paths that keep clear of other robots.
 
 To drive an edge costs ``shares`` for each tick that it takes, and more per tick: what it costs to
-enter the vertex that it ends at (``station``, int64[V]), unless that is the target, and what every
-robot costs that was added on the opposite edge.)";
+enter the vertex that it ends at, unless that is the target, and what every robot costs that was
+added on the opposite edge.
+
+Parameters
+----------
+problem : Problem
+    The roads, and how fast robots drive.
+shares : int
+    In how many shares a tick is counted, above 0.
+station : int64[V]
+    What it costs more to enter each vertex. [shares per tick])";
 
 constexpr auto path_doc = R"(Return the vertices of a cheapest path, both ends included, int32[n].
 
-``to_go`` has the least ticks from each vertex to the target, -1 where no way leads there. Of
-several cheapest paths, the one that takes the first edge of a vertex that it can.)";
+Of several cheapest paths, the one that takes the first edge of a vertex that it can.
+
+Parameters
+----------
+robot : int
+    The robot that drives.
+start, target : int
+    The vertices at which the path begins and ends.
+to_go : int32[V]
+    The least ticks from each vertex to the target, -1 where no way leads there.)";
 
 constexpr auto add_doc =
-    R"(Count one more robot on a path; to go against it costs ``oncoming`` [shares per tick].)";
+    R"(Count one more robot on a path.
+
+Parameters
+----------
+path : int32[n]
+    The vertices of the path.
+oncoming : int
+    What it costs to go against the robot. [shares per tick])";
 
 }  // namespace
 

@@ -20,47 +20,118 @@ constexpr auto class_doc = R"(The tracks of a whole fleet: finding first ones, a
 
 The seed decides all that is drawn; what `improve` finds does not depend on ``n_threads``. Robots
 without a track are left where they are by `tracks`: an empty one. Ctrl-C leaves a plan as good as
-before.)";
+before.
+
+Parameters
+----------
+problem : Problem
+    What the fleet has to do.
+seed : int
+    For all that is drawn.
+n_threads : int
+    Threads of `prioritize` and `improve`, 1 to 1024.
+alone : int64[R] or None
+    What `alone` returned for the same trips. [ticks])";
 
 constexpr auto alone_doc =
     R"(Return the least completion of each robot without the others, int64[R]. [ticks]
 
--1 for a robot that cannot get to a stage; None if time ran out.)";
+-1 for a robot that cannot get to a stage; None if time ran out.
+
+Parameters
+----------
+time_limit : float or None
+    When to stop; at once for 0 or less. [s])";
 
 constexpr auto start_doc =
-    R"(Take over tracks: where each robot's visits begin, int32[R + 1], their vertices and enters.
+    R"(Take over tracks. A robot may have none: an empty track.
 
-A robot may have none: an empty track. ValueError if the others are no tracks of these trips, or
-overlap.)";
+Parameters
+----------
+first_visit : int32[R + 1]
+    Robot ``r`` has the visits ``first_visit[r] .. first_visit[r + 1] - 1``.
+vertices, enter : int32[N], int64[N]
+    Where and when each visit begins. [ticks]
+
+Raises
+------
+ValueError
+    If the others are no tracks of these trips, or overlap.)";
 
 constexpr auto prioritize_doc =
     R"(Give the robots tracks one after another, in this order; return whether all have one now.
 
-Gives up after ``n_searches`` or the time limit; after ``with_net`` seconds instead, once there is
-a plan made in haste. `go_on` may change a False.)";
+`go_on` may change a False.
+
+Parameters
+----------
+order : int32[R]
+    Every robot once.
+n_searches : int
+    The most searches before it gives up.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s]
+with_net : float or None
+    When to stop instead once there is a plan made in haste. [s])";
 
 constexpr auto restore_doc =
-    R"(Give robots these tracks, as for `start`, where that costs no more; return how many have theirs.
+    R"(Give robots these tracks where that costs no more; return how many have theirs.
 
-Every robot has a track, and the tracks given keep the rules. `improve` starts afresh.)";
+Every robot has a track. `improve` starts afresh.
+
+Parameters
+----------
+first_visit : int32[R + 1]
+    Robot ``r`` has the visits ``first_visit[r] .. first_visit[r + 1] - 1``.
+vertices, enter : int32[N], int64[N]
+    Where and when each visit begins. [ticks] None is empty.)";
 
 constexpr auto repair_doc =
     R"(Give tracks to robots that have none, in this order; return whether all have one now.
 
-Robots that have a track keep it, unless they are in the way: they lose it, and queue again.)";
+Robots that have a track keep it, unless they are in the way: they lose it, and queue again.
 
-constexpr auto go_on_doc = R"(Continue `prioritize`; ``n_searches`` counts since its beginning.)";
+Parameters
+----------
+order : int32[n]
+    All robots without a track, each once.
+n_searches : int
+    The most searches before it gives up.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s])";
+
+constexpr auto go_on_doc = R"(Continue a `prioritize` that returned False.
+
+Parameters
+----------
+n_searches : int
+    The most searches since its beginning.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s])";
 
 constexpr auto improve_doc =
     R"(Replace tracks by better ones, a few robots at a time; return how many times that was done.
 
 Every robot has a track. A plan that is stuck becomes one of several, which are crossed with each
-other. Ends when nothing can be better, after ``n_tasks``, after ``patience`` tasks in a row without
-a gain, at once after the time limit, and after ``pause`` seconds at the next point that does not
-depend on clocks.)";
+other. Ends when nothing can be better, too.
+
+Parameters
+----------
+n_tasks : int
+    The number of neighbourhoods to replan.
+patience : int
+    The most of them in a row without a gain.
+time_limit : float or None
+    When to stop at once. [s]
+pause : float or None
+    When to stop at the next point that does not depend on clocks. [s])";
 
 constexpr auto retime_doc =
     R"(Have all robots as early as the order of visits at every vertex allows; `improve` starts afresh.)";
+
+// Upper limit of a sum of times over a fleet.
+constexpr Tick longest_sum = Tick{1} << 60;
+constexpr std::size_t most_threads = 1024;
 
 using TrackArrays = std::tuple<ArrayOut<std::int32_t>, ArrayOut<VertexId>, ArrayOut<Tick>>;
 
@@ -79,26 +150,33 @@ class FleetSearch {
           seed_(seed),
           n_threads_(n_threads) {}
 
-    // Empty if there was no time.
-    const std::vector<Tick>& alone(const StopCondition& deadline) {
-        if (alone_.empty()) {
+    // Null if there was no time.
+    const std::vector<Tick>* alone(const StopCondition& deadline) {
+        if (!is_alone_known_) {
             std::vector<Tick> alone(static_cast<std::size_t>(problem_.n_robots()));
             for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
                 if (robot % 64 == 0 && deadline()) {
-                    return alone_;
+                    return nullptr;
                 }
                 alone[static_cast<std::size_t>(robot)] = distances_.alone(robot);
             }
             alone_ = std::move(alone);
             bound_ = std::accumulate(alone_.begin(), alone_.end(), Tick{0});
+            is_alone_known_ = true;
         }
-        return alone_;
+        return &alone_;
     }
 
-    void take_alone(std::span<const Tick> alone) { distances_.take_alone(alone); }
+    void take_alone(std::span<const Tick> alone) {
+        require_ranges("alone", alone, -1, latest());
+        distances_.take_alone(alone);
+    }
 
     bool prioritize(std::span<const RobotId> order, std::int64_t n_searches,
                     const StopCondition& deadline, const StopCondition& with_net) {
+        require_count("n_searches", n_searches);
+        require_length("order", order.size(), n_robots());
+        require_each_once(order);
         clear();
         in_turn_.emplace(distances_, plan_, order);
         return go_on(n_searches, deadline, with_net);
@@ -106,6 +184,23 @@ class FleetSearch {
 
     bool repair(std::span<const RobotId> order, std::int64_t n_searches,
                 const StopCondition& deadline) {
+        require_count("n_searches", n_searches);
+        require_each_once(order);
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            if (plan_.has_track(order[k])) {
+                reject_entry("order", k, order[k], "is a robot that has a track");
+            }
+        }
+        const auto is_left_out = [&](RobotId robot) {
+            return !plan_.has_track(robot) &&
+                   std::find(order.begin(), order.end(), robot) == order.end();
+        };
+        for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+            if (is_left_out(robot)) {
+                reject("order", robot, "is a robot without a track, and left out");
+            }
+        }
+        let_go();
         Prioritized planner(distances_, plan_);
         planner.start(order);
         return planner.run(n_searches, deadline) == SearchEnd::found;
@@ -113,7 +208,12 @@ class FleetSearch {
 
     bool go_on(std::int64_t n_searches, const StopCondition& deadline,
                const StopCondition& with_net) {
-        if (!in_turn_ || !in_turn_->run(n_searches, n_threads_ > 1, deadline, with_net)) {
+        require_count("n_searches", n_searches);
+        if (!in_turn_) {
+            throw std::invalid_argument(
+                "go_on: there is no attempt to continue (prioritize first)");
+        }
+        if (!in_turn_->run(n_searches, n_threads_ > 1, deadline, with_net)) {
             return false;
         }
         in_turn_.reset();
@@ -121,15 +221,17 @@ class FleetSearch {
     }
 
     void start(const GivenTracks& given) {
+        require_tracks(given);
         clear();
         for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
             if (given.first_visit[robot] == given.first_visit[robot + 1]) {
                 continue;
             }
             TimedTrack track = track_of(robot, given);
-            if (track.cost < 0 || !plan_.fits(robot, track)) {
+            if (!plan_.fits(robot, track)) {
                 clear();
-                reject("robot", robot, "has a track that breaks the rules");
+                reject("robot", robot,
+                       "has a track that breaks the rules: it overlaps another one");
             }
             plan_.exchange(robot, track);
         }
@@ -138,13 +240,24 @@ class FleetSearch {
     // The given tracks do not conflict with each other. So a robot can have its track again if all
     // robots in the way of it have theirs, and those in the way of these, and so on.
     std::int64_t restore(const GivenTracks& given) {
-        const auto n_robots = static_cast<std::size_t>(problem_.n_robots());
+        require_tracks(given);
+        require_all_tracks("restore");
         std::vector<TimedTrack> old;
+        FleetPlan together(problem_);
         for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+            if (given.first_visit[robot] == given.first_visit[robot + 1]) {
+                reject("robot", robot, "has an empty track");
+            }
             old.push_back(track_of(robot, given));
+            if (!together.fits(robot, old.back())) {
+                reject("robot", robot,
+                       "has a track that breaks the rules: it overlaps another one");
+            }
+            TimedTrack same = old.back();
+            together.exchange(robot, same);
         }
         std::int64_t n_restored = 0;
-        std::vector<std::uint8_t> is_restored(n_robots, 0);
+        std::vector<std::uint8_t> is_restored(n_robots(), 0);
         for (bool has_changed = true; has_changed;) {
             has_changed = false;
             for (RobotId first = 0; first < problem_.n_robots(); ++first) {
@@ -173,7 +286,10 @@ class FleetSearch {
 
     std::int64_t improve(std::int64_t n_tasks, std::int64_t patience, const StopCondition& deadline,
                          const StopCondition& pause) {
-        if (alone(deadline).empty()) {
+        require_count("n_tasks", n_tasks);
+        require_count("patience", patience);
+        require_all_tracks("improve");
+        if (problem_.n_robots() == 0 || alone(deadline) == nullptr) {
             return 0;
         }
         if (!improvement_) {
@@ -186,6 +302,7 @@ class FleetSearch {
     }
 
     void retime() {
+        require_all_tracks("retime");
         improvement_.reset();
         plan_.retime();
     }
@@ -201,6 +318,44 @@ class FleetSearch {
     std::int64_t n_expanded() const { return improvement_ ? improvement_->n_expanded() : 0; }
 
   private:
+    std::size_t n_robots() const { return static_cast<std::size_t>(problem_.n_robots()); }
+
+    // The latest time of a robot, so that no sum over the fleet overflows.
+    Tick latest() const { return longest_sum / std::max(problem_.n_robots(), 1); }
+
+    static void require_count(const char* name, std::int64_t count) {
+        if (count < 0) {
+            reject(name, count, "is negative");
+        }
+    }
+
+    void require_each_once(std::span<const RobotId> order) const {
+        require_ids("order", order, problem_.n_robots());
+        std::vector<std::uint8_t> is_there(n_robots(), 0);
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            if (is_there[static_cast<std::size_t>(order[k])]++ != 0) {
+                reject_entry("order", k, order[k], "is there twice");
+            }
+        }
+    }
+
+    void require_tracks(const GivenTracks& given) const {
+        require_length("first_visit", given.first_visit.size(), n_robots() + 1);
+        require_lists("first_visit", given.first_visit, given.vertices.size(), "visits");
+        require_length("enter", given.enter.size(), given.vertices.size());
+        require_ids("vertices", given.vertices, problem_.n_vertices());
+        require_ranges("enter", given.enter, 0, latest());
+    }
+
+    void require_all_tracks(const char* what) const {
+        for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+            if (!plan_.has_track(robot)) {
+                reject(what, robot,
+                       "is a robot without a track (start, prioritize or repair first)");
+            }
+        }
+    }
+
     // A robot, and all that have to give way for it to have its track of `old`.
     std::vector<RobotId> in_the_way_of_each_other(RobotId first,
                                                   std::span<const TimedTrack> old) const {
@@ -217,34 +372,62 @@ class FleetSearch {
         return group;
     }
 
-    // Its cost is below 0 if it misses a stage.
+    // A track of a robot that has visits. Throws unless it leads from its home at tick 0 through
+    // its stages, no faster than it drives.
     TimedTrack track_of(RobotId robot, const GivenTracks& given) const {
         const Turns turns = problem_.turns(robot);
         EdgeId before = -1;
         TimedTrack track;
-        for (auto k = static_cast<std::size_t>(given.first_visit[robot]);
-             k < static_cast<std::size_t>(given.first_visit[robot + 1]); ++k) {
-            if (track.visits.empty()) {
-                track.visits.push_back({given.enter[k], given.vertices[k], 0});
-                continue;
-            }
+        const auto first = static_cast<std::size_t>(given.first_visit[robot]);
+        const auto end = static_cast<std::size_t>(given.first_visit[robot + 1]);
+        if (given.vertices[first] != problem_.home(robot)) {
+            reject_entry("vertices", first, given.vertices[first],
+                         "is not the home of robot " + std::to_string(robot) + ", " +
+                             std::to_string(problem_.home(robot)));
+        }
+        if (given.enter[first] != 0) {
+            reject_entry("enter", first, given.enter[first], "must be 0 on a first visit");
+        }
+        track.visits.push_back({0, given.vertices[first], 0});
+        for (std::size_t k = first + 1; k < end; ++k) {
             const VertexId tail = given.vertices[k - 1];
             const EdgeId edge = problem_.graph().edge(tail, given.vertices[k]);
             if (edge < 0) {
                 reject_entry("vertices", k, given.vertices[k], "is not next to the one before");
             }
-            track.visits.push_back({given.enter[k], given.vertices[k], problem_.drive(robot, edge),
-                                    turns.between(before, edge)});
+            const std::int32_t drive = problem_.drive(robot, edge);
+            if (drive == barred) {
+                reject_entry(
+                    "vertices", k, given.vertices[k],
+                    "is entered along an edge that is barred to robot " + std::to_string(robot));
+            }
+            const std::int32_t turn = turns.between(before, edge);
+            if (given.enter[k] - given.enter[k - 1] < Tick{turn} + drive) {
+                reject_entry("enter", k, given.enter[k],
+                             "is sooner than robot " + std::to_string(robot) +
+                                 " can turn and drive there, " +
+                                 std::to_string(Tick{turn} + drive) +
+                                 " ticks after the visit before");
+            }
+            track.visits.push_back({given.enter[k], given.vertices[k], drive, turn});
             before = edge;
         }
         const Tick done = completion(problem_.itinerary(robot), track.visits);
-        track.cost = done < 0 ? done : done + plan_.surcharges(track.visits);
+        if (done < 0) {
+            reject("robot", robot, "has a track that breaks the rules: it misses a stage");
+        }
+        track.cost = done + plan_.surcharges(track.visits);
         return track;
     }
 
-    void clear() {
+    // What goes on from the present plan.
+    void let_go() {
         in_turn_.reset();
         improvement_.reset();
+    }
+
+    void clear() {
+        let_go();
         plan_ = FleetPlan(problem_);
     }
 
@@ -254,6 +437,7 @@ class FleetSearch {
     std::uint64_t seed_;
     std::size_t n_threads_;
     std::vector<Tick> alone_;
+    bool is_alone_known_ = false;
     Tick bound_ = 0;
     std::optional<PrioritizedPortfolio> in_turn_;
     std::optional<AnytimeLns> improvement_;
@@ -261,9 +445,18 @@ class FleetSearch {
 
 void init(FleetSearch* self, const Problem& problem, std::uint64_t seed, std::size_t n_threads,
           const std::optional<ArrayIn<Tick>>& alone) {
+    if (n_threads < 1 || n_threads > most_threads) {
+        reject("n_threads", static_cast<std::int64_t>(std::min(n_threads, std::size_t{1} << 62)),
+               "is not in 1.." + std::to_string(most_threads));
+    }
     new (self) FleetSearch(problem, seed, n_threads);
     if (alone) {
-        self->take_alone(view(*alone));
+        try {
+            self->take_alone(view(*alone));
+        } catch (...) {
+            self->~FleetSearch();
+            throw;
+        }
     }
 }
 
@@ -281,9 +474,9 @@ void bind_fleet(nb::module_& module) {
                 const std::vector<Tick>* alone = nullptr;
                 {
                     const nb::gil_scoped_release released;
-                    alone = &self.alone(deadline);
+                    alone = self.alone(deadline);
                 }
-                if (alone->empty()) {
+                if (alone == nullptr) {
                     return std::nullopt;
                 }
                 return to_numpy(std::span<const Tick>(*alone));
@@ -310,7 +503,7 @@ void bind_fleet(nb::module_& module) {
             [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,
                std::optional<double> time_limit, std::optional<double> with_net) {
                 const Deadline deadline(time_limit);
-                const Deadline deadline_with_net(with_net);
+                const Deadline deadline_with_net(with_net, "with_net");
                 const nb::gil_scoped_release released;
                 return self.prioritize(view(order), n_searches, deadline, deadline_with_net);
             },
@@ -338,7 +531,7 @@ void bind_fleet(nb::module_& module) {
             [](FleetSearch& self, std::int64_t n_tasks, std::int64_t patience,
                std::optional<double> time_limit, std::optional<double> pause) {
                 const Deadline deadline(time_limit);
-                const Deadline due(pause);
+                const Deadline due(pause, "pause");
                 const nb::gil_scoped_release released;
                 return self.improve(n_tasks, patience, deadline, due);
             },
@@ -346,7 +539,12 @@ void bind_fleet(nb::module_& module) {
             nb::arg("pause").none(), improve_doc)
         .def("retime", &FleetSearch::retime, nb::call_guard<nb::gil_scoped_release>(), retime_doc)
         .def("tracks", &FleetSearch::tracks,
-             "Return where each robot's visits begin, int32[R + 1], their vertices and enters.")
+             R"(Return the tracks of all robots.
+
+Returns
+-------
+tuple of (int32[R + 1], int32[N], int64[N])
+    Which visits each robot has, and where and when they begin. [ticks])")
         .def_prop_ro("cost", &FleetSearch::cost, "The sum of completions and surcharges. [ticks]")
         .def_prop_ro("n_idle", &FleetSearch::n_idle, "How many times in a row brought no gain.")
         .def_prop_ro("n_expanded", &FleetSearch::n_expanded, "States expanded by `improve`.");

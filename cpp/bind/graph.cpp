@@ -51,18 +51,33 @@ drive : int64[N] or None
 constexpr auto keep_order_doc =
     R"(Give the rights of way of all visits to a vertex in an order, all at once.
 
-``when`` (int64[N]) rises along each route: of two visits to one vertex the one with the smaller
-number goes first, of equal ones that with the smaller index. Returns whether that is possible; if
-not, nothing has changed. If so, there is no rollback below this.)";
+Returns whether that is possible; if not, nothing has changed. If so, there is no rollback below
+this.
+
+Parameters
+----------
+when : int64[N]
+    Rises along each route: of two visits to one vertex the one with the smaller number goes first,
+    of equal ones that with the smaller index.)";
 
 constexpr auto precede_doc =
     R"(Give visit a the right of way over visit b, of two active robots at the same vertex.
 
 Returns whether that is possible. If not, nothing has changed: ``a`` is a last visit, ``b`` is a
-first visit, or ``cycle()`` has the deadlock or swap that would follow.)";
+first visit, or ``cycle()`` has the deadlock or swap that would follow.
+
+Parameters
+----------
+a, b : int
+    The visits.)";
 
 constexpr auto take_back_doc =
-    R"(Take back the right of way of a over b, whenever it was given; return whether there was one.)";
+    R"(Take back the right of way of a over b, whenever it was given; return whether there was one.
+
+Parameters
+----------
+a, b : int
+    The visits.)";
 
 constexpr auto cycle_doc =
     R"(Return the cycle that the last refused ``precede(a, b)`` would have closed, int32[n].
@@ -73,10 +88,87 @@ constexpr auto incompatible_doc =
     R"(Return all incompatible visits of two robots, int32[K, 4]; none where no robot has a size.
 
 Visit of i, visit of j, and the visits whose starts count: i waits for j by
-``precede(visit of j, start of i)``, j for i by ``precede(visit of i, start of j)``.)";
+``precede(visit of j, start of i)``, j for i by ``precede(visit of i, start of j)``.
+
+Parameters
+----------
+i, j : int
+    The robots.)";
 
 constexpr auto conflicts_of_doc =
-    R"(Return the weight of one robot's conflicts with the ``others`` (uint8[R], not 0). [ticks])";
+    R"(Return the weight of one robot's conflicts with some others. [ticks]
+
+Parameters
+----------
+robot : int
+    The robot.
+others : uint8[R]
+    Not 0 for the others.)";
+
+constexpr auto enter_of_doc = R"(Return the enter of a visit. [ticks]
+
+Parameters
+----------
+visit : int
+    The visit.)";
+
+constexpr auto completion_doc = R"(Return the enter of a robot's last visit. [ticks]
+
+Parameters
+----------
+robot : int
+    The robot.)";
+
+constexpr auto critical_rights_doc =
+    R"(Return the rights of way ``(a, b)`` on a longest path to a robot's last visit, int32[K, 2].
+
+Parameters
+----------
+robot : int
+    The robot; the latest right of way comes first.)";
+
+constexpr auto next_conflict_doc = R"(Return the earliest conflict, None if none is left.
+
+Returns
+-------
+tuple of (int, int, int, int) or None
+    Tick, kind, and the two visits.)";
+
+constexpr auto next_conflict_between_doc =
+    R"(Return the earliest conflict of two robots, None if they have none.
+
+Parameters
+----------
+i, j : int
+    Two different robots.
+
+Returns
+-------
+tuple of (int, int, int, int) or None
+    Tick, kind, and the two visits.)";
+
+constexpr auto rollback_doc = R"(Undo all changes since a mark.
+
+Parameters
+----------
+mark : int
+    What `checkpoint` returned; ValueError if a rollback has gone below it.)";
+
+constexpr auto withdraw_doc =
+    R"(Make a robot inactive and take back its rights of way; there is no rollback below this.
+
+Parameters
+----------
+robot : int
+    The robot.)";
+
+constexpr auto rights_of_doc =
+    R"(Return the rights of way ``(a, b)`` of which one is a visit of a robot, int32[K, 2].
+
+Parameters
+----------
+robot : int
+    The robot.)";
 
 using ConflictTuple = std::tuple<Tick, std::int32_t, VisitId, VisitId>;
 
@@ -100,6 +192,11 @@ void init(PrecedenceGraph* self, const ArrayIn<VisitId>& first_visit,
           const std::optional<ArrayIn<Tick>>& closed_from,
           const std::optional<ArrayIn<Tick>>& closed_until,
           const std::optional<ArrayIn<Tick>>& drive) {
+    are_given("vertex_row, edge_row, first, excluded", vertex_row, edge_row, first, excluded);
+    are_given("first_closed, closed_from, closed_until, drive", first_closed, closed_from,
+              closed_until, drive);
+    require_not_empty("first", first);
+    require_not_empty("first_closed", first_closed);
     const RouteArrays arrays{view(first_visit),
                              view(vertex),
                              view(least),
@@ -126,21 +223,17 @@ PairsOut<VisitId> pairs(const std::vector<RightOfWay>& rights) {
 
 void bind_queries(nb::class_<PrecedenceGraph>& graph) {
     using Graph = PrecedenceGraph;
-    graph
-        .def("enter_of", &Graph::enter_of, nb::arg("visit"), "Return the enter of a visit. [ticks]")
+    graph.def("enter_of", &Graph::enter_of, nb::arg("visit"), enter_of_doc)
         .def(
             "enter", [](const Graph& self) { return to_numpy(self.enters()); },
             "Return a copy of the enters of all visits, int64[N]. [ticks]")
-        .def("completion", &Graph::completion, nb::arg("robot"),
-             "Return the enter of a robot's last visit. [ticks]")
+        .def("completion", &Graph::completion, nb::arg("robot"), completion_doc)
         .def("completion_sum", &Graph::completion_sum,
              "Return the sum of the enters of the last visits of active robots. [ticks]")
         .def(
             "critical_rights",
             [](const Graph& self, RobotId robot) { return pairs(self.critical_rights(robot)); },
-            nb::arg("robot"),
-            "Return the rights of way ``(a, b)`` on a longest path to the robot's last visit, the "
-            "latest first, int32[K, 2].")
+            nb::arg("robot"), critical_rights_doc)
         .def(
             "incompatible",
             [](const Graph& self, RobotId i, RobotId j) {
@@ -159,15 +252,13 @@ void bind_queries(nb::class_<PrecedenceGraph>& graph) {
             nb::arg("robot"), array("others"), conflicts_of_doc)
         .def(
             "next_conflict", [](Graph& self) { return to_tuple(self.next_conflict()); },
-            "Return the earliest conflict ``(tick, kind, visit_a, visit_b)``, None if none is "
-            "left.")
+            next_conflict_doc)
         .def(
             "next_conflict_between",
             [](const Graph& self, RobotId i, RobotId j) {
                 return to_tuple(self.next_conflict_between(i, j));
             },
-            nb::arg("i"), nb::arg("j"),
-            "Return the earliest conflict of two different robots, None if they have none.");
+            nb::arg("i"), nb::arg("j"), next_conflict_between_doc);
 }
 
 void bind_changes(nb::class_<PrecedenceGraph>& graph) {
@@ -183,17 +274,12 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
         .def("checkpoint", &Graph::checkpoint,
              "Return a mark for ``rollback``: the number of rights of way given or taken back, and "
              "not undone since.")
-        .def("rollback", &Graph::rollback, nb::arg("mark"),
-             "Undo all changes since a mark (ValueError if a rollback has gone below it).")
-        .def("withdraw", &Graph::withdraw, nb::arg("robot"),
-             "Make a robot inactive and take back its rights of way; there is no rollback below "
-             "this.")
+        .def("rollback", &Graph::rollback, nb::arg("mark"), rollback_doc)
+        .def("withdraw", &Graph::withdraw, nb::arg("robot"), withdraw_doc)
         .def(
             "rights_of",
             [](const Graph& self, RobotId robot) { return pairs(self.rights_of(robot)); },
-            nb::arg("robot"),
-            "Return the rights of way ``(a, b)`` of which one is a visit of the robot, int32[K, "
-            "2].")
+            nb::arg("robot"), rights_of_doc)
         .def(
             "rights_of_way", [](const Graph& self) { return pairs(self.rights_of_way()); },
             "Return the rights of way ``(a, b)`` in the order they were given, int32[K, 2].");

@@ -28,6 +28,8 @@ seed : int
     For ties.
 most_effort : int
     When the search stops: a choice of a robot is a unit, and so is a decision that it takes again.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s]
 
 Returns
 -------
@@ -84,6 +86,8 @@ seed : int
     For ties.
 most_steps : int or None
     After about so many steps of the fleet the search stops.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s]
 
 Returns
 -------

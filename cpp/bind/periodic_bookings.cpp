@@ -21,9 +21,19 @@ namespace {
 constexpr auto class_doc =
     R"(Bookings of vertices with a period or none, and when one more robot can make given visits.
 
-All bookings come again after ``period`` ticks; None for a line of time. Where robots have sizes,
-vertices are rows, ``edge`` of consecutive visits holds the row of the edge driven into each, int32[N],
-and a booking of row ``r`` excludes others from ``excluded[first[r]:first[r + 1]]``, int32.)";
+Parameters
+----------
+n_vertices : int
+    The number of vertices; where robots have sizes, of rows.
+period : int or None
+    All bookings come again after it; None for a line of time. [ticks]
+headway : int
+    How long a vertex stays booked after it was left. [ticks]
+books_ahead : bool
+    Whether a vertex is booked from when a robot starts to drive there.
+first, excluded : int32[n_vertices + 1], int32[M] or None
+    Where robots have sizes: a booking of row ``r`` excludes others from the rows
+    ``excluded[first[r]:first[r + 1]]``, which rise.)";
 
 constexpr auto add_doc =
     R"(Book consecutive visits of a robot, with a period all those of one period.
@@ -39,6 +49,8 @@ enter : int64[N]
     When each begins, rising; with a period, all within one. [ticks]
 leave : int or None
     When the last one ends; None with a period: when the first one comes again. [ticks]
+edge : int32[N] or None
+    Where robots have sizes: the row of the edge driven into each visit; ``vertex`` holds rows, too.
 
 Returns
 -------
@@ -47,20 +59,48 @@ bool
     one, overlaps are not checked.)";
 
 constexpr auto users_doc =
-    R"(Return the robots that have booked any of these vertices in ``[begins, ends)``, rising, int32[K].
+    R"(Return the robots that have booked any of some vertices, rising, int32[K].
 
-With a period, bookings count in the period that they start in.)";
+Parameters
+----------
+vertices : int32[n]
+    The vertices, or rows.
+begins, ends : int
+    Bookings count that overlap ``[begins, ends)``; with a period, in the period of their start.
+    [ticks])";
 
 constexpr auto search_doc =
     R"(Return when a robot can repeat its visits among the bookings of others, int64[N], or None.
 
-Visits as for ``add``; needs a period; starts are tried from tick ``phase`` on. Complete for these
-visits, unless no other robot visits the first vertex: then only this phase is tried.)";
+Parameters
+----------
+vertex, dwell, drive : int32[N], int64[N], int64[N]
+    The visits, as for `add`.
+phase : int
+    The tick from which on starts are tried. [ticks]
+time_limit : float or None
+    When to stop; at once for 0 or less. [s]
+edge : int32[N] or None
+    As for `add`.
+
+Notes
+-----
+Needs a period. Complete for these visits, unless no other robot visits the first vertex: then only
+this phase is tried.)";
 
 constexpr auto connect_doc =
     R"(Return the earliest ticks for visits between two given ones, int64[N], or None.
 
-The first visit begins at tick ``begins``, the last one by ``until``, and ends at ``leave``.)";
+Parameters
+----------
+vertex, dwell, drive : int32[N], int64[N], int64[N]
+    The visits, as for `add`.
+begins : int
+    When the first visit begins. [ticks]
+until, leave : int
+    By when the last visit begins, and when it ends. [ticks]
+edge : int32[N] or None
+    As for `add`.)";
 
 constexpr auto find_route_doc =
     R"(Find a route for a round trip, and when to take it, among the bookings of others.
@@ -81,6 +121,10 @@ stage_tables : list of int32[V]
     For each stage, the least ticks from each vertex to its vertex; -1 where the robot must not go.
 phase : int
     The tick from which on starts are tried. [ticks]
+time_limit : float or None
+    When to stop; at once for 0 or less. [s]
+first_row : int
+    Where robots have sizes: the first row of the robot's size class; else 0.
 
 Returns
 -------
@@ -129,6 +173,8 @@ Visits visits_of(const ArrayIn<VertexId>& vertex, const ArrayIn<Tick>& dwell,
 
 void init(PeriodicBookings* self, std::int32_t n_rows, std::optional<Tick> period, Tick headway,
           bool books_ahead, const Rows& first, const Rows& excluded) {
+    are_given("first, excluded", first, excluded);
+    require_not_empty("first", first);
     const ExcludedRows rows{view_or_empty(first), view_or_empty(excluded)};
     new (self) PeriodicBookings(n_rows, period, headway, books_ahead, rows);
 }
@@ -176,7 +222,12 @@ void bind_periodic_bookings(nb::module_& module) {
             nb::arg("robot"), array("vertex"), array("dwell"), array("drive"), array("enter"),
             nb::arg("leave") = nb::none(), array("edge").none() = nb::none(), add_doc)
         .def("remove", &PeriodicBookings::remove, nb::arg("robot"),
-             "Remove all bookings of a robot; nothing happens if it has none.")
+             R"(Remove all bookings of a robot; nothing happens if it has none.
+
+Parameters
+----------
+robot : int
+    The robot.)")
         .def(
             "users",
             [](const PeriodicBookings& self, const ArrayIn<VertexId>& vertices, Tick begins,

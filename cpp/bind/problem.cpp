@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "core/reject.hpp"
 
 namespace rightofway::bind {
 namespace {
@@ -43,17 +44,17 @@ size_of, first, excluded : int32[R], int32[rows + 1], int32[n]
     Size class of each robot, and for each row the rows from which a booking of it excludes other
     robots; None where no robot has a size. Row ``size * (V + E) + resource`` is a vertex or an
     edge as robots of one size class book it; the vertices come first.
-surcharges : int64[C]
-    What an edge of each length class adds to costs, not to durations; None where all are 0. [ticks]
-closed_row, closed_from, closed_until : int32[K], int64[K], int64[K]
-    Rows of the booking table that are closed, and when; None without closures. Where no robot has
-    a size, row ``V + e`` is edge ``e``. [ticks]
 turn_offset, turn_kind, turn_class, turn_ticks : int64[E], int32[n], int32[R], int32[T * K]
     How long robots turn on the spot; None where turning takes no time. The angle from edge ``e`` to
     edge ``f`` is of kind ``turn_kind[turn_offset[e] + f]``; a robot of turning class t turns it in
     ``turn_ticks[t * K + kind]`` ticks, and in no time where its class is -1.
 n_turn_kinds : int
     K.
+surcharges : int64[C]
+    What an edge of each length class adds to costs, not to durations; None where all are 0. [ticks]
+closed_row, closed_from, closed_until : int32[K], int64[K], int64[K]
+    Rows of the booking table that are closed, and when; None without closures. Where no robot has
+    a size, row ``V + e`` is edge ``e``. [ticks]
 
 Raises
 ------
@@ -78,13 +79,20 @@ void init(Problem* self, const Ints& indptr, const Ints& heads, const Ints& leng
                                view(first_stage), view(stage_vertex), view(stage_work),
                                view(stage_turn),  n_classes,          view_or_empty(surcharges)};
     Resources resources;
-    if (size_of && first && excluded) {
+    if (are_given("size_of, first, excluded", size_of, first, excluded)) {
+        require_not_empty("first", first);
         resources = {view(*size_of), view(*first), view(*excluded)};
+    }
+    are_given("closed_row, closed_from, closed_until", closed_row, closed_from, closed_until);
+    if (surcharges) {
+        require_length("surcharges", surcharges->size(), static_cast<std::size_t>(n_classes));
     }
     const Closures closures{view_or_empty(closed_row), view_or_empty(closed_from),
                             view_or_empty(closed_until)};
     TurnArrays turns;
-    if (turn_offset && turn_kind && turn_class && turn_ticks) {
+    if (are_given("turn_offset, turn_kind, turn_class, turn_ticks", turn_offset, turn_kind,
+                  turn_class, turn_ticks)) {
+        require_length("turn_class", turn_class->size(), home.size());
         turns = {view(*turn_offset), view(*turn_kind), view(*turn_class), view(*turn_ticks),
                  n_turn_kinds};
     }

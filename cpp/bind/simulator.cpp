@@ -31,14 +31,14 @@ first_least : int64[R]
 headway : int
     How long after its leave a visit books its vertex. [ticks]
 pacemaker, lag : int
-    Cuts are made where this robot is home; conflicts up to the lag after a cut are resolved before
-    all visits up to it are frozen. [ticks]
+    Cuts are made where this robot is home; conflicts up to the lag (above 0) after a cut are
+    resolved before all visits up to it are frozen. [ticks]
 most_lag, patience : int
     The longest lag, and how long a pacemaker may stay away. [ticks]
 reach : int
     Visits left so long before a cut still matter. [ticks]
 memory : int
-    How many cuts can be undone.
+    How many cuts can be undone, above 0.
 rule : int
     The robot that goes first: the one that would enter the segment first (0), the one listed first
     (1), or (2) the one that would lose more by waiting.
@@ -59,15 +59,33 @@ Notes
 Exact and deterministic. The GIL is released by ``advance``; Ctrl-C is obeyed.)";
 
 constexpr auto advance_doc =
-    R"(Simulate until a state recurs (returns 1), a deadlock (2), or time is over (0; may be continued).)";
+    R"(Simulate until a state recurs (returns 1), a deadlock (2), or time is over (0; may be continued).
+
+Parameters
+----------
+time_limit : float or None
+    When to stop; at once for 0 or less. [s])";
 
 constexpr auto waits_doc =
-    R"(Return the numbers of the visits of a robot that had to wait, int32[K], and how long the robot had
-waited by then in all, int64[K]. [ticks])";
+    R"(Return the visits of a robot that had to wait, and how long.
+
+Parameters
+----------
+robot : int
+    The robot.
+
+Returns
+-------
+tuple of (int32[K], int64[K])
+    The numbers of the visits, and how long the robot had waited by then in all. [ticks])";
 
 constexpr auto deadlock_doc =
-    R"(Return the conflict that cannot be resolved: the two robots, the vertex, the tick, and the robots
-that would each wait for the next, int32[K].)";
+    R"(Return the conflict that cannot be resolved, after a deadlock.
+
+Returns
+-------
+tuple of (int, int, int, int, int32[K])
+    The two robots, the vertex, the tick, and the robots that would each wait for the next.)";
 
 using Rows = std::optional<ArrayIn<std::int32_t>>;
 
@@ -77,6 +95,8 @@ void init(CyclicSimulator* self, const ArrayIn<std::int32_t>& first_place,
           RobotId pacemaker, Tick lag, Tick most_lag, Tick patience, Tick reach,
           std::int32_t memory, std::int32_t rule, const ArrayIn<std::int64_t>& loss,
           const Rows& vertex_row, const Rows& edge_row, const Rows& first, const Rows& excluded) {
+    are_given("vertex_row, edge_row, first, excluded", vertex_row, edge_row, first, excluded);
+    require_not_empty("first", first);
     const LapArrays laps{view(first_place),
                          view(vertex),
                          view(least),
@@ -121,6 +141,9 @@ std::tuple<ArrayOut<std::int32_t>, ArrayOut<Tick>> waits(const CyclicSimulator& 
 
 std::tuple<RobotId, RobotId, VertexId, Tick, ArrayOut<RobotId>> deadlock(
     const CyclicSimulator& self) {
+    if (self.end() != CyclicSimulator::End::deadlock) {
+        throw std::invalid_argument("deadlock: the latest advance() did not end in one");
+    }
     const Conflict& conflict = self.deadlock();
     return {conflict.robot_a, conflict.robot_b, self.deadlock_at(), conflict.tick,
             to_numpy(self.waiting_cycle())};
@@ -139,7 +162,12 @@ void bind_simulator(nb::module_& module) {
         .def("advance", &advance, nb::arg("time_limit") = nb::none(), advance_doc)
         .def("reset_states", &CyclicSimulator::reset_states,
              "Forget the states seen, to advance beyond one that has recurred.")
-        .def("set_rule", &set_rule, nb::arg("rule"), "Decide by another rule from now on.")
+        .def("set_rule", &set_rule, nb::arg("rule"), R"(Decide by another rule from now on.
+
+Parameters
+----------
+rule : int
+    As for the class.)")
         .def_prop_ro("cut", &CyclicSimulator::cut,
                      "All conflicts before this tick are resolved. [ticks]")
         .def_prop_ro("first_seen", &CyclicSimulator::first_seen,

@@ -16,23 +16,71 @@
 namespace rightofway::bind {
 namespace {
 
-constexpr auto table_doc = R"(Who has booked which vertex when.)";
+constexpr auto table_doc = R"(Who has booked which vertex when.
+
+Parameters
+----------
+n_vertices : int
+    The number of vertices; where robots have sizes or edges are closed, of rows.)";
 
 constexpr auto book_doc =
-    R"(Book a vertex for ``[start, end)``; ValueError if that is empty or overlaps another robot's.)";
+    R"(Book a vertex for ``[start, end)``; ValueError if that is empty or overlaps another robot's.
+
+Parameters
+----------
+vertex : int
+    The vertex.
+start, end : int
+    The half-open interval; the end is after the start. [ticks]
+robot : int
+    The robot.)";
 
 constexpr auto mark_doc =
-    R"(Mark a row as excluded for ``[start, end)`` by a robot; marks of several robots may overlap.)";
+    R"(Mark a row as excluded for ``[start, end)``; marks may overlap.
+
+Parameters
+----------
+row : int
+    The row, or vertex.
+start, end : int
+    The half-open interval; the end is after the start. [ticks]
+robot : int
+    The robot; -1 for nobody, where the row is closed.)";
 
 constexpr auto erase_doc =
-    R"(Take back the booking of a robot that starts at this tick; nothing happens if there is none.)";
+    R"(Take back a booking of a robot; nothing happens if there is none.
+
+Parameters
+----------
+vertex : int
+    The vertex, or row.
+start : int
+    When the booking starts. [ticks]
+robot : int
+    The robot.)";
 
 constexpr auto at_doc =
-    R"(Return the bookings ``(start, end, robot)`` of a vertex in order of time. [ticks])";
+    R"(Return the bookings ``(start, end, robot)`` of a vertex in order of time. [ticks]
+
+Parameters
+----------
+vertex : int
+    The vertex, or row.)";
 
 constexpr auto search_doc = R"(Find the earliest track of one robot among the bookings of others.
 
-``stage_tables`` has for each stage the least ticks from each vertex to its vertex, int32[V].
+Parameters
+----------
+problem : Problem
+    The roads and the robots.
+robot : int
+    Which robot.
+bookings : BookingTable
+    What the other robots have booked, with as many rows as the problem has.
+stage_tables : list of int32[V]
+    For each stage the least ticks from each vertex to its vertex, -1 where no way leads there.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s]
 
 Returns
 -------
@@ -100,8 +148,7 @@ void bind_sipp(nb::module_& module) {
         .def(
             "mark",
             [](BookingTable& self, std::int32_t row, Tick start, Tick end, RobotId robot) {
-                require_vertex(self, row);
-                self.insert(row, {start, end}, robot);
+                self.mark(row, {start, end}, robot);
             },
             nb::arg("row"), nb::arg("start"), nb::arg("end"), nb::arg("robot"), mark_doc)
         .def(

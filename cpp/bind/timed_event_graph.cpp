@@ -25,6 +25,8 @@ length : int64[M]
     How long after its tail the head of each comes at least, not negative. [ticks]
 height : int32[M]
     How many periods later; may be negative.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s]
 
 Returns
 -------
@@ -37,8 +39,16 @@ tuple of (int, int, int32[n]) or None
 constexpr auto times_doc =
     R"(Return the least times that keep all arcs every ``period / parts`` ticks, int64[N].
 
-Arcs as for ``critical_circuit``. At least 0. [1 / parts ticks] None if the period is less than the
-cycle time, or time ran out.)";
+At least 0. [1 / parts ticks] None if the period is less than the cycle time, or time ran out.
+
+Parameters
+----------
+n_nodes, tail, head, length, height : int, int32[M], int32[M], int64[M], int32[M]
+    The events and arcs, as for `critical_circuit`.
+period, parts : int, int
+    The events come again every ``period / parts`` ticks; ``parts`` is above 0.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s])";
 
 using Circuit = std::tuple<Tick, std::int64_t, ArrayOut<std::int32_t>>;
 

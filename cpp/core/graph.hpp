@@ -35,7 +35,8 @@ struct Roads {
     std::span<const std::int32_t> length_class;  // of each edge
 };
 
-// Throws std::invalid_argument with array, index and value if the arrays form no graph.
-void require_graph(const Graph& graph);
+// Throws std::invalid_argument with array, index and value if the arrays form no graph. `heads`:
+// the name of `indices` in the message.
+void require_graph(const Graph& graph, const char* heads = "indices");
 
 }  // namespace rightofway

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/excluded_rows.hpp"
 #include "core/reject.hpp"
 
 namespace rightofway {
@@ -12,19 +13,20 @@ namespace {
 // Upper limit of a lap in ticks, so that no sum of laps overflows.
 constexpr Tick longest_lap = Tick{1} << 40;
 
+// The most visits of one robot in a window: 2^24 of them take about 1 GB.
+constexpr Tick most_visits = Tick{1} << 24;
+constexpr Tick longest_window = Tick{1} << 56;
+
 void check_lengths(const LapArrays& arrays) {
     const auto& first = arrays.first_place;
-    if (first.empty() || first.front() != 0) {
-        throw std::invalid_argument("first_place: does not begin with 0");
-    }
+    const std::size_t n_places = arrays.vertex.size();
     for (std::size_t r = 1; r < first.size(); ++r) {
-        if (first[r] < first[r - 1] + 2) {
+        if (std::int64_t{first[r]} < std::int64_t{first[r - 1]} + 2) {
             reject_entry("first_place", r, first[r],
                          "is not 2 above the entry before it (a lap leads away and back)");
         }
     }
-    const std::size_t n_places = arrays.vertex.size();
-    require_length("vertex", n_places, static_cast<std::size_t>(first.back()));
+    require_lists("first_place", first, n_places, "places");
     require_length("least", arrays.least.size(), n_places);
     require_length("approach", arrays.approach.size(), n_places);
     require_length("first_least", arrays.first_least.size(), first.size() - 1);
@@ -50,9 +52,11 @@ CyclicRoutes::CyclicRoutes(const LapArrays& arrays)
     if (has_sizes()) {
         check_rows();
     }
-    n_vertices_ = vertex_.empty() ? 0 : *std::max_element(vertex_.begin(), vertex_.end()) + 1;
     for (RobotId r = 0; r < n_robots(); ++r) {
         check(r);
+    }
+    number_vertices();
+    for (RobotId r = 0; r < n_robots(); ++r) {
         Tick sum = 0;
         for (const Tick ticks : leasts(r)) {
             within_.push_back(sum);
@@ -85,17 +89,23 @@ void CyclicRoutes::check(RobotId robot) const {
     }
 }
 
+// The ids may be sparse; memory goes by the vertices visited.
+void CyclicRoutes::number_vertices() {
+    id_.assign(vertex_.begin(), vertex_.end());
+    std::sort(id_.begin(), id_.end());
+    id_.erase(std::unique(id_.begin(), id_.end()), id_.end());
+    for (VertexId& vertex : vertex_) {
+        vertex =
+            static_cast<VertexId>(std::lower_bound(id_.begin(), id_.end(), vertex) - id_.begin());
+    }
+}
+
 void CyclicRoutes::check_rows() const {
     require_length("vertex_row", vertex_row_.size(), vertex_.size());
     require_length("edge_row", edge_row_.size(), vertex_.size());
-    require_length("excluded", excluded_.size(), static_cast<std::size_t>(first_.back()));
-    for (std::size_t k = 0; k < vertex_.size(); ++k) {
-        require_id("vertex_row[" + std::to_string(k) + "]", vertex_row_[k], n_lists());
-        require_id("edge_row[" + std::to_string(k) + "]", edge_row_[k], n_lists());
-    }
-    for (std::size_t k = 0; k < excluded_.size(); ++k) {
-        require_id("excluded[" + std::to_string(k) + "]", excluded_[k], n_lists());
-    }
+    require_excluded_rows({first_, excluded_});
+    require_ids("vertex_row", vertex_row_, n_lists());
+    require_ids("edge_row", edge_row_, n_lists());
 }
 
 bool CyclicRoutes::excludes(std::int32_t row, std::int32_t other) const {
@@ -130,6 +140,11 @@ std::int32_t CyclicRoutes::n_visits_in(CyclicVisit visit, Tick ticks) const {
     const RobotId r = visit.robot;
     const Tick* within = &within_[first_place_[r] + r];
     const std::int32_t place = place_in_lap(visit);
+    if (ticks > longest_window || ticks / within[length(r)] > most_visits / length(r)) {
+        throw std::overflow_error("lag: the laps of robot " + std::to_string(r) + " in " +
+                                  std::to_string(ticks) + " ticks are more than " +
+                                  std::to_string(most_visits) + " visits (use a shorter lag)");
+    }
     const Tick until = within[place] + ticks;
     const Tick* end = within + length(r) + 1;
     const auto rest = std::lower_bound(within, end, until % within[length(r)]) - within;

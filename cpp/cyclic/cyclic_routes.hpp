@@ -60,7 +60,8 @@ class CyclicRoutes {
     explicit CyclicRoutes(const LapArrays& arrays);
 
     RobotId n_robots() const { return static_cast<RobotId>(first_least_.size()); }
-    VertexId n_vertices() const { return n_vertices_; }
+    // The vertices that robots visit are numbered from 0, in the order of their ids.
+    VertexId n_vertices() const { return static_cast<VertexId>(id_.size()); }
     std::int32_t length(RobotId robot) const {
         return first_place_[robot + 1] - first_place_[robot];
     }
@@ -69,7 +70,7 @@ class CyclicRoutes {
     bool has_sizes() const { return !first_.empty(); }
     // Lists of bookings: one for each vertex, or for each row.
     std::int32_t n_lists() const {
-        return has_sizes() ? static_cast<std::int32_t>(first_.size()) - 1 : n_vertices_;
+        return has_sizes() ? static_cast<std::int32_t>(first_.size()) - 1 : n_vertices();
     }
     // Only where robots have sizes.
     std::int32_t vertex_row(CyclicVisit visit) const { return vertex_row_[place(visit)]; }
@@ -83,6 +84,7 @@ class CyclicRoutes {
                                                  bool j_leaves) const;
 
     VertexId vertex(CyclicVisit visit) const { return vertex_[place(visit)]; }
+    VertexId id_of(VertexId vertex) const { return id_[vertex]; }
     Tick approach(CyclicVisit visit) const { return approach_[place(visit)]; }
     Tick gap_before(CyclicVisit visit) const { return headway_ + approach(visit); }
     Tick least(CyclicVisit visit) const {
@@ -91,7 +93,8 @@ class CyclicRoutes {
 
     // The enter of a visit of a robot that never waits.
     Tick unimpeded_enter(CyclicVisit visit) const;
-    // The least number of visits, from `visit` (not visit 0) on, that last `ticks` ticks.
+    // The least number of visits, from `visit` (not visit 0) on, that last `ticks` ticks. Throws
+    // std::overflow_error if a window cannot hold as many.
     std::int32_t n_visits_in(CyclicVisit visit, Tick ticks) const;
 
     // For loops along one route, by place in the lap.
@@ -114,6 +117,7 @@ class CyclicRoutes {
     }
     void check(RobotId robot) const;
     void check_rows() const;
+    void number_vertices();
     bool excludes(std::int32_t row, std::int32_t other) const;
 
     std::vector<std::int32_t> first_place_;
@@ -122,7 +126,7 @@ class CyclicRoutes {
     std::vector<Tick> approach_;
     std::vector<Tick> first_least_;
     Tick headway_;
-    VertexId n_vertices_ = 0;
+    std::vector<VertexId> id_;  // of each vertex
     std::vector<Tick> within_;  // length + 1 per lap: ticks from its start to each place
     std::vector<std::int32_t> vertex_row_;
     std::vector<std::int32_t> edge_row_;

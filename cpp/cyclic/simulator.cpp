@@ -10,12 +10,27 @@ namespace {
 
 constexpr int decisions_between_questions = 32;
 
+// Upper limit of the ticks of a horizon, so that no sum of them overflows.
+constexpr Tick longest_horizon = Tick{1} << 50;
+
+const Horizon& checked(const Horizon& horizon, RobotId n_robots) {
+    require_id("pacemaker", horizon.pacemaker, n_robots);
+    require_range("lag", horizon.lag, 1, longest_horizon);
+    require_range("most_lag", horizon.most_lag, 0, longest_horizon);
+    require_range("patience", horizon.patience, 0, longest_horizon);
+    require_range("reach", horizon.reach, 0, longest_horizon);
+    if (horizon.memory < 1) {
+        reject("memory", horizon.memory, "is not above 0");
+    }
+    return horizon;
+}
+
 }  // namespace
 
 CyclicSimulator::CyclicSimulator(const LapArrays& laps, const Horizon& horizon, CyclicRule rule,
                                  std::vector<std::int64_t> loss)
     : routes_(laps),
-      horizon_(horizon),
+      horizon_(checked(horizon, routes_.n_robots())),
       timetable_(routes_),
       conflicts_(routes_, timetable_),
       loss_(std::move(loss)),
@@ -41,6 +56,11 @@ void CyclicSimulator::set_rule(CyclicRule rule) {
 }
 
 CyclicSimulator::End CyclicSimulator::advance(const StopCondition& is_over) {
+    end_ = End::open;
+    return end_ = run(is_over);
+}
+
+CyclicSimulator::End CyclicSimulator::run(const StopCondition& is_over) {
     while (true) {
         if (!has_window_) {
             if (is_over()) {

@@ -25,11 +25,11 @@ namespace rightofway {
 
 struct Horizon {
     RobotId pacemaker;    // initial pacemaker: each of its returns home is a cut
-    Tick lag;             // conflicts are resolved up to this many ticks after the next cut
+    Tick lag;             // conflicts are resolved up to this many ticks after the next cut; >= 1
     Tick most_lag;        // upper limit of the lag, in ticks
-    Tick patience;        // a pacemaker away from home for more ticks is replaced
-    Tick reach;           // ticks that the window begins before the cut
-    std::int32_t memory;  // number of cuts that can be undone
+    Tick patience;        // a pacemaker away from home for more ticks is replaced; >= 0
+    Tick reach;           // ticks that the window begins before the cut; >= 0
+    std::int32_t memory;  // number of cuts that can be undone; >= 1
 };
 
 class CyclicSimulator {
@@ -59,10 +59,15 @@ class CyclicSimulator {
     Tick cut() const { return cut_; }
     const VisitTimes& visit_times() const { return past_; }
 
+    // How the latest advance() ended.
+    End end() const { return end_; }
+
     // Of a deadlock: the conflict that cannot be resolved, its vertex, and the robots, each of
     // which would wait for the next.
     const Conflict& deadlock() const { return conflict_; }
-    VertexId deadlock_at() const { return routes_.vertex(decisions_.conflict_visit()); }
+    VertexId deadlock_at() const {
+        return routes_.id_of(routes_.vertex(decisions_.conflict_visit()));
+    }
     std::span<const RobotId> waiting_cycle() const { return decisions_.waiting_cycle(); }
 
   private:
@@ -75,6 +80,7 @@ class CyclicSimulator {
         std::vector<SegmentOrder> orders;
     };
 
+    End run(const StopCondition& is_over);
     bool start_window();
     void extend_window();
     Step resolve_conflicts(const StopCondition& is_over);
@@ -99,6 +105,7 @@ class CyclicSimulator {
     SeenStates seen_;
     std::deque<Snapshot> snapshots_;
 
+    End end_ = End::open;
     Tick cut_ = 0;
     Tick lag_;
     Tick retried_until_ = 0;  // cuts before this tick are not compared with earlier states

@@ -7,6 +7,21 @@
 #include "core/reject.hpp"
 
 namespace rightofway {
+namespace {
+
+// Upper limit of a surcharge, so that sums of them stay small.
+constexpr std::int64_t most_shares = std::int64_t{1} << 40;
+
+// At most `never`. Most factors are small, and need no division.
+std::int64_t product(std::int64_t left, std::int64_t right) {
+    constexpr std::int64_t small = std::int64_t{1} << 31;
+    if ((left < small && right < small) || right == 0 || left <= never / right) {
+        return left * right;
+    }
+    return never;
+}
+
+}  // namespace
 
 Congestion::Congestion(const Problem& problem, std::int64_t shares,
                        std::span<const std::int64_t> station)
@@ -16,11 +31,13 @@ Congestion::Congestion(const Problem& problem, std::int64_t shares,
     if (shares < 1) {
         reject("shares", shares, "is not above 0");
     }
+    require_range("shares", shares, 1, most_shares);
     for (std::size_t v = 0; v < station.size(); ++v) {
         if (station[v] < 0) {
             reject_entry("station", v, station[v], "is negative");
         }
     }
+    require_ranges("station", station, 0, most_shares);
     oncoming_.assign(graph.indices.size(), 0);
     cost_.assign(station_.size(), never);
     cheapest_way_.assign(station_.size(), none);
@@ -41,7 +58,7 @@ std::int64_t Congestion::cost_of(EdgeId edge, VertexId target, Tick ticks) const
     if (opposite_[edge] != none) {
         per_tick += oncoming_[opposite_[edge]];
     }
-    return per_tick * ticks;
+    return product(per_tick, ticks);
 }
 
 std::vector<VertexId> Congestion::path(RobotId robot, VertexId start, VertexId target,
@@ -54,6 +71,12 @@ std::vector<VertexId> Congestion::path(RobotId robot, VertexId start, VertexId t
         reject("target", target, "cannot be reached from " + std::to_string(start));
     }
     search(robot, start, target, to_go);
+    if (cost_[target] >= never) {
+        clear();
+        reject("target", target,
+               "cannot be reached from " + std::to_string(start) +
+                   " by vertices with an entry in to_go, or the way costs too much");
+    }
     mark_cheapest(target);
     std::vector<VertexId> path = first_marked(start, target);
     clear();
@@ -66,7 +89,8 @@ void Congestion::search(RobotId robot, VertexId start, VertexId target,
     const Graph& graph = problem_.graph();
     cost_[start] = 0;
     reached_.push_back(start);
-    open_.push_back({shares_ * to_go[start], shares_ * to_go[start], 0, start});
+    const std::int64_t at_least = product(shares_, to_go[start]);
+    open_.push_back({at_least, at_least, 0, start});
     while (!open_.empty() && open_.front().cost <= cost_[target]) {
         std::pop_heap(open_.begin(), open_.end(), std::greater<>());
         const Open top = open_.back();
@@ -80,14 +104,14 @@ void Congestion::search(RobotId robot, VertexId start, VertexId target,
             if (to_go[head] >= 0 && drive != barred) {
                 const std::int64_t cost =
                     cost_[top.vertex] + cost_of(e, target, drive + problem_.surcharge(e));
-                reach(head, top.vertex, cost, shares_ * to_go[head]);
+                reach(head, top.vertex, cost, product(shares_, to_go[head]));
             }
         }
     }
 }
 
 void Congestion::reach(VertexId vertex, VertexId from, std::int64_t cost, std::int64_t to_go) {
-    if (cost > cost_[vertex]) {
+    if (cost > cost_[vertex] || cost >= never) {
         return;
     }
     if (cost < cost_[vertex]) {
@@ -153,6 +177,7 @@ void Congestion::add(std::span<const VertexId> path, std::int64_t oncoming) {
     if (oncoming < 0) {
         reject("oncoming", oncoming, "is negative");
     }
+    require_range("oncoming", oncoming, 0, most_shares);
     std::vector<EdgeId> edges;
     for (std::size_t k = 0; k < path.size(); ++k) {
         require_id("path[" + std::to_string(k) + "]", path[k], n_vertices());
@@ -164,7 +189,7 @@ void Congestion::add(std::span<const VertexId> path, std::int64_t oncoming) {
         }
     }
     for (const EdgeId e : edges) {
-        oncoming_[e] += oncoming;
+        oncoming_[e] = std::min(oncoming_[e] + oncoming, never);
     }
 }
 

@@ -6,16 +6,27 @@
 
 namespace rightofway {
 
+namespace {
+
+// As in a Problem: no sum over a trip overflows.
+constexpr Tick longest_stay = Tick{1} << 40;
+
+}  // namespace
+
 void require_trip(const Roads& roads, const Trip& trip) {
     const VertexId n_vertices = roads.graph.n_vertices();
     require_length("length_class", roads.length_class.size(), roads.graph.indices.size());
-    for (std::size_t e = 0; e < roads.length_class.size(); ++e) {
-        require_id("length_class[" + std::to_string(e) + "]", roads.length_class[e],
-                   static_cast<std::int64_t>(trip.pace.size()));
+    require_ids("length_class", roads.length_class, static_cast<std::int64_t>(trip.pace.size()));
+    for (std::size_t k = 0; k < trip.pace.size(); ++k) {
+        if (trip.pace[k] <= 0 && trip.pace[k] != barred) {
+            reject_entry("pace", k, trip.pace[k], "is neither positive nor -1");
+        }
     }
     require_length("stage_work", trip.stage_work.size(), trip.n_stages());
     require_length("stage_turn", trip.stage_turn.size(), trip.n_stages());
     require_length("stage_tables", trip.to_stage.size(), trip.n_stages());
+    require_ranges("stage_work", trip.stage_work, 0, longest_stay);
+    require_ranges("stage_turn", trip.stage_turn, 0, longest_stay);
     require_id("home", trip.home, n_vertices);
     if (trip.n_stages() == 0) {
         throw std::invalid_argument("stage_vertex: its length is 0, but must be at least 1");

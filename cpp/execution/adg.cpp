@@ -1,6 +1,5 @@
 #include "execution/adg.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "core/reject.hpp"
@@ -47,16 +46,9 @@ ActionDependencyGraph::ActionDependencyGraph(const AdgArrays& arrays)
 }
 
 void ActionDependencyGraph::number_robots() {
-    if (first_visit_.empty() || first_visit_.front() != 0 ||
-        static_cast<std::size_t>(first_visit_.back()) != vertex_.size()) {
-        throw std::invalid_argument("first_visit: does not lead from 0 to the number of visits");
-    }
+    require_lists("first_visit", first_visit_, vertex_.size(), "visits", 1);
     robot_.resize(vertex_.size());
     for (RobotId r = 0; r < n_robots(); ++r) {
-        if (first_visit_[r + 1] <= first_visit_[r]) {
-            reject_entry("first_visit", static_cast<std::size_t>(r) + 1, first_visit_[r + 1],
-                         "leaves a robot without a visit");
-        }
         for (VisitId x = first_of(r); x <= last_of(r); ++x) {
             robot_[x] = r;
         }
@@ -88,14 +80,9 @@ void ActionDependencyGraph::check() const {
 
 void ActionDependencyGraph::check_rights() const {
     require_length("first_right", first_right_.size(), vertex_.size() + 1);
-    if (first_right_.front() != 0 ||
-        static_cast<std::size_t>(first_right_.back()) != rights_.size() ||
-        !std::is_sorted(first_right_.begin(), first_right_.end())) {
-        throw std::invalid_argument("first_right: does not rise from 0 to the number of rights");
-    }
-    for (const VisitId other : rights_) {
-        require_id("rights", other, n_visits());
-    }
+    require_lists("first_right", first_right_, rights_.size(), "rights");
+    require_ids("rights", rights_, n_visits());
+    require_ranges<VisitId>("before", before_, none, none);
     if (!books_ahead_) {
         throw std::invalid_argument("books_ahead: robots with sizes book ahead");
     }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <string>
 
 #include "core/reject.hpp"
 
@@ -11,6 +14,25 @@ namespace {
 
 constexpr std::uint64_t stream = 0xF1008;  // distinguishes the uses of a seed
 constexpr double least_factor = 0.01;      // lower limit of actual / planned duration
+constexpr double most_factor = 1e6;        // upper limit: no sum of durations overflows
+constexpr Tick longest_stop = Tick{1} << 40;
+
+void require_real(const char* name, std::size_t index, double value, double least, double most) {
+    if (!(value >= least && value <= most)) {
+        std::ostringstream text;
+        text << name << '[' << index << "]: " << value << " is not in " << least << ".." << most;
+        throw std::invalid_argument(text.str());
+    }
+}
+
+void require_delay(const Delay& delay, std::size_t k) {
+    const bool is_chance = delay.kind == DelayKind::stops || delay.kind == DelayKind::breaks;
+    const bool is_stop = delay.kind == DelayKind::stops;
+    const double most = is_stop ? static_cast<double>(longest_stop) : most_factor;
+    const bool is_positive = is_stop || delay.kind == DelayKind::normal;
+    require_real("delay_a", k, delay.a, is_chance ? 0 : -most_factor, is_chance ? 1 : most_factor);
+    require_real("delay_b", k, delay.b, is_positive ? 0 : -most, most);
+}
 
 // In (0, 1], so that the logarithm is finite.
 double unit(Random& random) { return (static_cast<double>(random.next() >> 11) + 1) * 0x1p-53; }
@@ -66,18 +88,34 @@ Delays::Delays(const ActionDependencyGraph& plan, std::span<const double> pace,
       first_stoppage_(std::move(first_stoppage)),
       stoppages_(std::move(stoppages)) {
     require_length("pace", pace_.size(), static_cast<std::size_t>(plan.n_robots()));
-    require_stoppages(first_stoppage_, pace_.size(), stoppages_.size());
+    for (std::size_t r = 0; r < pace_.size(); ++r) {
+        require_real("pace", r, pace_[r], 0, most_factor);
+    }
+    for (std::size_t k = 0; k < delays_.size(); ++k) {
+        require_delay(delays_[k], k);
+    }
+    require_stoppages(first_stoppage_, pace_.size(), stoppages_);
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
         makespan_ = std::max(makespan_, plan.planned_completion(r));
     }
 }
 
 void require_stoppages(std::span<const std::int32_t> first, std::size_t n_robots,
-                       std::size_t n_stoppages) {
+                       std::span<const Stoppage> stoppages) {
     require_length("first_stoppage", first.size(), n_robots + 1);
-    if (first.front() != 0 || static_cast<std::size_t>(first.back()) != n_stoppages ||
-        !std::is_sorted(first.begin(), first.end())) {
-        throw std::invalid_argument("first_stoppage: does not rise from 0 to their number");
+    require_lists("first_stoppage", first, stoppages.size(), "stoppages");
+    for (std::size_t k = 0; k < stoppages.size(); ++k) {
+        require_range("stoppage_tick[" + std::to_string(k) + "]", stoppages[k].tick, 0, never - 1);
+        require_range("stoppage_ticks[" + std::to_string(k) + "]", stoppages[k].ticks, 0, never);
+    }
+    for (std::size_t r = 0; r < n_robots; ++r) {
+        for (auto k = static_cast<std::size_t>(first[r]) + 1;
+             k < static_cast<std::size_t>(first[r + 1]); ++k) {
+            if (stoppages[k].tick < stoppages[k - 1].tick) {
+                reject_entry("stoppage_tick", k, stoppages[k].tick,
+                             "is before the stoppage before it");
+            }
+        }
     }
 }
 
@@ -116,7 +154,7 @@ void Delays::draw_durations(RobotId robot, Random& random, DelaySample& out) con
     Rounding rounding(unit(random));
     for (VisitId x = plan_.first_of(robot); x <= plan_.last_of(robot); ++x) {
         const auto [more, stop] = draw_visit(random);
-        const double factor = std::max(pace_[robot] * (1 + more), least_factor);
+        const double factor = std::clamp(pace_[robot] * (1 + more), least_factor, most_factor);
         const bool is_done = plan_.is_last(x) && plan_.dwell(x) == 0;
         out.dwell[x] = rounding.lengthen(plan_.dwell(x), factor, 0) + (is_done ? 0 : stop);
         if (plan_.is_first(x)) {

@@ -45,9 +45,10 @@ struct DelaySample {
     std::vector<Stoppage> stoppages;           // of each robot, by tick, without overlap
 };
 
-// Throws std::invalid_argument unless robot r can own stoppages first[r] .. first[r + 1] - 1.
+// Throws std::invalid_argument unless robot r can own stoppages first[r] .. first[r + 1] - 1, by
+// tick, from tick 0 on.
 void require_stoppages(std::span<const std::int32_t> first, std::size_t n_robots,
-                       std::size_t n_stoppages);
+                       std::span<const Stoppage> stoppages);
 
 class Delays {
   public:

@@ -7,6 +7,9 @@ namespace {
 
 constexpr std::size_t visits_between_asking = 1 << 20;
 
+// At most `never`, however many runs are late.
+void add_up(Tick& sum, Tick ticks) { sum = ticks >= never - sum ? never : sum + ticks; }
+
 }  // namespace
 
 LatenessSources::LatenessSources(const ActionDependencyGraph& plan)
@@ -41,11 +44,11 @@ void LatenessSources::charge(RobotId robot, VisitId source, Tick ticks) {
         return;
     }
     if (other == robot) {
-        own_[source] += ticks;
+        add_up(own_[source], ticks);
         return;
     }
-    of_others_[source] += ticks;
-    between_[static_cast<std::int64_t>(robot) * plan_.n_robots() + other] += ticks;
+    add_up(of_others_[source], ticks);
+    add_up(between_[static_cast<std::int64_t>(robot) * plan_.n_robots() + other], ticks);
 }
 
 ExecutionRuns::ExecutionRuns(const ActionDependencyGraph& plan, const Delays& delays)
@@ -56,7 +59,7 @@ RunBatch ExecutionRuns::run(std::uint64_t seed, std::uint64_t first, std::size_t
     RunBatch out;
     std::size_t n_visits = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        n_visits += static_cast<std::size_t>(plan_.n_visits());
+        n_visits += static_cast<std::size_t>(plan_.n_visits()) + 1;
         if (n_visits > visits_between_asking) {
             n_visits = 0;
             if (is_over()) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/excluded_rows.hpp"
 #include "core/reject.hpp"
 
 namespace rightofway {
@@ -26,13 +27,17 @@ IncompatibleVisits::IncompatibleVisits(std::span<const RobotId> robot, const Boo
         return;
     }
     const auto n_visits = static_cast<VisitId>(robot.size());
+    require_excluded_rows({rows.first, rows.excluded});
     const auto n_rows = static_cast<std::int32_t>(rows.first.size()) - 1;
     require_length("vertex_row", rows.vertex.size(), robot.size());
     require_length("edge_row", rows.edge.size(), robot.size());
-    for (VisitId x = 0; x < n_visits; ++x) {
-        require_id("vertex_row", rows.vertex[x], n_rows);
-        if (rows.edge[x] != none) {
-            require_id("edge_row", rows.edge[x], n_rows);
+    require_ids("vertex_row", rows.vertex, n_rows);
+    require_ranges("edge_row", rows.edge, none, n_rows - 1);
+    for (std::size_t x = 0; x < robot.size(); ++x) {
+        const bool is_last = x + 1 == robot.size() || robot[x + 1] != robot[x];
+        if (is_last && rows.edge[x] != none) {
+            reject_entry("edge_row", x, rows.edge[x],
+                         "must be -1: no edge is driven out of a last visit");
         }
     }
     std::vector<std::vector<BookedBy>> booked(static_cast<std::size_t>(n_rows));

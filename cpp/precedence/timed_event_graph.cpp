@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@ namespace rightofway {
 namespace {
 
 constexpr Tick most_product = Tick{1} << 58;
+constexpr std::int32_t most_nodes = 1 << 26;  // that many take 2 GB
 
 // Outgoing arcs, node by node: a sweep reads memory in order.
 class Rows {
@@ -244,7 +246,10 @@ Sums sums_of(const TimedEventGraph& arcs) {
 
 // The value of any path has to stay far below the limit of its type.
 void require_small(const std::string& name, Tick factor, Tick sum) {
-    if (factor < 0 || factor > most_product / sum) {
+    if (factor < 0) {
+        reject(name, factor, "is negative");
+    }
+    if (factor > most_product / sum) {
         reject(name, factor, "times " + std::to_string(sum) + " is too large");
     }
 }
@@ -252,12 +257,16 @@ void require_small(const std::string& name, Tick factor, Tick sum) {
 }  // namespace
 
 void require_event_arcs(const TimedEventGraph& arcs) {
+    require_range("n_nodes", arcs.n_nodes, 0, most_nodes);
+    if (arcs.tail.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+        throw std::invalid_argument("tail: more arcs than int32 can number");
+    }
     require_length("head", arcs.head.size(), arcs.tail.size());
     require_length("length", arcs.length.size(), arcs.tail.size());
     require_length("height", arcs.height.size(), arcs.tail.size());
-    for (std::size_t k = 0; k < arcs.tail.size(); ++k) {
-        require_id("tail[" + std::to_string(k) + "]", arcs.tail[k], arcs.n_nodes);
-        require_id("head[" + std::to_string(k) + "]", arcs.head[k], arcs.n_nodes);
+    require_ids("tail", arcs.tail, arcs.n_nodes);
+    require_ids("head", arcs.head, arcs.n_nodes);
+    for (std::size_t k = 0; k < arcs.length.size(); ++k) {
         if (arcs.length[k] < 0) {
             reject_entry("length", k, arcs.length[k], "is negative");
         }
@@ -275,7 +284,12 @@ std::optional<std::vector<Tick>> earliest_times(const TimedEventGraph& arcs, Tic
                                                 std::int64_t parts, const StopCondition& is_over) {
     const Sums sums = sums_of(arcs);
     require_small("period", period, sums.heights);
+    if (parts < 1) {
+        reject("parts", parts, "is not above 0");
+    }
     require_small("parts", parts, sums.lengths);
+    // No path without a circuit is longer: 2^59 at most.
+    const Tick longest = sums.lengths * parts + period * sums.heights;
     const Rows leaving(arcs, arcs.tail, arcs.head);
     std::vector<Tick> time(static_cast<std::size_t>(arcs.n_nodes), 0);
     std::vector<std::uint8_t> is_later(time.size(), 1);
@@ -290,6 +304,9 @@ std::optional<std::vector<Tick>> earliest_times(const TimedEventGraph& arcs, Tic
             for (const Rows::Arc& arc : leaving.of(static_cast<std::int32_t>(node))) {
                 const auto end = static_cast<std::size_t>(arc.end);
                 const Tick earliest = time[node] + arc.length * parts - period * arc.height;
+                if (earliest > longest) {
+                    return std::nullopt;  // a circuit above the period
+                }
                 if (time[end] < earliest) {
                     time[end] = earliest;
                     is_later[end] = 1;

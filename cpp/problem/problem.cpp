@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/excluded_rows.hpp"
 #include "core/reject.hpp"
 
 namespace rightofway {
@@ -11,14 +12,6 @@ namespace {
 
 // With durations of at most 2^40 ticks, their sum over a plan stays far below `never`.
 constexpr Tick longest_duration = Tick{1} << 40;
-
-void require_ids(const char* name, std::span<const std::int32_t> ids, std::int64_t count) {
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-        if (ids[k] < 0 || ids[k] >= count) {
-            require_id(std::string(name) + "[" + std::to_string(k) + "]", ids[k], count);
-        }
-    }
-}
 
 void require_durations(const char* name, std::span<const Tick> ticks) {
     for (std::size_t k = 0; k < ticks.size(); ++k) {
@@ -44,7 +37,7 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const R
     if (rules_.headway < 0 || rules_.headway > longest_duration) {
         reject("headway", rules_.headway, "is not in 0..2^40");
     }
-    require_graph(graph());
+    require_graph(graph(), "heads");
     require_length("length_class", arrays_.length_class.size(), arrays_.heads.size());
     require_ids("length_class", arrays_.length_class, arrays_.n_classes);
     for (std::size_t k = 0; k < arrays_.paces.size(); ++k) {
@@ -85,6 +78,9 @@ void Problem::check_closures() {
 }
 
 void Problem::check_turns() const {
+    if (turns_.n_kinds < 0) {
+        reject("n_turn_kinds", turns_.n_kinds, "is negative");
+    }
     const auto n_kinds = static_cast<std::size_t>(turns_.n_kinds);
     const std::size_t n_classes = n_kinds == 0 ? 0 : turns_.ticks.size() / n_kinds;
     require_length("turn_ticks", turns_.ticks.size(), n_classes * n_kinds);
@@ -98,9 +94,10 @@ void Problem::check_turns() const {
     require_length("turn_offset", turns_.offset.size(), arrays_.heads.size());
     require_ids("turn_kind", turns_.kind, turns_.n_kinds);
     for (std::size_t e = 0; e < arrays_.heads.size(); ++e) {
-        const std::int64_t first = turns_.offset[e] + graph().indptr[arrays_.heads[e]];
-        const std::int64_t end = turns_.offset[e] + graph().indptr[arrays_.heads[e] + 1];
-        if (first < 0 || end > static_cast<std::int64_t>(turns_.kind.size())) {
+        const auto n_entries = static_cast<std::int64_t>(turns_.kind.size());
+        const std::int64_t first = graph().indptr[arrays_.heads[e]];
+        const std::int64_t end = graph().indptr[arrays_.heads[e] + 1];
+        if (turns_.offset[e] < -first || turns_.offset[e] > n_entries - end) {
             reject_entry("turn_offset", e, turns_.offset[e], "leads out of turn_kind");
         }
     }
@@ -113,22 +110,13 @@ void Problem::check_turns() const {
 
 void Problem::check_resources() {
     require_length("size_of", resources_.size_of.size(), arrays_.home.size());
-    const std::int32_t n_sizes = n_rows() / n_resources();
-    require_length("first", resources_.first.size(),
-                   static_cast<std::size_t>(n_sizes * n_resources() + 1));
-    require_ids("size_of", resources_.size_of, n_sizes);
-    if (resources_.first.front() != 0) {
-        reject_entry("first", 0, resources_.first.front(), "must be 0");
+    if (n_resources() == 0 || n_rows() % n_resources() != 0) {
+        reject("first", n_rows(),
+               "rows are no multiple of the number of vertices and edges, " +
+                   std::to_string(n_resources()));
     }
-    for (std::size_t row = 0; row + 1 < resources_.first.size(); ++row) {
-        if (resources_.first[row + 1] < resources_.first[row]) {
-            reject_entry("first", row + 1, resources_.first[row + 1],
-                         "is less than the one before");
-        }
-    }
-    require_length("excluded", resources_.excluded.size(),
-                   static_cast<std::size_t>(resources_.first.back()));
-    require_ids("excluded", resources_.excluded, n_rows());
+    require_ids("size_of", resources_.size_of, n_rows() / n_resources());
+    require_excluded_rows({resources_.first, resources_.excluded});
     edges_exclude_ =
         std::any_of(resources_.excluded.begin(), resources_.excluded.end(),
                     [this](std::int32_t row) { return row % n_resources() >= n_vertices(); });
@@ -153,17 +141,8 @@ void Problem::check_robots() const {
         is_taken[arrays_.home[r]] = true;
     }
     require_length("first_stage", arrays_.first_stage.size(), n_robots + 1);
-    if (arrays_.first_stage.front() != 0) {
-        reject_entry("first_stage", 0, arrays_.first_stage.front(), "must be 0");
-    }
-    for (std::size_t r = 0; r < n_robots; ++r) {
-        if (arrays_.first_stage[r + 1] <= arrays_.first_stage[r]) {
-            reject_entry("first_stage", r + 1, arrays_.first_stage[r + 1],
-                         "leaves a robot no stage");
-        }
-    }
-    const auto n_stages = static_cast<std::size_t>(arrays_.first_stage.back());
-    require_length("stage_vertex", arrays_.stage_vertex.size(), n_stages);
+    require_lists("first_stage", arrays_.first_stage, arrays_.stage_vertex.size(), "stages", 1);
+    const std::size_t n_stages = arrays_.stage_vertex.size();
     require_ids("stage_vertex", arrays_.stage_vertex, n_vertices());
     require_length("stage_work", arrays_.stage_work.size(), n_stages);
     require_length("stage_turn", arrays_.stage_turn.size(), n_stages);

@@ -8,14 +8,22 @@
 namespace rightofway {
 namespace {
 
+constexpr std::int32_t most_rows = 1 << 26;  // that many take 0.8 GB
+
 std::size_t checked_count(std::int32_t n_rows) {
-    if (n_rows < 0) {
-        reject("n_rows", n_rows, "is negative");
-    }
+    require_range("n_vertices", n_rows, 0, most_rows);
     return static_cast<std::size_t>(n_rows);
 }
 
 constexpr std::int32_t smallest_class = 2;
+
+void require_interval(const Booking& time) {
+    require_range("start", time.start, -never, never);
+    require_range("end", time.end, -never, never);
+    if (time.is_empty()) {
+        reject("end", time.end, "is not after start, " + std::to_string(time.start));
+    }
+}
 
 // The first booking of another robot that overlaps `time`, or nullptr.
 const BookedBy* overlapping(std::span<const BookedBy> here, const Booking& time, RobotId robot) {
@@ -39,14 +47,21 @@ void BookingTable::book(std::int32_t row, const Booking& time, RobotId robot) {
     if (robot < 0) {
         reject("robot", robot, "is negative");
     }
-    if (time.is_empty()) {
-        reject("end", time.end, "is not after start, " + std::to_string(time.start));
-    }
+    require_interval(time);
     if (const BookedBy* other = overlapping(at(row), time, robot)) {
         reject("start", time.start,
                "overlaps a booking of vertex " + std::to_string(row) + " by robot " +
                    std::to_string(other->robot));
     }
+    insert(row, time, robot);
+}
+
+void BookingTable::mark(std::int32_t row, const Booking& time, RobotId robot) {
+    require_id("row", row, n_rows());
+    if (robot < nobody) {
+        reject("robot", robot, "is no robot, and not -1 for nobody");
+    }
+    require_interval(time);
     insert(row, time, robot);
 }
 

@@ -26,7 +26,7 @@ struct BookedBy {
 
 class BookingTable {
   public:
-    // Throws std::invalid_argument if `n_rows` is negative.
+    // Throws std::invalid_argument if `n_rows` is negative or above 2^26.
     explicit BookingTable(std::int32_t n_rows);
 
     std::int32_t n_rows() const { return static_cast<std::int32_t>(rows_.size()); }
@@ -38,6 +38,10 @@ class BookingTable {
     // Adds a booking. Throws std::invalid_argument for an unknown row, an empty booking, or an
     // overlap with a booking of another robot.
     void book(std::int32_t row, const Booking& time, RobotId robot);
+
+    // Adds a booking that may overlap others. Throws std::invalid_argument for an unknown row or
+    // robot, or an empty booking. A booking of nobody is a closure.
+    void mark(std::int32_t row, const Booking& time, RobotId robot);
 
     // Adds a booking without checks; bookings may overlap. A booking of nobody is a closure.
     void insert(std::int32_t row, const Booking& time, RobotId robot);

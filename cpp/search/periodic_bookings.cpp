@@ -10,24 +10,31 @@ namespace rightofway {
 namespace {
 
 constexpr Tick longest = Tick{1} << 50;
+constexpr Tick latest_tick = Tick{1} << 60;  // and the earliest, below 0: no sum of two overflows
+constexpr Tick most_periods = 1 << 16;       // between two given visits
+constexpr std::int32_t most_rows = 1 << 26;  // that many take 1.6 GB
 
 void require_visits(const Visits& visits, const PeriodicBookings& bookings, std::size_t least) {
     require_length("dwell", visits.dwell.size(), visits.vertex.size());
     require_length("drive", visits.drive.size(), visits.vertex.size());
     require_length("edge", visits.edge.size(), bookings.has_sizes() ? visits.vertex.size() : 0);
-    for (std::size_t k = 0; k < visits.edge.size(); ++k) {
-        require_id("edge[" + std::to_string(k) + "]", visits.edge[k], bookings.n_rows());
-    }
+    require_ids("edge", visits.edge, bookings.n_rows());
+    require_ids("vertex", visits.vertex, bookings.n_rows());
     if (visits.vertex.size() < least) {
         reject("vertex", static_cast<std::int64_t>(visits.vertex.size()), "visits are too few");
     }
+    Tick left = latest_tick;
     for (std::size_t k = 0; k < visits.vertex.size(); ++k) {
-        require_id("vertex[" + std::to_string(k) + "]", visits.vertex[k], bookings.n_rows());
         if (visits.dwell[k] < 0 || visits.dwell[k] > longest) {
             reject_entry("dwell", k, visits.dwell[k], "is negative or too long");
         }
         if (visits.drive[k] <= 0 || visits.drive[k] > longest) {
             reject_entry("drive", k, visits.drive[k], "is not above 0, or too long");
+        }
+        left -= visits.dwell[k] + visits.drive[k];
+        if (left < 0) {
+            reject_entry("drive", k, visits.drive[k],
+                         "and the durations before it add up beyond 2^60 (use a larger tick)");
         }
     }
 }
@@ -47,9 +54,7 @@ PeriodicBookings::PeriodicBookings(std::int32_t n_rows, std::optional<Tick> peri
       books_ahead_(books_ahead),
       first_(rows.first.begin(), rows.first.end()),
       excluded_(rows.excluded.begin(), rows.excluded.end()) {
-    if (n_rows < 0) {
-        reject("n_vertices", n_rows, "is negative");
-    }
+    require_range("n_vertices", n_rows, 0, most_rows);
     if (period && (*period <= 0 || *period > longest)) {
         reject("period", *period, "is not above 0, or too long");
     }
@@ -59,10 +64,7 @@ PeriodicBookings::PeriodicBookings(std::int32_t n_rows, std::optional<Tick> peri
     at_.resize(static_cast<std::size_t>(n_rows));
     if (has_sizes()) {
         require_length("first", first_.size(), at_.size() + 1);
-        require_length("excluded", excluded_.size(), static_cast<std::size_t>(first_.back()));
-        for (std::size_t k = 0; k < excluded_.size(); ++k) {
-            require_id("excluded[" + std::to_string(k) + "]", excluded_[k], n_rows);
-        }
+        require_excluded_rows({first_, excluded_});
         joined_.resize(at_.size());
         is_changed_.assign(at_.size(), 0);
     }
@@ -125,13 +127,18 @@ bool PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const 
                            std::optional<Tick> leave) {
     require_visits(visits, *this, has_period() ? 2 : 0);
     const std::size_t n = visits.vertex.size();
+    if (robot < 0) {
+        reject("robot", robot, "is negative");
+    }
     require_length("enter", enter.size(), n);
+    require_ranges("enter", enter, -latest_tick, latest_tick);
     if (has_period() && rows_of_.contains(robot)) {
         reject("robot", robot, "is there already");
     }
     if (has_period() == leave.has_value()) {
         reject("leave", leave.value_or(0), "is needed without a period, and only then");
     }
+    require_range("leave", leave.value_or(0), -latest_tick, never);
     const Tick last_leave = leave ? *leave : enter[0] + period_;
     std::vector<std::pair<std::int32_t, Booking>> bookings;
     for (std::size_t k = 0; k < n; ++k) {
@@ -246,6 +253,7 @@ bool PeriodicBookings::search(const Visits& visits, Tick phase, std::vector<Tick
         reject("period", 0, "is needed for visits that repeat");
     }
     require_visits(visits, *this, 2);
+    require_range("phase", phase, -latest_tick, latest_tick);
     prepare(visits, visits.vertex.size());
     if (rest_[0] > period_) {
         return false;
@@ -289,6 +297,14 @@ bool PeriodicBookings::close_from(const Visits& visits, const Gap& home, Tick st
 bool PeriodicBookings::connect(const Visits& visits, Tick from, Tick until, Tick leave,
                                std::vector<Tick>& enter) {
     require_visits(visits, *this, 1);
+    require_range("begins", from, -latest_tick, latest_tick);
+    require_range("until", until, -latest_tick, latest_tick);
+    require_range("leave", leave, -latest_tick, never);
+    if (has_period() && (until - from) / period_ > most_periods) {
+        reject("until", until,
+               "is more than " + std::to_string(most_periods) + " periods after begins, " +
+                   std::to_string(from));
+    }
     const std::size_t last = visits.vertex.size() - 1;
     prepare(visits, last);
     std::optional<Gap> first;

@@ -30,6 +30,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/excluded_rows.hpp"
 #include "core/search_end.hpp"
 #include "core/types.hpp"
 
@@ -45,12 +46,6 @@ struct Visits {
     std::span<const std::int32_t> edge = {};
 
     std::int32_t edge_into(std::size_t k) const { return edge.empty() ? none : edge[k]; }
-};
-
-// The rows that a booking of each row excludes, as in `Resources`; borrowed, empty without sizes.
-struct ExcludedRows {
-    std::span<const std::int32_t> first;
-    std::span<const std::int32_t> excluded;
 };
 
 class PeriodicBookings {

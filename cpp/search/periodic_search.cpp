@@ -8,6 +8,7 @@ namespace rightofway {
 namespace {
 
 constexpr std::int64_t expansions_between_looks = 512;
+constexpr Tick latest_tick = Tick{1} << 60;
 
 }  // namespace
 
@@ -15,6 +16,7 @@ PeriodicSearch::PeriodicSearch(const Roads& roads, const PeriodicBookings& circl
     : roads_(roads),
       circle_(circle),
       at_(roads.graph.indptr.empty() ? 0 : roads.graph.indptr.size() - 1, none) {
+    require_graph(roads.graph);
     if (!circle.has_sizes()) {
         require_length("indptr", roads.graph.indptr.size(),
                        static_cast<std::size_t>(circle.n_rows()) + 1);
@@ -39,10 +41,9 @@ Tick PeriodicSearch::rest(VertexId vertex, std::int32_t stage) const {
 bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
                          const StopCondition& is_over, std::int32_t first_row) {
     require_trip(roads_, trip);
-    if (circle_.has_sizes()) {
-        const std::size_t n_own = at_.size() + roads_.graph.indices.size();
-        require_id("first_row", first_row, circle_.n_rows() - static_cast<std::int32_t>(n_own) + 1);
-    }
+    require_range("phase", phase, -latest_tick, latest_tick);
+    const auto n_own = static_cast<std::int32_t>(at_.size() + roads_.graph.indices.size());
+    require_id("first_row", first_row, circle_.has_sizes() ? circle_.n_rows() - n_own + 1 : 1);
     first_row_ = first_row;
     trip_ = &trip;
     is_over_ = &is_over;

@@ -26,9 +26,19 @@ class PeriodicBookings:
     """
     Bookings of vertices with a period or none, and when one more robot can make given visits.
 
-    All bookings come again after ``period`` ticks; None for a line of time. Where robots have sizes,
-    vertices are rows, ``edge`` of consecutive visits holds the row of the edge driven into each, int32[N],
-    and a booking of row ``r`` excludes others from ``excluded[first[r]:first[r + 1]]``, int32.
+    Parameters
+    ----------
+    n_vertices : int
+        The number of vertices; where robots have sizes, of rows.
+    period : int or None
+        All bookings come again after it; None for a line of time. [ticks]
+    headway : int
+        How long a vertex stays booked after it was left. [ticks]
+    books_ahead : bool
+        Whether a vertex is booked from when a robot starts to drive there.
+    first, excluded : int32[n_vertices + 1], int32[M] or None
+        Where robots have sizes: a booking of row ``r`` excludes others from the rows
+        ``excluded[first[r]:first[r + 1]]``, which rise.
     """
 
     def __init__(self, n_vertices: int, period: int | None, headway: int, books_ahead: bool, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
@@ -54,6 +64,8 @@ class PeriodicBookings:
             When each begins, rising; with a period, all within one. [ticks]
         leave : int or None
             When the last one ends; None with a period: when the first one comes again. [ticks]
+        edge : int32[N] or None
+            Where robots have sizes: the row of the edge driven into each visit; ``vertex`` holds rows, too.
 
         Returns
         -------
@@ -63,28 +75,63 @@ class PeriodicBookings:
         """
 
     def remove(self, robot: int) -> None:
-        """Remove all bookings of a robot; nothing happens if it has none."""
+        """
+        Remove all bookings of a robot; nothing happens if it has none.
+
+        Parameters
+        ----------
+        robot : int
+            The robot.
+        """
 
     def users(self, vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], begins: int = -4611686018427387904, ends: int = 4611686018427387904) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
         """
-        Return the robots that have booked any of these vertices in ``[begins, ends)``, rising, int32[K].
+        Return the robots that have booked any of some vertices, rising, int32[K].
 
-        With a period, bookings count in the period that they start in.
+        Parameters
+        ----------
+        vertices : int32[n]
+            The vertices, or rows.
+        begins, ends : int
+            Bookings count that overlap ``[begins, ends)``; with a period, in the period of their start.
+            [ticks]
         """
 
     def search(self, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], phase: int, time_limit: float | None, edge: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
         """
         Return when a robot can repeat its visits among the bookings of others, int64[N], or None.
 
-        Visits as for ``add``; needs a period; starts are tried from tick ``phase`` on. Complete for these
-        visits, unless no other robot visits the first vertex: then only this phase is tried.
+        Parameters
+        ----------
+        vertex, dwell, drive : int32[N], int64[N], int64[N]
+            The visits, as for `add`.
+        phase : int
+            The tick from which on starts are tried. [ticks]
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+        edge : int32[N] or None
+            As for `add`.
+
+        Notes
+        -----
+        Needs a period. Complete for these visits, unless no other robot visits the first vertex: then only
+        this phase is tried.
         """
 
     def connect(self, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], begins: int, until: int, leave: int, edge: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
         """
         Return the earliest ticks for visits between two given ones, int64[N], or None.
 
-        The first visit begins at tick ``begins``, the last one by ``until``, and ends at ``leave``.
+        Parameters
+        ----------
+        vertex, dwell, drive : int32[N], int64[N], int64[N]
+            The visits, as for `add`.
+        begins : int
+            When the first visit begins. [ticks]
+        until, leave : int
+            By when the last visit begins, and when it ends. [ticks]
+        edge : int32[N] or None
+            As for `add`.
         """
 
     def find_route(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], phase: int, time_limit: float | None, first_row: int = 0) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]] | None:
@@ -107,6 +154,10 @@ class PeriodicBookings:
             For each stage, the least ticks from each vertex to its vertex; -1 where the robot must not go.
         phase : int
             The tick from which on starts are tried. [ticks]
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+        first_row : int
+            Where robots have sizes: the first row of the robot's size class; else 0.
 
         Returns
         -------
@@ -119,8 +170,13 @@ class DistanceTables:
     """
     Least ticks from every vertex to one target, on a graph in compressed rows.
 
-    The edges that leave vertex ``v`` are ``indptr[v] .. indptr[v + 1] - 1``, and edge ``e`` ends at
-    ``indices[e]``. The graph is copied (reversed) once; several threads may ask one object at once.
+    The graph is copied (reversed) once; several threads may ask one object at once.
+
+    Parameters
+    ----------
+    indptr, indices : int32[V + 1], int32[E]
+        The edges that leave vertex ``v`` are ``indptr[v] .. indptr[v + 1] - 1``, and edge ``e`` ends at
+        ``indices[e]``.
     """
 
     def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
@@ -129,8 +185,17 @@ class DistanceTables:
         """
         Return the least time from each vertex to a target, -1 where no way leads there, int32[V].
 
-        ``edge_ticks`` (int32[E], above 0) has what each edge takes. OverflowError if a least time does not
-        fit int32.
+        Parameters
+        ----------
+        target : int
+            The vertex to reach.
+        edge_ticks : int32[E]
+            What each edge takes, above 0; -1 where it is barred. [ticks]
+
+        Raises
+        ------
+        OverflowError
+            If a least time does not fit int32.
         """
 
 class Congestion:
@@ -138,8 +203,17 @@ class Congestion:
     Cheapest paths that keep clear of other robots.
 
     To drive an edge costs ``shares`` for each tick that it takes, and more per tick: what it costs to
-    enter the vertex that it ends at (``station``, int64[V]), unless that is the target, and what every
-    robot costs that was added on the opposite edge.
+    enter the vertex that it ends at, unless that is the target, and what every robot costs that was
+    added on the opposite edge.
+
+    Parameters
+    ----------
+    problem : Problem
+        The roads, and how fast robots drive.
+    shares : int
+        In how many shares a tick is counted, above 0.
+    station : int64[V]
+        What it costs more to enter each vertex. [shares per tick]
     """
 
     def __init__(self, problem: Problem, shares: int, station: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
@@ -148,13 +222,28 @@ class Congestion:
         """
         Return the vertices of a cheapest path, both ends included, int32[n].
 
-        ``to_go`` has the least ticks from each vertex to the target, -1 where no way leads there. Of
-        several cheapest paths, the one that takes the first edge of a vertex that it can.
+        Of several cheapest paths, the one that takes the first edge of a vertex that it can.
+
+        Parameters
+        ----------
+        robot : int
+            The robot that drives.
+        start, target : int
+            The vertices at which the path begins and ends.
+        to_go : int32[V]
+            The least ticks from each vertex to the target, -1 where no way leads there.
         """
 
     def add(self, path: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], oncoming: int) -> None:
         """
-        Count one more robot on a path; to go against it costs ``oncoming`` [shares per tick].
+        Count one more robot on a path.
+
+        Parameters
+        ----------
+        path : int32[n]
+            The vertices of the path.
+        oncoming : int
+            What it costs to go against the robot. [shares per tick]
         """
 
 class CyclicSimulator:
@@ -176,14 +265,14 @@ class CyclicSimulator:
     headway : int
         How long after its leave a visit books its vertex. [ticks]
     pacemaker, lag : int
-        Cuts are made where this robot is home; conflicts up to the lag after a cut are resolved before
-        all visits up to it are frozen. [ticks]
+        Cuts are made where this robot is home; conflicts up to the lag (above 0) after a cut are
+        resolved before all visits up to it are frozen. [ticks]
     most_lag, patience : int
         The longest lag, and how long a pacemaker may stay away. [ticks]
     reach : int
         Visits left so long before a cut still matter. [ticks]
     memory : int
-        How many cuts can be undone.
+        How many cuts can be undone, above 0.
     rule : int
         The robot that goes first: the one that would enter the segment first (0), the one listed first
         (1), or (2) the one that would lose more by waiting.
@@ -209,13 +298,25 @@ class CyclicSimulator:
     def advance(self, time_limit: float | None = None) -> int:
         """
         Simulate until a state recurs (returns 1), a deadlock (2), or time is over (0; may be continued).
+
+        Parameters
+        ----------
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
         """
 
     def reset_states(self) -> None:
         """Forget the states seen, to advance beyond one that has recurred."""
 
     def set_rule(self, rule: int) -> None:
-        """Decide by another rule from now on."""
+        """
+        Decide by another rule from now on.
+
+        Parameters
+        ----------
+        rule : int
+            As for the class.
+        """
 
     @property
     def cut(self) -> int:
@@ -230,14 +331,27 @@ class CyclicSimulator:
 
     def waits(self, robot: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
-        Return the numbers of the visits of a robot that had to wait, int32[K], and how long the robot had
-        waited by then in all, int64[K]. [ticks]
+        Return the visits of a robot that had to wait, and how long.
+
+        Parameters
+        ----------
+        robot : int
+            The robot.
+
+        Returns
+        -------
+        tuple of (int32[K], int64[K])
+            The numbers of the visits, and how long the robot had waited by then in all. [ticks]
         """
 
     def deadlock(self) -> tuple[int, int, int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
         """
-        Return the conflict that cannot be resolved: the two robots, the vertex, the tick, and the robots
-        that would each wait for the next, int32[K].
+        Return the conflict that cannot be resolved, after a deadlock.
+
+        Returns
+        -------
+        tuple of (int, int, int, int, int32[K])
+            The two robots, the vertex, the tick, and the robots that would each wait for the next.
         """
 
 def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> tuple[int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]] | None:
@@ -254,6 +368,8 @@ def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(sh
         How long after its tail the head of each comes at least, not negative. [ticks]
     height : int32[M]
         How many periods later; may be negative.
+    time_limit : float or None
+        When to stop; at once for 0 or less. [s]
 
     Returns
     -------
@@ -268,8 +384,16 @@ def earliest_times(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shap
     """
     Return the least times that keep all arcs every ``period / parts`` ticks, int64[N].
 
-    Arcs as for ``critical_circuit``. At least 0. [1 / parts ticks] None if the period is less than the
-    cycle time, or time ran out.
+    At least 0. [1 / parts ticks] None if the period is less than the cycle time, or time ran out.
+
+    Parameters
+    ----------
+    n_nodes, tail, head, length, height : int, int32[M], int32[M], int64[M], int32[M]
+        The events and arcs, as for `critical_circuit`.
+    period, parts : int, int
+        The events come again every ``period / parts`` ticks; ``parts`` is above 0.
+    time_limit : float or None
+        When to stop; at once for 0 or less. [s]
     """
 
 def plan_by_lacam(problem: Problem, spreads: bool, seed: int, most_effort: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
@@ -286,6 +410,8 @@ def plan_by_lacam(problem: Problem, spreads: bool, seed: int, most_effort: int, 
         For ties.
     most_effort : int
         When the search stops: a choice of a robot is a unit, and so is a decision that it takes again.
+    time_limit : float or None
+        When to stop; at once for 0 or less. [s]
 
     Returns
     -------
@@ -311,6 +437,8 @@ def untimed_lacam(problem: Problem, ends_anywhere: Annotated[NDArray[numpy.uint8
         For ties.
     most_steps : int or None
         After about so many steps of the fleet the search stops.
+    time_limit : float or None
+        When to stop; at once for 0 or less. [s]
 
     Returns
     -------
@@ -355,17 +483,17 @@ class Problem:
         Size class of each robot, and for each row the rows from which a booking of it excludes other
         robots; None where no robot has a size. Row ``size * (V + E) + resource`` is a vertex or an
         edge as robots of one size class book it; the vertices come first.
-    surcharges : int64[C]
-        What an edge of each length class adds to costs, not to durations; None where all are 0. [ticks]
-    closed_row, closed_from, closed_until : int32[K], int64[K], int64[K]
-        Rows of the booking table that are closed, and when; None without closures. Where no robot has
-        a size, row ``V + e`` is edge ``e``. [ticks]
     turn_offset, turn_kind, turn_class, turn_ticks : int64[E], int32[n], int32[R], int32[T * K]
         How long robots turn on the spot; None where turning takes no time. The angle from edge ``e`` to
         edge ``f`` is of kind ``turn_kind[turn_offset[e] + f]``; a robot of turning class t turns it in
         ``turn_ticks[t * K + kind]`` ticks, and in no time where its class is -1.
     n_turn_kinds : int
         K.
+    surcharges : int64[C]
+        What an edge of each length class adds to costs, not to durations; None where all are 0. [ticks]
+    closed_row, closed_from, closed_until : int32[K], int64[K], int64[K]
+        Rows of the booking table that are closed, and when; None without closures. Where no robot has
+        a size, row ``V + e`` is edge ``e``. [ticks]
 
     Raises
     ------
@@ -390,6 +518,17 @@ class FleetSearch:
     The seed decides all that is drawn; what `improve` finds does not depend on ``n_threads``. Robots
     without a track are left where they are by `tracks`: an empty one. Ctrl-C leaves a plan as good as
     before.
+
+    Parameters
+    ----------
+    problem : Problem
+        What the fleet has to do.
+    seed : int
+        For all that is drawn.
+    n_threads : int
+        Threads of `prioritize` and `improve`, 1 to 1024.
+    alone : int64[R] or None
+        What `alone` returned for the same trips. [ticks]
     """
 
     def __init__(self, problem: Problem, seed: int, n_threads: int, alone: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
@@ -399,29 +538,60 @@ class FleetSearch:
         Return the least completion of each robot without the others, int64[R]. [ticks]
 
         -1 for a robot that cannot get to a stage; None if time ran out.
+
+        Parameters
+        ----------
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
         """
 
     def start(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
-        Take over tracks: where each robot's visits begin, int32[R + 1], their vertices and enters.
+        Take over tracks. A robot may have none: an empty track.
 
-        A robot may have none: an empty track. ValueError if the others are no tracks of these trips, or
-        overlap.
+        Parameters
+        ----------
+        first_visit : int32[R + 1]
+            Robot ``r`` has the visits ``first_visit[r] .. first_visit[r + 1] - 1``.
+        vertices, enter : int32[N], int64[N]
+            Where and when each visit begins. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the others are no tracks of these trips, or overlap.
         """
 
     def restore(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
         """
-        Give robots these tracks, as for `start`, where that costs no more; return how many have theirs.
+        Give robots these tracks where that costs no more; return how many have theirs.
 
-        Every robot has a track, and the tracks given keep the rules. `improve` starts afresh.
+        Every robot has a track. `improve` starts afresh.
+
+        Parameters
+        ----------
+        first_visit : int32[R + 1]
+            Robot ``r`` has the visits ``first_visit[r] .. first_visit[r + 1] - 1``.
+        vertices, enter : int32[N], int64[N]
+            Where and when each visit begins. [ticks] None is empty.
         """
 
     def prioritize(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None, with_net: float | None) -> bool:
         """
         Give the robots tracks one after another, in this order; return whether all have one now.
 
-        Gives up after ``n_searches`` or the time limit; after ``with_net`` seconds instead, once there is
-        a plan made in haste. `go_on` may change a False.
+        `go_on` may change a False.
+
+        Parameters
+        ----------
+        order : int32[R]
+            Every robot once.
+        n_searches : int
+            The most searches before it gives up.
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+        with_net : float or None
+            When to stop instead once there is a plan made in haste. [s]
         """
 
     def repair(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None) -> bool:
@@ -429,19 +599,46 @@ class FleetSearch:
         Give tracks to robots that have none, in this order; return whether all have one now.
 
         Robots that have a track keep it, unless they are in the way: they lose it, and queue again.
+
+        Parameters
+        ----------
+        order : int32[n]
+            All robots without a track, each once.
+        n_searches : int
+            The most searches before it gives up.
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
         """
 
     def go_on(self, n_searches: int, time_limit: float | None) -> bool:
-        """Continue `prioritize`; ``n_searches`` counts since its beginning."""
+        """
+        Continue a `prioritize` that returned False.
+
+        Parameters
+        ----------
+        n_searches : int
+            The most searches since its beginning.
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+        """
 
     def improve(self, n_tasks: int, patience: int, time_limit: float | None, pause: float | None) -> int:
         """
         Replace tracks by better ones, a few robots at a time; return how many times that was done.
 
         Every robot has a track. A plan that is stuck becomes one of several, which are crossed with each
-        other. Ends when nothing can be better, after ``n_tasks``, after ``patience`` tasks in a row without
-        a gain, at once after the time limit, and after ``pause`` seconds at the next point that does not
-        depend on clocks.
+        other. Ends when nothing can be better, too.
+
+        Parameters
+        ----------
+        n_tasks : int
+            The number of neighbourhoods to replan.
+        patience : int
+            The most of them in a row without a gain.
+        time_limit : float or None
+            When to stop at once. [s]
+        pause : float or None
+            When to stop at the next point that does not depend on clocks. [s]
         """
 
     def retime(self) -> None:
@@ -451,7 +648,12 @@ class FleetSearch:
 
     def tracks(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
-        Return where each robot's visits begin, int32[R + 1], their vertices and enters.
+        Return the tracks of all robots.
+
+        Returns
+        -------
+        tuple of (int32[R + 1], int32[N], int64[N])
+            Which visits each robot has, and where and when they begin. [ticks]
         """
 
     @property
@@ -502,6 +704,8 @@ class ActionDependencyGraph:
         ended; ``before`` is then -1.
     vertex_row, edge_row, first_excluded, excluded : int32 or None
         Where robots have sizes: as ``PrecedenceGraph`` takes them.
+    first_closed, closed_from, closed_until : int32[2 N + 1], int64[K], int64[K] or None
+        When the places of visits are closed: as ``PrecedenceGraph`` takes them. [ticks]
     """
 
     def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], planned: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], before: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], since: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, pace: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_kind: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_a: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_b: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stoppage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_right: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, rights: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, vertex_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, edge_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first_excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first_closed: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_from: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_until: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
@@ -510,7 +714,14 @@ class ActionDependencyGraph:
         """
         Run the plan many times by right of way, and by the clock.
 
-        Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
+        Parameters
+        ----------
+        seed : int
+            For the delays.
+        first, count : int
+            Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
 
         Returns
         -------
@@ -524,22 +735,48 @@ class ActionDependencyGraph:
             Ticks of lateness that began at each visit: of its own robot, of others.
         between : int64[P, 3]
             Robot, another, and the ticks that the first is late because of the other.
+        is_caught : uint8[K, R]
+            Whether each robot books something while it is closed.
         """
 
     def delay_sample(self, seed: int, run: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
-        Return the delays of one run: dwells and drives, and stoppages as the class takes them.
+        Return the delays of one run.
+
+        Parameters
+        ----------
+        seed, run : int
+            As for `runs`.
+
+        Returns
+        -------
+        dwell, drive : int64[N], int64[N]
+            The real duration of each visit without the drive after it, and of the drive into it. [ticks]
+        first_stoppage, stoppage_tick, stoppage_ticks : int32[R + 1], int64[S], int64[S]
+            Stoppages as the class takes them.
         """
 
     def execute(self, dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stoppage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], clock: bool) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))]]:
         """
-        Run the plan once by the clock or by right of way, with delays as `delay_sample` returns them.
+        Run the plan once by the clock or by right of way, with given delays.
+
+        Parameters
+        ----------
+        dwell, drive, first_stoppage, stoppage_tick, stoppage_ticks : ndarray
+            The delays, as `delay_sample` returns them.
+        clock : bool
+            Whether robots go by the clock, instead of by right of way.
 
         Returns
         -------
-        tuple of (int64[N], int64[N], int64[R], uint8[R], int64[4])
-            When each visit begins, when its booking begins, when robots complete, which stand still for
-            ever, and the conflicts as `runs` counts them.
+        enter, start : int64[N], int64[N]
+            When each visit begins, and when its booking begins. [ticks]
+        completion, is_broken : int64[R], uint8[R]
+            When each robot completes; whether it stands still for ever. [ticks]
+        collisions : int64[4]
+            As `runs` counts them.
+        is_caught : uint8[R]
+            Whether each robot books something while it is closed.
         """
 
     def deadlocked(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
@@ -590,13 +827,27 @@ class PrecedenceGraph:
     def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, swaps_conflict: bool, active: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, edge_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first_closed: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_from: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_until: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
 
     def enter_of(self, visit: int) -> int:
-        """Return the enter of a visit. [ticks]"""
+        """
+        Return the enter of a visit. [ticks]
+
+        Parameters
+        ----------
+        visit : int
+            The visit.
+        """
 
     def enter(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
         """Return a copy of the enters of all visits, int64[N]. [ticks]"""
 
     def completion(self, robot: int) -> int:
-        """Return the enter of a robot's last visit. [ticks]"""
+        """
+        Return the enter of a robot's last visit. [ticks]
+
+        Parameters
+        ----------
+        robot : int
+            The robot.
+        """
 
     def completion_sum(self) -> int:
         """
@@ -605,7 +856,12 @@ class PrecedenceGraph:
 
     def critical_rights(self, robot: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
         """
-        Return the rights of way ``(a, b)`` on a longest path to the robot's last visit, the latest first, int32[K, 2].
+        Return the rights of way ``(a, b)`` on a longest path to a robot's last visit, int32[K, 2].
+
+        Parameters
+        ----------
+        robot : int
+            The robot; the latest right of way comes first.
         """
 
     def incompatible(self, i: int, j: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None))]:
@@ -614,6 +870,11 @@ class PrecedenceGraph:
 
         Visit of i, visit of j, and the visits whose starts count: i waits for j by
         ``precede(visit of j, start of i)``, j for i by ``precede(visit of i, start of j)``.
+
+        Parameters
+        ----------
+        i, j : int
+            The robots.
         """
 
     def conflicts(self) -> int:
@@ -621,17 +882,39 @@ class PrecedenceGraph:
 
     def conflicts_of(self, robot: int, others: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
         """
-        Return the weight of one robot's conflicts with the ``others`` (uint8[R], not 0). [ticks]
+        Return the weight of one robot's conflicts with some others. [ticks]
+
+        Parameters
+        ----------
+        robot : int
+            The robot.
+        others : uint8[R]
+            Not 0 for the others.
         """
 
     def next_conflict(self) -> tuple[int, int, int, int] | None:
         """
-        Return the earliest conflict ``(tick, kind, visit_a, visit_b)``, None if none is left.
+        Return the earliest conflict, None if none is left.
+
+        Returns
+        -------
+        tuple of (int, int, int, int) or None
+            Tick, kind, and the two visits.
         """
 
     def next_conflict_between(self, i: int, j: int) -> tuple[int, int, int, int] | None:
         """
-        Return the earliest conflict of two different robots, None if they have none.
+        Return the earliest conflict of two robots, None if they have none.
+
+        Parameters
+        ----------
+        i, j : int
+            Two different robots.
+
+        Returns
+        -------
+        tuple of (int, int, int, int) or None
+            Tick, kind, and the two visits.
         """
 
     def precede(self, a: int, b: int) -> bool:
@@ -640,6 +923,11 @@ class PrecedenceGraph:
 
         Returns whether that is possible. If not, nothing has changed: ``a`` is a last visit, ``b`` is a
         first visit, or ``cycle()`` has the deadlock or swap that would follow.
+
+        Parameters
+        ----------
+        a, b : int
+            The visits.
         """
 
     def cycle(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
@@ -653,14 +941,24 @@ class PrecedenceGraph:
         """
         Give the rights of way of all visits to a vertex in an order, all at once.
 
-        ``when`` (int64[N]) rises along each route: of two visits to one vertex the one with the smaller
-        number goes first, of equal ones that with the smaller index. Returns whether that is possible; if
-        not, nothing has changed. If so, there is no rollback below this.
+        Returns whether that is possible; if not, nothing has changed. If so, there is no rollback below
+        this.
+
+        Parameters
+        ----------
+        when : int64[N]
+            Rises along each route: of two visits to one vertex the one with the smaller number goes first,
+            of equal ones that with the smaller index.
         """
 
     def take_back(self, a: int, b: int) -> bool:
         """
         Take back the right of way of a over b, whenever it was given; return whether there was one.
+
+        Parameters
+        ----------
+        a, b : int
+            The visits.
         """
 
     def checkpoint(self) -> int:
@@ -670,17 +968,32 @@ class PrecedenceGraph:
 
     def rollback(self, mark: int) -> None:
         """
-        Undo all changes since a mark (ValueError if a rollback has gone below it).
+        Undo all changes since a mark.
+
+        Parameters
+        ----------
+        mark : int
+            What `checkpoint` returned; ValueError if a rollback has gone below it.
         """
 
     def withdraw(self, robot: int) -> None:
         """
         Make a robot inactive and take back its rights of way; there is no rollback below this.
+
+        Parameters
+        ----------
+        robot : int
+            The robot.
         """
 
     def rights_of(self, robot: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
         """
-        Return the rights of way ``(a, b)`` of which one is a visit of the robot, int32[K, 2].
+        Return the rights of way ``(a, b)`` of which one is a visit of a robot, int32[K, 2].
+
+        Parameters
+        ----------
+        robot : int
+            The robot.
         """
 
     def rights_of_way(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
@@ -689,35 +1002,85 @@ class PrecedenceGraph:
         """
 
 class BookingTable:
-    """Who has booked which vertex when."""
+    """
+    Who has booked which vertex when.
+
+    Parameters
+    ----------
+    n_vertices : int
+        The number of vertices; where robots have sizes or edges are closed, of rows.
+    """
 
     def __init__(self, n_vertices: int) -> None: ...
 
     def book(self, vertex: int, start: int, end: int, robot: int) -> None:
         """
         Book a vertex for ``[start, end)``; ValueError if that is empty or overlaps another robot's.
+
+        Parameters
+        ----------
+        vertex : int
+            The vertex.
+        start, end : int
+            The half-open interval; the end is after the start. [ticks]
+        robot : int
+            The robot.
         """
 
     def mark(self, row: int, start: int, end: int, robot: int) -> None:
         """
-        Mark a row as excluded for ``[start, end)`` by a robot; marks of several robots may overlap.
+        Mark a row as excluded for ``[start, end)``; marks may overlap.
+
+        Parameters
+        ----------
+        row : int
+            The row, or vertex.
+        start, end : int
+            The half-open interval; the end is after the start. [ticks]
+        robot : int
+            The robot; -1 for nobody, where the row is closed.
         """
 
     def erase(self, vertex: int, start: int, robot: int) -> None:
         """
-        Take back the booking of a robot that starts at this tick; nothing happens if there is none.
+        Take back a booking of a robot; nothing happens if there is none.
+
+        Parameters
+        ----------
+        vertex : int
+            The vertex, or row.
+        start : int
+            When the booking starts. [ticks]
+        robot : int
+            The robot.
         """
 
     def at(self, vertex: int) -> list[tuple[int, int, int]]:
         """
         Return the bookings ``(start, end, robot)`` of a vertex in order of time. [ticks]
+
+        Parameters
+        ----------
+        vertex : int
+            The vertex, or row.
         """
 
 def earliest_track(problem: Problem, robot: int, bookings: BookingTable, stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
     Find the earliest track of one robot among the bookings of others.
 
-    ``stage_tables`` has for each stage the least ticks from each vertex to its vertex, int32[V].
+    Parameters
+    ----------
+    problem : Problem
+        The roads and the robots.
+    robot : int
+        Which robot.
+    bookings : BookingTable
+        What the other robots have booked, with as many rows as the problem has.
+    stage_tables : list of int32[V]
+        For each stage the least ticks from each vertex to its vertex, -1 where no way leads there.
+    time_limit : float or None
+        When to stop; at once for 0 or less. [s]
 
     Returns
     -------

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <random>
@@ -192,6 +193,43 @@ TEST_CASE("past enters follow from the visits that had to wait") {
     waits.add(0, 11);
     CHECK(waits.enter({0, 6}) == 11);
     CHECK(waits.late(0).size() == 1);
+}
+
+TEST_CASE("a horizon that leads nowhere is refused") {
+    const Laps laps{door, {1, 1}};
+    const Ticks approach(laps.vertex.size(), 0);
+    const auto with = [&](const Horizon& horizon) {
+        const CyclicSimulator made(laps.arrays(approach), horizon, CyclicRule::first_come);
+    };
+    CHECK_NOTHROW(with({0, 10, 40, 80, 10, 1}));
+    CHECK_THROWS_WITH(with({2, 10, 40, 80, 10, 1}), "pacemaker: 2 is not in 0..1");
+    CHECK_THROWS_AS(with({0, 0, 40, 80, 10, 1}), std::invalid_argument);
+    CHECK_THROWS_AS(with({0, 10, -1, 80, 10, 1}), std::invalid_argument);
+    CHECK_THROWS_AS(with({0, 10, 40, -1, 10, 1}), std::invalid_argument);
+    CHECK_THROWS_AS(with({0, 10, 40, 80, -1, 1}), std::invalid_argument);
+    CHECK_THROWS_WITH(with({0, 10, 40, 80, 10, 0}), "memory: 0 is not above 0");
+}
+
+TEST_CASE("a lag of more visits than a window can hold is refused, not tried") {
+    const Laps laps{door, {1, 1}};  // ten ticks and eight visits a lap
+    const Ticks approach(laps.vertex.size(), 0);
+    CyclicSimulator run(laps.arrays(approach), {0, Tick{1} << 40, Tick{1} << 40, 80, 10, 1},
+                        CyclicRule::first_come);
+    CHECK_THROWS_AS(run.advance(no_deadline), std::overflow_error);
+}
+
+TEST_CASE("ids of vertices may be as large as they like") {
+    Laps near{door, {1, 1}};
+    Laps far = near;
+    for (VertexId& vertex : far.vertex) {
+        vertex += std::numeric_limits<VertexId>::max() - 8;
+    }
+    const Ticks approach(near.vertex.size(), 0);
+    const Horizon horizon{0, 10, 40, 80, 10, 8};
+    CyclicSimulator one(near.arrays(approach), horizon, CyclicRule::first_come);
+    CyclicSimulator other(far.arrays(approach), horizon, CyclicRule::first_come);
+    CHECK(one.advance(no_deadline) == other.advance(no_deadline));
+    CHECK(times(one, 1, 9) == times(other, 1, 9));
 }
 
 }  // namespace

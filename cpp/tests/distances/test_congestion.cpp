@@ -54,5 +54,17 @@ TEST_CASE("what does not fit together is refused") {
     CHECK_THROWS_WITH(traffic.add(Path{0, 1}, -1), "oncoming: -1 is negative");
 }
 
+TEST_CASE("a table that hides the target, and costs beyond all numbers, are refused") {
+    const Ring ring;
+    Congestion traffic = ring.traffic({0, 0, 0, 0});
+    CHECK_THROWS_AS(traffic.path(0, 0, 2, std::vector<std::int32_t>{2, 1, -1, 1}),
+                    std::invalid_argument);
+    CHECK(traffic.path(0, 0, 2, ring.to_2) == Path{0, 1, 2});  // a refusal leaves no trace
+    Congestion costly = ring.traffic({0, 0, 0, 0}, std::int64_t{1} << 40);
+    CHECK(costly.path(0, 0, 2, ring.to_2) == Path{0, 1, 2});
+    CHECK_THROWS_WITH(ring.traffic({0, 0, 0, 0}, (std::int64_t{1} << 40) + 1),
+                      "shares: 1099511627777 is not in 1..1099511627776");
+}
+
 }  // namespace
 }  // namespace rightofway

@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <limits>
+#include <vector>
+
 #include "execution/delays.hpp"
 
 namespace rightofway {
@@ -104,6 +107,37 @@ TEST_CASE("stoppages that overlap are one") {
     CHECK(out.stoppages.size() == 2);
     CHECK(out.stoppages[0].ticks == 23);
     CHECK(out.first_stoppage == std::vector<std::int32_t>{0, 2});
+}
+
+TEST_CASE("delays that are no numbers, and stoppages out of order, are refused") {
+    const ActionDependencyGraph plan = long_way();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto make = [&](double pace, const Delay& delay, std::vector<Stoppage> stoppages) {
+        const auto n = static_cast<std::int32_t>(stoppages.size());
+        const std::vector<double> paces{pace};
+        return Delays(plan, paces, {delay}, {0, n}, std::move(stoppages));
+    };
+    const Delay fine{DelayKind::uniform, 0, 0.5};
+    CHECK_NOTHROW(make(1, fine, {{3, 2}, {3, never}}));
+    CHECK_THROWS_WITH(make(nan, fine, {}), "pace[0]: nan is not in 0..1e+06");
+    CHECK_THROWS_WITH(make(-1, fine, {}), "pace[0]: -1 is not in 0..1e+06");
+    CHECK_THROWS_WITH(make(1, {DelayKind::stops, 0.1, -3}, {}),
+                      "delay_b[0]: -3 is not in 0..1.09951e+12");
+    CHECK_THROWS_WITH(make(1, {DelayKind::breaks, 1.5, 0}, {}), "delay_a[0]: 1.5 is not in 0..1");
+    CHECK_THROWS_WITH(make(1, fine, {{3, 2}, {2, 2}}),
+                      "stoppage_tick[1]: 2 is before the stoppage before it");
+    CHECK_THROWS_WITH(make(1, fine, {{3, -1}}),
+                      "stoppage_ticks[0]: -1 is not in 0..4611686018427387904");
+}
+
+TEST_CASE("lists of visits that do not rise are refused before any visit is numbered") {
+    const std::vector<VisitId> first{0, 100, 2};
+    const std::vector<VertexId> vertex{0, 1};
+    const std::vector<Tick> ticks{0, 0};
+    const std::vector<VisitId> before{-1, -1};
+    const AdgArrays arrays{first, vertex, ticks, ticks, ticks, before, 0, false};
+    CHECK_THROWS_WITH(ActionDependencyGraph{arrays},
+                      "first_visit[2]: 2 is not at least 1 above the entry before it");
 }
 
 }  // namespace

@@ -53,5 +53,19 @@ TEST_CASE("a row that does not exist is refused") {
     CHECK_THROWS_AS(lanes.visits(), std::invalid_argument);
 }
 
+TEST_CASE("rows and lists that do not fit are refused with index and value") {
+    Lanes lanes;
+    lanes.first = {0, 1, 2, 3, 4, 5, 6};
+    lanes.excluded = {0, 1, 2, 3, 5, 6};
+    CHECK_THROWS_WITH(lanes.visits(), "excluded[5]: 6 is not in 0..5");
+    lanes.excluded[5] = 4;
+    lanes.vertex[2] = 6;
+    CHECK_THROWS_WITH(lanes.visits(), "vertex_row[2]: 6 is not in 0..5");
+    lanes.vertex[2] = 2;
+    lanes.edge[3] = 5;  // its start would be that of the visit after the last one
+    CHECK_THROWS_WITH(lanes.visits(),
+                      "edge_row[3]: 5 must be -1: no edge is driven out of a last visit");
+}
+
 }  // namespace
 }  // namespace rightofway::test

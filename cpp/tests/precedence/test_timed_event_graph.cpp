@@ -111,5 +111,26 @@ TEST_CASE("arcs that do not fit are refused, with the index and the value") {
     CHECK_THROWS_AS(require_event_arcs(events.arcs()), std::invalid_argument);
 }
 
+TEST_CASE("earliest times without parts, or for a negative period, are refused") {
+    const Events events = door();
+    CHECK_THROWS_WITH(earliest_times(events.arcs(), 7, 0, no_deadline), "parts: 0 is not above 0");
+    CHECK_THROWS_WITH(earliest_times(events.arcs(), -7, 1, no_deadline), "period: -7 is negative");
+    const Events none{-1, {}, {}, {}, {}};
+    CHECK_THROWS_WITH(require_event_arcs(none.arcs()), "n_nodes: -1 is not in 0..67108864");
+}
+
+TEST_CASE("a period below the cycle time is found without going round until times overflow") {
+    // A circuit of 2^26 ticks among 2^10 events that wait in a row: each round adds 2^26 parts of
+    // 2^30, that is 2^56, so 2^10 rounds would add 2^66.
+    Events events{1 << 10, {0}, {0}, {Tick{1} << 26}, {1}};
+    for (std::int32_t k = 1; k < events.n_nodes; ++k) {
+        events.tail.push_back(k - 1);
+        events.head.push_back(k);
+        events.length.push_back(0);
+        events.height.push_back(0);
+    }
+    CHECK_FALSE(earliest_times(events.arcs(), 1, Tick{1} << 30, no_deadline));
+}
+
 }  // namespace
 }  // namespace rightofway

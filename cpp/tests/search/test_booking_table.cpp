@@ -90,5 +90,16 @@ TEST_CASE("many bookings and takings back leave what a plain list would hold") {
     }
 }
 
+TEST_CASE("bookings beyond the ends of time, and marks of nothing, are refused") {
+    BookingTable table(2);
+    CHECK_THROWS_WITH(table.mark(2, {0, 1}, 0), "row: 2 is not in 0..1");
+    CHECK_THROWS_WITH(table.mark(0, {3, 3}, 0), "end: 3 is not after start, 3");
+    CHECK_THROWS_WITH(table.mark(0, {0, 1}, -2), "robot: -2 is no robot, and not -1 for nobody");
+    CHECK_THROWS_WITH(table.book(0, {-never - 1, 3}, 0),
+                      "start: -4611686018427387905 is not in -4611686018427387904.."
+                      "4611686018427387904");
+    CHECK_THROWS_WITH(BookingTable(-1), "n_vertices: -1 is not in 0..67108864");
+}
+
 }  // namespace
 }  // namespace rightofway

@@ -239,5 +239,26 @@ TEST_CASE("a line of time refuses what does not fit together, and has no closed 
                       "period: 0 is needed for visits that repeat");
 }
 
+TEST_CASE("ticks that would overflow, and robots that are nobody, are refused") {
+    PeriodicBookings circle(4, 10, 0, false);
+    const Trip trip({0, 1});
+    const Tick late = (Tick{1} << 60) + 1;
+    Ticks enter;
+    CHECK_THROWS_WITH(circle.add(-1, trip.visits(), Ticks{0, 5}), "robot: -1 is negative");
+    CHECK_THROWS_WITH(circle.add(0, trip.visits(), Ticks{late, late + 1}),
+                      "enter[0]: 1152921504606846977 is not in -1152921504606846976.."
+                      "1152921504606846976");
+    CHECK_THROWS_AS(circle.search(trip.visits(), late, enter, no_deadline), std::invalid_argument);
+    CHECK_THROWS_WITH(circle.connect(trip.visits(), 0, 655'371, 655'372, enter),
+                      "until: 655371 is more than 65536 periods after begins, 0");
+}
+
+TEST_CASE("the lists of excluded rows are checked before they are used") {
+    const std::vector<std::int32_t> first{0, 2, 1, 3};
+    const std::vector<std::int32_t> excluded{0, 1, 2};
+    CHECK_THROWS_WITH(PeriodicBookings(3, 10, 0, true, {first, excluded}),
+                      "first[2]: 1 is less than the entry before it");
+}
+
 }  // namespace
 }  // namespace rightofway
