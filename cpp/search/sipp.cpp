@@ -246,7 +246,7 @@ void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
     Node candidate = here;
     candidate.cost += trip_->surcharges.empty() ? 0 : trip_->surcharges[length_class];
     candidate.vertex = roads_.graph.indices[edge];
-    candidate.ready += trip_->turns.between(here.edge, edge) + ticks;
+    candidate.ready += Tick{trip_->turns.between(here.edge, edge)} + ticks;
     candidate.parent = node;
     candidate.drive = ticks;
     candidate.edge = edge;

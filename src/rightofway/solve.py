@@ -5,14 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from numbers import Integral
 from typing import Any
 
 import numpy as np
 
 from rightofway.check import check
-from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits, shown
+from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits
 from rightofway.model import Plan, PlannerRun, Problem, Scenario, Track, checked_time_limit
+from rightofway.model.given import checked_plan, checked_scenario, checked_seed
 from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
 from rightofway.model.zones import listed_only
@@ -29,9 +29,6 @@ from rightofway.planners import (
 )
 
 __all__ = ["improve", "solve"]
-
-LARGEST_SEED = 2**32 - 1
-"""Planners draw from this many streams."""
 
 JUDGING = 0.4e-6
 """The time to judge a plan, for each visit that it has at least [s]."""
@@ -100,9 +97,7 @@ def solve(
     GaveUp
         If none was found in time, or by the means of the planner.
     """
-    if not isinstance(scenario, Scenario):
-        remedy = "load a file with rightofway.load, or build a fleet with FleetBuilder"
-        raise InputError.at("scenario", f"{shown(scenario)} is no scenario ({remedy})")
+    checked_scenario(scenario)
     spec, limit = find(planner), checked_time_limit(time_limit)
     if start is not None:
         _refuse_start(spec, start, "start")
@@ -155,11 +150,9 @@ def improve(
     return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit, on_plan)
 
 
-def _refuse_start(spec: PlannerSpec, plan: object, place: str) -> None:
+def _refuse_start(spec: PlannerSpec, plan: Plan, place: str) -> None:
     """Refuse to start from what is no plan, or a planner that cannot start from one."""
-    if not isinstance(plan, Plan):
-        message = f"{shown(plan)} is no plan (load a file with rightofway.load_plan)"
-        raise InputError.at(place, message)
+    checked_plan(plan, place)
     if not spec.improves:
         able = " or ".join(one.name for one in registered().values() if one.improves)
         raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
@@ -180,10 +173,7 @@ def _settled(
         message = f"are given twice, with {', '.join(named)} beside (give one of both)"
         raise InputError.at("options", message)
     settled = spec.settle(named if options is None else options)
-    if not isinstance(seed, Integral) or not 0 <= seed <= LARGEST_SEED:
-        remedy = f"give a whole number from 0 to {LARGEST_SEED}"
-        raise InputError.at("seed", f"{shown(seed)} is no seed ({remedy})")
-    return {"options": settled, "seed": int(seed)}
+    return {"options": settled, "seed": checked_seed(seed)}
 
 
 def _run(

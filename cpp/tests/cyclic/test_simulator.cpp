@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 

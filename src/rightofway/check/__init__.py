@@ -13,6 +13,7 @@ from rightofway.check.tracks import judge_drives, judge_trips, judge_turns
 from rightofway.check.visits import visits_of
 from rightofway.check.zones import judge_zones
 from rightofway.model import Plan, Quantities
+from rightofway.model.given import checked_plan
 
 __all__ = ["Fault", "FaultKind", "Report", "check"]
 
@@ -52,7 +53,7 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
 
     A closure is a booking of nobody without headway; a robot's booking has its own.
     """
-    visits = visits_of(plan)
+    visits = visits_of(checked_plan(plan))
     names = Names(plan.scenario, quantities or plan.scenario.quantities)
     collector = FaultCollector(limit, names)
     judge_drives(visits, names, collector)

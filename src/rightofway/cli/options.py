@@ -98,7 +98,7 @@ def _seconds(_context: click.Context, _parameter: click.Parameter, given: float)
 
 
 def _seed(_context: click.Context, _parameter: click.Parameter, given: int) -> int:
-    from rightofway.solve import LARGEST_SEED
+    from rightofway.model.given import LARGEST_SEED
 
     if not 0 <= given <= LARGEST_SEED:
         raise click.BadParameter(f"{given} is no seed (give a number from 0 to {LARGEST_SEED})")

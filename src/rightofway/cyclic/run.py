@@ -12,6 +12,7 @@ from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
 from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, checked_time_limit
+from rightofway.model.given import checked_scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.planners import Deadline
 
@@ -65,6 +66,7 @@ def run_laps(
     Exact: a pattern is reported after a state has recurred, hence the pattern repeats for ever. A
     group without a recurrence within the limit is open. Deterministic below the limit.
     """
+    checked_scenario(scenario)
     for key, given, known in (("rule", rule, tuple(RULES)), ("routes", routes, ROUTES)):
         if given not in known:
             raise InputError.at(key, f"{given!r} is unknown (choose {', '.join(known)})")

@@ -30,6 +30,7 @@ from rightofway.cyclic.run import advance, simulation_of
 from rightofway.cyclic.startup import start
 from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, Tick, checked_time_limit
+from rightofway.model.given import checked_scenario, checked_seed
 from rightofway.planners import Deadline
 from rightofway.precedence import unrolled
 from rightofway.search import Distances, RoundTrip
@@ -110,7 +111,7 @@ def best_timetable(
     Never below the pattern of first come first served, if this pattern is fair and found in its
     share of the time. Deterministic for a seed if the rounds end before the limit. Not optimal.
     """
-    n_robots = len(scenario.robots)
+    n_robots, seed = len(checked_scenario(scenario).robots), checked_seed(seed)
     if weights is not None and len(weights) != n_robots:
         raise InputError.at("weights", f"{len(weights)} for {n_robots} robots (give one for each)")
     for index, weight in enumerate(weights or ()):

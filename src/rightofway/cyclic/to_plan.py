@@ -12,7 +12,7 @@ import numpy as np
 from rightofway.check import check
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
-from rightofway.errors import GaveUp
+from rightofway.errors import GaveUp, InputError, shown
 from rightofway.model import Plan, PlannerRun, SteadyState, Track
 from rightofway.precedence import TimedEventGraph
 
@@ -39,6 +39,9 @@ def plan_of(result: CyclicResult, laps: int | None = None) -> Plan:
         If the history ends before a robot has made its laps, or a robot at home after its last lap
         blocks other robots.
     """
+    if not isinstance(result, CyclicResult):
+        remedy = "simulate laps with rightofway.run_laps"
+        raise InputError.at("result", f"{shown(result)} is no result of laps ({remedy})")
     plan = whole_laps(result, laps)
     report = check(plan)
     if not report.ok:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from numbers import Integral
 from typing import NamedTuple
 
 import numpy as np
@@ -14,12 +15,16 @@ from rightofway.execution.delays import DEFAULT, Delay, delay_model_of, read_del
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import Collisions, Lateness, Outcome, PolicyGain, joined
 from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
+from rightofway.model.given import checked_number, checked_seed
 from rightofway.model.problem import refuse_closures
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 
 CHUNK = 1 << 20
 """Visits per call of the kernel; time limit and Ctrl-C are checked between calls."""
+
+MOST_RUNS = 10**9
+"""More would take years."""
 
 
 @kernel_limits()
@@ -84,8 +89,9 @@ def simulate(
     judged = check(plan)
     if not judged.ok:
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be run)")
-    if runs < 1:
+    if isinstance(runs, Integral) and runs < 1:
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
+    runs, seed = checked_number("runs", runs, 1, MOST_RUNS), checked_seed(seed)
     if switch or replan:
         what = "replanning during execution" if replan else "switching rights of way"
         remedy = f"simulate without {'replanning' if replan else 'switching'}"

@@ -23,6 +23,7 @@ from rightofway.metrics.collisions import Bookings, bookings_of
 from rightofway.metrics.measure import measure
 from rightofway.metrics.waits import NOBODY, freed_by
 from rightofway.model import Loss, LostTime, Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
+from rightofway.model.given import checked_plan
 from rightofway.model.turning import Turning
 
 MOST_AHEAD = 32
@@ -51,7 +52,7 @@ def lost_time(plan: Plan) -> tuple[LostTime, ...]:
     NoPlanExists
         If no way leads from one place of a robot's trip to the next.
     """
-    return plan.once("lost time", lambda: _lost_time(plan))
+    return checked_plan(plan).once("lost time", lambda: _lost_time(plan))
 
 
 def _lost_time(plan: Plan) -> tuple[LostTime, ...]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from rightofway.metrics.alone import alone_completions
 from rightofway.model import Plan, Tick, stays_of
+from rightofway.model.given import checked_plan
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,7 +74,7 @@ def measure(plan: Plan) -> Metrics:
     NoPlanExists
         If no way leads from one place of a robot's trip to the next, so that there is no bound.
     """
-    return plan.once("metrics", lambda: _measured(plan))
+    return checked_plan(plan).once("metrics", lambda: _measured(plan))
 
 
 def _measured(plan: Plan) -> Metrics:

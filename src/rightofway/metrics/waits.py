@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from rightofway.metrics.collisions import Bookings, bookings_of
 from rightofway.model import Plan, Roadmap, Scenario, Stays, Tick, Track, VertexId, Wait, stays_of
+from rightofway.model.given import checked_plan
 from rightofway.model.resources import Resources
 
 Visits = NDArray[np.int64]
@@ -26,7 +27,7 @@ def waits(plan: Plan) -> tuple[Wait, ...]:
     plan
         A plan that keeps the rules.
     """
-    scenario, tracks = plan.scenario, plan.tracks
+    scenario, tracks = checked_plan(plan).scenario, plan.tracks
     return plan.once("waits", lambda: waits_in(scenario, tracks, stays_of(scenario, tracks)))
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import Itinerary, Problem, VertexId
+from rightofway.model.given import checked_index
 from rightofway.search.distances import Distances, Path
 from rightofway.search.native import bound
 
@@ -105,13 +106,15 @@ class Congestion:
         robot is in the way, this is the path of `Distances`.
         """
         self.distances.checkpoint()
+        checked_index("robot", robot, len(self.problem.itineraries))
         to_go = self.distances.to(target, self.problem.itineraries[robot].weights)
         found = self._kernel.path(robot, start, target, to_go)
         return tuple(VertexId(vertex) for vertex in found.tolist())
 
     def add(self, robot: int, path: Path) -> None:
         """Have a robot on a path."""
-        self._kernel.add(np.array(path, np.int32), self._oncoming[robot])
+        oncoming = self._oncoming[checked_index("robot", robot, len(self._oncoming))]
+        self._kernel.add(np.array(path, np.int32), oncoming)
 
 
 def _edges_of_trip(distances: Distances, itinerary: Itinerary) -> float:

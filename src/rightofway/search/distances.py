@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.errors import InputError
 from rightofway.model import Roadmap, Tick, VertexId
+from rightofway.model.given import checked_index
 
 Path = tuple[VertexId, ...]
 """The vertices of a path, both ends included."""
@@ -74,6 +76,9 @@ class Distances:
     def ticks_of_edges(self, edge_ticks: tuple[Tick, ...]) -> NDArray[np.int32]:
         """Return the ticks of every edge, given those of each length class; shape (E,)."""
         if edge_ticks not in self._edges:
+            if len(edge_ticks) != len(self.roadmap.lengths):
+                many = f"{len(edge_ticks)} for {len(self.roadmap.lengths)} length classes"
+                raise InputError.at("edge_ticks", f"{many} (give one for each)")
             by_class = np.array(edge_ticks, np.int32)
             self._edges[edge_ticks] = by_class[self.roadmap.length_class]
         return self._edges[edge_ticks]
@@ -81,13 +86,16 @@ class Distances:
     def cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int | None:
         """Return what it takes to drive a path [ticks]; None where an edge is missing."""
         vertices = np.array(path, np.int32)
+        if len(path) and not 0 <= vertices.min() <= vertices.max() < self.roadmap.n_vertices:
+            k = int(np.argmax((vertices < 0) | (vertices >= self.roadmap.n_vertices)))
+            checked_index(f"path[{k}]", path[k], self.roadmap.n_vertices)
         edges = self.roadmap.edges(vertices[:-1], vertices[1:])
         ticks = self.ticks_of_edges(edge_ticks)[edges]
         is_open = min(edges.min(initial=0), ticks.min(initial=0)) >= 0
         return int(ticks.sum()) if is_open else None
 
     def path(self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]) -> Path:
-        """Return a shortest path; the target can be reached.
+        """Return a shortest path; a ValueError says that the target cannot be reached.
 
         At each vertex it goes on by the first edge that brings it nearer; on grids edges are in
         the order east, south, west, north, which gives the routes of the paper.
@@ -95,7 +103,9 @@ class Distances:
         self.checkpoint()
         indptr, heads = self.roadmap.indptr, self.roadmap.heads
         table, ticks = self.to(target, edge_ticks), self.ticks_of_edges(edge_ticks)
-        assert table[start] >= 0, "unreachable places were refused"
+        checked_index("start", start, self.roadmap.n_vertices)
+        if table[start] < 0:
+            raise InputError.at("target", f"{target} cannot be reached from vertex {start}")
         path = [start]
         while path[-1] != target:
             vertex = path[-1]

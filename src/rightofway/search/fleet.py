@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.errors import InputError, shown
 from rightofway.model import Problem, Scenario, Tick, Track
+from rightofway.model.given import checked_index, checked_number, checked_scenario, checked_seed
 from rightofway.search.native import bound, tracks_of
 
 
@@ -31,7 +33,7 @@ def alone_completions(
     ndarray of int64, shape (R,), or None
         Ticks, -1 where no way leads to a place; None if the time limit came first.
     """
-    search = _core.FleetSearch(bound(scenario.problem), seed=0, n_threads=1)
+    search = _core.FleetSearch(bound(checked_scenario(scenario).problem), seed=0, n_threads=1)
     return search.alone(time_limit)
 
 
@@ -45,7 +47,7 @@ class FleetSearch:
     seed
         For all that is drawn.
     threads
-        How many threads improve the plan; the plan does not depend on it. None: all cores.
+        How many threads improve the plan; the plan does not depend on it. None or 0: all cores.
     alone
         What `alone_completions` returned for the same trips [ticks], where that is known.
     """
@@ -58,7 +60,11 @@ class FleetSearch:
         threads: int | None = None,
         alone: NDArray[np.int64] | None = None,
     ) -> None:
-        self._core = _core.FleetSearch(bound(problem), seed, threads or _cores(), alone)
+        n_threads = _cores() if threads is None else checked_number("threads", threads, 0, 1024)
+        self._core = _core.FleetSearch(
+            bound(problem), checked_seed(seed), n_threads or _cores(), alone
+        )
+        self._n_robots = len(problem.itineraries)
 
     def alone(self) -> NDArray[np.int64]:
         """Return each robot's least completion without the others [ticks], -1 for no way."""
@@ -98,7 +104,12 @@ class FleetSearch:
             When to stop [s] once the greedy attempt has a plan, if that is later.
         """
         with_net = time_limit if with_net is None else with_net
-        return self._core.prioritize(np.array(order, np.int32), searches, time_limit, with_net)
+        return self._core.prioritize(self._robots(order), searches, time_limit, with_net)
+
+    def _robots(self, order: Sequence[int]) -> NDArray[np.int32]:
+        for k, robot in enumerate(order):
+            checked_index(f"order[{k}]", robot, self._n_robots)
+        return np.array(order, np.int32)
 
     def go_on(self, *, searches: int, time_limit: float | None) -> bool:
         """Continue `prioritize` where it ended; the searches count from its beginning."""
@@ -132,7 +143,7 @@ class FleetSearch:
         time_limit
             When to stop [s].
         """
-        return self._core.repair(np.array(order, np.int32), searches, time_limit)
+        return self._core.repair(self._robots(order), searches, time_limit)
 
     def improve(
         self,
@@ -173,6 +184,9 @@ def _arrays(
     tracks: Sequence[Track | None],
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int64]]:
     """Return where each robot's visits begin, their vertices, and when they begin."""
+    for k, track in enumerate(tracks):
+        if track is not None and not isinstance(track, Track):
+            raise InputError.at(f"tracks[{k}]", f"{shown(track)} is no track")
     known = [track for track in tracks if track is not None]
     lengths = [0 if track is None else len(track) for track in tracks]
     return (

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Problem, Track
+from rightofway.model.given import checked_index, checked_seed
 from rightofway.search.native import bound, tracks_of
 
 FOUND, PROVEN_NONE = 0, 1
@@ -63,7 +64,7 @@ def plan_by_lacam(
     the same routes with the same order at every vertex.
     """
     end, first_visit, vertices, enter = _core.plan_by_lacam(
-        bound(problem), spreads, seed, most_effort, time_limit
+        bound(problem), spreads, checked_seed(seed), most_effort, time_limit
     )
     if end == PROVEN_NONE:
         raise NoPlanExists("a robot has no way to one of its places (join the parts of the map)")
@@ -113,9 +114,11 @@ def untimed_lacam(
     -----
     Complete; deterministic for a seed; not optimal.
     """
-    robots = range(len(problem.itineraries))
+    native, robots = bound(problem), range(len(problem.itineraries))
+    for robot in ends_anywhere:
+        checked_index("ends_anywhere", robot, len(robots))
     anywhere = np.array([robot in ends_anywhere for robot in robots], np.uint8)
-    end, steps = _core.untimed_lacam(bound(problem), anywhere, seed, most_steps, time_limit)
+    end, steps = _core.untimed_lacam(native, anywhere, checked_seed(seed), most_steps, time_limit)
     if end == PROVEN_NONE:
         raise NoPlanExists("no order of moves brings every robot through its trip (give more room)")
     if end != FOUND:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.errors import InputError, shown
 from rightofway.model import Problem, Tick, Track
 from rightofway.model.turning import Turning
 
@@ -32,7 +33,11 @@ def bound(problem: Problem) -> _core.Problem:
     ------
     OverflowError
         If the ticks for an edge do not fit int32.
+    InputError
+        If it is no problem.
     """
+    if not isinstance(problem, Problem):
+        raise InputError.at("problem", f"{shown(problem)} is no problem (give scenario.problem)")
     native = _BOUND.get(problem)
     if native is None:
         roadmap, robots, sizes = problem.roadmap, problem.itineraries, problem.resources

@@ -12,8 +12,9 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from rightofway import _core
-from rightofway.errors import GaveUp
+from rightofway.errors import GaveUp, InputError
 from rightofway.model import NEVER, Problem, Tick, Track, drives_along
+from rightofway.model.given import checked_index
 from rightofway.search.distances import Distances
 from rightofway.search.native import bound
 
@@ -68,6 +69,7 @@ class Bookings:
 
     def add(self, robot: int, track: Track) -> None:
         """Book all vertices of a track."""
+        checked_index("robot", robot, len(self.problem.itineraries))
         for row, booking in self.of_track(robot, track):
             self.book(row, booking)
 
@@ -146,12 +148,17 @@ def earliest_track(
     ------
     GaveUp
         If time ran out.
+    InputError
+        For an unknown robot, or distances of another roadmap.
 
     Notes
     -----
     Complete and optimal for one robot among fixed bookings, and deterministic.
     """
-    problem, itinerary = bookings.problem, bookings.problem.itineraries[robot]
+    problem = bookings.problem
+    if distances.roadmap is not problem.roadmap and distances.roadmap != problem.roadmap:
+        raise InputError.at("distances", "are of another roadmap than the bookings")
+    itinerary = problem.itineraries[checked_index("robot", robot, len(problem.itineraries))]
     tables = [distances.to(stage.vertex, itinerary.edge_ticks) for stage in itinerary.stages]
     end, vertices, enter = _core.earliest_track(
         bound(problem), robot, bookings.table, tables, time_limit
