@@ -36,29 +36,38 @@ node-modules:
 contracts:
     lint-imports
 
-# The quick lane of the Python tests
+# The quick lane of the tests
 test *args:
     pytest {{ args }}
 
-# The thorough lane: browser, processes, every example of the documentation, the long laws
+# The thorough lane: browser, processes, every example of the documentation, laws with more time
 thorough *args:
-    pytest -m "slow and not long" -n 2 --dist worksteal {{ args }}
+    pytest -m "(slow or law) and not nightly" --law-seconds 6 {{ args }}
 
-# What the thorough lane leaves out: all states of the pages by axe, load in numbers
-long *args:
-    pytest -m long -n 2 {{ args }}
+# What CI leaves out, laws, fuzz and campaigns with fresh seeds, round after round until one fails
+nightly law_seconds="60":
+    for ((round = 1; ; round++)); do \
+        echo "round $round"; \
+        pytest -m nightly; \
+        pytest -m law --law-seconds {{ law_seconds }}; \
+        just judge 20000; \
+        just delay 200000; \
+        just kills 200; \
+        just fuzz-files 20000; \
+        just fuzz-bindings 20000; \
+    done
 
-# The thorough lane with all seeds of random cases: an hour or more
-all-seeds *args:
-    ALL_SEEDS=1 pytest -m "slow or not slow" -n 2 {{ args }}
+# Kill the studio in the middle of work COUNT times, and look for all that it had answered
+kills count:
+    python -m tests.campaigns.kills {{ count }}
 
 # Judge plans of random fleets, good and broken ones, by both judges: a million take half an hour
 judge count *args:
-    python -m tests.campaigns judge {{ count }} {{ args }}
+    python -m tests.campaigns.plans judge {{ count }} {{ args }}
 
 # Make delayed runs of plans of random fleets: ten million take a quarter of an hour
 delay count *args:
-    python -m tests.campaigns delay {{ count }} {{ args }}
+    python -m tests.campaigns.plans delay {{ count }} {{ args }}
 
 # Break files of all formats that are read: a million take about an hour
 fuzz-files count *args:
@@ -107,8 +116,9 @@ types-refresh:
 
 # Install for work on the code: edits to Python files are live, `just develop` again after C++
 develop:
-    pip install scikit-build-core nanobind
-    pip install --no-build-isolation -e '.[dev,docs]'
+    pip install 'pip>=25.1' scikit-build-core nanobind
+    pip install --group dev --group docs
+    pip install --no-build-isolation -e '.[test]'
 
 # Run a suite of benchmarks/suites, or go on with it: rows in build/NAME.csv, report in build/NAME.html
 suite name *args:

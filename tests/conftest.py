@@ -1,4 +1,4 @@
-"""Lanes: plain ``pytest`` runs the quick one, ``-m slow`` the rest; CI leaves ``long`` out."""
+"""Lanes: plain ``pytest`` runs the quick one, CI ``slow`` as well, ``just nightly`` the rest."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ TESTS = Path(__file__).parent
 SLOW = (
     "bench/test_results.py",  # thousands of cut files
     "benchmarks/",  # scripts that measure
+    "campaigns/",  # processes on all cores
     "cli/test_bench.py",  # a process for each case of a suite
     "cli/test_bench_cluster.py",  # starts a Dask cluster
     "cli/test_process.py",  # starts the command as a process, and interrupts it
@@ -59,11 +60,11 @@ SLOW = (
 """Files and folders of the slow lane: what takes more than about two seconds."""
 
 
-LONG = (
+NIGHTLY = (
     "studio/test_accessibility.py",  # twelve states, two themes, two languages
-    "viewer/test_large_fleet.py",
+    "viewer/test_large_fleet.py",  # a thousand robots
 )
-"""Those of them that CI leaves out, with the tests that are marked so: load in numbers."""
+"""Files that CI leaves out, with the tests that are marked so."""
 
 
 def files_of(lane: Iterable[str]) -> set[Path]:
@@ -77,12 +78,14 @@ def files_of(lane: Iterable[str]) -> set[Path]:
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the tests of the lanes, before any are deselected."""
-    slow, long = files_of(SLOW), files_of(LONG)
+    slow, nightly = files_of(SLOW), files_of(NIGHTLY)
     for item in items:
         if item.path in slow:
             item.add_marker(pytest.mark.slow)
-        if item.path in long:
-            item.add_marker(pytest.mark.long)
+        if item.path in nightly:
+            item.add_marker(pytest.mark.nightly)
+        if "law_run" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.law)
 
 
 @pytest.fixture(scope="module")

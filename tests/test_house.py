@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from tests.conftest import SLOW, TESTS
+from tests.conftest import NIGHTLY, SLOW, TESTS
 
 CPP = TESTS.parent / "cpp"
 ROOMS = [
@@ -34,9 +34,9 @@ def test_no_test_imports_another_test() -> None:
     ] == []
 
 
-def test_every_name_in_the_slow_lane_is_a_file_or_folder() -> None:
+def test_every_name_in_the_lanes_is_a_file_or_folder() -> None:
     """A test file that is renamed would otherwise move to the quick lane unnoticed."""
-    assert [name for name in SLOW if not (TESTS / name).exists()] == []
+    assert [name for name in (*SLOW, *NIGHTLY) if not (TESTS / name).exists()] == []
 
 
 def test_includes_of_the_native_core_never_point_back() -> None:

@@ -41,7 +41,8 @@ LONG_LIFE = 8
 PATIENCE = 60.0
 """How long a server may take to answer [s]."""
 
-KEPT = {"queued", "running", "done", "failed", "interrupted", "stopped", "cancelled"}
+KEPT = {"queued", "running", "done", "interrupted", "cancelled"}
+"""States that a run may be in after a kill; none is stopped here, and none may fail."""
 
 
 class Fault(AssertionError):
@@ -101,7 +102,7 @@ class Life:
         """Wait for the answer to the request that was sent."""
         answer = self.connection.getresponse()
         text = answer.read()
-        if answer.status >= 400:  # noqa: PLR2004
+        if answer.status >= 400:
             raise Fault(f"{answer.status}: {text.decode(errors='replace')}")
         return json.loads(text)
 
@@ -160,7 +161,7 @@ def live_and_die(folder: Folder, draw: random.Random, tally: Counter[str]) -> No
     finally:
         life.kill()
     tally["kills"] += 1
-    tally["kills after a plan began"] += is_long
+    tally["kills after half a second and more"] += is_long
 
 
 def request(
@@ -211,40 +212,38 @@ def find_everything(folder: Folder, life: Life, tally: Counter[str]) -> None:
     """Refuse a studio that has lost something, or has a part of something."""
     listed = {draft["name"] for draft in life.ask("GET", "drafts")["drafts"]}
     for name, may in folder.drafts.items():
-        found = None
-        if name in listed:
-            found = json.dumps(life.ask("GET", f"drafts/{name}")["document"])
-        if found not in may:
-            raise Fault(f"draft {name} is none of the {len(may)} that it may be")
-        folder.drafts[name] = {found}
+        document = life.ask("GET", f"drafts/{name}")["document"] if name in listed else None
+        _settle(f"draft {name}", json.dumps(document) if document else None, may)
     for name, may in folder.files.items():
         path = folder.path / name
-        text = path.read_text(encoding="utf-8") if path.exists() else None
-        if text not in may:
-            raise Fault(f"file {name} is none of the {len(may)} that it may be")
-        folder.files[name] = {text}
+        _settle(f"file {name}", path.read_text(encoding="utf-8") if path.exists() else None, may)
     runs = {run["number"]: run for run in life.ask("GET", "runs")["runs"]}
     if lost := folder.runs - set(runs):
         raise Fault(f"runs {sorted(lost)} were answered for, and are gone")
     folder.runs = set(runs)
     for number, run in runs.items():
         if run["state"] not in KEPT:
-            raise Fault(f"run {number} is {run['state']}")
-        if run["state"] == "failed":
-            raise Fault(f"run {number} failed: {run['error']}")
+            raise Fault(f"run {number} is {run['state']}: {run['error']}")
         if run["state"] == "done":
             tally["plans found"] += 1
-            plan = json.loads(_blob(life, number))
-            if plan["format"] != "rightofway-plan/1":
-                raise Fault(f"run {number} has no plan: {plan}")
+            if json.loads(_plan(life, number))["format"] != "rightofway-plan/1":
+                raise Fault(f"run {number} is done, and its plan is none")
     tally["looked at"] += len(folder.drafts) + len(folder.files) + len(runs)
 
 
-def _blob(life: Life, number: int) -> bytes:
+def _settle(what: str, found: str | None, may: set[str | None]) -> None:
+    """Refuse what is none of the contents that it may have; from now on it has to stay."""
+    if found not in may:
+        raise Fault(f"{what} is none of the {len(may)} that it may be")
+    may.clear()
+    may.add(found)
+
+
+def _plan(life: Life, number: int) -> bytes:
     life.send("GET", f"runs/{number}/plan")
     answer = life.connection.getresponse()
     content = answer.read()
-    if answer.status != 200:  # noqa: PLR2004
+    if answer.status != 200:
         raise Fault(f"run {number} is done and has no plan: {content.decode(errors='replace')}")
     return content
 
@@ -282,12 +281,13 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(10**9))
     chosen = parser.parse_args()
     start, workers = time.monotonic(), min(os.cpu_count() or 1, chosen.count)
-    print(f"seed {chosen.seed}", file=sys.stderr)
+    sys.stderr.write(f"seed {chosen.seed}\n")
     with get_context("spawn").Pool(workers) as pool:
         parts = pool.starmap(campaign, portions(chosen.count, workers, chosen.seed))
     total = sum(parts, Counter[str]())
     said = ", ".join(f"{count} {what}" for what, count in total.items())
-    print(f"{said}; nothing lost, nothing in parts; {time.monotonic() - start:.0f} s")
+    seconds = time.monotonic() - start
+    sys.stdout.write(f"{said}; nothing lost, nothing in parts; {seconds:.0f} s\n")
 
 
 if __name__ == "__main__":

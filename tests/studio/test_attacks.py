@@ -164,7 +164,7 @@ def test_connections_that_send_nothing_keep_nobody_out(tmp_path: Path) -> None:
         assert studio.end() == ""
 
 
-@pytest.mark.long
+@pytest.mark.nightly
 @needs_browser
 def test_twenty_pages_hear_of_ten_plans_and_memory_stays_flat(
     browser: Browser, tmp_path: Path
@@ -198,7 +198,7 @@ DONE = """() => (window.studio?.runs.runs ?? []).filter(({ state }) => state ===
   .map(({ number }) => number)"""
 
 
-@pytest.mark.long
+@pytest.mark.nightly
 def test_twenty_browsers_watch_ten_plans_that_are_made_at_once(tmp_path: Path) -> None:
     from tests.builders.crowds import CROWD
 

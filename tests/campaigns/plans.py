@@ -198,7 +198,7 @@ def _say(line: str) -> None:
 
 def main() -> int:
     """Run a campaign; return the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m tests.campaigns", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m tests.campaigns.plans", description=__doc__)
     parser.add_argument("campaign", choices=CAMPAIGNS)
     parser.add_argument("count", type=int, help="plans to judge, or delayed runs to make")
     parser.add_argument("--seed", type=int, default=SystemRandom().randrange(10**9))

@@ -1,0 +1,28 @@
+"""Campaigns run, and say what they found."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+
+import pytest
+
+
+def said_by(*words: str) -> str:
+    """Return what a campaign prints when it is over."""
+    command = [sys.executable, "-m", *words]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+@pytest.mark.parametrize("campaign", ["judge", "delay"])
+def test_plans_are_judged_by_the_hundred(campaign: str) -> None:
+    last = said_by("tests.campaigns.plans", campaign, "200").splitlines()[-1]
+    judged = re.match(rf"{campaign}: (\d+) judged, 0 findings", last)
+    assert judged, last
+    assert int(judged[1]) >= 200
+
+
+def test_a_studio_that_is_killed_loses_nothing() -> None:
+    said = said_by("tests.campaigns.kills", "6")
+    assert re.search(r"\b6 kills\b.*; nothing lost, nothing in parts; \d+ s$", said), said
