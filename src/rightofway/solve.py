@@ -85,7 +85,8 @@ def solve(
     Returns
     -------
     Plan
-        Passed by `rightofway.check`; only a plan of ``paper`` may hold swaps.
+        Passed by `rightofway.check`. Only a plan of the published method may hold swaps: one of
+        ``paper``, or of ``auto`` or ``two-level`` with ``swaps="leave"``.
 
     Raises
     ------
@@ -144,7 +145,10 @@ def improve(
     _refuse_start(spec, plan, "plan")
     limit, judged = checked_time_limit(time_limit), check(plan)
     if not judged.ok:
-        raise InputError.at("", f"the plan has {judged.summary} (only one without can be improved)")
+        start = "`rightofway plan SCENARIO --start PLAN`, in Python solve(scenario, start=plan)"
+        remedy = f"repair it: {start}, keeps its routes where it can"
+        message = f"the plan has {judged.summary}; improving starts from a plan without faults"
+        raise InputError.at("", f"{message} ({remedy})")
     settled = _settled(spec, options, named, seed)
     task = Task(scenario=plan.scenario, **settled, report=report or _silent, keep_best=keep_best)
     return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit, on_plan)

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from rightofway.cli import paper
+from rightofway.io import load
 from tests.builders.fleets import EXAMPLES
 from tests.cli.conftest import Cli
 
@@ -17,7 +18,7 @@ def test_all_published_rows_are_equal(cli: Cli) -> None:
     """Tables 4 to 11 have two robots with a planned and a final row each."""
     ended = cli("paper")
     assert ended.code == 0
-    assert ended.out.splitlines()[-1] == "32 of 32 published rows equal"
+    assert ended.out.splitlines()[-1] == "32 of 32 published rows equal, in 8 of 11 tables"
 
 
 def test_a_table_says_which_swap_the_published_method_leaves(cli: Cli) -> None:
@@ -31,6 +32,17 @@ def test_tables_without_published_rows_stand_alone(cli: Cli) -> None:
     assert ended.code == 0
     assert "R1 planned  ours      PI1  P1  P2  P2  P1 PI1\n" in ended.out
     assert ended.out.splitlines()[-1] == "no published row of these tables is recorded"
+
+
+def test_in_table_3_robot_one_works_longer_than_robot_two(cli: Cli) -> None:
+    """The caption says so; the six time steps that the paper prints stay, and they never meet."""
+    robots = load(EXAMPLES / "paper" / "table-3.yaml").robots
+    assert [robot.stops[0].work for robot in robots] == [1, 0]
+    out = cli("paper", "3", "--log").out
+    # R1 drives 1 + 1, works 1, drives 1 + 1. R2 takes 2 for each edge.
+    assert "R1 planned  ours      PI1  P1  P2  P2  P1 PI1\n" in out
+    assert "R2 planned  ours      PI2 PI2  P1  P1  P3  P3" in out
+    assert "No decision was needed: no two robots meet." in out
 
 
 def test_a_row_that_differs_ends_with_1(

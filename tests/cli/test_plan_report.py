@@ -168,7 +168,19 @@ def test_of_a_large_fleet_the_robots_that_lose_time_are_listed() -> None:
     lines = report(plan_of(["..."] * 22, *trips, (rows[21], [0, 1, 3])))
     table = lines.index("times of the robots that lose most [s]")
     assert [line.split()[0] for line in lines[table + 1 : table + 4]] == ["robot", "R22", "…"]
-    assert lines[table + 3] == "… and 21 more robots that lose less time"
+    assert lines[table + 3] == "… and 21 more robots that lose less time (--json lists all)"
+
+
+def test_of_many_robots_that_lose_time_ten_are_listed() -> None:
+    """Each of twelve robots waits a tick for nobody, on a row of its own."""
+    rows = [[3 * row, 3 * row + 1, 3 * row + 2] for row in range(12)]
+    lines = report(plan_of(["..."] * 12, *((row, [0, 1, 3]) for row in rows)))
+    table = lines.index("times of the robots that lose most [s]")
+    assert [line.split()[0] for line in lines[table + 2 : table + 12]] == [
+        f"R{robot}" for robot in range(1, 11)
+    ]
+    assert lines[table + 12] == "… and 2 more robots that lose less time (--json lists all)"
+    assert lines[-1] == "… and 2 more (--json lists all)"
 
 
 def test_a_plan_without_lost_time_is_called_optimal() -> None:

@@ -81,5 +81,9 @@ def test_only_a_plan_without_faults_is_improved_and_only_by_who_can() -> None:
         rightofway.improve(plan, "two-level")
     early = replace(plan.tracks[0], enter=np.arange(len(plan.tracks[0])))
     wrong = replace(plan, tracks=(early, *plan.tracks[1:]))
-    with pytest.raises(rightofway.InputError, match="the plan has 1 fault"):
+    told = (
+        r"the plan has 1 fault.*without faults \(repair it: `rightofway plan SCENARIO --start PLAN`"
+    )
+    with pytest.raises(rightofway.InputError, match=told):
         rightofway.improve(wrong)
+    assert rightofway.check(rightofway.solve(wrong.scenario, start=wrong, iterations=10)).ok

@@ -170,6 +170,14 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         lambda: door(headways=1),
         r"headways: is unknown to FleetBuilder \(rules are occupancy, headway,",
     ),
+    "rules by a name that is none": (
+        lambda: door(rules="paper"),
+        r"rules: 'paper' is no name of rules \(give \"classic\", or each rule by its name, like",
+    ),
+    "a rule by its name in files": (
+        lambda: door(**{"return": "none"}),
+        r'return: is called ends in Python \(give ends="none" or ends="home"\)',
+    ),
     "a home in a wall": (
         lambda: door().add_robot("R1", home="N3", target="N6"),
         "robot 'R1': home: N3, row 1, column 0, is blocked by a wall",
@@ -351,3 +359,11 @@ def test_positions_of_a_graph_give_the_lengths_of_its_edges() -> None:
     graph.add_node("B", x=0.3, y=0.4)
     graph.add_edge("A", "B")
     assert FleetBuilder(graph=graph).roadmap().lengths == (Fraction(1, 2),)
+
+
+def test_classic_rules_go_by_their_name_as_in_files() -> None:
+    def rules_with(**given: Any) -> Rules:
+        return door(**given).add_robot("R1", home="N0", target="N6").scenario().rules
+
+    classic = rules_with(rules="classic", headway=1)
+    assert (classic.turn, classic.ends, classic.headway) == (0, "none", 1)

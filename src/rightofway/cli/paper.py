@@ -76,8 +76,16 @@ def paper(tables: tuple[int, ...], *, log: bool, as_json: bool) -> int:
     else:
         for table in found:
             _print(table, log=log)
-        put_report(f"{equal} of {len(verdicts)} published rows equal" if verdicts else UNRECORDED)
+        put_report(_total(found, equal) if verdicts else UNRECORDED)
     return 0 if equal == len(verdicts) else 1
+
+
+def _total(found: Sequence[_Table], equal: int) -> str:
+    """Return how many published rows are equal, and in how many tables there are any."""
+    known = [table for table in found if any(row.verdict for row in table.rows)]
+    rows = sum(bool(row.verdict) for table in known for row in table.rows)
+    of = "" if len(known) == len(found) else f", in {len(known)} of {len(found)} tables"
+    return f"{equal} of {rows} published rows equal{of}"
 
 
 def _table(entry: dict[str, Any]) -> _Table:

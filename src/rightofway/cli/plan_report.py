@@ -22,7 +22,7 @@ from rightofway.metrics import (
 from rightofway.model import Decision, Loss, LostTime, Plan, Quantities, decimal, stays_of
 from rightofway.model.place_names import PlaceNames
 
-MAX_LINES = 20
+MAX_LINES = 10
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""
 
 MAX_DETOURS = 8
@@ -150,7 +150,8 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
         line = "  ".join(f"{one:>{space}}" for one, space in zip(cells, widths, strict=True))
         yield f"{name:{width}}  {line}"
     if len(lost) > len(listed):
-        yield f"… and {counted(len(lost) - len(listed), 'more robot')} that lose less time"
+        rest = counted(len(lost) - len(listed), "more robot")
+        yield f"… and {rest} that lose less time (--json lists all)"
 
 
 def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:

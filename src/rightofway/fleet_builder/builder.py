@@ -69,7 +69,8 @@ class FleetBuilder:
         Edges that are longer are split into pieces of at most that length [length unit].
     rules
         Rules of the fleet by name, as `Rules` takes them: ``occupancy``, ``headway``, ``turn``,
-        ``ends``, ``laps``, ``rotations``, ``clearance``, ``turn_rate``.
+        ``ends`` (``return`` in files), ``laps``, ``rotations``, ``clearance``, ``turn_rate``; or
+        ``rules="classic"`` for classic MAPF: no turning and no way back, unless given as well.
 
     Raises
     ------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from fractions import Fraction
 from typing import Any
 
@@ -23,12 +23,21 @@ def within(place: str, make: Callable[..., Any], *arguments: Any, **named: Any) 
 
 
 def rules_of(given: dict[str, Any]) -> Rules:
-    """Return the rules of a fleet by their names."""
-    known = [field.name for field in fields(Rules)]
-    for name in given:
+    """Return the rules of a fleet by their names; ``rules="classic"`` is those of classic MAPF."""
+    from rightofway.io.scenario.reader import CLASSIC
+
+    known, own = [field.name for field in fields(Rules)], dict(given)
+    base = own.pop("rules", None)
+    if base is not None and base != "classic":
+        remedy = 'give "classic", or each rule by its name, like headway=1'
+        raise InputError.at("rules", f"{shown(base)} is no name of rules ({remedy})")
+    for name in own:
+        if name == "return":
+            remedy = 'give ends="none" or ends="home"'
+            raise InputError.at(name, f"is called ends in Python ({remedy})")
         if name not in known:
             raise InputError.at(name, f"is unknown to FleetBuilder (rules are {', '.join(known)})")
-    return Rules(**given)
+    return replace(CLASSIC, **own) if base else Rules(**own)
 
 
 def units_of(given: Units | Mapping[str, Any] | None) -> Units:
