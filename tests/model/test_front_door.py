@@ -366,4 +366,4 @@ def test_classic_rules_go_by_their_name_as_in_files() -> None:
         return door(**given).add_robot("R1", home="N0", target="N6").scenario().rules
 
     classic = rules_with(rules="classic", headway=1)
-    assert (classic.turn, classic.ends, classic.headway) == (0, "none", 1)
+    assert classic == Rules(turn=Fraction(0), ends="none", headway=Fraction(1), occupancy="one")
