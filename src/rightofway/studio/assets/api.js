@@ -1,17 +1,33 @@
 /** The API of the studio: version 1, the same for every client. */
 
+/** @import { Bodies, DeleteAnswer, ErrorData, GetAnswer, PatchAnswer, PostAnswer, PutAnswer, Saved } from "./api_types.js" */
+
+
 const ROOT = "/api/v1";
 
 /** What the server refuses: its message, its status, and the faults of a document with their places. */
-class Refusal extends Error {
+export class Refusal extends Error {
+  /**
+   * @param {ErrorData} error
+   */
   constructor({ message, status, kind, faults }) {
     super(message);
-    Object.assign(this, { status, kind, faults });
+    this.status = status;
+    this.kind = kind;
+    this.faults = faults;
   }
 }
 
-/** Send a request and return what JSON the answer is. */
-export async function request(method, path, body) {
+/**
+ * Send a request and return what JSON the answer is.
+ * @template {string} Path
+ * @param {string} method
+ * @param {Path} path
+ * @param {Bodies[keyof Bodies] | {}} [body]
+ * @returns {Promise<any>} What the path answers: the functions below say what that is.
+ */
+async function request(method, path, body) {
+  /** @type {HeadersInit} */
   const headers = body === undefined ? {} : { "content-type": "application/json" };
   const answer = await fetch(ROOT + path, {
     method,
@@ -24,15 +40,56 @@ export async function request(method, path, body) {
   return data;
 }
 
+/**
+ * @template {string} Path
+ * @param {Path} path
+ * @returns {Promise<GetAnswer<Path>>}
+ */
 export const get = (path) => request("GET", path);
-export const post = (path, body = {}) => request("POST", path, body);
+/**
+ * @template {string} Path
+ * @param {Path} path
+ * @param {Bodies["POST"]} [body]
+ * @returns {Promise<PostAnswer<Path>>}
+ */
+export const post = (path, body) => request("POST", path, body ?? {});
+/**
+ * @template {string} Path
+ * @param {Path} path
+ * @param {Bodies["PUT"]} body
+ * @returns {Promise<PutAnswer<Path>>}
+ */
 export const put = (path, body) => request("PUT", path, body);
+
+/**
+ * @template {string} Path
+ * @param {Path} path
+ * @param {Bodies["PATCH"]} body
+ * @returns {Promise<PatchAnswer<Path>>}
+ */
+export const patch = (path, body) => request("PATCH", path, body);
+
+/**
+ * @template {string} Path
+ * @param {Path} path
+ * @returns {Promise<DeleteAnswer<Path>>}
+ */
 export const remove = (path) => request("DELETE", path);
 
-/** A path of a file in an address: its names, not its slashes, are escaped. */
+/**
+ * A path of a file in an address: its names, not its slashes, are escaped.
+ * @param {string} path
+ * @returns {string}
+ */
 export const inAddress = (path) => path.split("/").map(encodeURIComponent).join("/");
 
-/** Put a file into the folder under a path. */
+/**
+ * Put a file into the folder under a path.
+ * @param {Blob} file
+ * @param {string} path
+ * @param {{replace?: boolean}} [options]
+ * @returns {Promise<Saved>}
+ */
 export async function upload(file, path, { replace = false } = {}) {
   const answer = await fetch(`${ROOT}/files/${inAddress(path)}?replace=${replace}`, {
     method: "PUT",
@@ -44,7 +101,12 @@ export async function upload(file, path, { replace = false } = {}) {
   return data;
 }
 
-/** Whether a file has the content that stands under a path of the folder. */
+/**
+ * Whether a file has the content that stands under a path of the folder.
+ * @param {Blob} file
+ * @param {string} path
+ * @returns {Promise<boolean>}
+ */
 export async function sameAs(file, path) {
   const answer = await fetch(`${ROOT}/files/${inAddress(path)}`);
   const [one, other] = await Promise.all([file.arrayBuffer(), answer.arrayBuffer()]);
@@ -53,5 +115,9 @@ export async function sameAs(file, path) {
   return bytes.every((byte, at) => byte === others[at]);
 }
 
-/** The address of something that is shown or downloaded as it is. */
+/**
+ * The address of something that is shown or downloaded as it is.
+ * @param {string} path
+ * @returns {string}
+ */
 export const address = (path) => ROOT + path;

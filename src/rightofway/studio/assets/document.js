@@ -2,10 +2,16 @@
 
 import { Observable } from "../../viz/page/assets/observable.js";
 import { inAddress, post, put, remove } from "./api.js";
+import { Latest } from "./latest.js";
+import { later, present } from "./given.js";
+/** @import { Refusal } from "./api.js" */
+/** @import { Fault, SurveyData } from "./api_types.js" */
+/** @import { Edit, Found, ScenarioDocument, SitePayload } from "./types.js" */
 
 const CHANGED = 412; // the status of a draft that another page has changed
 const MANY = 2000; // vertices from which on findings come after the map
 
+/** @type {SurveyData} */
 const UNKNOWN = Object.freeze({
   ok: true,
   faults: [],
@@ -22,20 +28,31 @@ const UNKNOWN = Object.freeze({
  * `survey` when the library has looked at it, `findings` when those of a large map come after that; `trouble`.
  */
 export class ScenarioStore extends Observable {
-  document = null;
+  /** @type {ScenarioDocument} */
+  document = later();
   folder = "";
   path = ""; // the file that it is saved to; empty until it has a name
+  /** @type {string | null} */
   revision = null; // of that file; empty if there must be none
+  /** @type {[string, string] | null} */
   origin = null; // what it was made from, if that is something else: [kind, name]
+  /** @type {SurveyData & {of?: ScenarioDocument}} */
   survey = UNKNOWN;
+  /** @type {SitePayload | null} */
   site = null; // the last map that could be drawn
   isKept = false; // whether the draft has been written
   elsewhere = ""; // the name of the draft, if another page has changed it; nothing is kept until that is decided
+  /** @type {Refusal} */
+  trouble = later(); // the last one
   opened = 0; // how many documents have been opened
+  /** @type {Set<string>} */
   names = new Set(); // that the document has had since then: runs of it are under one of them
 
+  /** @type {ScenarioDocument[]} */
   #past = [];
+  /** @type {ScenarioDocument[]} */
   #future = [];
+  /** @type {ScenarioDocument | null} */
   #saved = null;
   #draft = "";
   #known = ""; // revision of the draft that this page has read or written; empty if there must be none
@@ -45,9 +62,19 @@ export class ScenarioStore extends Observable {
     draft: new Latest(() => this.#keep()),
   };
 
-  /** Begin with a document; one that is not in a file yet counts as changed. */
+  /**
+   * Begin with a document; one that is not in a file yet counts as changed.
+   * @param {Found} found
+   * @returns {void}
+   */
   open({ document, folder = "", path = "", revision = "", draft = "", origin = null, known = "" }) {
-    Object.assign(this, { document, folder, path, revision, origin, survey: UNKNOWN, site: null });
+    this.document = document;
+    this.folder = folder;
+    this.path = path;
+    this.revision = revision;
+    this.origin = origin;
+    this.survey = UNKNOWN;
+    this.site = null;
     this.opened++;
     this.#past = [];
     this.#future = [];
@@ -62,7 +89,12 @@ export class ScenarioStore extends Observable {
     if (!revision && !draft && !origin) this.#work.draft.ask(); // it is nowhere else
   }
 
-  /** Change the document by a function; nothing happens if it returns what it was given. */
+  /**
+   * Change the document by a function; nothing happens if it returns what it was given.
+   * @param {Edit} edit
+   * @param {{isSame?: boolean}} [options]
+   * @returns {void}
+   */
   change(edit, { isSame = false } = {}) {
     const next = edit(this.document);
     if (next === this.document) return;
@@ -97,14 +129,14 @@ export class ScenarioStore extends Observable {
   undo() {
     if (!this.canUndo) return;
     this.#future.push(this.document);
-    this.#show(this.#past.pop());
+    this.#show(present(this.#past.pop()));
     this.tell("undo");
   }
 
   redo() {
     if (!this.canRedo) return;
     this.#past.push(this.document);
-    this.#show(this.#future.pop());
+    this.#show(present(this.#future.pop()));
     this.tell("redo");
   }
 
@@ -131,10 +163,15 @@ export class ScenarioStore extends Observable {
     return this.path || this.#draft;
   }
 
-  /** Save to another file from now on, which must not be there yet. */
+  /**
+   * Save to another file from now on, which must not be there yet.
+   * @param {string} path
+   * @returns {void}
+   */
   rename(path) {
     if (path === this.path) return;
-    Object.assign(this, { path, revision: "" });
+    this.path = path;
+    this.revision = "";
     this.names.add(path);
     this.#saved = null;
     this.tell("document");
@@ -146,12 +183,16 @@ export class ScenarioStore extends Observable {
     this.names.add(this.#draft);
     this.#known = this.elsewhere = "";
     this.#saved = null;
-    Object.assign(this, { path: "", revision: "" });
+    this.path = this.revision = "";
     this.tell("document");
     this.#work.draft.ask();
   }
 
-  /** Faults at a place of the document and below it; an empty fleet is no fault while one draws. */
+  /**
+   * Faults at a place of the document and below it; an empty fleet is no fault while one draws.
+   * @param {string} place
+   * @returns {Fault[]}
+   */
   faultsAt(place) {
     return this.faults.filter(
       (fault) =>
@@ -171,6 +212,10 @@ export class ScenarioStore extends Observable {
     return this.#work.survey.idle();
   }
 
+  /**
+   * @param {ScenarioDocument} document
+   * @returns {void}
+   */
   #show(document) {
     this.document = document;
     this.tell("document");
@@ -183,7 +228,7 @@ export class ScenarioStore extends Observable {
     try {
       const { findings, sentences, phrases } = this.survey;
       const isNew = !this.site; // just opened
-      const isLarge = isNew || sizeOf(this.site.map) > MANY;
+      const isLarge = isNew || sizeOf(present(this.site).map) > MANY;
       const survey = await post("/survey", {
         document,
         folder,
@@ -191,14 +236,13 @@ export class ScenarioStore extends Observable {
         identifies: isNew,
       });
       if (opened !== this.opened) return;
-      Object.assign(this, {
-        survey: { ...survey, ...(isLarge && { findings, sentences, phrases }), of: document },
-        site: survey.site ?? this.site,
-      });
+      const kept = isLarge && { findings, sentences, phrases };
+      this.survey = { ...survey, ...kept, of: document };
+      this.site = survey.site ?? this.site;
       this.tell("survey");
       if (isLarge) this.#work.findings.ask();
     } catch (trouble) {
-      this.trouble = trouble;
+      this.trouble = /** @type {Refusal} */ (trouble);
       this.tell("trouble");
     }
   }
@@ -223,7 +267,8 @@ export class ScenarioStore extends Observable {
       if (opened !== this.opened) return;
       this.#known = kept.revision;
       this.isKept = true;
-    } catch (trouble) {
+    } catch (error) {
+      const trouble = /** @type {Refusal} */ (error);
       if (opened === this.opened && trouble.status === CHANGED) this.elsewhere = name;
       this.trouble = trouble;
       this.tell(this.elsewhere ? "document" : "trouble");
@@ -233,32 +278,9 @@ export class ScenarioStore extends Observable {
 
 const unnamedDraft = () => `new ${new Date().toISOString().slice(0, 23).replace(/[T.]/g, " ")}`;
 
-/** How many vertices a map has, at most. */
-const sizeOf = ({ rows, names }) => (rows ? rows.length * rows[0].length : names.length);
-
-/** Work on what is the latest: while one round goes on, any number of requests make one more. */
-class Latest {
-  #running = null;
-  #again = false;
-
-  constructor(work) {
-    this.work = work;
-  }
-
-  ask() {
-    if (this.#running) this.#again = true;
-    else this.#running = this.#run();
-  }
-
-  async idle() {
-    while (this.#running) await this.#running;
-  }
-
-  async #run() {
-    do {
-      this.#again = false;
-      await this.work();
-    } while (this.#again);
-    this.#running = null;
-  }
-}
+/**
+ * How many vertices a map has, at most.
+ * @param {SitePayload["map"]} map
+ * @returns {number}
+ */
+const sizeOf = (map) => ("rows" in map ? map.rows.length * map.rows[0].length : map.names.length);

@@ -2,7 +2,9 @@
 
 import { html } from "./vendor/htm-preact.js";
 import { words } from "./words.js";
+/** @import { Props } from "./types.js" */
 
+/** @param {Props} props */
 export function Elsewhere({ studio }) {
   const { store, shelf } = studio;
   return html`

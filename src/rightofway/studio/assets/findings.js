@@ -3,18 +3,30 @@
 import { html, useState } from "./vendor/htm-preact.js";
 import { languageOf, said } from "../../viz/page/assets/library.js";
 import { words } from "./words.js";
+/** @import { Finding } from "./api_types.js" */
+/** @import { Studio } from "./studio.js" */
+/** @import { Props } from "./types.js" */
 
 const FIRST = 3; // findings, the worst first; the others on request
 
-/** What a fault is about, for people: "R1: home", not "robots[0] (R1): home". */
+/**
+ * What a fault is about, for people: "R1: home", not "robots[0] (R1): home".
+ * @param {{named?: string, place?: string}} fault
+ * @returns {string}
+ */
 export const nameOf = ({ named, place }) =>
   (named || place || "").replace(/^robots\[\d+\] \((.*?)\)/, "$1");
 
+/** @param {Props} props */
 export function Findings({ studio }) {
   const { store } = studio;
   const [isWhole, setWhole] = useState(false);
   const { findings } = store.survey;
   const shown = isWhole ? findings : findings.slice(0, FIRST);
+  /**
+   * @param {Finding} finding
+   * @returns {void}
+   */
   const light = ({ vertices }) => studio.light(vertices);
   return html`
     <section>
@@ -39,13 +51,22 @@ export function Findings({ studio }) {
     </section>`;
 }
 
-/** A phrase of the library, in the language of the page or marked as English. */
+/**
+ * A phrase of the library, in the language of the page or marked as English.
+ * @param {{phrase: Parameters<typeof said>[0]}} props
+ */
 const Phrase = ({ phrase }) => html`<span lang=${languageOf(phrase)}>${said(phrase)}</span>`;
 
+/** @param {{severity: Finding["severity"]}} props */
 const Sign = ({ severity }) =>
   html`<span class=${`severity ${severity}`} role="img" aria-label=${words.severities[severity]}>${{ error: "✕", warning: "!", note: "i" }[severity]}</span>`;
 
-/** Light the places of a finding, and bring them into sight. */
+/**
+ * Light the places of a finding, and bring them into sight.
+ * @param {Studio} studio
+ * @param {Finding} finding
+ * @returns {void}
+ */
 function show(studio, { vertices: names }) {
   const { plan, view } = studio.stage;
   const { roadmap } = plan;
@@ -55,7 +76,10 @@ function show(studio, { vertices: names }) {
     view.viewport.showAll(vertices.map((vertex) => [roadmap.x[vertex], roadmap.y[vertex]]));
 }
 
-/** What the reader notes, and how large the map is; open where a file of another program was read. */
+/**
+ * What the reader notes, and how large the map is; open where a file of another program was read.
+ * @param {Props} props
+ */
 export function AboutMap({ studio }) {
   const { notes, store } = studio;
   const all = [...new Set([...notes, ...store.survey.notes]), ...store.survey.phrases];

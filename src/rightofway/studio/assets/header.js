@@ -4,9 +4,12 @@ import { html } from "./vendor/htm-preact.js";
 import { Field } from "./field.js";
 import { Icon } from "./icons.js";
 import { LANGUAGES, language, words } from "./words.js";
+/** @import { Props } from "./types.js" */
+/** @import { PageEvent } from "./vendor/htm-preact.js" */
 
 const SAVED = /\.(ya?ml|json|xlsx)$/i; // endings of files that documents are saved in
 
+/** @param {Props} props */
 export function Header({ studio }) {
   const { isStarting } = studio;
   return html`
@@ -21,18 +24,34 @@ export function Header({ studio }) {
     </header>`;
 }
 
+/** @param {Props} props */
 function File({ studio }) {
   const { store, shelf } = studio;
+  /**
+   * @param {{target: HTMLInputElement}} event
+   * @returns {void}
+   */
   const rename = ({ target }) => {
     const name = target.value.trim();
     target.value = name && !SAVED.test(name) ? `${name}.yaml` : name;
     store.rename(target.value);
   };
+  /**
+   * @param {PageEvent} event
+   * @returns {void}
+   */
   const enter = (event) => {
     if (event.key !== "Enter") return;
     rename(event);
     shelf.save();
   };
+  /**
+   * @param {string} name
+   * @param {string} text
+   * @param {string} key
+   * @param {boolean} isOff
+   * @param {() => void} action
+   */
   const press = (name, text, key, isOff, action) =>
     html`<button type="button" aria-label=${text} title=${`${text} (${key})`} disabled=${isOff} onClick=${action}><${Icon} name=${name} /></button>`;
   return html`
@@ -48,7 +67,10 @@ function File({ studio }) {
     </div>`;
 }
 
-/** The button says why it cannot plan yet, and leads to where that is mended. */
+/**
+ * The button says why it cannot plan yet, and leads to where that is mended.
+ * @param {Props & {text?: string}} props
+ */
 export function PlanButton({ studio, text = words.plan }) {
   const reason = studio.notReady;
   return html`<button type="button" class="framed strong" aria-disabled=${String(Boolean(reason))} title=${reason || "Ctrl+Enter"} onClick=${() => studio.plan()}>${text}</button>`;

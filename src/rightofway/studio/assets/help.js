@@ -3,14 +3,21 @@
 import { html, useEffect, useRef } from "./vendor/htm-preact.js";
 import { TOOL_KEYS } from "./keys.js";
 import { words } from "./words.js";
+/** @import { Props } from "./types.js" */
 
+/** @param {Props} props */
 export function Help({ studio }) {
   const pane = useRef(null);
   useEffect(() => {
     pane.current.showPopover();
-    pane.current.querySelector("button").focus();
+    pane.current.querySelector("button")?.focus();
   }, []);
+  /**
+   * @param {string} tool
+   * @returns {string[]}
+   */
   const toolRow = (tool) => [TOOL_KEYS[tool].toUpperCase(), words.tools[tool][0]];
+  /** @type {Record<string, string[][]>} */
   const groups = studio.isStarting
     ? { all: words.keyList.all }
     : { tools: studio.editor.fitting.map(toolRow), ...words.keyList };

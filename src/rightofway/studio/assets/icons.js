@@ -2,6 +2,7 @@
 
 import { html } from "./vendor/htm-preact.js";
 
+/** @type {Record<string, string>} */
 const PATHS = {
   select: "M5 3l9.500 6.500-4.300.8 2.600 4.900-2 1-2.500-5L5 14.500z",
   line: "M4 16L16 4M2.500 14.500l3 3M14.500 2.500l3 3",
@@ -26,6 +27,7 @@ const PATHS = {
   fit: "M4 7.500V4h3.500M12.500 4H16v3.500M16 12.500V16h-3.500M7.500 16H4v-3.500",
 };
 
+/** @param {{name: string}} props */
 export const Icon = ({ name }) =>
   html`<svg viewBox="0 0 20 20" aria-hidden="true">
     <path d=${PATHS[name]} />

@@ -16,12 +16,16 @@ import { Start } from "./start.js";
 import { Status } from "./status.js";
 import { Studio, TABS } from "./studio.js";
 import { words } from "./words.js";
+/** @import { Props, Tab } from "./types.js" */
+
+/** @type {Record<string, number>} */
+const STEPS = { ArrowRight: 1, ArrowLeft: -1 };
 
 const PANELS = { map: MapPanel, robots: RobotPanel, plan: PlanPanel };
 
 function App() {
-  const [studio, setStudio] = useState(null);
-  const [, refresh] = useReducer((count) => count + 1, 0);
+  const [studio, setStudio] = useState(/** @type {Studio | null} */ (null));
+  const [, refresh] = useReducer((/** @type {number} */ count) => count + 1, 0);
   const [holder, below, time, card] = [useRef(null), useRef(null), useRef(null), useRef(null)];
   useEffect(() => {
     const made = new Studio({
@@ -34,7 +38,7 @@ function App() {
     listenToKeys(made);
     listenToDrops(made);
     setStudio(made);
-    window.studio = made; // for tests
+    Object.assign(window, { studio: made }); // for tests
     made.begin();
   }, []);
   const isStarting = !studio || studio.isStarting;
@@ -57,12 +61,15 @@ function App() {
     </aside>
     ${studio && isStarting && html`<${Start} studio=${studio} />`}
     ${studio && html`<${Notice} notices=${studio.notices} />`}
-    ${!isStarting && studio.store.elsewhere && html`<${Elsewhere} studio=${studio} />`}
+    ${studio && !isStarting && studio.store.elsewhere && html`<${Elsewhere} studio=${studio} />`}
     ${studio?.editor.menu && html`<${ContextMenu} studio=${studio} />`}
     ${studio?.isHelping && html`<${Help} studio=${studio} />`}`;
 }
 
-/** What there is to do, in the order in which one does it. */
+/**
+ * What there is to do, in the order in which one does it.
+ * @param {Props} props
+ */
 function Tabs({ studio }) {
   const { store, runs } = studio;
   const robots = store.document?.robots;
@@ -73,12 +80,20 @@ function Tabs({ studio }) {
     robots: Array.isArray(robots) ? robots.length : "",
     plan: runs.plans(store, null).length || "",
   };
+  /**
+   * @param {Tab} tab
+   * @returns {void}
+   */
   const go = (tab) => {
     studio.showTab(tab);
-    document.getElementById(`tab-${tab}`).focus();
+    document.getElementById(`tab-${tab}`)?.focus();
   };
+  /**
+   * @param {KeyboardEvent} event
+   * @returns {void}
+   */
   const key = (event) => {
-    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    const step = STEPS[event.key];
     if (step) go(TABS[(TABS.indexOf(studio.tab) + step + TABS.length) % TABS.length]);
   };
   return html`
@@ -90,21 +105,28 @@ function Tabs({ studio }) {
     </div>`;
 }
 
-/** Files can be dropped anywhere. */
+/**
+ * Files can be dropped anywhere.
+ * @param {Studio} studio
+ * @returns {void}
+ */
 function listenToDrops(studio) {
   const { body } = document;
   document.addEventListener("dragover", (event) => {
     event.preventDefault();
     body.classList.add("dropping");
   });
-  for (const end of ["dragleave", "drop"])
-    document.addEventListener(end, (event) =>
-      event.relatedTarget ? null : body.classList.remove("dropping"),
-    );
+  /** @type {(event: DragEvent) => void} */
+  const leave = ({ relatedTarget }) => {
+    if (!relatedTarget) body.classList.remove("dropping");
+  };
+  document.addEventListener("dragleave", leave);
+  document.addEventListener("drop", leave);
   document.addEventListener("drop", (event) => {
     event.preventDefault();
-    if (event.dataTransfer.files.length)
-      studio.attempt(async () => studio.shelf.take(await droppedFiles(event.dataTransfer)));
+    const { dataTransfer } = event;
+    if (dataTransfer?.files.length)
+      studio.attempt(async () => studio.shelf.take(await droppedFiles(dataTransfer)));
   });
 }
 

@@ -1,13 +1,20 @@
 /** The address of what is shown: a reload, a bookmark and the way back lead to the same document and tab. */
 
+/** @import { Studio } from "./studio.js" */
+/** @import { Tab } from "./types.js" */
+
+
 const TABS = "tabs"; // the key of the tabs that documents were left at, by address, the latest last
 const MOST_TABS = 50;
 
+/** @returns {Map<string, Tab>} */
 const tabs = () => new Map(JSON.parse(localStorage.getItem(TABS) ?? "[]"));
 
 export class PlaceInAddress {
+  /** @param {Studio} studio */
   constructor(studio) {
     this.studio = studio;
+    this.opened = 0; // the document that the address has followed
     const { store } = studio;
     for (const event of ["open", "document"]) store.on(event, () => this.#follow());
     addEventListener("popstate", () => this.go());
@@ -46,12 +53,10 @@ export class PlaceInAddress {
   /** Keep up with the document: another one is a step, another name of it is none. */
   #follow() {
     const { store } = this.studio;
+    /** @type {[string, string]} */
+    const own = store.isSaved ? ["file", store.path] : ["draft", store.draft];
     const isOld = store.origin && !store.canUndo; // as it was opened: from a layout, an example, a plan
-    const [kind, name] = isOld
-      ? store.origin
-      : store.isSaved
-        ? ["file", store.path]
-        : ["draft", store.draft];
+    const [kind, name] = (isOld && store.origin) || own;
     const hash = `#${kind}=${encodeURIComponent(name)}`;
     const isStep = store.opened !== this.opened;
     this.opened = store.opened;

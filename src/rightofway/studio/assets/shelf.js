@@ -2,16 +2,25 @@
 
 import { get, inAddress, post, put, remove, sameAs, upload } from "./api.js";
 import { words } from "./words.js";
+import { present } from "./given.js";
+/** @import { Refusal } from "./api.js" */
+/** @import { DraftEntry, ExampleEntry, FileEntry } from "./api_types.js" */
+/** @import { Studio } from "./studio.js" */
+/** @import { DroppedFile, Found } from "./types.js" */
 
 const PICTURES = /\.(png|pgm|jpe?g|bmp)$/i;
 const MOST_DROPPED = 200; // files of a folder that is dropped
 
 export class Shelf {
+  /** @type {FileEntry[]} */
   files = [];
+  /** @type {DraftEntry[]} */
   drafts = [];
+  /** @type {ExampleEntry[]} */
   examples = [];
   waiting = ""; // a file that cannot be opened before its picture is there
 
+  /** @param {Studio} studio */
   constructor(studio) {
     this.studio = studio;
   }
@@ -22,22 +31,32 @@ export class Shelf {
       get("/drafts"),
       get("/examples"),
     ]);
-    Object.assign(this, { files, drafts, examples });
+    this.files = files;
+    this.drafts = drafts;
+    this.examples = examples;
     this.studio.tell("change");
   }
 
-  /** Open a file; where what was drawn on it since is newer, that is opened. */
+  /**
+   * Open a file; where what was drawn on it since is newer, that is opened.
+   * @param {string} path
+   * @returns {Promise<unknown>}
+   */
   open(path) {
     const draft = this.drafts.find(({ name }) => name === path);
     const file = this.files.find((each) => each.path === path);
     const open = () => this.studio.attempt(() => this.#open(path));
-    if (!draft || draft.saved < file?.modified) return open();
+    if (!draft || draft.saved < (file?.modified ?? 0)) return open();
     return this.openDraft(path).then(() =>
       this.studio.notices.say(words.draftIsNewer(path), words.openSaved, open),
     );
   }
 
-  /** A plan is played, a layout becomes the map of a new scenario. */
+  /**
+   * A plan is played, a layout becomes the map of a new scenario.
+   * @param {string} path
+   * @returns {Promise<void>}
+   */
   async #open(path) {
     const { studio } = this;
     const found = await get(`/documents/${inAddress(path)}`);
@@ -54,11 +73,18 @@ export class Shelf {
     const isNew = found.kind === "layout";
     const stem = path.replace(/(\.[a-z]+)+$/i, "");
     const name = isNew ? await this.#freeName(`${stem}.scenario`) : path;
-    const document = { ...found.document, robots: [] }; // of a layout: robots are for the user to place
-    const made = isNew ? { document, revision: "", origin: ["file", path] } : {};
-    studio.open({ ...found, ...made, path: name });
+    const document = present(found.document);
+    /** @type {Partial<Found>} */
+    const made = isNew
+      ? { document: { ...document, robots: [] }, revision: "", origin: ["file", path] } // robots are for the user to place
+      : {};
+    studio.open({ ...found, document, ...made, path: name });
   }
 
+  /**
+   * @param {string} name
+   * @returns {Promise<void>}
+   */
   openExample(name) {
     return this.studio.attempt(async () => {
       const { document } = await get(`/examples/${inAddress(name)}`);
@@ -66,6 +92,10 @@ export class Shelf {
     });
   }
 
+  /**
+   * @param {string} name
+   * @returns {Promise<void>}
+   */
   openDraft(name) {
     return this.studio.attempt(async () => {
       const { document, revision: known } = await get(`/drafts/${inAddress(name)}`);
@@ -82,9 +112,13 @@ export class Shelf {
     });
   }
 
+  /**
+   * @param {string} name
+   * @returns {Promise<void>}
+   */
   removeDraft(name) {
     return this.studio.attempt(async () => {
-      const address = `/drafts/${inAddress(name)}`;
+      const address = /** @type {const} */ (`/drafts/${inAddress(name)}`);
       const { document } = await get(address);
       await remove(address);
       await this.list();
@@ -95,7 +129,12 @@ export class Shelf {
     });
   }
 
-  /** Take in files that were dropped or chosen, each with its path, and open the first that can be. */
+  /**
+   * Take in files that were dropped or chosen, each with its path, and open the first that can be.
+   * @param {Iterable<DroppedFile>} files
+   * @param {{replace?: boolean}} [options]
+   * @returns {Promise<void>}
+   */
   take(files, { replace = false } = {}) {
     return this.studio.attempt(async () => {
       const given = [...files].slice(0, MOST_DROPPED);
@@ -111,11 +150,16 @@ export class Shelf {
       try {
         await this.#openTaken(given.find(({ name }) => !PICTURES.test(name)) ?? given[0], given);
       } finally {
-        notices.say(words.putIntoFolder(given.map(pathOf).join(", "), about.folder));
+        notices.say(words.putIntoFolder(given.map(pathOf).join(", "), about.folder ?? ""));
       }
     });
   }
 
+  /**
+   * @param {DroppedFile} first
+   * @param {DroppedFile[]} given
+   * @returns {Promise<void>}
+   */
   async #openTaken(first, given) {
     const path = this.waiting && PICTURES.test(first.name) ? this.waiting : pathOf(first);
     if (given.length > 1 && given.some((file) => pathOf(file).includes("/"))) {
@@ -124,19 +168,26 @@ export class Shelf {
     }
     try {
       await this.#open(path);
-    } catch (refusal) {
+    } catch (error) {
+      const refusal = /** @type {Refusal} */ (error);
       const isAlone = refusal.faults?.some(({ place }) => place === "image");
       this.waiting = isAlone ? path : "";
       throw refusal;
     }
   }
 
-  /** Put a file into the folder; false where a file of that name has another content. */
+  /**
+   * Put a file into the folder; false where a file of that name has another content.
+   * @param {DroppedFile} file
+   * @param {boolean} replace
+   * @returns {Promise<boolean>}
+   */
   async #put(file, replace) {
     const path = pathOf(file);
     try {
       await upload(file, path, { replace });
-    } catch (refusal) {
+    } catch (error) {
+      const refusal = /** @type {Refusal} */ (error);
       if (refusal.status !== 412) throw refusal;
       return sameAs(file, path);
     }
@@ -162,7 +213,11 @@ export class Shelf {
     });
   }
 
-  /** A name that no file has: floor.yaml, floor2.yaml, ... */
+  /**
+   * A name that no file has: floor.yaml, floor2.yaml, ...
+   * @param {string} stem
+   * @returns {Promise<string>}
+   */
   async #freeName(stem) {
     await this.list();
     const taken = new Set(this.files.map(({ path }) => path));
@@ -172,23 +227,41 @@ export class Shelf {
   }
 }
 
-/** Where a file goes: those of a folder that was dropped keep their folder. */
+/**
+ * Where a file goes: those of a folder that was dropped keep their folder.
+ * @param {DroppedFile} file
+ * @returns {string}
+ */
 const pathOf = (file) => file.path ?? (file.webkitRelativePath || file.name);
 
-/** The files of a drop, also those in folders that were dropped: `File`s with a `path`. */
+/**
+ * The files of a drop, also those in folders that were dropped: `File`s with a `path`.
+ * @param {DataTransfer} dropped
+ * @returns {Promise<DroppedFile[]>}
+ */
 export async function droppedFiles({ items, files }) {
-  const entries = [...items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
+  const entries = [...items]
+    .map((item) => item.webkitGetAsEntry?.())
+    .filter((entry) => entry instanceof FileSystemEntry);
   if (!entries.some(({ isDirectory }) => isDirectory)) return [...files];
+  /** @type {DroppedFile[]} */
   const found = [];
+  /**
+   * @param {FileSystemEntry} entry
+   * @returns {Promise<void>}
+   */
   const visit = async (entry) => {
     if (found.length >= MOST_DROPPED || entry.name.startsWith(".")) return;
-    if (entry.isFile) {
+    if (entry instanceof FileSystemFileEntry) {
+      /** @type {File} */
       const file = await new Promise((done, fail) => entry.file(done, fail));
       if (OPENED.test(file.name))
         found.push(Object.assign(file, { path: entry.fullPath.slice(1) }));
       return;
     }
+    if (!(entry instanceof FileSystemDirectoryEntry)) return;
     const reader = entry.createReader();
+    /** @returns {Promise<FileSystemEntry[]>} */
     const read = () => new Promise((done, fail) => reader.readEntries(done, fail));
     for (let part = await read(); part.length; part = await read())
       for (const each of part) await visit(each);

@@ -1,6 +1,7 @@
 /** A map that is drawn, a plan that is played on it, and room above it for what is being drawn. */
 
 import { toDrawing } from "./draw/places.js";
+import { later } from "./given.js";
 import { RULER } from "./draw/readout.js";
 import { Player } from "./runs/player.js";
 import { fitCanvas } from "../../viz/page/assets/canvas.js";
@@ -14,6 +15,9 @@ import { Site } from "../../viz/page/assets/site.js";
 import { Theme } from "../../viz/page/assets/theme.js";
 import { Words } from "../../viz/page/assets/words.js";
 import { words as texts } from "./words.js";
+/** @import { Roadmap } from "../../viz/page/assets/roadmap.js" */
+/** @import { Viewport } from "../../viz/page/assets/viewport.js" */
+/** @import { SitePayload, StageElements } from "./types.js" */
 
 const LEGENDS = `<div class="legends">
 <div id="heat-legend" class="heat-legend" hidden><span data-text="timeHeld" data-title="timeHeldAtLength"></span><span id="heat-scale" class="scale"></span></div>
@@ -24,10 +28,42 @@ const LEAST_IN_SIGHT = 0.2; // of a map, to keep the view of another one
 
 /** Events: `show` when another map is drawn, `choice`, `overlay` to paint above the map (with `context`). */
 export class Stage extends Observable {
-  /** All that is in `holder`, `below` and `time` is of the stage. */
+  /** @type {Plan} A `Site`, without all that a plan has beside it, where no plan is shown. */
+  plan = later();
+  /** @type {Clock} */
+  clock = later();
+  /** @type {Choice} */
+  choice = later();
+  /** @type {Motion} */
+  motion = later();
+  /** @type {Motion} */
+  ghosts = later();
+  /** @type {Words} */
+  words = later();
+  /** @type {HTMLCanvasElement} */
+  canvas = later();
+  /** @type {HTMLCanvasElement} */
+  over = later(); // above it
+  /** @type {MapView} */
+  view = later();
+  /** @type {CanvasRenderingContext2D} */
+  context = later(); // of what is above the map
+  /** @type {SitePayload} */
+  raw = later();
+  /** @type {Player | null} */
+  player = null;
+  last = 0; // when the last frame was painted while time ran [ms]
+
+  /**
+   * All that is in `holder`, `below` and `time` is of the stage.
+   * @param {StageElements} elements
+   */
   constructor({ holder, below, time, card }) {
     super();
-    Object.assign(this, { holder, below, time, card });
+    this.holder = holder;
+    this.below = below;
+    this.time = time;
+    this.card = card;
     this.theme = new Theme();
     this.asked = false;
     this.frames = 0;
@@ -45,18 +81,27 @@ export class Stage extends Observable {
   /**
    * Show a site or the payload of a plan; with `keeps`, moment and view stay what they are. Between a
    * map and a plan, which has less room, the view stays only where somebody has chosen it.
+   * @param {SitePayload} raw
+   * @param {{keeps?: boolean}} [options]
+   * @returns {void}
    */
   show(raw, { keeps = false } = {}) {
     const { clock: before, view: old, isPlan: wasPlan } = this;
     const wasPlaying = before?.playing; // the player stops it when it ends
     this.raw = raw;
     const chosen = this.choice?.robot?.name;
-    const plan = raw.metrics ? new Plan(raw) : new Site(raw);
+    const plan = /** @type {Plan} */ ("metrics" in raw ? new Plan(raw) : new Site(raw));
     const clock = new Clock(plan);
     const [choice, motion, words] = [new Choice(plan), new Motion(plan), new Words(plan)];
     const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap });
     const canvas = this.#freshCanvas();
-    Object.assign(this, { plan, clock, choice, motion, ghosts, words, canvas });
+    this.plan = plan;
+    this.clock = clock;
+    this.choice = choice;
+    this.motion = motion;
+    this.ghosts = ghosts;
+    this.words = words;
+    this.canvas = canvas;
     this.player?.end();
     this.player = this.isPlan ? new Player(this) : null;
     if (!this.player) this.#clear();
@@ -93,13 +138,22 @@ export class Stage extends Observable {
     this.repaint();
   }
 
-  /** Let the map follow a pointer no more: it is neither moved nor pressed by it. */
+  /**
+   * Let the map follow a pointer no more: it is neither moved nor pressed by it.
+   * @param {{pointerId: number}} event
+   * @returns {void}
+   */
   giveUp({ pointerId }) {
     for (const name of ["pointercancel", "pointerleave"])
       this.canvas.dispatchEvent(new PointerEvent(name, { pointerId }));
   }
 
-  /** Light a circle of visits of some robots that repeat themselves; null for the critical one. */
+  /**
+   * Light a circle of visits of some robots that repeat themselves; null for the critical one.
+   * @param {string[]} names
+   * @param {[number, number][] | null} visits
+   * @returns {void}
+   */
   lightCircle(names, visits) {
     const { plan } = this;
     if (!this.isPlan || !plan.steady) return;
@@ -147,6 +201,10 @@ export class Stage extends Observable {
     requestAnimationFrame((now) => this.#paint(now));
   }
 
+  /**
+   * @param {number} now
+   * @returns {void}
+   */
   #paint(now) {
     const { clock, motion, ghosts, choice, view } = this;
     this.asked = false;
@@ -162,11 +220,16 @@ export class Stage extends Observable {
     if (clock.playing) this.ask();
   }
 
-  /** What others paint above the map, in units of the drawing. */
+  /**
+   * What others paint above the map, in units of the drawing.
+   * @param {HTMLCanvasElement} canvas
+   * @param {string} event
+   * @returns {void}
+   */
   #paintOn(canvas, event) {
     const { view } = this;
     const { ratio } = fitCanvas(canvas);
-    const context = canvas.getContext("2d");
+    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, canvas.width, canvas.height);
     const { left, top, scale } = view.viewport;
@@ -176,25 +239,39 @@ export class Stage extends Observable {
   }
 }
 
-/** Let the same place of the site be where it was, as large as it was. */
+/**
+ * Let the same place of the site be where it was, as large as it was.
+ * @param {MapView} before
+ * @param {MapView} after
+ * @returns {void}
+ */
 function keepView({ viewport: before, roadmap: old }, { viewport, roadmap }) {
   const isSame =
     old.width === roadmap.width && old.height === roadmap.height && old.unit === roadmap.unit;
   const { fitted } = before;
   const [x, y] = toDrawing(old, ...roadmap.toSite(0, 0));
   const { left, top, scale } = before;
-  Object.assign(viewport, {
-    left: left + x * scale,
-    top: top + y * scale,
-    scale: (scale * roadmap.unit) / old.unit,
-    fitted: fitted && isSame,
-  });
+  viewport.left = left + x * scale;
+  viewport.top = top + y * scale;
+  viewport.scale = (scale * roadmap.unit) / old.unit;
+  viewport.fitted = fitted && isSame;
   viewport.canvas.classList.toggle("zoomed", !viewport.fitted);
   if (shareInSight(viewport, roadmap) < LEAST_IN_SIGHT) viewport.fit(); // it is another place
 }
 
-/** How much of a map is on its canvas: 1 for all of it. */
+/**
+ * How much of a map is on its canvas: 1 for all of it.
+ * @param {Viewport} viewport
+ * @param {Roadmap} roadmap
+ * @returns {number}
+ */
 function shareInSight({ left, top, scale, canvas }, { width, height }) {
+  /**
+   * @param {number} from
+   * @param {number} length
+   * @param {number} room
+   * @returns {number}
+   */
   const inside = (from, length, room) =>
     Math.max(Math.min(from + length, room) - Math.max(from, 0), 0) / length;
   const [across, down] = [width * scale, height * scale];

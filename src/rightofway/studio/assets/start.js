@@ -4,11 +4,18 @@ import { html, useEffect, useRef, useState } from "./vendor/htm-preact.js";
 import { nameOf } from "./findings.js";
 import { Gallery, ago } from "./gallery.js";
 import { words } from "./words.js";
+/** @import { DraftEntry, ExampleEntry, FileEntry } from "./api_types.js" */
+/** @import { CardData, Props, ScenarioDocument } from "./types.js" */
+/** @import { PageEvent } from "./vendor/htm-preact.js" */
 
 const FORMAT = "rightofway-scenario/1";
 const UNITS = { length: "m", time: "s" };
 
-/** An empty floor. */
+/**
+ * An empty floor.
+ * @param {{width: number, height: number, cell: number, isAdaptive: boolean}} floor
+ * @returns {ScenarioDocument}
+ */
 function newFloor({ width, height, cell, isAdaptive }) {
   const cells = isAdaptive ? { cell_size: "adaptive", smallest: cell } : { cell_size: cell };
   return {
@@ -20,7 +27,10 @@ function newFloor({ width, height, cell, isAdaptive }) {
   };
 }
 
-/** A roadmap with one lane, to go on from. */
+/**
+ * A roadmap with one lane, to go on from.
+ * @returns {ScenarioDocument}
+ */
 const newRoadmap = () => ({
   format: FORMAT,
   map: {
@@ -31,13 +41,15 @@ const newRoadmap = () => ({
   robots: [],
 });
 
+/** @param {Props} props */
 export function Start({ studio }) {
   const { complaints, about, shelf } = studio;
   const { drafts, examples, files, waiting } = shelf;
+  /** @param {string} folder */
   const titleOf = (folder) =>
     folder
       ? html`<span class="hint">${about.folder} / </span>${folder.replaceAll("/", " / ")}`
-      : words.inFolder(about.folder);
+      : words.inFolder(about.folder ?? "");
   return html`
     <main class="start">
       <h2 class="title">${words.startTitle}</h2>
@@ -47,28 +59,32 @@ export function Start({ studio }) {
         <section aria-labelledby="open-title">
           <h3 id="open-title">${words.openTitle}</h3>
           <label class="drop-zone"><span>${words.drop}</span><span class="framed">${words.choose}</span>
-            <input type="file" multiple aria-label=${words.choose} onChange=${(event) => shelf.take(event.target.files)} /></label>
+            <input type="file" multiple aria-label=${words.choose} onChange=${(event) => shelf.take(event.target.files ?? [])} /></label>
           <p class="hint">${words.formats}</p>
         </section>
       </div>
       ${
         drafts.length > 0 &&
         html`<section class="shelf" aria-labelledby="drafts-title"><h3 id="drafts-title">${words.draftsTitle}</h3>
-        <${Gallery} documents=${drafts.map(draftCard)} open=${({ name }) => shelf.openDraft(name)} remove=${({ name }) => shelf.removeDraft(name)} /></section>`
+        <${Gallery} documents=${drafts.map(draftCard)} open=${(/** @type {CardData} */ { name }) => shelf.openDraft(name)} remove=${(/** @type {CardData} */ { name }) => shelf.removeDraft(name)} /></section>`
       }
       ${byFolder(files).map(
         ([folder, inside]) => html`
-      <section class="shelf" key=${folder} aria-label=${words.inFolder(folder || about.folder)}><h3>${titleOf(folder)}</h3>
-        <${Gallery} documents=${inside.map(fileCard)} open=${({ name }) => shelf.open(name)} /></section>`,
+      <section class="shelf" key=${folder} aria-label=${words.inFolder(folder || (about.folder ?? ""))}><h3>${titleOf(folder)}</h3>
+        <${Gallery} documents=${inside.map(fileCard)} open=${(/** @type {CardData} */ { name }) => shelf.open(name)} /></section>`,
       )}
       ${
         examples.length > 0 &&
         html`<section class="shelf" aria-labelledby="examples-title"><h3 id="examples-title">${words.examplesTitle}</h3>
-        <${Gallery} documents=${examples.map(exampleCard)} open=${({ name }) => shelf.openExample(name)} /></section>`
+        <${Gallery} documents=${examples.map(exampleCard)} open=${(/** @type {CardData} */ { name }) => shelf.openExample(name)} /></section>`
       }
     </main>`;
 }
 
+/**
+ * @param {DraftEntry} draft
+ * @returns {CardData}
+ */
 const draftCard = ({ name, saved }) => ({
   source: "drafts",
   name,
@@ -77,13 +93,21 @@ const draftCard = ({ name, saved }) => ({
   note: ago(saved),
 });
 
+/**
+ * @param {FileEntry} file
+ * @returns {CardData}
+ */
 const fileCard = ({ path, modified }) => ({
   source: "files",
   name: path,
   revision: modified,
-  title: path.split("/").at(-1),
+  title: path.slice(path.lastIndexOf("/") + 1),
 });
 
+/**
+ * @param {ExampleEntry} example
+ * @returns {CardData}
+ */
 const exampleCard = ({ name }) => ({
   source: "examples",
   name,
@@ -91,26 +115,41 @@ const exampleCard = ({ name }) => ({
   title: words.examples[name] ?? name,
 });
 
-/** Files that can be opened, by their folders: those at the top first. */
+/**
+ * Files that can be opened, by their folders: those at the top first.
+ * @param {FileEntry[]} files
+ * @returns {[string, FileEntry[]][]}
+ */
 function byFolder(files) {
+  /** @type {Map<string, FileEntry[]>} */
   const folders = new Map();
   for (const file of files) {
     if (file.kind === "picture") continue;
     const folder = file.path.split("/").slice(0, -1).join("/");
-    if (!folders.has(folder)) folders.set(folder, []);
-    folders.get(folder).push(file);
+    folders.set(folder, [...(folders.get(folder) ?? []), file]);
   }
   return [...folders].sort(([one], [other]) => one.localeCompare(other));
 }
 
+/** @param {Props} props */
 function NewFloor({ studio }) {
   const [floor, setFloor] = useState({ width: 12, height: 8, cell: 0.5, isAdaptive: false });
   const button = useRef(null);
   useEffect(() => {
     if (document.activeElement === document.body) button.current.focus({ preventScroll: true });
   }, []);
+  /**
+   * @param {"width" | "height" | "cell"} key
+   * @param {string} text
+   * @param {string} least
+   * @param {string} [hint]
+   */
   const number = (key, text, least, hint = "") => html`
     <label title=${hint}>${text}<span><input type="number" required min=${least} step="any" value=${floor[key]} onInput=${(event) => setFloor({ ...floor, [key]: Number(event.target.value) })} /> m</span></label>`;
+  /**
+   * @param {PageEvent} event
+   * @returns {void}
+   */
   const create = (event) => {
     event.preventDefault();
     studio.open({ document: newFloor(floor), tool: "line" });

@@ -7,7 +7,11 @@ import { Change } from "./runs/change.js";
 import { doNotRun } from "./runs/faults.js";
 import { sentenceOn } from "./runs/waits.js";
 import { words } from "./words.js";
+import { present } from "./given.js";
+/** @import { Editor } from "./draw/editor.js" */
+/** @import { Props } from "./types.js" */
 
+/** @param {Props} props */
 export function Status({ studio }) {
   const { editor, store, shelf, complaints } = studio;
   return html`
@@ -22,12 +26,16 @@ export function Status({ studio }) {
     </div>`;
 }
 
+/** @param {{editor: Editor}} props */
 function ToolHint({ editor }) {
-  const name = [...editor.tools].find(([, tool]) => tool === editor.tool)[0];
+  const [name] = present([...editor.tools].find(([, tool]) => tool === editor.tool));
   return html`<b>${words.tools[name][0]}</b> ${editor.message || words.tools[name][1]}`;
 }
 
-/** The longest wait of the plan, one press away from its reason. */
+/**
+ * The longest wait of the plan, one press away from its reason.
+ * @param {Props} props
+ */
 function PlanHint({ studio }) {
   const { runs, stage, store } = studio;
   const { running, losses } = runs;

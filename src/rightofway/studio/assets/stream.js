@@ -4,24 +4,30 @@
  */
 
 import { hear, KnownRuns } from "./hear.js";
+/** @import { Tell } from "./types.js" */
 
+/** @type {Set<MessagePort>} */
 const pages = new Set();
 let known = new KnownRuns();
+/** @type {EventSource | null} */
 let stream = null;
 
-function tell(name, data) {
-  known.take(name, data);
-  for (const page of pages) page.postMessage([name, data]);
-}
+/** @type {Tell} */
+const tell = (...event) => {
+  known.take(...event);
+  for (const page of pages) page.postMessage(event);
+};
 
 function refused() {
   [known, stream] = [new KnownRuns(), null]; // the next page tries again
   for (const page of pages) page.postMessage(["refused"]);
 }
 
-self.onconnect = ({ ports: [page] }) => {
+/** @type {(event: MessageEvent) => void} */
+const connected = ({ ports: [page] }) => {
   pages.add(page);
   page.onmessage = () => pages.delete(page); // it is being left
   stream ??= hear(tell, refused);
   if (known.byNumber) page.postMessage(["runs", { runs: [...known.byNumber.values()] }]);
 };
+Object.assign(self, { onconnect: connected }); // of a shared worker, which `self` is here

@@ -15,21 +15,37 @@ import { Shelf } from "./shelf.js";
 import { Stage } from "./stage.js";
 import { Observable } from "../../viz/page/assets/observable.js";
 import { setLanguage, words } from "./words.js";
+import { present } from "./given.js";
+/** @import { Refusal } from "./api.js" */
+/** @import { About, LossData, NewLaps, NewSimulation } from "./api_types.js" */
+/** @import { Complaint, Edit, Found, ScenarioDocument, SearchForm, SearchSettings, StageElements, Tab } from "./types.js" */
 
+/** @type {Tab[]} */
 export const TABS = ["map", "robots", "plan"];
 
 /** Event: `change` when the page is to be drawn again. */
 export class Studio extends Observable {
+  /** @type {Tab} */
   tab = "map";
   isStarting = true;
-  isLive = false;
+  isLive = false; // whether each change is planned at once
+  isHelping = false;
+  isFresh = false; // whether the document has just been opened
+  suggested = ""; // a name for the file of the document
   seeksChange = false; // whether the next difference is to be brought into view
+  /** @type {(unknown[] | string)[]} */
   notes = [];
+  /** @type {Complaint[]} */
   complaints = []; // what the server has refused: { place, named, message }
+  /** @type {SearchForm} */
   settings = { planner: "", options: {}, time_limit: 5, seed: 0 };
+  /** @type {Partial<About>} */
   about = {};
 
-  /** Take the elements that the map and the player are shown in. */
+  /**
+   * Take the elements that the map and the player are shown in.
+   * @param {StageElements} elements
+   */
   constructor(elements) {
     super();
     this.store = new ScenarioStore();
@@ -44,23 +60,24 @@ export class Studio extends Observable {
     this.former = new FormerRoute(this.runs, this.stage);
     this.clipboard = new Clipboard(this.editor);
     this.places = new PlaceDrag(this.editor, (edit) => this.#drop(edit));
-    for (const [source, ...events] of [
-      [this.store, "document", "survey", "findings"],
-      [this.runs, "runs"],
-      [this.editor, "editor"],
-      [this.backdrop, "image"],
-      [this.stage, "choice"],
-      [this.notices, "notice"],
-    ]) {
+    /** @type {[Observable, string[]][]} */
+    const sources = [
+      [this.store, ["document", "survey", "findings"]],
+      [this.runs, ["runs"]],
+      [this.editor, ["editor"]],
+      [this.backdrop, ["image"]],
+      [this.stage, ["choice"]],
+      [this.notices, ["notice"]],
+    ];
+    for (const [source, events] of sources)
       for (const event of events) source.on(event, () => this.tell("change"));
-    }
     this.store.on("survey", () => this.#surveyed());
     for (const event of ["undo", "redo"]) this.store.on(event, () => this.#showItsPlan());
     this.store.on("trouble", () => this.complain(this.store.trouble));
     this.runs.on("payload", () => this.#planned());
     this.runs.on("refusal", () => {
       this.complain(this.runs.refusal);
-      this.light(this.runs.refusal.vertices ?? []);
+      if ("vertices" in this.runs.refusal) this.light(this.runs.refusal.vertices ?? []);
     });
   }
 
@@ -74,31 +91,41 @@ export class Studio extends Observable {
     });
   }
 
-  /** Do something that the server may refuse, and show why. */
+  /**
+   * Do something that the server may refuse, and show why.
+   * @param {() => unknown} action
+   * @returns {Promise<void>}
+   */
   async attempt(action) {
     this.complaints = [];
     try {
       await action();
     } catch (refusal) {
-      this.complain(refusal);
+      this.complain(/** @type {Refusal} */ (refusal));
     }
     this.tell("change");
   }
 
+  /**
+   * @param {{message?: string, faults?: Complaint[]}} refusal
+   * @returns {void}
+   */
   complain({ message, faults }) {
-    this.complaints = faults?.length ? faults : [{ place: "", message }];
+    this.complaints = faults?.length ? faults : [{ place: "", message: message ?? "" }];
     this.tell("change");
   }
 
-  /** Show a document, from the start. */
+  /**
+   * Show a document, from the start.
+   * @param {Found} found
+   * @returns {void}
+   */
   open(found) {
     const { notes = [], suggested = "", tool = "select" } = found;
-    Object.assign(this, {
-      isStarting: false,
-      notes,
-      suggested,
-      isFresh: true,
-    });
+    this.isStarting = false;
+    this.notes = notes;
+    this.suggested = suggested;
+    this.isFresh = true;
     this.runs.hide();
     this.store.open(found);
     this.runs.hearOf(this.store);
@@ -108,13 +135,21 @@ export class Studio extends Observable {
     this.showTab(this.place.lastTab ?? "map");
   }
 
-  /** Speak another language; the map is written anew. */
+  /**
+   * Speak another language; the map is written anew.
+   * @param {string} code
+   * @returns {void}
+   */
   speak(code) {
     setLanguage(code);
     if (this.stage.raw) this.stage.show(this.stage.raw, { keeps: true });
     this.tell("change");
   }
 
+  /**
+   * @param {boolean} isShown
+   * @returns {void}
+   */
   help(isShown) {
     this.isHelping = isShown;
     this.tell("change");
@@ -134,7 +169,11 @@ export class Studio extends Observable {
     document.getElementById("faults-title")?.scrollIntoView();
   }
 
-  /** Go to where a fault can be mended. */
+  /**
+   * Go to where a fault can be mended.
+   * @param {string} place
+   * @returns {void}
+   */
   goTo(place) {
     const robot = /^robots\[(\d+)\]/.exec(place);
     if (!robot) return;
@@ -142,16 +181,24 @@ export class Studio extends Observable {
     this.editor.select([{ kind: "robot", id: Number(robot[1]) }]);
     requestAnimationFrame(() => {
       const row = document.querySelector(`table.robots tr[data-row="${robot[1]}"]`); // once it is drawn
-      (row?.querySelector("[aria-invalid=true]") ?? row?.querySelector("input"))?.focus();
+      /** @type {HTMLElement | null | undefined} */
+      const wrong = row?.querySelector("[aria-invalid=true]");
+      (wrong ?? row?.querySelector("input"))?.focus();
     });
   }
 
+  /**
+   * @param {Tab} tab
+   * @returns {void}
+   */
   showTab(tab) {
     if (tab !== this.tab) {
-      Object.assign(this, { tab, complaints: [] });
+      this.tab = tab;
+      this.complaints = [];
       this.place.keepTab();
     }
-    const isPlan = tab === "plan" && this.runs.payload;
+    const { payload } = this.runs;
+    const isPlan = tab === "plan" && payload !== null;
     if (!isPlan && this.stage.isPlan) this.stage.choice.chooseNothing();
     this.editor.isOn = !isPlan;
     this.editor.tool.cancel();
@@ -159,7 +206,7 @@ export class Studio extends Observable {
       this.editor.take("robot");
     if (tab === "map" && this.editor.tool === this.editor.tools.get("robot"))
       this.editor.take("select");
-    if (isPlan) this.stage.show(this.runs.payload, { keeps: true });
+    if (isPlan) this.stage.show(payload, { keeps: true });
     else if (this.store.site && this.stage.isPlan)
       this.stage.show(this.store.site, { keeps: true });
     this.tell("change");
@@ -188,7 +235,11 @@ export class Studio extends Observable {
     });
   }
 
-  /** Show the plan of a run. */
+  /**
+   * Show the plan of a run.
+   * @param {number} number
+   * @returns {Promise<void>}
+   */
   showRun(number) {
     return this.attempt(async () => {
       this.showTab("plan");
@@ -196,7 +247,12 @@ export class Studio extends Observable {
     });
   }
 
-  /** Queue laps or a simulation, and show what comes of it. */
+  /**
+   * Queue laps or a simulation, and show what comes of it.
+   * @param {NewLaps | NewSimulation} request
+   * @param {ScenarioDocument} [document]
+   * @returns {Promise<void>}
+   */
   study(request, document) {
     return this.attempt(async () => {
       this.#isPlaying = true;
@@ -205,7 +261,11 @@ export class Studio extends Observable {
     });
   }
 
-  /** Change the document, and plan it at once: who gains, who loses. */
+  /**
+   * Change the document, and plan it at once: who gains, who loses.
+   * @param {Edit} edit
+   * @returns {void}
+   */
   whatIf(edit) {
     this.#isAsked = true;
     this.store.change(edit);
@@ -214,10 +274,16 @@ export class Studio extends Observable {
   /**
    * As `whatIf`, but nothing changes where the library finds something wrong that was not wrong before;
    * resolves with these faults.
+   * @param {Edit} edit
+   * @returns {Promise<Complaint[]>}
    */
   async tryOut(edit) {
     const { document, folder, faults: known } = this.store;
     const { faults } = await post("/validate", { document: edit(document), folder });
+    /**
+     * @param {Complaint} fault
+     * @returns {boolean}
+     */
     const isKnown = ({ place, message }) =>
       known.some((fault) => fault.place === place && fault.message === message);
     const news = faults.filter((fault) => !isKnown(fault));
@@ -227,7 +293,11 @@ export class Studio extends Observable {
     return [];
   }
 
-  /** Something was dropped on the map of a plan: show the difference, or why it cannot be there. */
+  /**
+   * Something was dropped on the map of a plan: show the difference, or why it cannot be there.
+   * @param {Edit} edit
+   * @returns {Promise<void>}
+   */
   #drop(edit) {
     return this.attempt(async () => {
       const faults = await this.tryOut(edit);
@@ -238,13 +308,17 @@ export class Studio extends Observable {
   /** Edit again what the plan that is shown was made from. */
   takeBack() {
     return this.attempt(async () => {
-      const document = await this.runs.documentOf(this.runs.shown);
+      const document = await this.runs.documentOf(present(this.runs.shown));
       this.#replanned = document;
       this.store.change(() => document);
     });
   }
 
-  /** Give up what has been tried: the document and the plan of a run before it are back. */
+  /**
+   * Give up what has been tried: the document and the plan of a run before it are back.
+   * @param {number} number
+   * @returns {Promise<void>}
+   */
   putBack(number) {
     return this.attempt(async () => {
       const document = await this.runs.documentOf(number);
@@ -254,7 +328,11 @@ export class Studio extends Observable {
     });
   }
 
-  /** Light vertices by their names on the map that is shown. */
+  /**
+   * Light vertices by their names on the map that is shown.
+   * @param {string[]} names
+   * @returns {void}
+   */
   light(names) {
     const { plan, choice } = this.stage;
     choice?.light(
@@ -262,7 +340,11 @@ export class Studio extends Observable {
     );
   }
 
-  /** Show the moment at which a robot begins to lose time, and why. */
+  /**
+   * Show the moment at which a robot begins to lose time, and why.
+   * @param {LossData} loss
+   * @returns {void}
+   */
   watchLoss(loss) {
     const { clock, choice, plan } = this.stage;
     clock.pause();
@@ -272,7 +354,11 @@ export class Studio extends Observable {
     this.reveal("#waits-title", "start");
   }
 
-  /** Let the robot that waits go first, and show what that costs. */
+  /**
+   * Let the robot that waits go first, and show what that costs.
+   * @param {LossData} loss
+   * @returns {Promise<void>}
+   */
   flip(loss) {
     return this.attempt(async () => {
       await this.runs.flip(loss);
@@ -280,12 +366,18 @@ export class Studio extends Observable {
     });
   }
 
-  /** Bring a part of the side panel into view, once it is written. */
+  /**
+   * Bring a part of the side panel into view, once it is written.
+   * @param {string} selector
+   * @param {ScrollLogicalPosition} [block]
+   * @returns {void}
+   */
   reveal(selector, block = "nearest") {
     const look = () => document.querySelector(selector)?.scrollIntoView({ block });
     requestAnimationFrame(() => requestAnimationFrame(look));
   }
 
+  /** @returns {SearchSettings} */
   #search() {
     const { planner, options, time_limit, seed } = this.settings;
     return {
@@ -298,6 +390,7 @@ export class Studio extends Observable {
 
   #isPlaying = false; // whether the next plan is to be played from its start
   #isAsked = false; // whether the document that is looked at is to be planned, too
+  /** @type {ScenarioDocument | null} */
   #replanned = null; // the document that was planned by itself last
 
   #surveyed() {
@@ -344,7 +437,11 @@ export class Studio extends Observable {
     this.tell("change");
   }
 
-  /** Where a plan can be had in a form. */
+  /**
+   * Where a plan can be had in a form.
+   * @param {string} form
+   * @returns {string}
+   */
   exportAddress(form) {
     return address(`/runs/${this.runs.shown}/export/${form}`);
   }

@@ -4,15 +4,21 @@
  * A language is a file in `words/` with the same keys, and a line here, beside the viewer's own.
  */
 
+import { later } from "./given.js";
 import * as viewer from "../../viz/page/assets/language.js";
 import { GERMAN } from "./words/de.js";
 import { ENGLISH } from "./words/en.js";
 
+/** @type {Record<string, Partial<typeof ENGLISH>>} */
 const TEXTS = { en: ENGLISH, de: GERMAN };
 
+/** @type {[string, string][]} */
 export const LANGUAGES = Object.entries(viewer.LANGUAGES).map(([code, { name }]) => [code, name]);
 
-/** Terms that the viewer has, too: they are written once. */
+/**
+ * Terms that the viewer has, too: they are written once.
+ * @param {typeof viewer.texts} texts
+ */
 function shared({ markup, ...texts }) {
   const { planner, robot, copied, severities, noFindings, faults } = texts;
   const { map, time, language, keys, close, zoomIn, zoomOut, fit } = markup;
@@ -26,8 +32,13 @@ function shared({ markup, ...texts }) {
 
 /** The language of the page: the one that was chosen, or the browser's, or English. */
 export let language = "en";
-export let words = {};
+/** @type {ReturnType<typeof shared> & typeof ENGLISH} */
+export let words = later();
 
+/**
+ * @param {string} code
+ * @returns {void}
+ */
 export function setLanguage(code) {
   viewer.setLanguage(code);
   language = viewer.language;

@@ -6,6 +6,13 @@ import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { isNetwork, withoutKey } from "./network.js";
 import { numberOf, rounded, toDrawing } from "./places.js";
+import { present } from "../given.js";
+/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { ScenarioStore } from "../document.js" */
+/** @import { Stage } from "../stage.js" */
+/** @import { DrawingPoint, PictureData, Point, Props } from "../types.js" */
+/** @import { PageEvent } from "../vendor/htm-preact.js" */
+/** @import { Editor } from "./editor.js" */
 
 const FIRST_SHARE = 0.8; // of the map's pane that a picture takes below a roadmap, which has no size of its own
 const LARGEST = 4096; // pixels of the longer side that are kept in memory
@@ -16,11 +23,18 @@ const USUAL_OPACITY = 0.6;
  * Event: `image` when there is another one.
  */
 export class Backdrop extends Observable {
+  /** @type {ImageBitmap | null} */
   image = null; // an ImageBitmap
 
+  /**
+   * @param {ScenarioStore} store
+   * @param {Stage} stage
+   */
   constructor(store, stage) {
     super();
-    Object.assign(this, { store, stage });
+    this.store = store;
+    this.stage = stage;
+    this.columns = 1; // pixels of a row of the picture as it is in its file
     store.on("document", () => this.#load());
     stage.on("show", () => this.#give());
   }
@@ -31,7 +45,11 @@ export class Backdrop extends Observable {
     return this.store.document?.map?.picture ?? null;
   }
 
-  /** Put a picture into the scenario's folder, and lay the map over it. */
+  /**
+   * Put a picture into the scenario's folder, and lay the map over it.
+   * @param {File} file
+   * @returns {Promise<void>}
+   */
   async take(file) {
     const { store } = this;
     const name = await this.#kept(file);
@@ -40,11 +58,15 @@ export class Backdrop extends Observable {
     this.#put({ file: name, ...laid });
   }
 
-  /** Put a file beside the scenario: under its name, or with a number where another picture has it. */
+  /**
+   * Put a file beside the scenario: under its name, or with a number where another picture has it.
+   * @param {File} file
+   * @returns {Promise<string>}
+   */
   async #kept(file) {
     const { files } = await get("/files");
     const taken = new Set(files.map(({ path }) => path));
-    const [, stem, ending = ""] = /^(.*?)(\.[^.]*)?$/.exec(file.name);
+    const [, stem, ending = ""] = present(/^(.*?)(\.[^.]*)?$/.exec(file.name));
     let name = file.name;
     for (let number = 2; taken.has(this.#path(name)); number++) {
       if (await isSame(file, this.#address(name))) return name;
@@ -54,7 +76,12 @@ export class Backdrop extends Observable {
     return name;
   }
 
+  /**
+   * @param {string} name
+   * @returns {string}
+   */
   #path(name) {
+    /** @type {string[]} */
     const parts = [];
     for (const part of [...this.store.folder.split("/"), ...name.split("/")]) {
       if (part === "..") parts.pop();
@@ -63,11 +90,20 @@ export class Backdrop extends Observable {
     return parts.join("/");
   }
 
+  /**
+   * @param {string} name
+   * @returns {string}
+   */
   #address(name) {
     return `/api/v1/files/${inAddress(this.#path(name))}`;
   }
 
-  /** Scale and origin of a picture in the middle of what is seen. */
+  /**
+   * Scale and origin of a picture in the middle of what is seen.
+   * @param {number} width
+   * @param {number} height
+   * @returns {{scale: number, origin: Point}}
+   */
   #inSight(width, height) {
     const { viewport, roadmap } = this.stage.view;
     const { clientWidth, clientHeight } = this.stage.canvas;
@@ -82,33 +118,45 @@ export class Backdrop extends Observable {
     };
   }
 
-  /** Length of a pixel and the lower left corner on the site, written or as the library found them. */
+  /**
+   * Length of a pixel and the lower left corner on the site, written or as the library found them.
+   * @returns {{scale: number, origin: Point}}
+   */
   #laid() {
-    const { background } = this.stage.plan.roadmap;
+    const background = present(this.stage.plan.roadmap.background);
     const { roadmap } = this.stage.view;
-    const { scale, origin } = this.picture;
+    const { scale, origin } = present(this.picture);
     return {
       scale: numberOf(scale, (background.width * roadmap.unit) / this.columns),
       origin: origin?.map((length) => numberOf(length)) ?? roadmap.toSite(...leftLow(background)),
     };
   }
 
-  /** Let two places of the site be a distance apart; the first one stays where it is. */
+  /**
+   * Let two places of the site be a distance apart; the first one stays where it is.
+   * @param {Point[]} places
+   * @param {number} distance
+   * @returns {void}
+   */
   rescale([one, other], distance) {
     const { scale, origin } = this.#laid();
     const factor = distance / Math.hypot(other[0] - one[0], other[1] - one[1]);
     this.#put({
-      ...this.picture,
+      ...present(this.picture),
       scale: rounded(scale * factor),
       origin: origin.map((length, axis) => rounded(one[axis] + (length - one[axis]) * factor)),
     });
   }
 
-  /** Lay the picture so that what is at one place of the site comes to lie at another one. */
+  /**
+   * Lay the picture so that what is at one place of the site comes to lie at another one.
+   * @param {Point[]} places
+   * @returns {void}
+   */
   move([from, to]) {
     const { scale, origin } = this.#laid();
     this.#put({
-      ...this.picture,
+      ...present(this.picture),
       scale: rounded(scale),
       origin: origin.map((length, axis) => rounded(length + to[axis] - from[axis])),
     });
@@ -116,18 +164,26 @@ export class Backdrop extends Observable {
 
   /** Let the picture be as wide as the map again. */
   fit() {
-    const { scale, origin, ...rest } = this.picture;
+    const { scale, origin, ...rest } = present(this.picture);
     this.#put(rest);
   }
 
+  /**
+   * @param {number} opacity
+   * @returns {void}
+   */
   setOpacity(opacity) {
-    this.#put({ ...this.picture, opacity });
+    this.#put({ ...present(this.picture), opacity });
   }
 
   remove() {
     this.store.change((document) => ({ ...document, map: withoutKey(document.map, "picture") }));
   }
 
+  /**
+   * @param {PictureData} picture
+   * @returns {void}
+   */
   #put(picture) {
     this.store.change((document) => ({
       ...document,
@@ -142,7 +198,8 @@ export class Backdrop extends Observable {
     this.image = null;
     const image = address && (await pictureAt(address));
     if (!image || address !== this.#shown) return;
-    Object.assign(this, image);
+    this.image = image.image;
+    this.columns = image.columns;
     this.#give();
     this.stage.repaint();
     this.tell("image");
@@ -155,13 +212,21 @@ export class Backdrop extends Observable {
   }
 }
 
-/** The lower left corner of a picture in the drawing. */
+/**
+ * The lower left corner of a picture in the drawing.
+ * @param {{x: number, y: number, height: number, turn?: number}} background
+ * @returns {Point}
+ */
 const leftLow = ({ x, y, height, turn = 0 }) => [
   x - height * Math.sin(turn),
   y + height * Math.cos(turn),
 ];
 
-/** A picture of the folder, made smaller if it is large; null if there is none that a browser shows. */
+/**
+ * A picture of the folder, made smaller if it is large; null if there is none that a browser shows.
+ * @param {string} address
+ * @returns {Promise<{image: ImageBitmap, columns: number} | null>}
+ */
 async function pictureAt(address) {
   const answer = await fetch(address);
   if (!answer.ok) return null;
@@ -175,6 +240,11 @@ async function pictureAt(address) {
   return { image, columns: whole.width };
 }
 
+/**
+ * @param {Blob} file
+ * @param {string} address
+ * @returns {Promise<boolean>}
+ */
 async function isSame(file, address) {
   const answer = await fetch(address);
   if (!answer.ok) return false;
@@ -188,29 +258,52 @@ async function isSame(file, address) {
 export class PickTool {
   static called = "pick";
   isDrawn = false;
+  /** @type {Point[]} */
+  points = [];
+  /** @type {Point | null} */
+  over = null;
+  /** @type {string[]} */
+  sentences = [];
+  /** @type {(points: Point[]) => void} */
+  done = () => {};
 
+  /** @param {Editor} editor */
   constructor(editor) {
     this.editor = editor;
-    this.cancel();
   }
 
   get isBusy() {
     return this.points.length > 0;
   }
 
-  /** Ask for places, each by a sentence; `done` is called with them. */
+  /**
+   * Ask for places, each by a sentence; `done` is called with them.
+   * @param {string[]} sentences
+   * @param {(points: Point[]) => void} done
+   * @returns {void}
+   */
   ask(sentences, done) {
-    Object.assign(this, { sentences, done, points: [], over: null });
+    this.cancel();
+    this.sentences = sentences;
+    this.done = done;
     this.editor.tool = this;
     this.editor.say(sentences[0]);
   }
 
   press() {}
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   drag(point) {
     this.hover(point);
   }
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   hover(point) {
     this.over = this.editor.roadmap.toSite(point.x, point.y);
   }
@@ -219,6 +312,10 @@ export class PickTool {
     this.over = null;
   }
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   release(point) {
     const { editor } = this;
     this.points.push(editor.roadmap.toSite(point.x, point.y));
@@ -231,9 +328,16 @@ export class PickTool {
   }
 
   cancel() {
-    Object.assign(this, { points: [], over: null });
+    this.points = [];
+    this.over = null;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Theme} theme
+   * @param {number} scale
+   * @returns {void}
+   */
   paint(context, theme, scale) {
     const { roadmap } = this.editor;
     context.strokeStyle = theme.held;
@@ -248,24 +352,38 @@ export class PickTool {
       context.lineTo(x, y + reach);
     }
     if (this.points.length && this.over) {
-      context.moveTo(...toDrawing(roadmap, ...this.points.at(-1)));
+      context.moveTo(...toDrawing(roadmap, ...this.points[this.points.length - 1]));
       context.lineTo(...toDrawing(roadmap, ...this.over));
     }
     context.stroke();
   }
 }
 
+/** @param {Props} props */
 export function BackdropPanel({ studio }) {
   const { backdrop, editor, store } = studio;
   const { picture } = backdrop;
-  const [points, setPoints] = useState(null);
+  const [points, setPoints] = useState(/** @type {Point[] | null} */ (null));
+  /**
+   * @param {string[]} sentences
+   * @param {(points: Point[]) => void} done
+   * @returns {void}
+   */
   const pick = (sentences, done) => editor.tools.get("pick").ask(sentences, done);
+  /**
+   * @param {{target: HTMLInputElement}} event
+   * @returns {unknown}
+   */
   const choose = ({ target }) =>
-    target.files.length && studio.attempt(() => backdrop.take(target.files[0]));
+    target.files?.length && studio.attempt(() => backdrop.take(present(target.files)[0]));
+  /**
+   * @param {string} text
+   * @param {() => void} action
+   */
   const button = (text, action) =>
     html`<button type="button" class="framed" onClick=${action}>${text}</button>`;
-  const rescale = (distance) => {
-    backdrop.rescale(points, distance);
+  const rescale = (/** @type {number} */ distance) => {
+    backdrop.rescale(present(points), distance);
     setPoints(null);
   };
   const wrong = store.faultsAt("map.picture");
@@ -293,11 +411,19 @@ export function BackdropPanel({ studio }) {
     </section>`;
 }
 
-/** The distance of the two places that were pressed. */
+/**
+ * The distance of the two places that were pressed.
+ * @param {{unit: string, onGiven: (distance: number) => void}} props
+ */
 function Distance({ unit, onGiven }) {
   const [distance, setDistance] = useState(1);
+  /** @type {import("../vendor/htm-preact.js").Ref<HTMLInputElement>} */
   const field = useRef(null);
   useEffect(() => field.current.select(), []);
+  /**
+   * @param {PageEvent} event
+   * @returns {void}
+   */
   const give = (event) => {
     event.preventDefault();
     onGiven(distance);

@@ -4,23 +4,48 @@ import { html, useEffect, useRef } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { ClosureFields, closableAt, textOfClosure } from "./closures.js";
 import { freeVertexName, isNetwork, splitLane } from "./network.js";
+import { present } from "../given.js";
+/** @import { Props } from "../types.js" */
+/** @import { PageEvent } from "../vendor/htm-preact.js" */
 
 const MARGIN = 8; // pixels from the border of the page
 
+/** @type {Record<string, number>} */
+const STEPS = { ArrowDown: 1, ArrowUp: -1 };
+
+/**
+ * What can be reached with arrow keys.
+ * @param {HTMLElement} menu
+ * @returns {HTMLElement[]}
+ */
+const focusable = (menu) => [...menu.querySelectorAll(/** @type {"button"} */ ("input, button"))];
+
+/** @param {Props} props */
 export function ContextMenu({ studio }) {
   const { editor, clipboard, store } = studio;
-  const { menu, selection, hits, stage } = editor;
+  const { selection, hits, stage } = editor;
+  const menu = present(editor.menu);
   const list = useRef(null);
   useEffect(() => {
     const { current } = list;
     const { width, height } = current.getBoundingClientRect();
     current.style.left = `${Math.max(Math.min(menu.x, innerWidth - width - MARGIN), MARGIN)}px`;
     current.style.top = `${Math.max(Math.min(menu.y, innerHeight - height - MARGIN), MARGIN)}px`;
-    current.querySelector("input, button").focus();
-    const leave = (event) => current.contains(event.target) || editor.closeMenu();
+    focusable(current)[0].focus();
+    /**
+     * @param {PointerEvent} event
+     * @returns {unknown}
+     */
+    const leave = (event) =>
+      current.contains(/** @type {Node} */ (event.target)) || editor.closeMenu();
     document.addEventListener("pointerdown", leave, true);
     return () => document.removeEventListener("pointerdown", leave, true);
   }, [menu]);
+  /**
+   * @param {string} text
+   * @param {() => unknown} action
+   * @param {string} [key]
+   */
   const item = (text, action, key = "") =>
     html`<button type="button" role="menuitem" onClick=${() => {
       editor.closeMenu();
@@ -33,14 +58,19 @@ export function ContextMenu({ studio }) {
   const isLane = Boolean(place?.edge && lane);
   const split = () => {
     const name = freeVertexName(store.document);
-    store.change((document) => splitLane(document, lane.index, lane.share, name));
+    const { index, share } = present(lane);
+    store.change((document) => splitLane(document, index, share, name));
     editor.select([{ kind: "vertex", id: name }]);
   };
+  /**
+   * @param {PageEvent} event
+   * @returns {void}
+   */
   const keys = (event) => {
-    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    const step = STEPS[event.key];
     if (event.key === "Escape") editor.closeMenu();
     else if (step) {
-      const items = [...list.current.querySelectorAll("input, button")];
+      const items = focusable(list.current);
       items[(items.indexOf(event.target) + step + items.length) % items.length].focus();
     } else return;
     event.preventDefault();

@@ -13,20 +13,35 @@ import { paintReadout, paintRulers } from "./readout.js";
 import { Selection } from "./selection.js";
 import { SelectTool } from "./select_tool.js";
 import { BoxTool, BrushTool, DoorTool, EraseTool, LineTool } from "./cell_tools.js";
+import { present } from "../given.js";
+/** @import { ScenarioStore } from "../document.js" */
+/** @import { Stage } from "../stage.js" */
+/** @import { DrawingPoint, Item, Point, PointedAt, Span, Tool, ToolMap } from "../types.js" */
 
 const LONG_PRESS = 550; // milliseconds that a finger rests for a menu
 const WAVERING = 10; // pixels that a resting finger may move
+/** @type {Record<string, Point>} */
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 /** Events: `editor` when tool, selection or what is drawn at the moment changes. */
 export class Editor extends Observable {
+  /**
+   * @param {ScenarioStore} store
+   * @param {Stage} stage
+   */
   constructor(store, stage) {
     super();
-    Object.assign(this, { store, stage });
+    this.store = store;
+    this.stage = stage;
     this.selection = new Selection();
+    /** @type {DrawingPoint | null} */
     this.cursor = null; // of the keyboard, in units of the drawing
+    /** @type {PointedAt | null} */
     this.over = null; // where the pointer is over the map, in units of the drawing
-    this.menu = null; // what can be done at a place: { x, y } of the page, and `point` of the drawing
+    /** @type {{x: number, y: number, point: DrawingPoint} | null} */
+    this.menu = null; // what can be done at a place of the page, and of the drawing
+    /** @type {((context: CanvasRenderingContext2D, scale: number) => void) | null} */
+    this.done = null; // paints what was drawn until the library has looked at it
     this.isOn = true;
     this.message = "";
     const tools = [
@@ -43,7 +58,11 @@ export class Editor extends Observable {
       MeasureTool,
       PickTool,
     ];
-    this.tools = new Map(tools.map((Tool) => [Tool.called, new Tool(this)]));
+    /** @type {Map<string, Tool>} */
+    const made = new Map();
+    for (const Made of tools) made.set(Made.called, new Made(this));
+    this.tools = /** @type {ToolMap} */ (made);
+    /** @type {Tool} */
     this.tool = this.tools.get("select");
     store.on("survey", () => (this.done = null));
     store.on("document", () => this.#forget());
@@ -51,11 +70,15 @@ export class Editor extends Observable {
     this.#listen(stage.holder);
   }
 
+  /** @type {Hits | null} */
   #hits = null;
+  /** @type {Map<number, PointerEvent>} */
   #touches = new Map();
+  /** @type {number | null} */
   #held = null; // the pointer that the tool follows
   #panning = false;
-  #resting = null; // the timer of a finger that rests
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #resting = undefined; // the timer of a finger that rests
 
   /** Whether there is a map that can be drawn on. */
   get isReady() {
@@ -84,13 +107,20 @@ export class Editor extends Observable {
     return ["select", ...cells, ...lanes, "robot", "measure"];
   }
 
-  /** What is where, in the document as it is drawn. */
+  /**
+   * What is where, in the document as it is drawn.
+   * @returns {Hits}
+   */
   get hits() {
     if (this.#hits?.document !== this.document || this.#hits.roadmap !== this.roadmap)
       this.#hits = new Hits(this.document, this.roadmap);
     return this.#hits;
   }
 
+  /**
+   * @param {string} name
+   * @returns {void}
+   */
   take(name) {
     if (!this.fitting.includes(name)) return;
     this.tool.cancel();
@@ -99,7 +129,11 @@ export class Editor extends Observable {
     this.say("");
   }
 
-  /** Say what happens next, or what was done. */
+  /**
+   * Say what happens next, or what was done.
+   * @param {string} message
+   * @returns {void}
+   */
   say(message) {
     this.message = message;
     this.changed();
@@ -110,17 +144,25 @@ export class Editor extends Observable {
     this.tell("editor");
   }
 
-  /** The vertex at a point of the drawing, near enough to be meant, or -1. */
+  /**
+   * The vertex at a point of the drawing, near enough to be meant, or -1.
+   * @param {{x: number, y: number}} point
+   * @returns {number}
+   */
   vertexAt({ x, y }) {
     return this.hits.vertexAt(x, y, this.stage.view.viewport.scale);
   }
 
+  /**
+   * @param {Item[]} items
+   * @returns {void}
+   */
   select(items) {
     this.selection.set(items);
     const [robot] = this.selection.of("robot");
     if (this.isReady)
       this.stage.choice.chooseRobot(
-        this.store.site.robots.findIndex(({ index }) => index === robot),
+        present(this.store.site).robots.findIndex(({ index }) => index === robot),
       );
     this.changed();
   }
@@ -133,12 +175,24 @@ export class Editor extends Observable {
   #forget() {
     const { robots } = this.document;
     this.selection.set(
-      this.selection.items.filter(({ kind, id }) => kind !== "robot" || id < (robots?.length ?? 0)),
+      this.selection.items.filter(
+        ({ kind, id }) => kind !== "robot" || id < (Array.isArray(robots) ? robots.length : 0),
+      ),
     );
     this.changed();
   }
 
+  /**
+   * @param {HTMLElement} holder
+   * @returns {void}
+   */
   #listen(holder) {
+    /**
+     * @template {keyof HTMLElementEventMap} Name
+     * @param {Name} name
+     * @param {(event: HTMLElementEventMap[Name]) => unknown} action
+     * @returns {void}
+     */
     const on = (name, action) =>
       holder.addEventListener(name, (event) => this.isReady && action(event), true);
     on("pointerdown", (event) => this.#down(event));
@@ -146,7 +200,7 @@ export class Editor extends Observable {
     on("pointerup", (event) => this.#up(event));
     on("pointercancel", (event) => this.#drop(event));
     on("keydown", (event) => this.#key(event));
-    on("contextmenu", (event) => this.#ask(event));
+    on("contextmenu", (event) => this.#ask(/** @type {PointerEvent} */ (event)));
     on("pointerleave", (event) => event.target === holder && this.#leave());
     on("keyup", (event) => event.key === "Tab" && this.#showFocus(true));
     document.addEventListener(
@@ -162,12 +216,20 @@ export class Editor extends Observable {
     this.stage.ask();
   }
 
-  /** A frame round the map tells who works with keys that it has the focus. */
+  /**
+   * A frame round the map tells who works with keys that it has the focus.
+   * @param {boolean} isShown
+   * @returns {void}
+   */
   #showFocus(isShown) {
     this.stage.holder.classList.toggle("by-keys", isShown);
   }
 
-  /** Where an event is on the map: Shift for more of it, Ctrl for just there, Alt for a copy. */
+  /**
+   * Where an event is on the map: Shift for more of it, Ctrl for just there, Alt for a copy.
+   * @param {PointerEvent} event
+   * @returns {PointedAt}
+   */
   #point(event) {
     const { left, top } = this.stage.holder.getBoundingClientRect();
     const { viewport } = this.stage.view;
@@ -182,13 +244,22 @@ export class Editor extends Observable {
     };
   }
 
-  /** The menu of a place, by the second button. */
+  /**
+   * The menu of a place, by the second button.
+   * @param {PointerEvent} event
+   * @returns {void}
+   */
   #ask(event) {
     event.preventDefault();
     if (event.pointerType !== "touch" && !this.tool.isBusy)
       this.openMenu(event, this.#point(event));
   }
 
+  /**
+   * @param {{clientX: number, clientY: number}} at
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   openMenu({ clientX, clientY }, point) {
     const hit = this.hits.at(point, this.stage.view.viewport.scale);
     if (!hit) this.select([]);
@@ -197,7 +268,11 @@ export class Editor extends Observable {
     this.changed();
   }
 
-  /** Begin a robot whose home is a vertex. */
+  /**
+   * Begin a robot whose home is a vertex.
+   * @param {number} vertex
+   * @returns {void}
+   */
   startRobot(vertex) {
     const { roadmap } = this;
     this.take("robot");
@@ -211,6 +286,10 @@ export class Editor extends Observable {
     this.stage.canvas.focus({ preventScroll: true });
   }
 
+  /**
+   * @param {PointerEvent} event
+   * @returns {void}
+   */
   #rest(event) {
     clearTimeout(this.#resting);
     if (event.pointerType !== "touch") return;
@@ -224,7 +303,11 @@ export class Editor extends Observable {
 
   #rested = { x: 0, y: 0 };
 
-  /** The first button and the first finger draw; the others, and two fingers, move the map. */
+  /**
+   * The first button and the first finger draw; the others, and two fingers, move the map.
+   * @param {PointerEvent} event
+   * @returns {void}
+   */
   #down(event) {
     if (event.button !== 0 || this.#panning) return;
     event.stopPropagation();
@@ -241,6 +324,10 @@ export class Editor extends Observable {
     this.changed();
   }
 
+  /**
+   * @param {PointerEvent} event
+   * @returns {void}
+   */
   #move(event) {
     if (!this.#touches.has(event.pointerId)) {
       if (!event.buttons) this.#hover(event);
@@ -257,11 +344,19 @@ export class Editor extends Observable {
     this.stage.ask();
   }
 
+  /**
+   * @param {PointerEvent} event
+   * @returns {void}
+   */
   #hover(event) {
     this.tool.hover(this.#point(event));
     this.stage.ask();
   }
 
+  /**
+   * @param {PointerEvent} event
+   * @returns {void}
+   */
   #up(event) {
     if (!this.#touches.delete(event.pointerId)) return;
     event.stopPropagation();
@@ -273,6 +368,10 @@ export class Editor extends Observable {
     this.changed();
   }
 
+  /**
+   * @param {PointerEvent} event
+   * @returns {void}
+   */
   #drop(event) {
     this.#touches.delete(event.pointerId);
     this.#abandon();
@@ -285,6 +384,7 @@ export class Editor extends Observable {
     this.changed();
   }
 
+  /** @returns {Span | null} */
   #span() {
     const [one, two] = this.#touches.values();
     if (!two) return null;
@@ -296,6 +396,11 @@ export class Editor extends Observable {
     };
   }
 
+  /**
+   * @param {Span | null} before
+   * @param {Span | null} after
+   * @returns {void}
+   */
   #pinch(before, after) {
     if (!before || !after) return;
     const { viewport } = this.stage.view;
@@ -303,7 +408,11 @@ export class Editor extends Observable {
     viewport.zoom(after.length / before.length, after.x, after.y);
   }
 
-  /** Arrow keys move a cursor; Enter does there what the pointer does, press and release in turn. */
+  /**
+   * Arrow keys move a cursor; Enter does there what the pointer does, press and release in turn.
+   * @param {KeyboardEvent} event
+   * @returns {void}
+   */
   #key(event) {
     const arrow = ARROWS[event.key];
     if (event.ctrlKey || event.metaKey || (event.altKey && !arrow)) return;
@@ -332,6 +441,11 @@ export class Editor extends Observable {
     this.say("");
   }
 
+  /**
+   * @param {Point} way
+   * @param {boolean} isFar
+   * @returns {void}
+   */
   #moveCursor([right, down], isFar) {
     const { roadmap, stage } = this;
     this.#showFocus(true);
@@ -376,10 +490,11 @@ export class Editor extends Observable {
   }
 
   #pressAtCursor() {
+    const cursor = present(this.cursor);
     if (this.tool.isBusy || !this.tool.isDrawn) {
-      if (!this.tool.isBusy) this.tool.press(this.cursor);
-      this.tool.release(this.cursor);
-    } else this.tool.press(this.cursor);
+      if (!this.tool.isBusy) this.tool.press(cursor);
+      this.tool.release(cursor);
+    } else this.tool.press(cursor);
     this.changed();
   }
 

@@ -8,8 +8,13 @@ import {
   isNetwork,
   lanesOf,
   positionOf,
+  roadmapOf,
 } from "./network.js";
-import { toDrawing } from "./places.js";
+import { AXES, toDrawing } from "./places.js";
+import { present } from "../given.js";
+/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { DrawingPoint, HandledLane, Point } from "../types.js" */
+/** @import { Editor } from "./editor.js" */
 
 const REACH = 11; // pixels round a handle
 const TOUCH_REACH = 24;
@@ -17,30 +22,44 @@ const STRAIGHT = 7; // pixels from the straight line within which a lane is stra
 const CORNER = 14; // pixels within which the curve turns a right corner
 
 export class Handles {
+  /** @param {Editor} editor */
   constructor(editor) {
     this.editor = editor;
+    /** @type {{index: number, number: number | null} | null} */
     this.held = null; // { index, number }: the lane, and which control point; null for its middle
+    /** @type {Point[] | null} */
     this.controls = null; // of the curve while a handle is dragged, on the site
   }
 
-  /** The lane that has handles, or null. */
+  /**
+   * The lane that has handles, or null.
+   * @returns {HandledLane | null}
+   */
   get #lane() {
     const { selection, document } = this.editor;
     const [index] = selection.of("lane");
     if (selection.size !== 1 || index === undefined || !isNetwork(document)) return null;
     const lane = lanesOf(document)[index];
-    const ends = lane && endsOf(lane).map((name) => document.map.roadmap.vertices[name]);
+    const ends = lane && endsOf(lane).map((name) => roadmapOf(document).vertices[name]);
     if (!ends?.every(Boolean)) return null;
     const [tail, head] = ends.map(positionOf);
     return { index, tail, head, controls: this.controls ?? controlsOf(lane) };
   }
 
-  /** Take the handle at a point of the drawing; returns whether there is one. */
+  /**
+   * Take the handle at a point of the drawing; returns whether there is one.
+   * @param {DrawingPoint} point
+   * @returns {boolean}
+   */
   take(point) {
     const lane = this.#lane;
     if (!lane) return false;
     const { roadmap, stage } = this.editor;
     const reach = (point.isTouch ? TOUCH_REACH : REACH) / stage.view.viewport.scale;
+    /**
+     * @param {Point} at
+     * @returns {boolean}
+     */
     const isNear = (at) => {
       const [x, y] = toDrawing(roadmap, ...at);
       return Math.hypot(point.x - x, point.y - y) <= reach;
@@ -51,25 +70,36 @@ export class Handles {
     return true;
   }
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   drag(point) {
-    const lane = this.#lane;
+    const lane = present(this.#lane);
     const at = this.editor.roadmap.toSite(point.x, point.y);
-    const { number } = this.held;
+    const { number } = present(this.held);
     if (number !== null) this.controls = lane.controls.map((each, i) => (i === number ? at : each));
     else if (lane.controls.length === 2) this.controls = pulled(lane, at);
     else this.controls = this.#bent(lane, at, point.isFree);
   }
 
-  /** The control point that lets the middle of a lane be at a place; none near the straight line. */
+  /**
+   * The control point that lets the middle of a lane be at a place; none near the straight line.
+   * @param {HandledLane} lane
+   * @param {Point} at
+   * @param {boolean | undefined} isFree
+   * @returns {Point[]}
+   */
   #bent({ tail, head }, at, isFree) {
     const { roadmap, stage } = this.editor;
     const pixel = roadmap.unit / stage.view.viewport.scale;
-    const control = [0, 1].map((axis) => 2 * at[axis] - (tail[axis] + head[axis]) / 2);
+    const control = AXES.map((axis) => 2 * at[axis] - (tail[axis] + head[axis]) / 2);
     if (isFree) return [control];
     const [right, up] = [head[0] - tail[0], head[1] - tail[1]];
     const off =
       Math.abs((at[0] - tail[0]) * up - (at[1] - tail[1]) * right) / (Math.hypot(right, up) || 1);
     if (off < STRAIGHT * pixel) return [];
+    /** @type {Point[]} */
     const corners = [
       [tail[0], head[1]],
       [head[0], tail[1]],
@@ -83,18 +113,30 @@ export class Handles {
   release() {
     const { held, controls, editor } = this;
     this.cancel();
-    if (controls) editor.store.change((document) => bendLane(document, held.index, controls));
+    if (held && controls)
+      editor.store.change((document) => bendLane(document, held.index, controls));
   }
 
   cancel() {
     this.held = this.controls = null;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Theme} theme
+   * @param {number} scale
+   * @returns {void}
+   */
   paint(context, theme, scale) {
     const lane = this.#lane;
     if (!lane) return;
     const { roadmap } = this.editor;
+    /**
+     * @param {Point} at
+     * @returns {Point}
+     */
     const drawn = (at) => toDrawing(roadmap, ...at);
+    /** @type {Point[]} */
     const line = [lane.tail, ...lane.controls, lane.head];
     context.strokeStyle = theme.ink;
     context.fillStyle = theme.paper;
@@ -126,9 +168,18 @@ export class Handles {
   }
 }
 
+/**
+ * @param {HandledLane} lane
+ * @returns {Point}
+ */
 const middleOf = ({ tail, controls, head }) => bezierAt([tail, ...controls, head], 0.5);
 
-/** Both control points, so that the middle of the curve is at a place: it goes 3/4 as far as they do. */
+/**
+ * Both control points, so that the middle of the curve is at a place: it goes 3/4 as far as they do.
+ * @param {HandledLane} lane
+ * @param {Point} at
+ * @returns {Point[]}
+ */
 function pulled(lane, at) {
   const middle = middleOf(lane);
   return lane.controls.map((point) =>

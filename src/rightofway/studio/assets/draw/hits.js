@@ -2,16 +2,32 @@
 
 import { robotsOf, stopsOf } from "../robots/fleet.js";
 import { nearest } from "../../../viz/page/assets/arrays.js";
-import { cellsOfBox, groundOf } from "./ground.js";
-import { bezierAt, controlsOf, endsOf, isNetwork, lanesOf, positionOf } from "./network.js";
+import { GridGround, cellsOfBox } from "./ground.js";
+import {
+  bezierAt,
+  controlsOf,
+  endsOf,
+  isNetwork,
+  lanesOf,
+  positionOf,
+  roadmapOf,
+} from "./network.js";
 import { numberOf, toDrawing, vertexOf } from "./places.js";
+/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Cell, Item, LaneData, LaneLine, Numeral, Point, Rect, RobotHit, ScenarioDocument } from "../types.js" */
 
 const REACH = 12; // pixels round a point that is small
 
 export class Hits {
+  /**
+   * @param {ScenarioDocument} document
+   * @param {Roadmap} roadmap
+   */
   constructor(document, roadmap) {
-    Object.assign(this, { document, roadmap });
-    this.ground = document.map.grid ? groundOf(document, roadmap) : null; // whose blocked cells are things of their own
+    this.document = document;
+    this.roadmap = roadmap;
+    this.ground = document.map.grid ? new GridGround(roadmap) : null; // whose blocked cells are things of their own
+    /** @type {RobotHit[]} */
     this.robots = (robotsOf(document) ?? []).map((robot, index) => ({
       index,
       robot,
@@ -24,6 +40,12 @@ export class Hits {
       : [];
   }
 
+  /**
+   * @param {number} x
+   * @param {number} y
+   * @param {number} scale
+   * @returns {number}
+   */
   vertexAt(x, y, scale) {
     const { roadmap } = this;
     return roadmap.hasCells
@@ -31,7 +53,12 @@ export class Hits {
       : nearest(roadmap.x, roadmap.y, x, y, Math.max(0.3, REACH / scale));
   }
 
-  /** What is at a point: the robot or stop, the vertex, the lane, the obstacle, in this order; or null. */
+  /**
+   * What is at a point: the robot or stop, the vertex, the lane, the obstacle, in this order; or null.
+   * @param {{x: number, y: number}} point
+   * @param {number} scale
+   * @returns {Item | null}
+   */
   at({ x, y }, scale) {
     const vertex = this.vertexAt(x, y, scale);
     if (vertex >= 0) {
@@ -48,13 +75,19 @@ export class Hits {
         x >= left && y >= top && x <= left + width && y <= top + height,
     );
     if (obstacle >= 0) return { kind: "obstacle", id: obstacle };
-    const cell = this.ground?.cellAt(x, y);
-    return cell && this.ground.holds(cell) && this.ground.isBlocked(this.document, cell)
+    const { ground } = this;
+    const cell = ground?.cellAt(x, y);
+    return cell && ground?.holds(cell) && ground.isBlocked(this.document, cell)
       ? { kind: "cell", id: cell.join() }
       : null;
   }
 
-  /** The lane at a point: its index, and where on it that is, as a share of the curve; or null. */
+  /**
+   * The lane at a point: its index, and where on it that is, as a share of the curve; or null.
+   * @param {{x: number, y: number}} point
+   * @param {number} scale
+   * @returns {{index: number, share: number, x: number, y: number} | null}
+   */
   laneAt({ x, y }, scale) {
     const near = this.lanes.map(({ points }) => distanceTo(points, x, y));
     const index = near.findIndex(({ least }) => least < REACH / scale);
@@ -63,52 +96,66 @@ export class Hits {
     return { index, share, x: at[0], y: at[1] };
   }
 
-  /** All that lies in a rectangle of the drawing. */
+  /**
+   * All that lies in a rectangle of the drawing.
+   * @param {Rect} box
+   * @returns {Item[]}
+   */
   inside([left, top, right, bottom]) {
     const { x, y } = this.roadmap;
+    /**
+     * @param {number} vertex
+     * @returns {boolean}
+     */
     const isIn = (vertex) =>
       vertex >= 0 &&
       x[vertex] >= left &&
       x[vertex] <= right &&
       y[vertex] >= top &&
       y[vertex] <= bottom;
-    const names = isNetwork(this.document)
-      ? Array.from(x.keys())
-          .filter((vertex) => isIn(vertex) && this.isWritten(vertex))
-          .map((vertex) => ({ kind: "vertex", id: this.roadmap.name(vertex) }))
-      : [];
-    return [
-      ...this.robots
-        .filter(({ home }) => isIn(home))
-        .map(({ index }) => ({ kind: "robot", id: index })),
-      ...names,
-      ...this.lanes.flatMap(({ ends }, id) => (ends.every(isIn) ? [{ kind: "lane", id }] : [])),
-      ...this.obstacles.flatMap(([l, t, w, h], id) =>
-        l >= left && t >= top && l + w <= right && t + h <= bottom
-          ? [{ kind: "obstacle", id }]
-          : [],
-      ),
-      ...this.#blockedIn(left, top, right, bottom),
-    ];
+    /** @type {Item[]} */
+    const found = [];
+    for (const { index, home } of this.robots)
+      if (isIn(home)) found.push({ kind: "robot", id: index });
+    if (isNetwork(this.document))
+      for (const vertex of x.keys())
+        if (isIn(vertex) && this.isWritten(vertex))
+          found.push({ kind: "vertex", id: this.roadmap.name(vertex) });
+    this.lanes.forEach(({ ends }, id) => ends.every(isIn) && found.push({ kind: "lane", id }));
+    this.obstacles.forEach(([l, t, w, h], id) => {
+      if (l >= left && t >= top && l + w <= right && t + h <= bottom)
+        found.push({ kind: "obstacle", id });
+    });
+    return [...found, ...this.#blockedIn(left, top, right, bottom)];
   }
 
-  /** The blocked cells of a grid whose middle lies in a rectangle. */
+  /**
+   * The blocked cells of a grid whose middle lies in a rectangle.
+   * @param {number} left
+   * @param {number} top
+   * @param {number} right
+   * @param {number} bottom
+   * @returns {Item[]}
+   */
   #blockedIn(left, top, right, bottom) {
     if (!this.ground) return [];
-    const [from, to] = [
-      [Math.max(Math.ceil(left), 0), Math.max(Math.ceil(top), 0)],
-      [
-        Math.min(Math.floor(right), this.ground.columns - 1),
-        Math.min(Math.floor(bottom), this.ground.rows - 1),
-      ],
+    /** @type {Cell} */
+    const from = [Math.max(Math.ceil(left), 0), Math.max(Math.ceil(top), 0)];
+    /** @type {Cell} */
+    const to = [
+      Math.min(Math.floor(right), this.ground.columns - 1),
+      Math.min(Math.floor(bottom), this.ground.rows - 1),
     ];
     if (from[0] > to[0] || from[1] > to[1]) return [];
-    return this.ground
-      .blockedOf(this.document, cellsOfBox(from, to))
-      .map((cell) => ({ kind: "cell", id: cell.join() }));
+    const blocked = this.ground.blockedOf(this.document, cellsOfBox(from, to));
+    return blocked.map((cell) => /** @type {Item} */ ({ kind: "cell", id: cell.join() }));
   }
 
-  /** The vertex of what is selected, or -1. */
+  /**
+   * The vertex of what is selected, or -1.
+   * @param {Item} item
+   * @returns {number}
+   */
   vertexOf({ kind, id }) {
     if (kind === "robot") return this.robots[id]?.home ?? -1;
     if (kind === "vertex") return this.roadmap.vertexNamed(id);
@@ -117,25 +164,39 @@ export class Hits {
     return this.robots[robot]?.stops[stop] ?? -1;
   }
 
+  /**
+   * @param {number} vertex
+   * @returns {(string | undefined)[]}
+   */
   namesAt(vertex) {
     return this.robots
       .filter(({ home, stops }) => home === vertex || stops.includes(vertex))
       .map(({ robot }) => robot.name);
   }
 
-  /** Whether a vertex is one of the document; those between pieces of a lane are not. */
+  /**
+   * Whether a vertex is one of the document; those between pieces of a lane are not.
+   * @param {number} vertex
+   * @returns {boolean}
+   */
   isWritten(vertex) {
     const { document, roadmap } = this;
-    return isNetwork(document) && roadmap.name(vertex) in document.map.roadmap.vertices;
+    return isNetwork(document) && roadmap.name(vertex) in roadmapOf(document).vertices;
   }
 }
 
 const CURVE_PIECES = 24;
 
-/** A lane as it is drawn: its ends, and the points of the line between them, all in the drawing. */
+/**
+ * A lane as it is drawn: its ends, and the points of the line between them, all in the drawing.
+ * @param {LaneData} lane
+ * @param {ScenarioDocument} document
+ * @param {Roadmap} roadmap
+ * @returns {LaneLine}
+ */
 function lineOf(lane, document, roadmap) {
   const names = endsOf(lane);
-  const [tail, head] = names.map((name) => document.map.roadmap.vertices[name]);
+  const [tail, head] = names.map((name) => roadmapOf(document).vertices[name]);
   const ends = names.map((name) => roadmap.vertexNamed(name));
   if (!tail || !head) return { ends, points: [] };
   const controls = [positionOf(tail), ...controlsOf(lane), positionOf(head)].map((at) =>
@@ -146,8 +207,15 @@ function lineOf(lane, document, roadmap) {
   return { ends, points };
 }
 
-/** How far a point is from a line of several pieces, and which point of it is nearest. */
+/**
+ * How far a point is from a line of several pieces, and which point of it is nearest.
+ * @param {Point[]} points
+ * @param {number} px
+ * @param {number} py
+ * @returns {{least: number, share: number, at: Point}}
+ */
 function distanceTo(points, px, py) {
+  /** @type {{least: number, share: number, at: Point}} */
   let found = { least: Infinity, share: 0, at: [NaN, NaN] };
   for (let i = 1; i < points.length; i++) {
     const [[x, y], [toX, toY]] = [points[i - 1], points[i]];
@@ -161,7 +229,12 @@ function distanceTo(points, px, py) {
   return found;
 }
 
-/** A rectangle of a floor, in the drawing: left, top, width, height. */
+/**
+ * A rectangle of a floor, in the drawing: left, top, width, height.
+ * @param {Numeral[]} rect
+ * @param {Roadmap} roadmap
+ * @returns {Rect}
+ */
 function boxOf(rect, roadmap) {
   const [x, y, width, height] = rect.map((length) => numberOf(length));
   const [one, other] = [toDrawing(roadmap, x, y), toDrawing(roadmap, x + width, y + height)];

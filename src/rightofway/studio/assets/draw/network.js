@@ -1,55 +1,116 @@
 /** Roadmaps: vertices, lanes, stations, parking, zones and closures, as edits of a document. */
 
 import { numberOf, rounded } from "./places.js";
+import { present } from "../given.js";
+/** @import { LaneData, LaneMapping, MapData, Place, Point, PointMap, RoadmapData, ScenarioDocument, VertexData, ZoneData } from "../types.js" */
 
-/** Whether the map is a roadmap that is in the document; squares of adaptive cells are none to draw. */
+/**
+ * Whether the map is a roadmap that is in the document; squares of adaptive cells are none to draw.
+ * @param {{map: MapData}} document
+ * @returns {boolean}
+ */
 export const isNetwork = ({ map }) => Boolean(map?.roadmap && !map.roadmap.sides);
 
-export const lanesOf = ({ map }) => map.roadmap.edges;
+/**
+ * @param {{map: MapData}} document
+ * @returns {LaneData[]}
+ */
+export const lanesOf = (document) => roadmapOf(document).edges;
 
-/** Both ends of a lane, however it is written. */
-export const endsOf = (lane) => (Array.isArray(lane) ? lane.slice(0, 2) : [lane.from, lane.to]);
+/**
+ * The roadmap that is in a document.
+ * @param {{map: MapData}} document
+ * @returns {RoadmapData}
+ */
+export const roadmapOf = ({ map }) => present(map.roadmap);
 
-/** A lane as a mapping. */
+/**
+ * Both ends of a lane, however it is written.
+ * @param {LaneData} lane
+ * @returns {[string, string]}
+ */
+export const endsOf = (lane) => (Array.isArray(lane) ? [lane[0], lane[1]] : [lane.from, lane.to]);
+
+/**
+ * A lane as a mapping.
+ * @param {LaneData} lane
+ * @returns {LaneMapping}
+ */
 export function asMapping(lane) {
   if (!Array.isArray(lane)) return lane;
   const [from, to, length] = lane;
   return length === undefined ? { from, to } : { from, to, length };
 }
 
-/** Where a vertex is on the site, however it is written. */
+/**
+ * Where a vertex is on the site, however it is written.
+ * @param {VertexData} vertex
+ * @returns {Point}
+ */
 export const positionOf = (vertex) =>
   (Array.isArray(vertex) ? vertex : vertex.at).map((length) => numberOf(length));
 
+/**
+ * @param {ScenarioDocument} document
+ * @param {Partial<RoadmapData>} change
+ * @returns {ScenarioDocument}
+ */
 export const withRoadmap = (document, change) => ({
   ...document,
-  map: { ...document.map, roadmap: { ...document.map.roadmap, ...change } },
+  map: { ...document.map, roadmap: { ...roadmapOf(document), ...change } },
 });
 
+/**
+ * @template {object} T
+ * @param {T} mapping
+ * @param {keyof T} key
+ * @returns {T}
+ */
 export const withoutKey = (mapping, key) =>
-  Object.fromEntries(Object.entries(mapping).filter(([known]) => known !== key));
+  /** @type {T} */ (Object.fromEntries(Object.entries(mapping).filter(([known]) => known !== key)));
 
-/** A name that no vertex has: V1, V2, ... */
-export function freeVertexName({ map }, more = []) {
-  let number = Object.keys(map.roadmap.vertices).length + 1;
-  while (`V${number}` in map.roadmap.vertices || more.includes(`V${number}`)) number++;
+/**
+ * A name that no vertex has: V1, V2, ...
+ * @param {{map: MapData}} document
+ * @param {string[]} [more]
+ * @returns {string}
+ */
+export function freeVertexName(document, more = []) {
+  let number = Object.keys(roadmapOf(document).vertices).length + 1;
+  while (`V${number}` in roadmapOf(document).vertices || more.includes(`V${number}`)) number++;
   return `V${number}`;
 }
 
-/** Add a vertex at a place of the site, with what a vertex may have beside its place. */
+/**
+ * Add a vertex at a place of the site, with what a vertex may have beside its place.
+ * @param {ScenarioDocument} document
+ * @param {string} name
+ * @param {Point} position
+ * @param {object & {at?: unknown}} [more]
+ * @returns {ScenarioDocument}
+ */
 export function addVertex(document, name, position, { at: _, ...more } = {}) {
   const at = position.map(rounded);
   const vertex = Object.keys(more).length ? { at, ...more } : at;
   return withRoadmap(document, {
-    vertices: { ...document.map.roadmap.vertices, [name]: vertex },
+    vertices: { ...roadmapOf(document).vertices, [name]: vertex },
   });
 }
 
-/** The control points of a lane that is a curve, on the site; none for a straight one. */
+/**
+ * The control points of a lane that is a curve, on the site; none for a straight one.
+ * @param {LaneData} lane
+ * @returns {Point[]}
+ */
 export const controlsOf = (lane) =>
   (asMapping(lane).curve ?? []).map((point) => point.map((length) => numberOf(length)));
 
-/** Where a Bézier curve is over; its ends are the first and the last point. */
+/**
+ * Where a Bézier curve is over; its ends are the first and the last point.
+ * @param {Point[]} points
+ * @param {number} share
+ * @returns {Point}
+ */
 export function bezierAt(points, share) {
   let left = points;
   while (left.length > 1)
@@ -62,22 +123,42 @@ export function bezierAt(points, share) {
   return left[0];
 }
 
-/** Let a lane be a curve by its control points, or straight without any; it is as long as it is then. */
+/**
+ * Let a lane be a curve by its control points, or straight without any; it is as long as it is then.
+ * @param {ScenarioDocument} document
+ * @param {number} index
+ * @param {Point[]} controls
+ * @returns {ScenarioDocument}
+ */
 export function bendLane(document, index, controls) {
-  const edges = lanesOf(document).map((lane, each) => {
+  /** @type {(lane: LaneData, each: number) => LaneData} */
+  const bentAt = (lane, each) => {
     if (each !== index) return lane;
     const { curve, length, ...rest } = asMapping(lane);
     const isPlain = Object.keys(rest).length === 2;
-    if (!controls.length) return isPlain ? [rest.from, rest.to] : rest;
+    if (!controls.length) return isPlain ? endsOf(rest) : rest;
     return { ...rest, curve: controls.map((point) => point.map(rounded)) };
-  });
+  };
+  const edges = lanesOf(document).map(bentAt);
   return withRoadmap(document, { edges });
 }
 
-/** A lane whose ends are mapped to other places of the site; its curve goes with them. */
+/**
+ * A lane whose ends are mapped to other places of the site; its curve goes with them.
+ * @param {LaneData} lane
+ * @param {Point[]} places
+ * @param {boolean[]} areMoved
+ * @param {PointMap} map
+ * @returns {LaneData}
+ */
 function carried(lane, [tail, head], [tailMoved, headMoved], map) {
   const curve = controlsOf(lane);
-  if (!curve.length) return Array.isArray(lane) ? lane.slice(0, 2) : withoutKey(lane, "length");
+  if (!curve.length) return Array.isArray(lane) ? endsOf(lane) : withoutKey(lane, "length");
+  /**
+   * @param {Point} at
+   * @param {boolean} isMoved
+   * @returns {Point}
+   */
   const shiftOf = (at, isMoved) => map(at).map((to, axis) => (isMoved ? to - at[axis] : 0));
   const [one, other] = [shiftOf(tail, tailMoved), shiftOf(head, headMoved)];
   const moved = curve.map((point, i) => {
@@ -87,13 +168,19 @@ function carried(lane, [tail, head], [tailMoved, headMoved], map) {
       rounded(length + one[axis] * (1 - share) + other[axis] * share),
     );
   });
-  return { ...withoutKey(lane, "length"), curve: moved };
+  return { ...withoutKey(asMapping(lane), "length"), curve: moved };
 }
 
-/** Map vertices to other places of the site; their lanes are as long as they are then. */
+/**
+ * Map vertices to other places of the site; their lanes are as long as they are then.
+ * @param {ScenarioDocument} document
+ * @param {string[]} names
+ * @param {PointMap} map
+ * @returns {ScenarioDocument}
+ */
 export function mapVertices(document, names, map) {
   const moved = new Set(names);
-  const known = document.map.roadmap.vertices;
+  const known = roadmapOf(document).vertices;
   const vertices = Object.fromEntries(
     Object.entries(known).map(([name, vertex]) => {
       if (!moved.has(name)) return [name, vertex];
@@ -111,12 +198,24 @@ export function mapVertices(document, names, map) {
   return withRoadmap(document, { vertices, edges });
 }
 
-/** Put a vertex on a lane, which becomes two; halves of a curve are curves. */
+/**
+ * Put a vertex on a lane, which becomes two; halves of a curve are curves.
+ * @param {ScenarioDocument} document
+ * @param {number} index
+ * @param {number} share
+ * @param {string} name
+ * @returns {ScenarioDocument}
+ */
 export function splitLane(document, index, share, name) {
   const lane = asMapping(lanesOf(document)[index]);
   const { from, to, length, curve, ...rest } = lane;
-  const [tail, head] = [from, to].map((end) => positionOf(document.map.roadmap.vertices[end]));
+  const [tail, head] = [from, to].map((end) => positionOf(roadmapOf(document).vertices[end]));
   const [left, right] = halves([tail, ...controlsOf(lane), head], share);
+  /**
+   * @param {[string, string]} ends
+   * @param {Point[]} points
+   * @returns {LaneData}
+   */
   const half = (ends, points) => {
     const inner = points.slice(1, -1).map((point) => point.map(rounded));
     const isPlain = !Object.keys(rest).length && !inner.length;
@@ -132,7 +231,7 @@ export function splitLane(document, index, share, name) {
   const edges = lanesOf(document).flatMap((each, i) =>
     i === index ? [half([from, name], left), half([name, to], right)] : [each],
   );
-  const zones = document.map.roadmap.zones?.map((zone) => ({
+  const zones = roadmapOf(document).zones?.map((zone) => ({
     ...zone,
     ...(zone.edges && { edges: zone.edges.flatMap((ends) => throughVertex(ends, from, to, name)) }),
   }));
@@ -141,14 +240,22 @@ export function splitLane(document, index, share, name) {
       ? throughVertex(closure.edge, from, to, name).map((edge) => ({ ...closure, edge }))
       : [closure],
   );
-  const added = addVertex(document, name, left.at(-1));
+  const added = addVertex(document, name, left[left.length - 1]);
   return withRoadmap(
     { ...added, ...(closures && { closures }) },
     { edges, ...(zones && { zones }) },
   );
 }
 
-/** Both ways from one end of a lane to the other, by the vertex that was put on it. */
+/**
+ * Both ways from one end of a lane to the other, by the vertex that was put on it.
+ * @template Name
+ * @param {Name[]} ends
+ * @param {Name} from
+ * @param {Name} to
+ * @param {Name} name
+ * @returns {[Name, Name][]}
+ */
 function throughVertex([a, b], from, to, name) {
   const isLane = (a === from && b === to) || (a === to && b === from);
   return isLane
@@ -159,12 +266,18 @@ function throughVertex([a, b], from, to, name) {
     : [[a, b]];
 }
 
-/** A Bézier curve as two, up to a share of it and from there on (de Casteljau). */
+/**
+ * A Bézier curve as two, up to a share of it and from there on (de Casteljau).
+ * @param {Point[]} points
+ * @param {number} share
+ * @returns {[Point[], Point[]]}
+ */
 function halves(points, share) {
+  /** @type {[Point[], Point[]]} */
   const [left, right] = [[], []];
   for (let rest = points; rest.length;) {
     left.push(rest[0]);
-    right.unshift(rest.at(-1));
+    right.unshift(rest[rest.length - 1]);
     rest = rest
       .slice(1)
       .map(([x, y], i) => [
@@ -175,11 +288,21 @@ function halves(points, share) {
   return [left, right];
 }
 
-/** Take vertices away, with their lanes, stations and what else is there. */
+/**
+ * Take vertices away, with their lanes, stations and what else is there.
+ * @param {ScenarioDocument} document
+ * @param {string[]} names
+ * @returns {ScenarioDocument}
+ */
 export function removeVertices(document, names) {
   const gone = new Set(names);
-  const { vertices, stations = {}, parking = [], charging = [], zones = [] } = document.map.roadmap;
-  const isLeft = (name) => !gone.has(name);
+  const { vertices, stations = {}, parking = [], charging = [], zones = [] } = roadmapOf(document);
+  /**
+   * @param {Place} name
+   * @returns {boolean}
+   */
+  const isLeft = (name) => typeof name !== "string" || !gone.has(name);
+  /** @type {Partial<RoadmapData>} */
   const change = {
     vertices: Object.fromEntries(Object.entries(vertices).filter(([name]) => isLeft(name))),
     edges: lanesOf(document).filter((lane) => endsOf(lane).every(isLeft)),
@@ -204,6 +327,11 @@ export function removeVertices(document, names) {
   };
 }
 
+/**
+ * @param {ZoneData} zone
+ * @param {(name: string) => boolean} isLeft
+ * @returns {ZoneData}
+ */
 function thinned(zone, isLeft) {
   const kept = { ...zone };
   if (zone.vertices) kept.vertices = zone.vertices.filter(isLeft);
@@ -211,18 +339,30 @@ function thinned(zone, isLeft) {
   return kept;
 }
 
-/** Give a vertex another name, wherever it is named. */
+/**
+ * Give a vertex another name, wherever it is named.
+ * @param {ScenarioDocument} document
+ * @param {string} before
+ * @param {string} after
+ * @returns {ScenarioDocument}
+ */
 export function renameVertex(document, before, after) {
-  const { vertices, stations, parking, charging, zones } = document.map.roadmap;
+  const { vertices, stations, parking, charging, zones } = roadmapOf(document);
   if (!after || after in vertices) return document;
+  /**
+   * @template Name
+   * @param {Name} name
+   * @returns {Name | string}
+   */
   const named = (name) => (name === before ? after : name);
+  /** @type {Partial<RoadmapData>} */
   const change = {
     vertices: Object.fromEntries(
       Object.entries(vertices).map(([name, vertex]) => [named(name), vertex]),
     ),
     edges: lanesOf(document).map((lane) =>
       Array.isArray(lane)
-        ? [named(lane[0]), named(lane[1]), ...lane.slice(2)]
+        ? /** @type {LaneData} */ ([named(lane[0]), named(lane[1]), ...lane.slice(2)])
         : { ...lane, from: named(lane.from), to: named(lane.to) },
     ),
   };
@@ -259,8 +399,20 @@ export function renameVertex(document, before, after) {
   };
 }
 
-/** Add a lane; nothing changes where there is one already. */
+/**
+ * Add a lane; nothing changes where there is one already.
+ * @param {ScenarioDocument} document
+ * @param {string} from
+ * @param {string} to
+ * @param {boolean} isBothWays
+ * @returns {ScenarioDocument}
+ */
 export function addLane(document, from, to, isBothWays) {
+  /**
+   * @param {string} a
+   * @param {string} b
+   * @returns {boolean}
+   */
   const has = (a, b) =>
     lanesOf(document).some((lane) => {
       const [tail, head] = endsOf(lane);
@@ -273,12 +425,25 @@ export function addLane(document, from, to, isBothWays) {
   });
 }
 
+/**
+ * @param {ScenarioDocument} document
+ * @param {number[]} indices
+ * @returns {ScenarioDocument}
+ */
 export function removeLanes(document, indices) {
   const gone = new Set(indices);
   return withRoadmap(document, { edges: lanesOf(document).filter((_, index) => !gone.has(index)) });
 }
 
-/** Set a key of some lanes; undefined takes it away. */
+/**
+ * Set a key of some lanes; undefined takes it away.
+ * @template {keyof LaneMapping} Key
+ * @param {ScenarioDocument} document
+ * @param {number[]} indices
+ * @param {Key} key
+ * @param {LaneMapping[Key]} value
+ * @returns {ScenarioDocument}
+ */
 export function changeLanes(document, indices, key, value) {
   const chosen = new Set(indices);
   const edges = lanesOf(document).map((lane, index) => {
@@ -289,17 +454,29 @@ export function changeLanes(document, indices, key, value) {
   return withRoadmap(document, { edges });
 }
 
-/** Let a vertex be a place to park or to charge at, or none any more. */
+/**
+ * Let a vertex be a place to park or to charge at, or none any more.
+ * @param {ScenarioDocument} document
+ * @param {"parking" | "charging"} key
+ * @param {string} name
+ * @returns {ScenarioDocument}
+ */
 export function toggleUse(document, key, name) {
-  const known = document.map.roadmap[key] ?? [];
+  const known = roadmapOf(document)[key] ?? [];
   return withRoadmap(document, {
     [key]: known.includes(name) ? known.filter((other) => other !== name) : [...known, name],
   });
 }
 
-/** The station at a vertex gets a name; an empty one takes it away. */
+/**
+ * The station at a vertex gets a name; an empty one takes it away.
+ * @param {ScenarioDocument} document
+ * @param {string} vertex
+ * @param {string} station
+ * @returns {ScenarioDocument}
+ */
 export function nameStation(document, vertex, station) {
-  const others = Object.entries(document.map.roadmap.stations ?? {}).filter(
+  const others = Object.entries(roadmapOf(document).stations ?? {}).filter(
     ([, at]) => at !== vertex,
   );
   return withRoadmap(document, {
@@ -307,10 +484,17 @@ export function nameStation(document, vertex, station) {
   });
 }
 
-/** A zone of what is selected holds one robot at a time. */
+/**
+ * A zone of what is selected holds one robot at a time.
+ * @param {ScenarioDocument} document
+ * @param {string[]} vertices
+ * @param {number[]} lanes
+ * @returns {ScenarioDocument}
+ */
 export function addZone(document, vertices, lanes) {
-  const zones = document.map.roadmap.zones ?? [];
-  const edges = lanes.flatMap((index) => {
+  const zones = roadmapOf(document).zones ?? [];
+  /** @type {(index: number) => [string, string][]} */
+  const waysOf = (index) => {
     const [tail, head] = endsOf(lanesOf(document)[index]);
     return asMapping(lanesOf(document)[index]).both_ways === false
       ? [[tail, head]]
@@ -318,14 +502,20 @@ export function addZone(document, vertices, lanes) {
           [tail, head],
           [head, tail],
         ];
-  });
+  };
+  const edges = lanes.flatMap(waysOf);
   return withRoadmap(document, {
     zones: [...zones, { name: `zone ${zones.length + 1}`, vertices, edges }],
   });
 }
 
+/**
+ * @param {ScenarioDocument} document
+ * @param {number} index
+ * @returns {ScenarioDocument}
+ */
 export function removeZone(document, index) {
   return withRoadmap(document, {
-    zones: document.map.roadmap.zones.filter((_, each) => each !== index),
+    zones: roadmapOf(document).zones?.filter((_, each) => each !== index),
   });
 }

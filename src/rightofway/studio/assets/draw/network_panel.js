@@ -16,19 +16,31 @@ import {
   removeZone,
   renameVertex,
   toggleUse,
+  roadmapOf,
 } from "./network.js";
+/** @import { Edit, LaneMapping, Point, Props, ScenarioDocument, ZoneData } from "../types.js" */
 
+/** @param {Props & {name: string}} props */
 export function VertexPanel({ studio, name }) {
   const { store } = studio;
-  const { stations = {}, parking = [], charging = [] } = store.document.map.roadmap;
+  const { stations = {}, parking = [], charging = [] } = roadmapOf(store.document);
   const station = Object.entries(stations).find(([, at]) => at === name)?.[0] ?? "";
+  /**
+   * @param {string} text
+   * @param {boolean} isOn
+   * @param {Edit} change
+   */
   const check = (text, isOn, change) =>
     html`<label class="check"><input type="checkbox" checked=${isOn} onChange=${() => store.change(change)} /> ${text}</label>`;
+  /**
+   * @param {{target: HTMLInputElement}} event
+   * @returns {void}
+   */
   const rename = ({ target }) => {
     const after = target.value.trim();
     store.change((document) => renameVertex(document, name, after));
     studio.editor.select([
-      { kind: "vertex", id: after in store.document.map.roadmap.vertices ? after : name },
+      { kind: "vertex", id: after in roadmapOf(store.document).vertices ? after : name },
     ]);
   };
   return html`
@@ -41,12 +53,19 @@ export function VertexPanel({ studio, name }) {
     </div>`;
 }
 
+/** @param {Props & {lanes: number[]}} props */
 export function LanePanel({ studio, lanes }) {
   const { store } = studio;
   const all = lanesOf(store.document);
   const known = lanes.filter((index) => all[index]);
   if (!known.length) return null;
   const first = asMapping(all[known[0]]);
+  /**
+   * @template {keyof LaneMapping} Key
+   * @param {Key} key
+   * @param {LaneMapping[Key]} value
+   * @returns {void}
+   */
   const set = (key, value) => store.change((document) => changeLanes(document, known, key, value));
   const wrong = known.flatMap((index) => store.faultsAt(`map.roadmap.edges[${index}]`));
   return html`
@@ -60,7 +79,7 @@ export function LanePanel({ studio, lanes }) {
       <label class="check"><input type="checkbox" checked=${first.both_ways ?? true} onChange=${({ target }) => set("both_ways", target.checked ? undefined : false)} /> ${words.bothWays}</label>
       <label>${words.maxSpeed}<${Field} type="number" min="0.01" step="any" value=${first.max_speed ?? ""} onChange=${({ target }) => set("max_speed", target.value === "" ? undefined : Number(target.value))} /></label>
       <label>${words.shape}<select value=${String(first.curve?.length ?? 0)} onChange=${({ target }) => store.change((document) => bent(document, known, Number(target.value)))}>
-        ${words.shapes.map((name, bends) => html`<option value=${String(bends)}>${name}</option>`)}</select></label>
+        ${words.shapes.map((/** @type {string} */ name, /** @type {number} */ bends) => html`<option value=${String(bends)}>${name}</option>`)}</select></label>
       <${ClosureFields} studio=${studio} place=${{ edge: endsOf(first) }} />
     </div>
     ${known.length === 1 && html`<p class="hint">${words.bendHint}</p>`}
@@ -69,14 +88,25 @@ export function LanePanel({ studio, lanes }) {
 
 const BEND = 0.5; // how far control points are beside the straight line, in parts of its length
 
-/** The document with lanes that have some bends: none, one to the left, or one to each side. */
+/**
+ * The document with lanes that have some bends: none, one to the left, or one to each side.
+ * @param {ScenarioDocument} document
+ * @param {number[]} lanes
+ * @param {number} bends
+ * @returns {ScenarioDocument}
+ */
 function bent(document, lanes, bends) {
   let next = document;
   for (const index of lanes) {
     const [tail, head] = endsOf(lanesOf(document)[index]).map((name) =>
-      positionOf(document.map.roadmap.vertices[name]),
+      positionOf(roadmapOf(document).vertices[name]),
     );
     const along = [head[0] - tail[0], head[1] - tail[1]];
+    /**
+     * @param {number} share
+     * @param {number} side
+     * @returns {Point}
+     */
     const beside = (share, side) => [
       tail[0] + along[0] * share - along[1] * side * BEND,
       tail[1] + along[1] * share + along[0] * side * BEND,
@@ -87,10 +117,15 @@ function bent(document, lanes, bends) {
   return next;
 }
 
+/** @param {Props} props */
 export function ZoneList({ studio }) {
   const { store, editor } = studio;
-  const zones = store.document.map.roadmap.zones ?? [];
-  const [vertices, lanes] = ["vertex", "lane"].map((kind) => editor.selection.of(kind));
+  const zones = roadmapOf(store.document).zones ?? [];
+  const [vertices, lanes] = [editor.selection.of("vertex"), editor.selection.of("lane")];
+  /**
+   * @param {ZoneData} zone
+   * @returns {void}
+   */
   const lit = ({ vertices: names = [] }) =>
     editor.select(names.map((id) => ({ kind: "vertex", id })));
   return html`

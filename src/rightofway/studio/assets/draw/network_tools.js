@@ -9,27 +9,42 @@ import {
   nameStation,
   splitLane,
   toggleUse,
+  roadmapOf,
 } from "./network.js";
 import { radiusAt } from "./overlay.js";
 import { toDrawing } from "./places.js";
 import { wayText } from "./readout.js";
 import { paintGuides, snapped } from "./snapping.js";
+import { present } from "../given.js";
+/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { DrawingPoint, Guide, Point } from "../types.js" */
+/** @import { Editor } from "./editor.js" */
 
 class PointTool {
   isDrawn = false;
-  isBusy = false;
+  /** @type {DrawingPoint | null} */
   over = null;
 
+  /** @param {Editor} editor */
   constructor(editor) {
     this.editor = editor;
   }
 
-  press() {}
+  /** @param {DrawingPoint} _ */
+  press(_) {}
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   drag(point) {
     this.hover(point);
   }
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   hover(point) {
     this.over = point;
   }
@@ -38,18 +53,29 @@ class PointTool {
     this.over = null;
   }
 
-  cancel() {
-    this.isBusy = false;
+  /** Whether something has begun. */
+  get isBusy() {
+    return false;
   }
 
-  /** The name of the vertex at a point, or null; those between pieces of a lane have none to draw with. */
+  cancel() {}
+
+  /**
+   * The name of the vertex at a point, or null; those between pieces of a lane have none to draw with.
+   * @param {DrawingPoint} point
+   * @returns {string | null}
+   */
   vertexNameAt(point) {
     const { editor } = this;
     const vertex = editor.vertexAt(point);
     return vertex >= 0 && editor.hits.isWritten(vertex) ? editor.roadmap.name(vertex) : null;
   }
 
-  /** Make a vertex at a point, on the lane that is there or beside all, and return its name. */
+  /**
+   * Make a vertex at a point, on the lane that is there or beside all, and return its name.
+   * @param {DrawingPoint} point
+   * @returns {string}
+   */
   make(point) {
     const { editor } = this;
     const name = freeVertexName(editor.document);
@@ -61,7 +87,11 @@ class PointTool {
     return name;
   }
 
-  /** Where a vertex would be, in the drawing, and what it would be in line with. */
+  /**
+   * Where a vertex would be, in the drawing, and what it would be in line with.
+   * @param {DrawingPoint} point
+   * @returns {{x: number, y: number, vertex: number, guides: Guide[]}}
+   */
   aimed(point) {
     const { editor } = this;
     const { roadmap } = editor;
@@ -74,6 +104,12 @@ class PointTool {
     return { x, y, vertex, guides };
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Theme} theme
+   * @param {number} scale
+   * @returns {void}
+   */
   paint(context, theme, scale) {
     const { editor, over } = this;
     if (!over) return;
@@ -89,6 +125,10 @@ class PointTool {
 export class VertexTool extends PointTool {
   static called = "vertex";
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   release(point) {
     const { editor } = this;
     if (editor.vertexAt(point) >= 0) return;
@@ -104,21 +144,32 @@ export class VertexTool extends PointTool {
 export class LaneTool extends PointTool {
   static called = "lane";
   isDrawn = true;
+  /** @type {string | null} */
+  began = null; // where the lane before ended when the present press began
+  /** @type {string | null} */
   from = null; // the name of the vertex that the next lane begins at
 
   get isBusy() {
     return this.from !== null;
   }
 
-  set isBusy(_) {
+  cancel() {
     this.from = null;
   }
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   press(point) {
     this.began = this.from;
     if (this.from === null) this.from = this.#at(point);
   }
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   release(point) {
     const { editor } = this;
     const before = this.from;
@@ -127,17 +178,25 @@ export class LaneTool extends PointTool {
       return editor.say(this.from === null ? "" : words.pressLane);
     }
     const to = this.#at(point);
-    editor.store.change((document) => addLane(document, before, to, !point.isMore));
+    if (before !== null)
+      editor.store.change((document) => addLane(document, before, to, !point.isMore));
     this.from = to;
     editor.say(words.pressLane);
   }
 
-  /** The vertex at a point, which is made where there is none. */
+  /**
+   * The vertex at a point, which is made where there is none.
+   * @param {DrawingPoint} point
+   * @returns {string}
+   */
   #at(point) {
     return this.vertexNameAt(point) ?? this.make(point);
   }
 
-  /** Where the lane begins, in the drawing; null while none has begun. */
+  /**
+   * Where the lane begins, in the drawing; null while none has begun.
+   * @returns {Point | null}
+   */
   get #begin() {
     const { editor, from } = this;
     const vertex = from === null ? -1 : editor.roadmap.vertexNamed(from);
@@ -148,16 +207,22 @@ export class LaneTool extends PointTool {
     const begin = this.#begin;
     if (!begin) return "";
     const { roadmap } = this.editor;
-    const { x, y } = this.aimed(this.over);
+    const { x, y } = this.aimed(present(this.over));
     const [from, to] = [roadmap.toSite(...begin), roadmap.toSite(x, y)];
     return wayText(this.editor, [to[0] - from[0], to[1] - from[1]]);
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Theme} theme
+   * @param {number} scale
+   * @returns {void}
+   */
   paint(context, theme, scale) {
     super.paint(context, theme, scale);
     const begin = this.#begin;
     if (!begin) return;
-    const { x, y } = this.aimed(this.over);
+    const { x, y } = this.aimed(present(this.over));
     context.setLineDash([6 / scale, 4 / scale]);
     context.beginPath();
     context.moveTo(...begin);
@@ -171,12 +236,16 @@ export class LaneTool extends PointTool {
 export class MarkTool extends PointTool {
   static called = "mark";
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   release(point) {
     const { editor } = this;
     const vertex = editor.vertexAt(point);
     if (vertex < 0) return editor.say(words.noVertexHere);
     const name = editor.roadmap.name(vertex);
-    const stations = Object.entries(editor.document.map.roadmap.stations ?? {});
+    const stations = Object.entries(roadmapOf(editor.document).stations ?? {});
     editor.store.change((document) => {
       if (point.isMore) return toggleUse(document, "parking", name);
       return nameStation(

@@ -2,12 +2,24 @@
 
 import { ring } from "../../../viz/page/assets/shapes.js";
 import { cellOf } from "./ground.js";
+import { present } from "../given.js";
+/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { Point, RobotHit } from "../types.js" */
+/** @import { Editor } from "./editor.js" */
 
 const MOST_SIGNS = 300;
 const MOST_OF_ONE = 8; // places of a finding; more of them say nothing of where it hurts
+/** @type {Record<string, string>} */
 const SIGNS = { error: "✕", warning: "!", fault: "✕" };
 
-/** Rings round what is selected, boxes round obstacles, bands along lanes. */
+/**
+ * Rings round what is selected, boxes round obstacles, bands along lanes.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Editor} editor
+ * @param {number} scale
+ * @returns {void}
+ */
 export function paintSelection(context, editor, scale) {
   const { hits, selection, roadmap, stage } = editor;
   context.strokeStyle = stage.theme.ink;
@@ -16,7 +28,8 @@ export function paintSelection(context, editor, scale) {
     const vertex = hits.vertexOf(item);
     if (vertex >= 0)
       ring(context, roadmap.x[vertex], roadmap.y[vertex], radiusAt(roadmap, vertex, scale));
-    else if (item.kind === "cell") context.strokeRect(...hits.ground.boxOf(cellOf(item.id)));
+    else if (item.kind === "cell")
+      context.strokeRect(...present(hits.ground).boxOf(cellOf(item.id)));
     else if (item.kind === "obstacle" && hits.obstacles[item.id])
       context.strokeRect(...hits.obstacles[item.id]);
     else if (item.kind === "lane" && hits.lanes[item.id])
@@ -25,25 +38,34 @@ export function paintSelection(context, editor, scale) {
   }
 }
 
-/** Signs at the places of faults and findings; a tip says which, and the list has the words. */
+/**
+ * Signs at the places of faults and findings; a tip says which, and the list has the words.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Editor} editor
+ * @param {number} scale
+ * @returns {void}
+ */
 export function paintFaults(context, { store, hits, roadmap, stage }, scale) {
+  /** @type {[number, string][]} */
   const signs = [];
   for (const { place } of store.faults) {
     const robot = /^robots\[(\d+)\]/.exec(place);
-    if (robot && hits.robots[robot[1]]) {
-      const { home, stops } = hits.robots[robot[1]];
+    if (robot && hits.robots[Number(robot[1])]) {
+      const { home, stops } = hits.robots[Number(robot[1])];
       signs.push([home >= 0 ? home : (stops.find((stop) => stop >= 0) ?? -1), "fault"]);
     }
     const lane = /^map\.roadmap\.edges\[(\d+)\]/.exec(place);
     context.strokeStyle = stage.theme.held;
-    if (lane && hits.lanes[lane[1]]) band(context, hits.lanes[lane[1]].points, 4 / scale);
+    if (lane && hits.lanes[Number(lane[1])])
+      band(context, hits.lanes[Number(lane[1])].points, 4 / scale);
     const box = /^map\.floor\.obstacles\[(\d+)\]/.exec(place);
     context.lineWidth = 2.5 / scale;
-    if (box && hits.obstacles[box[1]]) context.strokeRect(...hits.obstacles[box[1]]);
+    if (box && hits.obstacles[Number(box[1])])
+      context.strokeRect(...hits.obstacles[Number(box[1])]);
   }
   for (const { severity, vertices } of store.survey.findings) {
     if (SIGNS[severity] && vertices.length <= MOST_OF_ONE)
-      signs.push(...vertices.map((name) => [roadmap.vertexNamed(name), severity]));
+      for (const name of vertices) signs.push([roadmap.vertexNamed(name), severity]);
   }
   const marked = new Set();
   for (const [vertex, kind] of signs.slice(0, MOST_SIGNS)) {
@@ -53,7 +75,16 @@ export function paintFaults(context, { store, hits, roadmap, stage }, scale) {
   }
 }
 
-/** A small disc with a sign, at the upper right of a place. */
+/**
+ * A small disc with a sign, at the upper right of a place.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Roadmap} roadmap
+ * @param {number} vertex
+ * @param {string} kind
+ * @param {Theme} theme
+ * @param {number} scale
+ * @returns {void}
+ */
 function sign(context, { x, y }, vertex, kind, theme, scale) {
   context.save();
   context.translate(x[vertex], y[vertex]);
@@ -71,7 +102,14 @@ function sign(context, { x, y }, vertex, kind, theme, scale) {
   context.restore();
 }
 
-/** From the home of a robot to its stops, dashed. */
+/**
+ * From the home of a robot to its stops, dashed.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Roadmap} roadmap
+ * @param {RobotHit} robot
+ * @param {number} scale
+ * @returns {void}
+ */
 function route(context, { x, y }, { home, stops }, scale) {
   const places = [home, ...stops].filter((vertex) => vertex >= 0);
   context.lineWidth = 1.5 / scale;
@@ -82,7 +120,14 @@ function route(context, { x, y }, { home, stops }, scale) {
   context.setLineDash([]);
 }
 
-/** A trip that is being placed: a ring at its home, dashed to its stops; points of the drawing. */
+/**
+ * A trip that is being placed: a ring at its home, dashed to its stops; points of the drawing.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Editor} editor
+ * @param {number} scale
+ * @param {Point[]} points
+ * @returns {void}
+ */
 export function paintTrip(context, { roadmap, stage: { theme } }, scale, points) {
   context.strokeStyle = theme.ink;
   context.lineWidth = 2 / scale;
@@ -94,7 +139,13 @@ export function paintTrip(context, { roadmap, stage: { theme } }, scale, points)
   context.setLineDash([]);
 }
 
-/** A line along a lane. */
+/**
+ * A line along a lane.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Point[]} points
+ * @param {number} width
+ * @returns {void}
+ */
 function band(context, points, width) {
   context.lineWidth = width;
   context.beginPath();
@@ -102,7 +153,13 @@ function band(context, points, width) {
   context.stroke();
 }
 
-/** The radius of a ring round a vertex, or within its cell. */
+/**
+ * The radius of a ring round a vertex, or within its cell.
+ * @param {Roadmap} roadmap
+ * @param {number} vertex
+ * @param {number} scale
+ * @returns {number}
+ */
 export function radiusAt(roadmap, vertex, scale) {
   return roadmap.hasCells ? Math.max(0.5 * (roadmap.sides?.[vertex] ?? 1), 9 / scale) : 13 / scale;
 }

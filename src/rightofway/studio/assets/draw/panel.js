@@ -8,9 +8,12 @@ import { words } from "../words.js";
 import { BackdropPanel } from "./backdrop.js";
 import { withoutKey } from "./network.js";
 import { LanePanel, VertexPanel, ZoneList } from "./network_panel.js";
-import { withObstacles } from "./ground.js";
+import { obstaclesOf, withObstacles } from "./ground.js";
 import { numberOf } from "./places.js";
+/** @import { ScenarioStore } from "../document.js" */
+/** @import { MapData, Numeral, Props, RulesData } from "../types.js" */
 
+/** @param {Props} props */
 export function MapPanel({ studio }) {
   const { store, editor } = studio;
   const { map } = store.document;
@@ -36,17 +39,30 @@ export function MapPanel({ studio }) {
     }</div>`;
 }
 
-/** Size and cells, where the document has them. */
+/**
+ * Size and cells, where the document has them.
+ * @param {Props} props
+ */
 function Size({ studio }) {
   const { store } = studio;
   const { map, units = {} } = store.document;
+  const { floor } = map;
+  /**
+   * @param {Partial<MapData>} change
+   * @returns {void}
+   */
   const setMap = (change) =>
     store.change((document) => ({ ...document, map: { ...document.map, ...change } }));
   const unit = units.length ?? "";
   const hasCells = map.layout
-    ? Boolean(store.site?.map.rows ?? store.site?.map.sides)
+    ? store.site !== null && ("rows" in store.site.map || Boolean(store.site.map.sides))
     : !map.roadmap;
   const place = map.floor ? "map.floor" : "map";
+  /**
+   * @param {string} text
+   * @param {Numeral} value
+   * @param {(value: number) => void} set
+   */
   const number = (
     text,
     value,
@@ -58,9 +74,9 @@ function Size({ studio }) {
     <section><h2>${words.size}</h2>
       <div class="fields">
         ${
-          map.floor &&
-          html`${number(words.width, map.floor.size[0], (width) => setMap({ floor: { ...map.floor, size: [width, map.floor.size[1]] } }))}
-          ${number(words.height, map.floor.size[1], (height) => setMap({ floor: { ...map.floor, size: [map.floor.size[0], height] } }))}`
+          floor &&
+          html`${number(words.width, floor.size[0], (width) => setMap({ floor: { ...floor, size: [width, floor.size[1]] } }))}
+          ${number(words.height, floor.size[1], (height) => setMap({ floor: { ...floor, size: [floor.size[0], height] } }))}`
         }
         ${
           map.cell_size === "adaptive"
@@ -77,13 +93,20 @@ function Size({ studio }) {
     </section>`;
 }
 
-/** Whether robots that are wider than a cell keep their distance from walls. */
+/**
+ * Whether robots that are wider than a cell keep their distance from walls.
+ * @param {{store: ScenarioStore}} props
+ */
 function StrictWalls({ store }) {
   const { rules } = store.document;
   if (typeof rules === "string") return null; // rules by name
+  /**
+   * @param {{target: HTMLInputElement}} event
+   * @returns {void}
+   */
   const toggle = ({ target }) =>
     store.change((document) => {
-      const { walls, ...rest } = document.rules ?? {};
+      const { walls, ...rest } = /** @type {RulesData} */ (document.rules ?? {});
       if (target.checked) return { ...document, rules: { ...rest, walls: "strict" } };
       return Object.keys(rest).length
         ? { ...document, rules: rest }
@@ -92,19 +115,24 @@ function StrictWalls({ store }) {
   return html`<label class="check" title=${words.strictWallsHint}><input type="checkbox" checked=${rules?.walls === "strict"} onChange=${toggle} /> ${words.strictWalls}</label>`;
 }
 
-/** What is selected on the map, and what can be done with it. */
+/**
+ * What is selected on the map, and what can be done with it.
+ * @param {Props} props
+ */
 function Selected({ studio }) {
   const { store, editor } = studio;
   const { selection } = editor;
   if (!selection.size) return null;
-  const [vertices, lanes, obstacles] = ["vertex", "lane", "obstacle"].map((kind) =>
-    selection.of(kind),
-  );
+  const [vertices, lanes] = [selection.of("vertex"), selection.of("lane")];
   const known = store.document.map.floor?.obstacles ?? [];
-  const [obstacle] = obstacles;
+  const [obstacle] = selection.of("obstacle");
   const isOne = selection.size === 1;
   const select = editor.tools.get("select");
   const canTurn = !isOne || ["obstacle", "lane"].includes(selection.items[0].kind);
+  /**
+   * @param {string} text
+   * @param {() => void} action
+   */
   const button = (text, action) =>
     html`<button type="button" class="framed" onClick=${action}>${text}</button>`;
   return html`
@@ -117,7 +145,7 @@ function Selected({ studio }) {
           store.change((document) =>
             withObstacles(
               document,
-              document.map.floor.obstacles.map((each, i) =>
+              obstaclesOf(document).map((each, i) =>
                 i === obstacle ? { ...each, name: target.value } : each,
               ),
             ),

@@ -13,27 +13,41 @@ import {
   lanesOf,
   positionOf,
   withRoadmap,
+  roadmapOf,
 } from "./network.js";
-import { placeOf, rounded, toDrawing, vertexOf } from "./places.js";
+import { AXES, placeOf, rounded, toDrawing, vertexOf } from "./places.js";
+import { present } from "../given.js";
+/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Item, LaneData, Piece, Place, Point, PointMap, RobotData, ScenarioDocument } from "../types.js" */
+/** @import { Editor } from "./editor.js" */
 
 const FORMAT = "rightofway-piece/1";
 
-/** What is selected, with places of the site; a lane takes its ends along. */
+/**
+ * What is selected, with places of the site; a lane takes its ends along.
+ * @param {Editor} editor
+ * @returns {Piece}
+ */
 export function pieceOf(editor) {
   const { selection, document, hits, roadmap } = editor;
+  /** @type {Piece} */
   const piece = { format: FORMAT, blocked: blockedOf(editor), robots: [] };
   for (const index of selection.of("robot")) {
     const { home } = hits.robots[index];
     if (home < 0) continue;
     const at = roadmap.toSite(roadmap.x[home], roadmap.y[home]).map(rounded);
-    piece.robots.push({ at, robot: robotsOf(document)[index] });
+    piece.robots.push({ at, robot: hits.robots[index].robot });
   }
   if (!isNetwork(document)) return piece;
-  const { vertices, stations = {}, parking = [], charging = [] } = document.map.roadmap;
+  const { vertices, stations = {}, parking = [], charging = [] } = roadmapOf(document);
   const all = lanesOf(document);
   const chosen = new Set(selection.of("lane"));
   const names = new Set(selection.of("vertex").filter((name) => name in vertices));
   for (const index of chosen) if (all[index]) endsOf(all[index]).forEach((end) => names.add(end));
+  /**
+   * @param {string} name
+   * @returns {boolean}
+   */
   const isIn = (name) => names.has(name);
   const hasVertices = selection.of("vertex").length > 0;
   return {
@@ -48,12 +62,24 @@ export function pieceOf(editor) {
   };
 }
 
+/**
+ * @param {Piece} piece
+ * @returns {boolean}
+ */
 export const isEmpty = ({ blocked, robots, vertices = {} }) =>
   !blocked.length && !robots.length && !Object.keys(vertices).length;
 
-/** A piece as the clipboard has it, and back; null for any other text. */
+/**
+ * A piece as the clipboard has it, and back; null for any other text.
+ * @param {Piece} piece
+ * @returns {string}
+ */
 export const textOfPiece = (piece) => JSON.stringify(piece);
 
+/**
+ * @param {string} text
+ * @returns {Piece | null}
+ */
 export function pieceOfText(text) {
   try {
     const piece = JSON.parse(text);
@@ -63,10 +89,19 @@ export function pieceOfText(text) {
   }
 }
 
+/**
+ * @param {unknown} values
+ * @param {number} count
+ * @returns {boolean}
+ */
 const areNumbers = (values, count) =>
   Array.isArray(values) && values.length === count && values.every(Number.isFinite);
 
-/** Whether a piece has what is looked at before the library reads it. */
+/**
+ * Whether a piece has what is looked at before the library reads it.
+ * @param {Piece} piece
+ * @returns {boolean}
+ */
 function isWhole({ blocked, robots, vertices = {}, lanes = [] }) {
   return (
     Array.isArray(blocked) &&
@@ -79,7 +114,11 @@ function isWhole({ blocked, robots, vertices = {}, lanes = [] }) {
   );
 }
 
-/** The middle of a piece on the site. */
+/**
+ * The middle of a piece on the site.
+ * @param {Piece} piece
+ * @returns {Point}
+ */
 export function middleOf({ blocked, robots, vertices = {} }) {
   const corners = [
     ...blocked.flatMap(({ rect: [x, y, width, height] }) => [
@@ -89,24 +128,45 @@ export function middleOf({ blocked, robots, vertices = {} }) {
     ...robots.map(({ at }) => at),
     ...Object.values(vertices).map(positionOf),
   ];
-  return [0, 1].map((axis) => {
+  return AXES.map((axis) => {
     const values = corners.map((corner) => corner[axis]);
     return (Math.min(...values) + Math.max(...values)) / 2;
   });
 }
 
-/** Put a piece into a document, shifted on the site: the document, and what is to be selected. */
+/**
+ * Put a piece into a document, shifted on the site: the document, and what is to be selected.
+ * @param {Editor} editor
+ * @param {ScenarioDocument} document
+ * @param {Piece} piece
+ * @param {Point} shift
+ * @returns {{document: ScenarioDocument, items: Item[]}}
+ */
 export function withPiece(editor, document, piece, shift) {
+  /** @type {Item[]} */
   const items = [];
+  /**
+   * @param {Point} at
+   * @returns {Point}
+   */
   const map = (at) => at.map((length, axis) => length + shift[axis]);
   let next = withBlocked(editor, document, piece.blocked, map, items);
+  /** @type {Map<Place | undefined, string>} */
   const names = new Map();
   if (isNetwork(next) && piece.vertices) next = withVertices(next, piece, map, names, items);
   if (robotsOf(next)) next = withRobots(editor, next, piece.robots, map, names, items);
   return { document: next, items };
 }
 
-function withBlocked({ ground, roadmap, hits }, document, blocked, map, items) {
+/**
+ * @param {Editor} editor
+ * @param {ScenarioDocument} document
+ * @param {Piece["blocked"]} blocked
+ * @param {PointMap} map
+ * @param {Item[]} items
+ * @returns {ScenarioDocument}
+ */
+function withBlocked({ roadmap, hits }, document, blocked, map, items) {
   const rects = blocked.map((each) => ({ ...each, rect: mapRect(each.rect, map) }));
   if (document.map.floor) {
     const known = document.map.floor.obstacles ?? [];
@@ -114,34 +174,45 @@ function withBlocked({ ground, roadmap, hits }, document, blocked, map, items) {
     return rects.length ? withObstacles(document, [...known, ...rects]) : document;
   }
   if (!document.map.grid) return document;
-  const cells = rects.flatMap(({ rect }) => cellsOfRect(hits.ground, roadmap, rect));
-  items.push(...cells.map((cell) => ({ kind: "cell", id: cell.join() })));
-  return cells.length ? ground.block(document, cells) : document;
+  const grid = present(hits.ground);
+  const cells = rects.flatMap(({ rect }) => cellsOfRect(grid, roadmap, rect));
+  for (const cell of cells) items.push({ kind: "cell", id: cell.join() });
+  return cells.length ? grid.block(document, cells) : document;
 }
 
+/**
+ * @param {ScenarioDocument} document
+ * @param {Piece} piece
+ * @param {PointMap} map
+ * @param {Map<Place | undefined, string>} names
+ * @param {Item[]} items
+ * @returns {ScenarioDocument}
+ */
 function withVertices(document, piece, map, names, items) {
   let next = document;
-  for (const [name, vertex] of Object.entries(piece.vertices)) {
-    const copy = name in next.map.roadmap.vertices ? freeVertexName(next) : name;
+  for (const [name, vertex] of Object.entries(piece.vertices ?? {})) {
+    const copy = name in roadmapOf(next).vertices ? freeVertexName(next) : name;
     names.set(name, copy);
     items.push({ kind: "vertex", id: copy });
     const more = Array.isArray(vertex) ? {} : vertex;
     next = addVertex(next, copy, map(positionOf(vertex)), more);
   }
-  const roadmap = next.map.roadmap;
-  const lanes = piece.lanes.map((lane) => {
-    const [from, to] = endsOf(lane).map((end) => names.get(end));
+  const roadmap = roadmapOf(next);
+  /** @type {(lane: LaneData) => LaneData} */
+  const moved = (lane) => {
+    const [from, to] = endsOf(lane).map((end) => present(names.get(end)));
     const curve = controlsOf(lane).map((point) => map(point).map(rounded));
-    if (Array.isArray(lane)) return [from, to, ...lane.slice(2)];
+    if (Array.isArray(lane)) return lane.length > 2 ? [from, to, lane[2]] : [from, to];
     return { ...asMapping(lane), from, to, ...(curve.length && { curve }) };
-  });
+  };
+  const lanes = (piece.lanes ?? []).map(moved);
   const stations = { ...roadmap.stations };
   for (const [station, at] of Object.entries(piece.stations ?? {}))
-    stations[freeStation(stations, station)] = names.get(at);
-  const [parking, charging] = ["parking", "charging"].map((key) => [
-    ...(roadmap[key] ?? []),
-    ...(piece[key] ?? []).map((name) => names.get(name)),
-  ]);
+    stations[freeStation(stations, station)] = present(names.get(at));
+  const copied = (/** @type {string[] | undefined} */ all) =>
+    (all ?? []).map((name) => present(names.get(name)));
+  const parking = [...(roadmap.parking ?? []), ...copied(piece.parking)];
+  const charging = [...(roadmap.charging ?? []), ...copied(piece.charging)];
   return withRoadmap(next, {
     edges: [...roadmap.edges, ...lanes],
     ...(Object.keys(stations).length && { stations }),
@@ -150,6 +221,11 @@ function withVertices(document, piece, map, names, items) {
   });
 }
 
+/**
+ * @param {Record<string, string>} stations
+ * @param {string} name
+ * @returns {string}
+ */
 function freeStation(stations, name) {
   if (!(name in stations)) return name;
   let number = 2;
@@ -157,11 +233,26 @@ function freeStation(stations, name) {
   return `${name}-${number}`;
 }
 
+/**
+ * @param {Editor} editor
+ * @param {ScenarioDocument} document
+ * @param {Piece["robots"]} robots
+ * @param {PointMap} map
+ * @param {Map<Place | undefined, string>} names
+ * @param {Item[]} items
+ * @returns {ScenarioDocument}
+ */
 function withRobots(editor, document, robots, map, names, items) {
   const { roadmap } = editor;
-  const taken = new Set(robotsOf(document).map(({ home }) => vertexOf(home, roadmap)));
-  const known = new Set(robotsOf(document).map(({ name }) => name));
+  const there = robotsOf(document) ?? [];
+  const taken = new Set(there.map(({ home }) => vertexOf(home, roadmap)));
+  const known = new Set(there.map(({ name }) => name));
+  /**
+   * @param {Place | undefined} at
+   * @returns {Place | undefined}
+   */
   const place = (at) => names.get(at) ?? at;
+  /** @type {RobotData[]} */
   const news = [];
   for (const { at, robot } of robots) {
     const { name, ...rest } = robot;
@@ -176,12 +267,18 @@ function withRobots(editor, document, robots, map, names, items) {
     );
     news.push(known.has(name) ? trip : { name, ...trip });
   }
-  const first = robotsOf(document).length;
+  const first = there.length;
   news.forEach((_, i) => items.push({ kind: "robot", id: first + i }));
   return news.length ? addRobots(document, news) : document;
 }
 
-/** The free vertex that is nearest to another one. */
+/**
+ * The free vertex that is nearest to another one.
+ * @param {number} vertex
+ * @param {Set<number>} taken
+ * @param {Roadmap} roadmap
+ * @returns {number}
+ */
 function freeNear(vertex, taken, roadmap) {
   if (vertex < 0) return -1;
   const seen = new Set([vertex]);

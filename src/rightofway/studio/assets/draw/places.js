@@ -1,16 +1,41 @@
 /** Places of a document, vertices of the map, and points of its drawing. */
 
-/** A number of a document, which may be written as a fraction. */
+/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { MapData, Numeral, Place, Point, ScenarioDocument } from "../types.js" */
+
+
+/**
+ * Both axes of a point.
+ * @type {[0, 1]}
+ */
+export const AXES = [0, 1];
+
+/**
+ * A number of a document, which may be written as a fraction.
+ * @param {Numeral | null | undefined} value
+ * @param {number} [otherwise]
+ * @returns {number}
+ */
 export function numberOf(value, otherwise = NaN) {
   if (value === undefined || value === null || value === "") return otherwise;
   const [top, bottom = 1] = String(value).split("/").map(Number);
   return top / bottom;
 }
 
-/** A length without the noise of floating point: to a millionth. */
+/**
+ * A length without the noise of floating point: to a millionth.
+ * @param {number} value
+ * @returns {number}
+ */
 export const rounded = (value) => Number(value.toFixed(6));
 
-/** Where a point of the site [length unit] is in the drawing; undoes `Roadmap.toSite`. */
+/**
+ * Where a point of the site [length unit] is in the drawing; undoes `Roadmap.toSite`.
+ * @param {Roadmap} roadmap
+ * @param {number} right
+ * @param {number} up
+ * @returns {Point}
+ */
 export function toDrawing({ frame, unit }, right, up) {
   const [cos, sin] = [Math.cos(frame.yaw ?? 0), Math.sin(frame.yaw ?? 0)];
   const [x, y] = [right - frame.x, up - frame.y];
@@ -18,18 +43,33 @@ export function toDrawing({ frame, unit }, right, up) {
   return [u / unit, (frame.yUp ? -v : v) / unit];
 }
 
-/** Whether places are written as points: where cells come from lengths, and may become others. */
+/**
+ * Whether places are written as points: where cells come from lengths, and may become others.
+ * @param {{map: MapData}} document
+ * @returns {boolean}
+ */
 const isByPoint = ({ map }) =>
   Boolean(map.floor) || (Boolean(map.layout) && map.cell_size !== undefined);
 
-/** A vertex of the map as the document names it. */
+/**
+ * A vertex of the map as the document names it.
+ * @param {number} vertex
+ * @param {Roadmap} roadmap
+ * @param {ScenarioDocument} document
+ * @returns {Place}
+ */
 export function placeOf(vertex, roadmap, document) {
   if (!isByPoint(document) || !roadmap.hasCells) return roadmap.name(vertex);
   const [x, y] = roadmap.toSite(roadmap.x[vertex], roadmap.y[vertex]).map(rounded);
   return { x, y };
 }
 
-/** The vertex of a place in a document, or -1. */
+/**
+ * The vertex of a place in a document, or -1.
+ * @param {Place | null | undefined} place
+ * @param {Roadmap} roadmap
+ * @returns {number}
+ */
 export function vertexOf(place, roadmap) {
   if (place === undefined || place === null) return -1;
   if (Array.isArray(place)) return roadmap.near(place[1], place[0]);
@@ -41,14 +81,22 @@ export function vertexOf(place, roadmap) {
   return -1;
 }
 
-/** A place as one reads it in a table: "N3", "1.25, 0.75", "row 2, column 3". */
+/**
+ * A place as one reads it in a table: "N3", "1.25, 0.75", "row 2, column 3".
+ * @param {Place | null | undefined} place
+ * @returns {string}
+ */
 export function textOfPlace(place) {
   if (place === undefined || place === null) return "";
   if (Array.isArray(place)) return `[${place.join(", ")}]`;
   return typeof place === "object" ? `${place.x}, ${place.y}` : String(place);
 }
 
-/** The place that somebody has typed; undefined for nothing. */
+/**
+ * The place that somebody has typed; undefined for nothing.
+ * @param {string} text
+ * @returns {Place | undefined}
+ */
 export function placeOfText(text) {
   const written = text.trim();
   if (!written) return undefined;

@@ -1,6 +1,11 @@
 /** A place or a lane that somebody presses on the map that is shown, a plan's too. */
 
 import { placeOf } from "./places.js";
+/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Stage } from "../stage.js" */
+/** @import { Studio } from "../studio.js" */
+/** @import { Place } from "../types.js" */
+/** @import { PageEvent } from "../vendor/htm-preact.js" */
 
 const STILL = 4; // pixels that a press may move
 const REACH = 12; // pixels round a lane
@@ -8,19 +13,40 @@ const REACH = 12; // pixels round a lane
 /**
  * Wait for one press; resolves with the places as a document names them: one, both ends of a lane,
  * or none for Escape and for a signal that gives up.
+ * @param {Studio} studio
+ * @param {AbortSignal} signal
+ * @returns {Promise<Place[]>}
  */
 export function pressedPlace({ stage, store }, signal) {
   const { holder } = stage;
   const waiting = new AbortController();
+  /**
+   * @param {EventTarget} target
+   * @param {string} name
+   * @param {(event: PageEvent) => void} action
+   * @returns {void}
+   */
   const on = (target, name, action) =>
-    target.addEventListener(name, action, { capture: true, signal: waiting.signal });
-  const shows = (isPicking) => {
+    target.addEventListener(name, /** @type {(event: Event) => void} */ (action), {
+      capture: true,
+      signal: waiting.signal,
+    });
+  const shows = (/** @type {boolean} */ isPicking) => {
     stage.isPicking = isPicking;
     holder.classList.toggle("picking", isPicking);
   };
+  /**
+   * @param {boolean} isPicking
+   * @returns {void}
+   */
   shows(true);
   return new Promise((resolve) => {
+    /** @type {PageEvent | null} */
     let began = null;
+    /**
+     * @param {Place[]} places
+     * @returns {void}
+     */
     const end = (places) => {
       waiting.abort();
       shows(false);
@@ -47,7 +73,12 @@ export function pressedPlace({ stage, store }, signal) {
   });
 }
 
-/** The vertex at an event, or both ends of the lane there. */
+/**
+ * The vertex at an event, or both ends of the lane there.
+ * @param {Stage} stage
+ * @param {{clientX: number, clientY: number}} at
+ * @returns {number[]}
+ */
 function placesAt({ holder, view, plan: { roadmap } }, { clientX, clientY }) {
   const { left, top } = holder.getBoundingClientRect();
   const { viewport } = view;
@@ -58,6 +89,13 @@ function placesAt({ holder, view, plan: { roadmap } }, { clientX, clientY }) {
   return lanes.find((ends) => distanceTo(roadmap, ends, x, y) * viewport.scale < REACH) ?? [];
 }
 
+/**
+ * @param {Roadmap} roadmap
+ * @param {number[]} ends
+ * @param {number} px
+ * @param {number} py
+ * @returns {number}
+ */
 function distanceTo({ x, y }, [tail, head], px, py) {
   const [right, down] = [x[head] - x[tail], y[head] - y[tail]];
   const along =

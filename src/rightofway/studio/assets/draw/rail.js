@@ -4,21 +4,42 @@ import { html } from "../vendor/htm-preact.js";
 import { Icon } from "../icons.js";
 import { TOOL_KEYS } from "../keys.js";
 import { words } from "../words.js";
+/** @import { Props } from "../types.js" */
+/** @import { PageEvent } from "../vendor/htm-preact.js" */
 
+/** @type {Record<string, number>} */
+const STEPS = { ArrowDown: 1, ArrowUp: -1 };
+
+/** @param {Props} props */
 export function Rail({ studio }) {
   const { editor, stage, store } = studio;
   const fitting = store.site ? editor.fitting : [];
+  /**
+   * @param {string} name
+   * @returns {void}
+   */
   const take = (name) => {
     if (!editor.isOn) studio.showTab(name === "robot" ? "robots" : "map");
     editor.take(name);
   };
+  /**
+   * @param {PageEvent} event
+   * @returns {void}
+   */
   const move = (event) => {
-    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    const step = STEPS[event.key];
     if (!step) return;
     event.preventDefault();
     const buttons = [...event.currentTarget.querySelectorAll("button")];
-    buttons[(buttons.indexOf(event.target) + step + buttons.length) % buttons.length].focus();
+    const at = buttons.findIndex((each) => each === document.activeElement);
+    buttons[(at + step + buttons.length) % buttons.length].focus();
   };
+  /**
+   * @param {string} name
+   * @param {string} text
+   * @param {string} key
+   * @param {() => void} action
+   */
   const press = (name, text, key, action) =>
     html`<button type="button" aria-label=${text} title=${`${text} (${key})`} onClick=${action}><${Icon} name=${name} /></button>`;
   return html`

@@ -1,23 +1,43 @@
 /** Numbers at the pointer and rulers along the map, in the length unit of the scenario. */
 
 import { rounded } from "./places.js";
+/** @import { Stage } from "../stage.js" */
+/** @import { Point } from "../types.js" */
+/** @import { Editor } from "./editor.js" */
 
 export const RULER = 18; // pixels that a ruler is wide
 const GAP = 64; // pixels between two numbers of a ruler, at least
 const LARGE = 2000; // pixels of a map from which on its texts are larger
 
-/** A length as people read it. */
+/**
+ * A length as people read it.
+ * @param {Editor} editor
+ * @param {number} length
+ * @returns {string}
+ */
 export const lengthText = ({ stage }, length) =>
   stage.plan.quantities.length(rounded(Number(length.toFixed(3))));
 
-/** How far something went: along both axes, and straight. */
+/**
+ * How far something went: along both axes, and straight.
+ * @param {Editor} editor
+ * @param {Point} way
+ * @returns {string}
+ */
 export function wayText(editor, [right, up]) {
   const straight = Math.hypot(right, up);
   const [x, y, way] = [right, up, straight].map((length) => lengthText(editor, length));
   return Math.abs(right) < 1e-9 || Math.abs(up) < 1e-9 ? way : `${way}  (${x}, ${y})`;
 }
 
-/** A text in a pill, right below a point of the screen [pixels], inside of the map. */
+/**
+ * A text in a pill, right below a point of the screen [pixels], inside of the map.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Editor} editor
+ * @param {string} text
+ * @param {{x: number, y: number}} at
+ * @returns {void}
+ */
 export function paintReadout(context, { stage }, text, { x, y }) {
   const { canvas, ratio } = screenOf(context, stage);
   const { theme } = stage;
@@ -40,14 +60,29 @@ export function paintReadout(context, { stage }, text, { x, y }) {
   context.restore();
 }
 
+/**
+ * @param {{clientWidth: number}} canvas
+ * @returns {number}
+ */
 const sizeOf = ({ clientWidth }) => (clientWidth > LARGE ? 18 : 13);
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Stage} stage
+ * @returns {{canvas: HTMLCanvasElement, ratio: number}}
+ */
 function screenOf(context, { view }) {
   const { canvas } = view.viewport;
   return { canvas, ratio: context.canvas.width / canvas.clientWidth };
 }
 
-/** Rulers along the upper and the left border, with marks where the pointer is. */
+/**
+ * Rulers along the upper and the left border, with marks where the pointer is.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Editor} editor
+ * @param {{x: number, y: number} | undefined} pointer
+ * @returns {void}
+ */
 export function paintRulers(context, { stage }, pointer) {
   const { roadmap, viewport } = stage.view;
   if (roadmap.frame.yaw) return; // its axes are not the screen's
@@ -110,18 +145,33 @@ export function paintRulers(context, { stage }, pointer) {
   context.restore();
 }
 
-/** The least of 1, 2, 5, 10, ... that is not below a length. */
+/**
+ * The least of 1, 2, 5, 10, ... that is not below a length.
+ * @param {number} least
+ * @returns {number}
+ */
 function roundLength(least) {
   const power = 10 ** Math.floor(Math.log10(least));
-  return [1, 2, 5, 10].find((digit) => digit * power >= least * (1 - 1e-9)) * power;
+  return ([1, 2, 5].find((digit) => digit * power >= least * (1 - 1e-9)) ?? 10) * power;
 }
 
-/** Values between two, five in a step, and whether each is a whole step. */
+/**
+ * Values between two, five in a step, and whether each is a whole step.
+ * @param {number} from
+ * @param {number} to
+ * @param {number} step
+ * @returns {Generator<[number, boolean]>}
+ */
 function* ticks(from, to, step) {
   const small = step / 5;
   for (let i = Math.ceil(from / small - 1e-9); i * small <= to; i++) yield [i * small, i % 5 === 0];
 }
 
+/**
+ * @param {number} value
+ * @param {number} step
+ * @returns {string}
+ */
 function shortNumber(value, step) {
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   return value.toFixed(digits).replace(/^-(0(\.0+)?)$/, "$1");

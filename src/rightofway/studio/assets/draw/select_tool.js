@@ -1,17 +1,21 @@
 /** Select, move, copy and delete what is on the map: one thing, several with Shift, all in a box. */
 
-import { changeRobots, removeRobots, stopsOf, withStops } from "../robots/fleet.js";
+import { changeRobots, removeRobots, robotsOf, stopsOf, withStops } from "../robots/fleet.js";
 import { ring } from "../../../viz/page/assets/shapes.js";
 import { words } from "../words.js";
 import { arranged, boundsOf, movedCells, turnOf } from "./arrange.js";
-import { cellOf, withObstacles } from "./ground.js";
+import { cellOf, obstaclesOf, withObstacles } from "./ground.js";
 import { Handles } from "./handles.js";
-import { positionOf, removeLanes, removeVertices } from "./network.js";
+import { positionOf, removeLanes, removeVertices, roadmapOf } from "./network.js";
 import { radiusAt } from "./overlay.js";
 import { isEmpty, middleOf, pieceOf, withPiece } from "./piece.js";
 import { toDrawing } from "./places.js";
 import { lengthText, wayText } from "./readout.js";
 import { blockShift, paintGuides, roundStep, snapped } from "./snapping.js";
+import { present } from "../given.js";
+/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { DrawingPoint, Item, Piece, Point, PointMap, Rect, ScenarioDocument, Shift, Turn } from "../types.js" */
+/** @import { Editor } from "./editor.js" */
 
 const STILL = 4; // pixels that a press may move
 const FAR = 5; // steps that arrow keys go with Shift
@@ -19,17 +23,29 @@ const FAR = 5; // steps that arrow keys go with Shift
 export class SelectTool {
   static called = "select";
   isDrawn = true;
+  /** @type {DrawingPoint | null} */
+  start = null; // where the pointer was pressed
+  /** @type {DrawingPoint | null} */
+  now = null; // and where it is
+  /** @type {Item | null} */
+  hit = null; // what it was pressed at
+  isMoving = false;
+  isBending = false; // whether a handle of a lane is dragged
 
+  /** @param {Editor} editor */
   constructor(editor) {
     this.editor = editor;
     this.handles = new Handles(editor);
-    this.cancel();
   }
 
   get isBusy() {
     return this.start !== null;
   }
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   press(point) {
     const { editor } = this;
     this.start = this.now = point;
@@ -40,22 +56,27 @@ export class SelectTool {
     if (hit && !point.isMore && !editor.selection.has(hit)) editor.select([hit]);
   }
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   drag(point) {
     this.now = point;
     if (this.isBending) return this.handles.drag(point);
     const { editor, hit } = this;
+    const start = present(this.start);
     const { scale } = editor.stage.view.viewport;
-    if (
-      this.isMoving ||
-      Math.hypot(point.x - this.start.x, point.y - this.start.y) * scale <= STILL
-    )
-      return;
+    if (this.isMoving || Math.hypot(point.x - start.x, point.y - start.y) * scale <= STILL) return;
     this.isMoving = true;
     if (hit && !editor.selection.has(hit)) editor.select([...editor.selection.items, hit]);
   }
 
   hover() {}
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   release(point) {
     if (!this.start) return;
     this.now = point;
@@ -78,7 +99,8 @@ export class SelectTool {
 
   cancel() {
     this.handles.cancel();
-    Object.assign(this, { start: null, now: null, hit: null, isMoving: false, isBending: false });
+    this.start = this.now = this.hit = null;
+    this.isMoving = this.isBending = false;
   }
 
   /** Take away what is selected; a robot without its only stop goes too. */
@@ -86,13 +108,9 @@ export class SelectTool {
     const { editor } = this;
     const { selection } = editor;
     if (!selection.size) return;
-    const [robots, stops, vertices, lanes, obstacles] = [
-      "robot",
-      "stop",
-      "vertex",
-      "lane",
-      "obstacle",
-    ].map((kind) => selection.of(kind));
+    const [robots, stops] = [selection.of("robot"), selection.of("stop")];
+    const [vertices, lanes] = [selection.of("vertex"), selection.of("lane")];
+    const obstacles = selection.of("obstacle");
     const cells = selection.of("cell").map(cellOf);
     selection.clear();
     editor.store.change((document) => {
@@ -101,11 +119,11 @@ export class SelectTool {
       if (robots.length) next = removeRobots(next, robots);
       if (lanes.length) next = removeLanes(next, lanes);
       if (vertices.length) next = removeVertices(next, vertices);
-      if (cells.length) next = editor.ground.free(next, cells);
+      if (cells.length) next = present(editor.ground).free(next, cells);
       if (obstacles.length)
         next = withObstacles(
           next,
-          next.map.floor.obstacles.filter((_, index) => !obstacles.includes(index)),
+          obstaclesOf(next).filter((_, index) => !obstacles.includes(index)),
         );
       return next;
     });
@@ -119,7 +137,12 @@ export class SelectTool {
     this.#put(pieceOf(editor), this.#onSite([side, side]));
   }
 
-  /** Put a piece of a drawing below the pointer, or beside where it was taken, and select it. */
+  /**
+   * Put a piece of a drawing below the pointer, or beside where it was taken, and select it.
+   * @param {Piece} piece
+   * @param {DrawingPoint | null} [over]
+   * @returns {void}
+   */
   paste(piece, over = this.editor.over) {
     const { editor } = this;
     const { roadmap, ground } = editor;
@@ -135,9 +158,15 @@ export class SelectTool {
     );
   }
 
+  /**
+   * @param {Piece} piece
+   * @param {Point} shift
+   * @returns {void}
+   */
   #put(piece, shift) {
     const { editor } = this;
     if (isEmpty(piece)) return;
+    /** @type {Item[]} */
     let items = [];
     editor.store.change((document) => {
       const found = withPiece(editor, document, piece, shift);
@@ -148,12 +177,21 @@ export class SelectTool {
     if (!items.length) editor.say(words.noRoomHere);
   }
 
-  /** Turn what is selected to the right, or mirror it. */
+  /**
+   * Turn what is selected to the right, or mirror it.
+   * @param {Turn} kind
+   * @returns {void}
+   */
   turn(kind) {
     if (boundsOf(this.editor)) this.#arrange(turnOf(this.editor, kind));
   }
 
-  /** Let arrow keys move what is selected by one step, or by several. */
+  /**
+   * Let arrow keys move what is selected by one step, or by several.
+   * @param {Point} way
+   * @param {boolean} isFar
+   * @returns {void}
+   */
   nudge([right, down], isFar) {
     const { editor } = this;
     const step = editor.ground?.side ?? roundStep(editor) / editor.roadmap.unit;
@@ -161,51 +199,73 @@ export class SelectTool {
     this.#move(this.#onSite([right * step * far, down * step * far]));
   }
 
-  /** Put the vertices that are selected into one row, or one column: that of their middle. */
+  /**
+   * Put the vertices that are selected into one row, or one column: that of their middle.
+   * @param {number} axis
+   * @returns {void}
+   */
   align(axis) {
     const { editor } = this;
-    const [x, y, width, height] = boundsOf(editor);
+    const [x, y, width, height] = present(boundsOf(editor));
     const middle = [x + width / 2, y + height / 2];
     const step = roundStep(editor);
     const to = Math.round(middle[axis] / step) * step;
     this.#arrange((at) => at.map((length, each) => (each === axis ? to : length)));
   }
 
+  /**
+   * @param {Point} shift
+   * @returns {void}
+   */
   #move(shift) {
     if (shift.some(Boolean)) this.#arrange((at) => at.map((length, axis) => length + shift[axis]));
   }
 
+  /**
+   * @param {PointMap} map
+   * @returns {void}
+   */
   #arrange(map) {
     const { editor } = this;
+    /** @type {number[]} */
     const lost = [];
     const cells = movedCells(editor, map);
     editor.store.change((document) => arranged(editor, document, map, lost));
     if (cells.length)
       editor.select([
         ...editor.selection.items.filter(({ kind }) => kind !== "cell"),
-        ...cells.map((cell) => ({ kind: "cell", id: cell.join() })),
+        ...cells.map((cell) => /** @type {Item} */ ({ kind: "cell", id: cell.join() })),
       ]);
     if (lost.length) editor.say(words.noVertexHere);
   }
 
-  /** A way in the drawing as one on the site. */
+  /**
+   * A way in the drawing as one on the site.
+   * @param {Point} way
+   * @returns {Point}
+   */
   #onSite([right, down]) {
     const { roadmap } = this.editor;
     const [from, to] = [roadmap.toSite(0, 0), roadmap.toSite(right, down)];
     return [to[0] - from[0], to[1] - from[1]];
   }
 
-  /** How far what is selected goes on the site, and what it is in line with then. */
+  /**
+   * How far what is selected goes on the site, and what it is in line with then.
+   * @returns {Shift}
+   */
   #shift() {
-    const { editor, hit, start, now } = this;
+    const { editor, hit } = this;
+    const [start, now] = [present(this.start), present(this.now)];
     const { document, selection } = editor;
+    /** @type {Point} */
     const way = [now.x - start.x, now.y - start.y];
     if (now.isMore) way[Math.abs(way[0]) < Math.abs(way[1]) ? 0 : 1] = 0;
     const point = { ...now, x: start.x + way[0], y: start.y + way[1] };
     const raw = this.#onSite(way);
     if (selection.of("vertex").length || selection.of("lane").length) {
-      if (hit.kind !== "vertex") return this.#rounded(raw, now);
-      const from = positionOf(document.map.roadmap.vertices[hit.id]);
+      if (hit?.kind !== "vertex") return this.#rounded(raw, now);
+      const from = positionOf(roadmapOf(document).vertices[hit.id]);
       const { at, guides } = snapped(point, editor, selection.of("vertex"));
       const kept = now.isMore ? (way[0] ? 0 : 1) : null; // the only axis along which it goes
       const shift = at.map((length, axis) =>
@@ -216,17 +276,23 @@ export class SelectTool {
     const obstacles = selection.of("obstacle");
     if (!obstacles.length && !selection.of("cell").length) return { shift: raw, guides: [] };
     const isFree = now.isFree && Boolean(document.map.floor);
-    return blockShift(editor, boundsOf(editor), raw, isFree, obstacles);
+    return blockShift(editor, present(boundsOf(editor)), raw, isFree, obstacles);
   }
 
+  /**
+   * @param {Point} raw
+   * @param {DrawingPoint} point
+   * @returns {Shift}
+   */
   #rounded(raw, { isFree }) {
     const step = roundStep(this.editor);
     const shift = isFree ? raw : raw.map((length) => Math.round(length / step) * step);
     return { shift, guides: [] };
   }
 
+  /** @returns {Rect} */
   #box() {
-    const { start, now } = this;
+    const [start, now] = [present(this.start), present(this.now)];
     return [
       Math.min(start.x, now.x),
       Math.min(start.y, now.y),
@@ -238,13 +304,19 @@ export class SelectTool {
   /** What stands at the pointer while something is dragged. */
   get measure() {
     const { editor, start, now } = this;
-    if (!start || !this.isMoving) return "";
+    if (!start || !now || !this.isMoving) return "";
     if (this.hit) return wayText(editor, this.#shift().shift);
     const { unit } = editor.roadmap;
     const sides = [Math.abs(now.x - start.x) * unit, Math.abs(now.y - start.y) * unit];
     return sides.map((length) => lengthText(editor, length)).join(" × ");
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Theme} theme
+   * @param {number} scale
+   * @returns {void}
+   */
   paint(context, theme, scale) {
     this.handles.paint(context, theme, scale);
     if (!this.start || !this.isMoving) return;
@@ -259,19 +331,25 @@ export class SelectTool {
       return;
     }
     const { shift, guides } = this.#shift();
-    const [zero, there] = [[0, 0], shift].map((at) => toDrawing(editor.roadmap, ...at));
+    const [zero, there] = [toDrawing(editor.roadmap, 0, 0), toDrawing(editor.roadmap, ...shift)];
     this.#ghosts(context, [there[0] - zero[0], there[1] - zero[1]]);
     context.setLineDash([]);
     paintGuides(context, editor, guides, scale);
   }
 
-  /** Frames of what is selected where it would come to lie. */
+  /**
+   * Frames of what is selected where it would come to lie.
+   * @param {CanvasRenderingContext2D} context
+   * @param {Point} way
+   * @returns {void}
+   */
   #ghosts(context, [right, down]) {
     const { selection, hits, roadmap, ground, stage } = this.editor;
     const { scale } = stage.view.viewport;
-    for (const { kind, id } of selection.items) {
+    for (const item of selection.items) {
+      const { kind, id } = item;
       if (kind === "lane") continue;
-      const vertex = hits.vertexOf({ kind, id });
+      const vertex = hits.vertexOf(item);
       if (kind !== "cell" && kind !== "obstacle" && vertex < 0) continue;
       if (vertex >= 0 && !roadmap.hasCells) {
         const radius = radiusAt(roadmap, vertex, scale);
@@ -280,7 +358,7 @@ export class SelectTool {
       }
       const [x, y, wide, high] =
         kind === "cell"
-          ? ground.boxOf(cellOf(id))
+          ? present(ground).boxOf(cellOf(id))
           : kind === "obstacle"
             ? hits.obstacles[id]
             : [roadmap.x[vertex] - 0.4, roadmap.y[vertex] - 0.4, 0.8, 0.8];
@@ -289,8 +367,14 @@ export class SelectTool {
   }
 }
 
-/** The document without some stops; a robot that has none left is taken away. */
+/**
+ * The document without some stops; a robot that has none left is taken away.
+ * @param {ScenarioDocument} document
+ * @param {string[]} ids
+ * @returns {ScenarioDocument}
+ */
 function withoutStops(document, ids) {
+  /** @type {Map<number, number[]>} */
   const gone = new Map();
   for (const id of ids) {
     const [index, number] = id.split("/").map(Number);
@@ -299,11 +383,11 @@ function withoutStops(document, ids) {
   const changed = changeRobots(document, [...gone.keys()], (robot, index) =>
     withStops(
       robot,
-      stopsOf(robot).filter((_, number) => !gone.get(index).includes(number)),
+      stopsOf(robot).filter((_, number) => !gone.get(index)?.includes(number)),
     ),
   );
   return removeRobots(
     changed,
-    [...gone.keys()].filter((index) => !stopsOf(changed.robots[index]).length),
+    [...gone.keys()].filter((index) => !stopsOf((robotsOf(changed) ?? [])[index]).length),
   );
 }

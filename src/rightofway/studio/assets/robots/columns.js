@@ -2,15 +2,24 @@
 
 import { numberOf, placeOfText, textOfPlace } from "../draw/places.js";
 import { stopsOf, textOfStops, withKey, withStops } from "./fleet.js";
+/** @import { Column, Numeral, RobotData, Stop } from "../types.js" */
 
-/** A number that somebody has typed: with a comma too; as text where it is none, so that the library says why. */
+/**
+ * A number that somebody has typed: with a comma too; as text where it is none, so that the library says why.
+ * @param {string} text
+ * @returns {Numeral | undefined}
+ */
 export function written(text) {
   const plain = text.trim().replace(",", ".");
   if (!plain) return undefined;
   return plain.includes("/") || Number.isNaN(Number(plain)) ? plain : Number(plain);
 }
 
-/** Stops as `textOfStops` writes them: "N6 (3); N8". */
+/**
+ * Stops as `textOfStops` writes them: "N6 (3); N8".
+ * @param {string} text
+ * @returns {Stop[]}
+ */
 function stopsOfText(text) {
   return text
     .split(";")
@@ -23,12 +32,20 @@ function stopsOfText(text) {
     });
 }
 
-/** The work at all stops; empty where they differ. */
+/**
+ * The work at all stops; empty where they differ.
+ * @param {RobotData} robot
+ * @returns {string}
+ */
 function textOfWork(robot) {
   const works = new Set(stopsOf(robot).map(({ work }) => work ?? ""));
   return works.size === 1 ? String([...works][0]) : "";
 }
 
+/**
+ * @param {"speed" | "radius" | "turn" | "laps"} key
+ * @returns {Column}
+ */
 const number = (key) => ({
   key,
   text: (robot) => (robot[key] === undefined ? "" : String(robot[key])),
@@ -36,6 +53,7 @@ const number = (key) => ({
   set: (robot, text) => withKey(robot, key, written(text)),
 });
 
+/** @type {Column[]} */
 export const COLUMNS = [
   {
     key: "name",
@@ -83,7 +101,11 @@ export const COLUMNS = [
   number("laps"),
 ];
 
-/** The column of the place of a fault: "robots[2].target" is of the stops. */
+/**
+ * The column of the place of a fault: "robots[2].target" is of the stops.
+ * @param {string} place
+ * @returns {string}
+ */
 export function columnOf(place) {
   const key = /^robots\[\d+\]\.(\w+)/.exec(place)?.[1] ?? "name";
   return { target: "stops", size: "radius" }[key] ?? key;

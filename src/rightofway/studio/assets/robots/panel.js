@@ -7,18 +7,24 @@ import { COLUMNS } from "./columns.js";
 import { robotsOf, tableText } from "./fleet.js";
 import { FewRobots, RandomFleet } from "./random.js";
 import { Sheet } from "./sheet.js";
+/** @import { Column, Props } from "../types.js" */
 
 const USUAL = ["name", "home", "stops", "work", "speed"]; // columns of every table
 const MANY = 30; // robots from which on a name is looked for
 
+/** @param {Props} props */
 export function RobotPanel({ studio }) {
   const { store, editor } = studio;
   const robots = robotsOf(store.document);
-  const [asked, setAsked] = useState([]); // columns that were asked for
+  const [asked, setAsked] = useState(/** @type {string[]} */ ([])); // columns that were asked for
   const [wanted, setWanted] = useState("");
   if (!robots) {
     return html`<div class="scroll"><div class="aside"><p>${words.robotsElsewhere}</p><button type="button" class="framed" disabled=${!store.survey.ok} onClick=${() => studio.shelf.inline()}>${words.writeHere}</button></div></div>`;
   }
+  /**
+   * @param {Column} column
+   * @returns {boolean}
+   */
   const isShown = (column) =>
     USUAL.includes(column.key) ||
     asked.includes(column.key) ||

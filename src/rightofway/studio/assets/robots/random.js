@@ -4,15 +4,23 @@ import { post } from "../api.js";
 import { placeOf, vertexOf } from "../draw/places.js";
 import { html, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
-import { addRobots, robotsOf } from "./fleet.js";
+import { addRobots, writtenIn } from "./fleet.js";
+/** @import { Studio } from "../studio.js" */
+/** @import { Place, Props } from "../types.js" */
+/** @import { PageEvent } from "../vendor/htm-preact.js" */
 
 const FEW = 3;
 
-/** Add robots that the server deals out; homes of robots that are there already are left to them. */
+/**
+ * Add robots that the server deals out; homes of robots that are there already are left to them.
+ * @param {Studio} studio
+ * @param {{count: number, seed: number, work: number, speed: number, between: "stations" | "anywhere"}} fleet
+ * @returns {Promise<void>}
+ */
 async function deal({ store, editor }, { count, seed, work, speed, between }) {
   const { document, folder } = store;
   const { roadmap } = editor;
-  const taken = new Set(robotsOf(document).map(({ home }) => vertexOf(home, roadmap)));
+  const taken = new Set(writtenIn(document).map(({ home }) => vertexOf(home, roadmap)));
   const request = {
     document,
     folder,
@@ -22,6 +30,10 @@ async function deal({ store, editor }, { count, seed, work, speed, between }) {
     work: [work, work],
     between,
   };
+  /**
+   * @param {string} name
+   * @returns {Place}
+   */
   const place = (name) => placeOf(roadmap.vertexNamed(name), roadmap, document);
   const { robots } = await post("/deal", request);
   const news = robots
@@ -36,25 +48,43 @@ async function deal({ store, editor }, { count, seed, work, speed, between }) {
   store.change((now) => (now === document ? addRobots(now, news) : now));
 }
 
-/** Whether the map says where robots work. */
+/**
+ * Whether the map says where robots work.
+ * @param {Studio} studio
+ * @returns {boolean}
+ */
 const hasStations = ({ editor }) => editor.isReady && editor.roadmap.stations.size > 0;
 
-/** Three robots with one press, for whoever wants to see them drive. */
+/**
+ * Three robots with one press, for whoever wants to see them drive.
+ * @param {Props} props
+ */
 export function FewRobots({ studio }) {
-  const count = robotsOf(studio.store.document).length;
+  const count = writtenIn(studio.store.document).length;
   const between = hasStations(studio) ? "stations" : "anywhere";
+  /** @type {Parameters<typeof deal>[1]} */
   const few = { count: FEW, seed: count + 1, work: 0, speed: 1, between };
   return html`<button type="button" class="framed" disabled=${!studio.editor.isReady} onClick=${() => studio.attempt(() => deal(studio, few))}>${words.dealFew(FEW, between)}</button>`;
 }
 
+/** @param {Props} props */
 export function RandomFleet({ studio }) {
   const [wanted, setWanted] = useState({ count: 5, seed: 1, work: 0, speed: 1, isAnywhere: false });
+  /**
+   * @param {"count" | "seed" | "work" | "speed"} key
+   * @param {number} least
+   * @param {number | string} step
+   */
   const number = (
     key,
     least,
     step,
   ) => html`<label>${words.random[key]}<input type="number" required min=${least} step=${step} value=${wanted[key]}
     onInput=${({ target }) => setWanted({ ...wanted, [key]: Number(target.value) })} /></label>`;
+  /**
+   * @param {PageEvent} event
+   * @returns {void}
+   */
   const submit = (event) => {
     event.preventDefault();
     const { isAnywhere, ...fleet } = wanted;

@@ -15,51 +15,89 @@ import {
   rowsOfText,
 } from "./block.js";
 import { columnOf } from "./columns.js";
-import { freeName, removeRobots, robotsOf, sortRobots } from "./fleet.js";
+import { freeName, removeRobots, sortRobots, writtenIn } from "./fleet.js";
+/** @import { Fault } from "../api_types.js" */
+/** @import { Block, Column, Edit, Props, RobotData, SheetCell } from "../types.js" */
+/** @import { PageEvent } from "../vendor/htm-preact.js" */
 
 const MOST_ROWS = 100; // that are written at once; the others on request
 const MOST_FAULTS = 5; // that are listed below the table
 
-/** The table; `columns` are those that are shown, `wanted` is what a robot has to say somewhere. */
+/**
+ * The table; `columns` are those that are shown, `wanted` is what a robot has to say somewhere.
+ * @param {Props & {columns: Column[], wanted: string}} props
+ */
 export function Sheet({ studio, columns, wanted }) {
   const { store, editor } = studio;
-  const robots = robotsOf(store.document);
+  const robots = writtenIn(store.document);
   const [sorted, setSorted] = useState({ key: "", isDown: false });
   const [most, setMost] = useState(MOST_ROWS);
-  const [cells, setCells] = useState(null); // the block: { from, to }
+  const [cells, setCells] = useState(/** @type {{from: SheetCell, to: SheetCell} | null} */ (null)); // the block
   const sheet = useRef(null);
+  /** @type {import("../vendor/htm-preact.js").Ref<EventTarget | null>} */
   const edited = useRef(null); // the field whose text is edited; the text of a cell that is only selected is replaced by typing
   const block = cells && blockOf(cells.from, cells.to);
   useEffect(() => setCells(null), [columns.length]);
 
+  /**
+   * @param {RobotData} robot
+   * @returns {boolean}
+   */
   const isWanted = (robot) =>
     !wanted || columns.some(({ text }) => text(robot).toLowerCase().includes(wanted));
   const rows = robots.map((robot, row) => ({ robot, row })).filter(({ robot }) => isWanted(robot));
   const colours = new Map(store.site?.robots.map(({ index, colour }) => [index, colour]));
   const faults = faultsByRow(store.faults);
 
+  /**
+   * @param {Edit} edit
+   * @returns {void}
+   */
   const change = (edit) => store.change(edit);
+  /**
+   * @param {SheetCell} at
+   * @param {string} text
+   * @returns {void}
+   */
   const write = (at, text) => {
     const robot = robots[at.row];
     if (robot ? columns[at.column].text(robot) === text : !text.trim()) return;
     change((document) => pasted(document, columns, [[text]], at));
   };
+  /**
+   * @param {Column} column
+   * @returns {void}
+   */
   const sort = (column) => {
     const isDown = sorted.key === column.key && !sorted.isDown;
     setSorted({ key: column.key, isDown });
     change((document) => sortRobots(document, column.value ?? column.text, isDown));
   };
+  /**
+   * @param {SheetCell} at
+   * @param {HTMLInputElement} field
+   * @returns {void}
+   */
   const enter = (at, field) => {
     edited.current = null;
     field.select();
     setCells({ from: at, to: at });
     if (robots[at.row]) editor.select([{ kind: "robot", id: at.row }]);
   };
+  /**
+   * @param {HTMLInputElement} field
+   * @returns {void}
+   */
   const edit = (field) => {
     edited.current = field;
     field.setSelectionRange(field.value.length, field.value.length);
   };
-  /** A press selects a cell, whose text stays selected; in a cell that is edited it places the caret. */
+  /**
+   * A press selects a cell, whose text stays selected; in a cell that is edited it places the caret.
+   * @param {PageEvent} event
+   * @param {SheetCell} at
+   * @returns {void}
+   */
   const press = (event, at) => {
     const { target: field, shiftKey } = event;
     if (edited.current === field) return;
@@ -68,31 +106,62 @@ export function Sheet({ studio, columns, wanted }) {
     else if (document.activeElement === field) enter(at, field);
     else field.focus();
   };
-  const extend = (at) => cells && setCells({ from: cells.from, to: at });
+  /**
+   * @param {SheetCell} at
+   * @returns {void}
+   */
+  const extend = (at) => {
+    if (cells) setCells({ from: cells.from, to: at });
+  };
+  /**
+   * @param {SheetCell} at
+   * @param {HTMLElement} from
+   * @returns {void}
+   */
   const goTo = ({ row, column }, from) => {
+    /** @type {HTMLElement | null} */
     const cell = sheet.current.querySelector(`[data-cell="${row} ${column}"]`);
     if (cell && cell !== from) cell.focus();
     else from.blur(); // what was written counts all the same
   };
 
+  /**
+   * @param {PageEvent} event
+   * @param {SheetCell} at
+   * @returns {void}
+   */
   const paste = (event, at) => {
-    const text = event.clipboardData.getData("text");
+    const text = event.clipboardData?.getData("text") ?? "";
     const lines = rowsOfText(text);
     if (lines.length === 1 && lines[0].length === 1) return;
     event.preventDefault();
     change((document) => pasted(document, columns, lines, at));
   };
+  /**
+   * @param {PageEvent} event
+   * @returns {void}
+   */
   const copy = (event) => {
     if (!block || isSingle(block)) return;
     event.preventDefault();
-    event.clipboardData.setData("text/plain", blockText(robots, columns, block));
+    event.clipboardData?.setData("text/plain", blockText(robots, columns, block));
     if (event.type === "cut") change((document) => cleared(document, columns, block));
   };
+  /**
+   * @param {number} until
+   * @returns {void}
+   */
   const fill = (until) => {
+    if (!block || !cells) return;
     const whole = { ...block, bottom: Math.max(until, block.bottom) };
     change((document) => filled(document, columns, whole));
     setCells({ from: cells.from, to: { row: whole.bottom, column: whole.right } });
   };
+  /**
+   * @param {PageEvent} event
+   * @param {SheetCell} at
+   * @returns {void}
+   */
   const key = (event, at) => {
     const isMany = block && !isSingle(block);
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "d")
@@ -102,7 +171,7 @@ export function Sheet({ studio, columns, wanted }) {
     else if (event.key === "Escape") enter(at, event.target);
     else if (event.key === "F2" || (isPlainEnter(event) && edited.current !== event.target))
       edit(event.target);
-    else if (event.shiftKey && ARROWS[event.key] && stepFrom(event)) {
+    else if (cells && event.shiftKey && ARROWS[event.key] && stepFrom(event)) {
       const [down, right] = ARROWS[event.key];
       extend({
         row: clamped(cells.to.row + down, robots.length - 1),
@@ -120,11 +189,17 @@ export function Sheet({ studio, columns, wanted }) {
     event.stopPropagation();
   };
 
+  /**
+   * @param {RobotData | null} robot
+   * @param {number} row
+   * @param {Column} column
+   * @param {number} at
+   */
   const cell = (robot, row, column, at) => {
     const place = { row, column: at };
     const fault = faults.get(row)?.find(({ place: where }) => columnOf(where) === column.key);
     const [title, , usual = ""] = words.columns[column.key];
-    return html`<td key=${column.key} class=${`${column.key} ${holds(block, row, at) && !isSingle(block) ? "in" : ""}`}>
+    return html`<td key=${column.key} class=${`${column.key} ${holds(block, row, at) && !isSingle(/** @type {Block} */ (block)) ? "in" : ""}`}>
       <${Field} value=${robot ? column.text(robot) : ""} data-cell=${`${row} ${at}`} spellcheck="false"
         aria-label=${robot ? `${title}, ${robot.name}` : `${title}, ${words.newRow}`} aria-invalid=${String(Boolean(fault))} title=${fault?.message ?? ""}
         placeholder=${robot ? usual : column.key === "name" ? freeName(robots) : ""}
@@ -134,6 +209,11 @@ export function Sheet({ studio, columns, wanted }) {
       ${robot && block && row === block.bottom && at === block.right && html`<${Handle} fill=${fill} />`}
     </td>`;
   };
+  /**
+   * @param {PageEvent} event
+   * @param {number} row
+   * @returns {void}
+   */
   const select = (event, row) => {
     if (event.target.matches("input, button")) return;
     if (event.shiftKey || event.ctrlKey) editor.selection.toggle({ kind: "robot", id: row });
@@ -170,23 +250,42 @@ export function Sheet({ studio, columns, wanted }) {
     ${rows.length > most && html`<button type="button" class="framed" onClick=${() => setMost(most + MOST_ROWS)}>${words.moreRows(rows.length - most)}</button>`}`;
 }
 
+/** @type {Record<string, [number, number]>} */
 const ARROWS = { ArrowDown: [1, 0], ArrowUp: [-1, 0], ArrowRight: [0, 1], ArrowLeft: [0, -1] };
 
+/**
+ * @param {number} value
+ * @param {number} most
+ * @returns {number}
+ */
 const clamped = (value, most) => Math.min(Math.max(value, 0), most);
 
+/**
+ * @param {PageEvent} event
+ * @returns {unknown}
+ */
 const isPlainEnter = ({ key, shiftKey, target }) => key === "Enter" && !shiftKey && target.value;
 
-/** Where a key leads to: rows and columns; sideways only from the end of what is written. */
+/**
+ * Where a key leads to: rows and columns; sideways only from the end of what is written.
+ * @param {PageEvent} event
+ * @returns {[number, number] | undefined | false}
+ */
 function stepFrom({ key, shiftKey, target }) {
   if (key === "Enter") return [shiftKey ? -1 : 1, 0];
   const step = ARROWS[key];
   if (!step || !step[1]) return step;
-  const { selectionStart, selectionEnd, value } = target;
+  const { value } = target;
+  const [selectionStart, selectionEnd] = [target.selectionStart ?? 0, target.selectionEnd ?? 0];
   if (selectionStart !== selectionEnd)
     return selectionEnd - selectionStart === value.length && step;
   return selectionEnd === (step[1] > 0 ? value.length : 0) && step;
 }
 
+/**
+ * @param {Fault[]} faults
+ * @returns {Map<number, Fault[]>}
+ */
 function faultsByRow(faults) {
   const found = new Map();
   for (const fault of faults) {
@@ -198,15 +297,29 @@ function faultsByRow(faults) {
   return found;
 }
 
-/** The corner of a block: dragged down, it fills the rows that it passes. */
+/**
+ * The corner of a block: dragged down, it fills the rows that it passes.
+ * @param {{fill: (row: number) => void}} props
+ */
 function Handle({ fill }) {
+  /**
+   * @param {PageEvent} event
+   * @returns {void}
+   */
   const drag = (event) => {
     event.preventDefault();
     const handle = event.target;
     handle.setPointerCapture(event.pointerId);
+    /**
+     * @param {{clientX: number, clientY: number}} at
+     * @returns {number}
+     */
     const rowAt = ({ clientX, clientY }) =>
       Number(
-        document.elementFromPoint(clientX, clientY)?.closest("tr[data-row]")?.dataset.row ?? -1,
+        document
+          .elementFromPoint(clientX, clientY)
+          ?.closest("tr[data-row]")
+          ?.getAttribute("data-row") ?? -1,
       );
     let row = -1;
     handle.onpointermove = (move) => (row = Math.max(rowAt(move), -1));

@@ -4,15 +4,21 @@ import { placeOf } from "../draw/places.js";
 import { paintTrip, radiusAt } from "../draw/overlay.js";
 import { ring } from "../../../viz/page/assets/shapes.js";
 import { words } from "../words.js";
-import { addRobots, robotsOf, withStops } from "./fleet.js";
+import { addRobots, robotsOf, withStops, writtenIn } from "./fleet.js";
+/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { Editor } from "../draw/editor.js" */
+/** @import { DrawingPoint, Place, Point } from "../types.js" */
 
 export class RobotTool {
   static called = "robot";
   isDrawn = false;
 
+  /** @param {Editor} editor */
   constructor(editor) {
     this.editor = editor;
-    this.cancel();
+    this.home = -1;
+    /** @type {number[]} */
+    this.stops = [];
     this.over = -1;
   }
 
@@ -22,10 +28,18 @@ export class RobotTool {
 
   press() {}
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   drag(point) {
     this.hover(point);
   }
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   hover(point) {
     this.over = this.editor.vertexAt(point);
   }
@@ -34,6 +48,10 @@ export class RobotTool {
     this.over = -1;
   }
 
+  /**
+   * @param {DrawingPoint} point
+   * @returns {void}
+   */
   release(point) {
     const { editor } = this;
     const vertex = editor.vertexAt(point);
@@ -52,9 +70,13 @@ export class RobotTool {
 
   #add() {
     const { editor, home, stops } = this;
+    /**
+     * @param {number} vertex
+     * @returns {Place}
+     */
     const place = (vertex) => placeOf(vertex, editor.roadmap, editor.document);
-    const at = robotsOf(editor.document).length;
-    const { work } = robotsOf(editor.document).at(-1) ?? {}; // as long as the one before; the first one not at all, as in a file
+    const robots = writtenIn(editor.document);
+    const { work } = robots.at(-1) ?? {}; // as long as the one before; the first one not at all, as in a file
     const trip = stops.map((stop) =>
       work === undefined ? { at: place(stop) } : { at: place(stop), work },
     );
@@ -62,7 +84,7 @@ export class RobotTool {
     editor.store.change((document) =>
       addRobots(document, [withStops({ home: place(home) }, trip)]),
     );
-    editor.select([{ kind: "robot", id: at }]);
+    editor.select([{ kind: "robot", id: robots.length }]);
     editor.say(words.pressHome);
   }
 
@@ -71,8 +93,15 @@ export class RobotTool {
     this.stops = [];
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Theme} theme
+   * @param {number} scale
+   * @returns {void}
+   */
   paint(context, theme, scale) {
     const { roadmap } = this.editor;
+    /** @type {(vertex: number) => Point} */
     const at = (vertex) => [roadmap.x[vertex], roadmap.y[vertex]];
     context.strokeStyle = theme.ink;
     context.lineWidth = 2 / scale;

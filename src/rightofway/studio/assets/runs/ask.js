@@ -15,17 +15,31 @@ import { pressedPlace } from "../draw/press_place.js";
 import { COLUMNS, columnOf } from "../robots/columns.js";
 import { changeRobots, robotsOf } from "../robots/fleet.js";
 import { words } from "../words.js";
+/** @import { Column, Complaint, Place, Props, TimeKey } from "../types.js" */
+/** @import { ComponentChildren, PageEvent } from "../vendor/htm-preact.js" */
 
 const ASKED = COLUMNS.filter(({ key }) => ["home", "stops", "work", "speed"].includes(key));
 
-/** `children` stand below the fields of the robot that is chosen. */
+/**
+ * `children` stand below the fields of the robot that is chosen.
+ * @param {Props & {children?: ComponentChildren}} props
+ */
 export function Ask({ studio, children }) {
   const { store, stage } = studio;
   const robots = robotsOf(store.document) ?? [];
   const name = stage.isPlan ? stage.choice.robot?.name : undefined;
   const index = robots.findIndex((robot) => robot.name === name);
   const faults = store.faultsAt(`robots[${index}]`);
+  /**
+   * @param {Column} column
+   * @returns {boolean}
+   */
   const isWrong = ({ key }) => faults.some(({ place }) => columnOf(place) === key);
+  /**
+   * @param {Column} column
+   * @param {string} text
+   * @returns {void}
+   */
   const write = (column, text) => {
     if (column.text(robots[index]) === text) return;
     studio.whatIf((document) =>
@@ -49,26 +63,39 @@ export function Ask({ studio, children }) {
     </section>`;
 }
 
-/** Close a place or, with both ends, a lane, for ever or for a while; and open it again. */
+/**
+ * Close a place or, with both ends, a lane, for ever or for a while; and open it again.
+ * @param {Props} props
+ */
 function Close({ studio }) {
   const { store } = studio;
-  const [refused, setRefused] = useState([]); // faults of what is typed
-  const [waiting, setWaiting] = useState(null); // that gives up the press on the map that is waited for
+  const [refused, setRefused] = useState(/** @type {Complaint[]} */ ([])); // faults of what is typed
+  const [waiting, setWaiting] = useState(/** @type {AbortController | null} */ (null)); // that gives up the press on the map that is waited for
+  /** @type {import("../vendor/htm-preact.js").Ref<HTMLFormElement>} */
   const form = useRef(null);
   useEffect(() => {
     studio.tell("change"); // the line below the map says it, too
     return () => waiting?.abort();
   }, [waiting]);
+  /**
+   * @param {(Place | undefined)[]} places
+   * @returns {Promise<void>}
+   */
   const close = (places) =>
     studio.attempt(async () => {
-      const { from, until } = Object.fromEntries(new FormData(form.current));
+      const given = new FormData(form.current);
+      const [from, until] = [String(given.get("from")), String(given.get("until"))];
       const [at, to] = places;
-      const what = to === undefined ? { at } : { edge: [at, to] };
+      const what = to === undefined || at === undefined ? { at } : { edge: [at, to] };
       const closure = withTime(withTime(what, "from", from), "until", until);
       const faults = await studio.tryOut((document) => withClosure(document, closure));
       setRefused(faults);
       if (!faults.length) form.current?.reset();
     });
+  /**
+   * @param {PageEvent} event
+   * @returns {void}
+   */
   const submit = (event) => {
     event.preventDefault();
     const [at, to] = form.current.querySelectorAll("input");
@@ -84,7 +111,7 @@ function Close({ studio }) {
     if (places.length) close(places);
     return null;
   };
-  const isWrong = (...ends) =>
+  const isWrong = (/** @type {string[]} */ ...ends) =>
     String(refused.some(({ place }) => ends.some((end) => place.endsWith(end))));
   return html`
     <form class="close-place" ref=${form} onSubmit=${submit}>
@@ -103,7 +130,10 @@ function Close({ studio }) {
     <${Closed} studio=${studio} />`;
 }
 
-/** What is closed, and when; each can be changed, and opened again. */
+/**
+ * What is closed, and when; each can be changed, and opened again.
+ * @param {Props} props
+ */
 function Closed({ studio }) {
   const { closures } = studio.store.document;
   if (!closures?.length) return null;
@@ -111,7 +141,7 @@ function Closed({ studio }) {
     const text = textOfClosure(closure);
     const faults = studio.store.faultsAt(`closures[${index}]`);
     const open = () => studio.whatIf((document) => withoutClosure(document, index));
-    const write = (key, time) =>
+    const write = (/** @type {TimeKey} */ key, /** @type {string} */ time) =>
       studio.whatIf((document) => changeTime(document, index, key, time));
     return html`<li><span class="what">${words.closed}<b>${text}</b></span>
       <${Times} document=${studio.store.document} of=${text} faults=${faults} closure=${closure} write=${write} />

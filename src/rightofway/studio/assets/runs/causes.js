@@ -4,18 +4,31 @@ import { html } from "../vendor/htm-preact.js";
 import { decimal, fraction } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { over } from "./parameter_curve.js";
+/** @import { Cause, Ratio } from "../types.js" */
 
+/** @type {Ratio} */
 const HUNDRED = [100n, 1n];
 
-/** A percentage as a share, exactly; what cannot be read stays, so that the library says why. */
+/**
+ * A percentage as a share, exactly; what cannot be read stays, so that the library says why.
+ * @param {string} text
+ * @returns {string}
+ */
 function share(text) {
   const plain = String(text).trim().replace(",", ".");
   return /^-?\d+(\.\d+)?$/.test(plain) ? decimal(over(fraction(plain), HUNDRED), 9) : plain;
 }
 
+/**
+ * @param {string} text
+ * @returns {string}
+ */
 const plain = (text) => String(text).trim().replace(",", ".");
 
-/** The fields of each kind with what they hold at first, and how the command writes them. */
+/**
+ * The fields of each kind with what they hold at first, and how the command writes them.
+ * @type {Record<string, {fields: ("percent" | "time" | "robot" | "factor" | string)[][], text: (values: string[]) => string}>}
+ */
 const KINDS = {
   exponential: { fields: [["percent", "20"]], text: ([by]) => `exponential:${share(by)}` },
   uniform: {
@@ -50,15 +63,30 @@ const KINDS = {
   },
 };
 
-/** A new cause of a kind; one of a robot is of the first. */
+/**
+ * A new cause of a kind; one of a robot is of the first.
+ * @param {string} kind
+ * @param {string[]} robots
+ * @returns {Cause}
+ */
 export const causeOf = (kind, robots) => ({
   kind,
   values: KINDS[kind].fields.map(([type, value]) => (type === "robot" ? robots[0] : value)),
 });
 
+/**
+ * @param {Cause} cause
+ * @returns {string}
+ */
 export const notation = ({ kind, values }) => KINDS[kind].text(values);
 
+/** @param {{causes: Cause[], robots: string[], unit: string | null, set: (causes: Cause[]) => void}} props */
 export function Causes({ causes, robots, unit, set }) {
+  /**
+   * @param {number} index
+   * @param {Cause} cause
+   * @returns {void}
+   */
   const change = (index, cause) => set(causes.map((each, i) => (i === index ? cause : each)));
   return html`
     <ul class="causes">${causes.map(
@@ -67,6 +95,10 @@ export function Causes({ causes, robots, unit, set }) {
         KINDS,
       ).map((kind) => html`<option value=${kind}>${words.causes[kind].name}</option>`)}</select>
       ${KINDS[cause.kind].fields.map(([type], place) => {
+        /**
+         * @param {{target: {value: string}}} event
+         * @returns {void}
+         */
         const write = ({ target }) =>
           change(index, {
             ...cause,

@@ -6,8 +6,14 @@ import { changeInWords } from "../../../viz/page/assets/compared_table.js";
 import { words } from "../words.js";
 import { doNotRun, faultsOf } from "./faults.js";
 import { Term } from "./term.js";
+/** @import { ComparedRobot } from "../api_types.js" */
+/** @import { Props } from "../types.js" */
 
-/** Robots whose completion time differs: name and difference [time unit], the largest gain first. */
+/**
+ * Robots whose completion time differs: name and difference [time unit], the largest gain first.
+ * @param {{robots: ComparedRobot[]}} compared
+ * @returns {{name: string, by: number}[]}
+ */
 function differences({ robots }) {
   return robots
     .map(({ name, completion: [before, after] }) => ({
@@ -20,6 +26,7 @@ function differences({ robots }) {
 
 const MOST = 4; // robots that are named
 
+/** @param {Props} props */
 export function Change({ studio }) {
   const { runs, stage } = studio;
   const { comparison } = runs;
@@ -47,13 +54,25 @@ export function Change({ studio }) {
     </section>`;
 }
 
-/** Robots that gain or lose, those with the largest difference first; a press shows one on the map. */
+/**
+ * Robots that gain or lose, those with the largest difference first; a press shows one on the map.
+ * @param {Props & {className: string, label: string, found: {name: string, by: number}[]}} props
+ */
 function Robots({ studio: { stage }, className, label, found }) {
   if (!found.length) return null;
   const quantities = new Quantities(stage.plan.quantities.units, [1, 1]);
+  /**
+   * @param {string} name
+   * @returns {void}
+   */
   const look = (name) =>
     stage.choice.chooseRobot(stage.plan.robots.findIndex((robot) => robot.name === name));
+  /**
+   * @param {number} by
+   * @returns {string}
+   */
   const time = (by) => quantities.duration(Number(Math.abs(by).toFixed(6)));
+  /** @param {{name: string, by: number}} robot */
   const row = ({ name, by }) =>
     html`<button type="button" class="link" onClick=${() => look(name)}>${name}</button> ${time(by)}`;
   const rest = found.length - MOST;

@@ -4,13 +4,24 @@ import { html, useState } from "../vendor/htm-preact.js";
 import { fraction } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { number, plus } from "./parameter_curve.js";
+/** @import { Robot } from "../../../viz/page/assets/robot.js" */
+/** @import { CirclePiece } from "../api_types.js" */
+/** @import { Stage } from "../stage.js" */
+/** @import { Props, Step } from "../types.js" */
+/** @import { Said } from "./laps.js" */
 
 const MOST = 10; // steps that are listed at first
 
+/** @param {Props & {pieces: CirclePiece[], said: Said, isNow: boolean}} props */
 export function Circle({ studio, pieces, said, isNow }) {
   const [isWhole, setWhole] = useState(false);
   const { stage } = studio;
+  /**
+   * @param {string} name
+   * @returns {Robot | undefined}
+   */
   const robotOf = (name) => stage.plan?.robots?.find((robot) => robot.name === name);
+  /** @type {Step[]} */
   const steps = counted(pieces, (name) => stage.plan?.roadmap.name(robotOf(name)?.home));
   const shown = isWhole ? steps : steps.slice(0, MOST);
   return html`
@@ -33,15 +44,25 @@ export function Circle({ studio, pieces, said, isNow }) {
     ${steps.length > shown.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreSteps(steps.length - shown.length)}</button>`}`;
 }
 
-/** The steps with their times; whole laps that a robot makes in between are one step. */
+/**
+ * The steps with their times; whole laps that a robot makes in between are one step.
+ * @param {CirclePiece[]} pieces
+ * @param {(name: string) => string | undefined} homeOf
+ * @returns {Step[]}
+ */
 function counted(pieces, homeOf) {
   const steps = pieces.map((piece) => ({ ...piece, time: fraction(piece.for) }));
+  /** @type {Step[]} */
   const found = [];
   for (let begin = 0; begin < steps.length;) {
     const { robot } = steps[begin];
     let end = begin;
     while (end < steps.length && steps[end].robot === robot) end++;
     const run = steps.slice(begin, end);
+    /**
+     * @param {Step} step
+     * @returns {boolean}
+     */
     const isHome = ({ kind, vertices }) => kind === "way" && vertices.at(-1) === homeOf(robot);
     const [first, last] = [run.findIndex(isHome) + 1, run.findLastIndex(isHome) + 1];
     if (first === last) found.push(...run);
@@ -58,9 +79,16 @@ function counted(pieces, homeOf) {
   return found;
 }
 
-/** What one step is, in words. */
+/**
+ * What one step is, in words.
+ * @param {Step} step
+ * @param {Step | undefined} before
+ * @param {Robot | undefined} drawn
+ * @param {Stage} stage
+ * @returns {string}
+ */
 function sentence({ kind, robot, vertices, laps }, before, drawn, stage) {
-  if (kind === "laps") return words.steps.laps(robot, laps);
+  if (kind === "laps") return words.steps.laps(robot, laps ?? 0);
   const [from, to] = [vertices[0], vertices.at(-1)];
   const [first, last] = [from, to].map((name) => placeOn(stage, name));
   const home = drawn && stage.plan.roadmap.name(drawn.home);
@@ -70,7 +98,12 @@ function sentence({ kind, robot, vertices, laps }, before, drawn, stage) {
   return words.steps.right(robot, first, before?.robot);
 }
 
-/** What the viewer calls a vertex; its name, where the map that is shown does not have it. */
+/**
+ * What the viewer calls a vertex; its name, where the map that is shown does not have it.
+ * @param {Stage} stage
+ * @param {string} name
+ * @returns {string}
+ */
 function placeOn({ plan, words: said }, name) {
   const vertex = plan?.roadmap.vertexNamed(name) ?? -1;
   return vertex < 0 ? name : said.vertex(vertex);

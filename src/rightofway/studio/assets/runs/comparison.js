@@ -6,7 +6,11 @@ import { Compared } from "../../../viz/page/assets/compared.js";
 import { ComparedRobots } from "../../../viz/page/assets/compared_robots.js";
 import { ComparedTable } from "../../../viz/page/assets/compared_table.js";
 import { language, words } from "../words.js";
+/** @import { Robot } from "../../../viz/page/assets/robot.js" */
+/** @import { Studio } from "../studio.js" */
+/** @import { Props } from "../types.js" */
 
+/** @param {Props} props */
 export function Comparison({ studio }) {
   const { runs } = studio;
   const found = runs.compared ?? runs.comparison;
@@ -24,6 +28,10 @@ export function Comparison({ studio }) {
   if (!found) return null;
   const [first, ...others] = found.runs;
   const beside = others.map((number) => `other=${number}`).join("&");
+  /**
+   * @param {string} kind
+   * @returns {string}
+   */
   const page = (kind) => address(`/runs/${first}/${kind}?${beside}`);
   const rows = found.robots.length;
   const counts = { "--plans": found.runs.length, "--rows": rows };
@@ -39,17 +47,38 @@ export function Comparison({ studio }) {
     </section>`;
 }
 
+/**
+ * @param {Studio} studio
+ * @param {string} name
+ * @returns {Robot | undefined}
+ */
 const robotNamed = ({ stage }, name) => stage.plan?.robots.find((robot) => robot.name === name);
 
+/**
+ * @param {Studio} studio
+ * @param {string} name
+ * @returns {void}
+ */
 function look(studio, name) {
   const robot = robotNamed(studio, name);
   if (robot && studio.stage.isPlan) studio.stage.choice.chooseRobot(robot.index);
 }
 
-/** The viewer's own page of the plans, over all else. */
+/**
+ * @param {HTMLDialogElement | null} dialog
+ * @returns {void}
+ */
+function show(dialog) {
+  if (dialog && !dialog.open) dialog.showModal();
+}
+
+/**
+ * The viewer's own page of the plans, over all else.
+ * @param {{page: string, close: () => void}} props
+ */
 function SideBySide({ page, close }) {
   return html`
-    <dialog class="beside" aria-label=${words.sideBySide} onClose=${close} ref=${(dialog) => dialog && !dialog.open && dialog.showModal()}>
+    <dialog class="beside" aria-label=${words.sideBySide} onClose=${close} ref=${show}>
       <form method="dialog"><button class="framed">${words.close}</button></form>
       <iframe title=${words.sideBySide} src=${`${page}&lang=${language}`}></iframe>
     </dialog>`;

@@ -7,13 +7,18 @@ import { secondsOf } from "./list.js";
 import { faultsOf } from "./faults.js";
 import { isOver } from "./run_store.js";
 import { Term } from "./term.js";
+/** @import { Studio } from "../studio.js" */
+/** @import { Axes, LiveRun } from "../types.js" */
 
 const [WIDTH, HEIGHT] = [300, 90]; // of the drawing, which is stretched to the room that there is
 const ROOM = 1.12; // how much higher than the first plan the axis ends
 const PERIOD = 200; // between two looks at the time while a run goes on [ms]
 const DASHES = ["", "6 3", "2 3", "8 3 2 3"]; // of runs that are compared, again from the fifth on
 
-/** The curve of a run, or of several that are compared; `quantities` write the flowtimes of the run. */
+/**
+ * The curve of a run, or of several that are compared; `quantities` write the flowtimes of the run.
+ * @param {{run: LiveRun, others?: LiveRun[], quantities?: Quantities | null}} props
+ */
 export function Curve({ run, others = [], quantities = null }) {
   const seconds = useSeconds(run);
   const drawn = [run, ...others.map((each) => inTicksOf(run, each))].filter(
@@ -31,14 +36,23 @@ export function Curve({ run, others = [], quantities = null }) {
   const flowtimes = drawn.flatMap(({ points }) => points.map(([, flowtime]) => flowtime));
   const floor = Math.min(bound ?? Infinity, ...flowtimes);
   const most = floor + Math.max(Math.max(...flowtimes) - floor, floor * 0.01, 1) * ROOM;
+  /** @type {Axes} */
   const place = {
     x: (at) => (at / last) * WIDTH,
     y: (flowtime) => HEIGHT - 2 - ((flowtime - floor) / (most - floor)) * (HEIGHT - 4),
   };
   const time = quantities && ((ticks) => quantities.short(ticks));
   const isDrawn = drawn.length > 0 && (isLive || flowtimes.length > 1 || others.length > 0);
+  /**
+   * @param {number} i
+   * @param {string} d
+   */
   const line = (i, d) => html`<path class=${i ? "reached beside" : "reached"}
     stroke-dasharray=${DASHES[i % DASHES.length]} d=${d} />`;
+  /**
+   * @param {LiveRun} each
+   * @param {number} i
+   */
   const legend = (each, i) => html`<li>
     <svg viewBox="0 0 24 8" aria-hidden="true">${line(i, "M0 4H24")}</svg>${each.number}</li>`;
   const level = bound !== undefined && drawn.length > 0 && place.y(bound).toFixed(1);
@@ -68,7 +82,10 @@ export function Curve({ run, others = [], quantities = null }) {
     </figure>`;
 }
 
-/** What has been reached, in figures; those of a plan with faults are worth nothing. */
+/**
+ * What has been reached, in figures.
+ * @param {{run: LiveRun, bound: number | undefined, seconds: number}} props
+ */
 function Caption({ run: { state, figures, status }, isFaulty, bound, seconds }) {
   const isLive = !isOver({ state });
   const said = !isFaulty && figures?.tick && new Quantities(figures.units, figures.tick);
@@ -82,7 +99,12 @@ function Caption({ run: { state, figures, status }, isFaulty, bound, seconds }) 
   </figcaption>`;
 }
 
-/** Another run with flowtimes in the ticks of a run. */
+/**
+ * Another run with flowtimes in the ticks of a run.
+ * @param {LiveRun} run
+ * @param {LiveRun} other
+ * @returns {LiveRun}
+ */
 function inTicksOf({ figures }, other) {
   const [top, bottom] = figures?.tick ?? [1, 1];
   const [otherTop, otherBottom] = other.figures?.tick ?? [1, 1];
@@ -90,23 +112,36 @@ function inTicksOf({ figures }, other) {
   return { ...other, points: other.points.map(([at, flowtime]) => [at, flowtime * scale]) };
 }
 
-/** What the axes mean: the first flowtime and the bound at the left, seconds below. */
+/**
+ * What the axes mean: the first flowtime and the bound at the left, seconds below.
+ * @param {{most: number, floor: number, bound: number | undefined, place: Axes, time: (ticks: number) => string, last: number}} props
+ */
 function Labels({ most, floor, bound, place, time, last }) {
   const isApart = place.y(floor) - place.y(most) > 20;
+  /**
+   * @param {number} flowtime
+   * @returns {{top: string}}
+   */
   const at = (flowtime) => ({ top: `${(100 * place.y(flowtime)) / HEIGHT}%` });
   const lowest = floor === bound ? `${time(floor)} (${words.bound})` : time(floor);
   return html`
     <span class="label" style=${at(most)}>${time(most)}</span>
     ${isApart && html`<span class="label" style=${at(floor)} title=${words.bound}>${lowest}</span>`}
     <span class="seconds first">0</span>
-    <span class="seconds last">${last.toPrecision(2) / 1} s</span>`;
+    <span class="seconds last">${Number(last.toPrecision(2))} s</span>`;
 }
 
-/** The same for who does not see it. */
+/**
+ * The same for who does not see it.
+ * @param {LiveRun[]} drawn
+ * @param {number | undefined} bound
+ * @param {((ticks: number) => string) | null} time
+ * @returns {string}
+ */
 function inWords(drawn, bound, time) {
   if (!drawn.length || !time) return words.curve;
   const parts = drawn.map(({ number, points }) => {
-    const [[start, first], [end, best]] = [points[0], points.at(-1)];
+    const [[start, first], [end, best]] = [points[0], points[points.length - 1]];
     return words.curveOf(number, time(first), start.toFixed(1), time(best), end.toFixed(1));
   });
   return [words.curve, ...parts, bound === undefined ? "" : `${words.bound} ${time(bound)}`]
@@ -114,13 +149,23 @@ function inWords(drawn, bound, time) {
     .join(". ");
 }
 
-/** When a run ended, or how long it has been going on [s]. */
+/**
+ * When a run ended, or how long it has been going on [s].
+ * @param {LiveRun} run
+ * @param {number} seconds
+ * @param {LiveRun} current
+ * @returns {number}
+ */
 function endOf(run, seconds, current) {
   const last = run.points.at(-1)?.[0] ?? 0;
   return Math.max(last, run === current ? seconds : secondsOf(run) || 0);
 }
 
-/** How long a run has been going on, or has taken [s]. */
+/**
+ * How long a run has been going on, or has taken [s].
+ * @param {LiveRun} run
+ * @returns {number}
+ */
 function useSeconds(run) {
   const [, look] = useState(0);
   const isRunning = run.state === "running";
@@ -129,10 +174,16 @@ function useSeconds(run) {
     const timer = setInterval(() => look((count) => count + 1), PERIOD);
     return () => clearInterval(timer);
   }, [isRunning]);
-  return isRunning ? (performance.now() - run.since) / 1000 : secondsOf(run) || 0;
+  return isRunning ? (performance.now() - (run.since ?? 0)) / 1000 : secondsOf(run) || 0;
 }
 
-/** A line that goes down in steps, up to its end. */
+/**
+ * A line that goes down in steps, up to its end.
+ * @param {[number, number][]} points
+ * @param {Axes} place
+ * @param {number} end
+ * @returns {string}
+ */
 function steps(points, { x, y }, end) {
   const corners = points.map(
     ([at, flowtime], i) =>
@@ -141,7 +192,12 @@ function steps(points, { x, y }, end) {
   return `${corners.join("")}H${x(end).toFixed(1)}`;
 }
 
-/** How flowtimes of a run are written: as those of the plan that is shown, or of the map that is drawn. */
+/**
+ * How flowtimes of a run are written: as those of the plan that is shown, or of the map that is drawn.
+ * @param {LiveRun} run
+ * @param {Studio} studio
+ * @returns {Quantities | null}
+ */
 export function quantitiesOf(run, { store, stage }) {
   const { tick, units } = run.figures ?? {};
   if (tick) return new Quantities(units, tick);

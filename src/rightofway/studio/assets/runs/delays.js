@@ -3,24 +3,46 @@
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { fraction, Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
+/** @import { Plan } from "../../../viz/page/assets/plan.js" */
+/** @import { Robot } from "../../../viz/page/assets/robot.js" */
+/** @import { DelaysReport, SpreadData } from "../api_types.js" */
+/** @import { Props } from "../types.js" */
+/** @import { PageEvent } from "../vendor/htm-preact.js" */
 
 const MOST = 6; // robots, and places in a run, that are listed
 const LEAST = 0.05; // share of a lateness from which on the robot behind it is named
 const [WIDTH, HEIGHT] = [300, 84];
 
+/** @param {Props & {report: DelaysReport}} props */
 export function Delays({ studio, report }) {
   const { runs } = studio;
   const { rank, run, flowtime } = report.ranks;
   const begin = Math.max(run.indexOf(report.played), 0);
   const [at, setAt] = useState(begin); // index into the ranks
   const quantities = new Quantities(report.units, fraction(report.tick));
+  /**
+   * @param {number} value
+   * @returns {string}
+   */
   const ticks = (value) => quantities.duration(value.toFixed(1));
+  /**
+   * @param {number} value
+   * @returns {string}
+   */
   const short = (value) => quantities.short(value.toFixed(1));
   const middle = run.length > 1 ? (run.length - 1) >> 1 : 0;
+  /**
+   * @param {number} index
+   * @returns {void}
+   */
   const play = (index) => {
     setAt(index);
     studio.attempt(() => runs.replay(run[index]));
   };
+  /**
+   * @param {number} index
+   * @returns {string}
+   */
   const says = (index) => {
     const found = flowtime[index];
     const share = Math.floor((100 * rank[index]) / report.runs);
@@ -56,10 +78,18 @@ export function Delays({ studio, report }) {
     <${Sufferers} studio=${studio} report=${report} ticks=${ticks} short=${short} />`;
 }
 
-/** A lateness, or that there is none. */
+/**
+ * A lateness, or that there is none.
+ * @param {(value: number) => string} said
+ * @param {number} value
+ * @returns {string}
+ */
 const late = (said, value) => (value > 0 ? said(value) : words.inTime);
 
-/** How many runs have which flowtime; the plan's own is a line, the run that plays is marked; a press plays a run. */
+/**
+ * How many runs have which flowtime; the plan's own is a line, the run that plays is marked; a press plays a run.
+ * @param {{spread: SpreadData, short: (value: number) => string, flowtime: (number | null)[], at: number, play: (index: number) => void}} props
+ */
 function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, at, play }) {
   const most = Math.max(...counts);
   const span = Math.max(to - from, 1); // a plan that is further away than that stands at the border
@@ -67,14 +97,30 @@ function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, 
     Math.max(Math.min(from, planned), from - span),
     Math.min(Math.max(to, planned, from + 1), to + span),
   ];
+  /**
+   * @param {number} ticks
+   * @returns {number}
+   */
   const x = (ticks) => 4 + ((WIDTH - 8) * (ticks - first)) / (last - first);
   const width = Math.max((x(to) - x(from)) / counts.length, 2);
+  /**
+   * @param {PageEvent} event
+   * @returns {void}
+   */
   const press = ({ clientX, currentTarget }) => {
     const { left, width: wide } = currentTarget.getBoundingClientRect();
     const wanted = (clientX - left) / wide;
+    /**
+     * @param {number | null} found
+     * @returns {number}
+     */
     const far = (found) => (found === null ? Infinity : Math.abs(x(found) / WIDTH - wanted));
     play(
-      flowtime.reduce((near, found, index) => (far(found) < far(flowtime[near]) ? index : near), 0),
+      flowtime.reduce(
+        (/** @type {number} */ near, found, index) =>
+          far(found) < far(flowtime[near]) ? index : near,
+        0,
+      ),
     );
   };
   const chosen = flowtime[at];
@@ -97,7 +143,10 @@ function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, 
       <figcaption>${ends.map((end) => (end === planned ? html`<span class="planned">${words.plannedSum(short(end))}</span>` : html`<span>${short(end)}</span>`))}</figcaption></figure>`;
 }
 
-/** Where robots were held up in the run that plays, beyond the plan; each is a press away. */
+/**
+ * Where robots were held up in the run that plays, beyond the plan; each is a press away.
+ * @param {Props} props
+ */
 function HeldUp({ studio }) {
   const { stage } = studio;
   const { plan } = stage;
@@ -108,6 +157,10 @@ function HeldUp({ studio }) {
     choice.light(found.map(({ loss }) => loss.vertex));
     return () => choice.light([]);
   }, [plan]);
+  /**
+   * @param {{robot: Robot, loss: Robot["losses"][number]}} each
+   * @returns {void}
+   */
   const watch = ({ robot, loss }) => {
     stage.clock.pause();
     stage.clock.seek(loss.tick);
@@ -125,7 +178,11 @@ function HeldUp({ studio }) {
     }`;
 }
 
-/** The waits of the run that plays that the plan did not have, the longest first. */
+/**
+ * The waits of the run that plays that the plan did not have, the longest first.
+ * @param {Plan} plan
+ * @returns {{robot: Robot, loss: Robot["losses"][number], by: number}[]}
+ */
 function heldUp(plan) {
   return (plan.happened ?? [])
     .flatMap((robot) => robot.losses.map((loss) => ({ robot, loss, by: robot.unplanned(loss) })))
@@ -133,7 +190,10 @@ function heldUp(plan) {
     .sort((one, other) => other.by - one.by);
 }
 
-/** The robots that are latest on average, and how much of that is waiting for others. */
+/**
+ * The robots that are latest on average, and how much of that is waiting for others.
+ * @param {Props & {report: DelaysReport, ticks: (value: number) => string, short: (value: number) => string}} props
+ */
 function Sufferers({ studio, report, ticks, short }) {
   const [isWhole, setWhole] = useState(false);
   const { stage } = studio;

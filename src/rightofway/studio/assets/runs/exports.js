@@ -3,7 +3,9 @@
 import { html, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { titleOf } from "./list.js";
+/** @import { Props } from "../types.js" */
 
+/** @param {Props} props */
 export function Exports({ studio }) {
   const { runs } = studio;
   const { run, command, choices } = runs;
@@ -14,6 +16,7 @@ export function Exports({ studio }) {
       setCopied(command);
     });
   if (!run?.has_plan) return null;
+  /** @param {[string, string]} each */
   const link = ([form, name]) => html`<a
     class="framed"
     href=${studio.exportAddress(form)}
@@ -35,10 +38,13 @@ export function Exports({ studio }) {
   </section>`;
 }
 
-/** The command line; it reads the file as it is saved. */
+/**
+ * The command line; it reads the file as it is saved.
+ * @param {Props & {copied: string, copy: () => void}} props
+ */
 function Command({ studio: { runs, store }, copied, copy }) {
   const { command, run } = runs;
-  const isDrawn = run.source && !(store.isSaved && runs.isOf(store.document));
+  const isDrawn = run?.source && !(store.isSaved && runs.isOf(store.document));
   return html` <div class="command">
       <code tabindex="0" aria-label=${words.command}>${command}</code>
       <button type="button" class="framed" aria-label=${words.copyCommand} onClick=${copy}>

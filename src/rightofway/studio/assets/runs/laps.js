@@ -17,50 +17,93 @@ import {
   times,
   written,
 } from "./parameter_curve.js";
+import { later, present } from "../given.js";
+/** @import { LapGroup, LapsAnswer, LapsReport, Units } from "../api_types.js" */
+/** @import { Studio } from "../studio.js" */
+/** @import { Moved, OtherOrder, Props, Ratio, RobotData } from "../types.js" */
 
+/** @type {Record<string, Ratio>} */
 const SECONDS = { ms: [1n, 1000n], s: [1n, 1n], min: [60n, 1n], h: [3600n, 1n] };
+/** @type {Ratio} */
 const HOUR = [3600n, 1n];
 const MOST_ROBOTS = 4; // of the critical circle that have sliders without being chosen
 const MOST_ROWS = 8; // robots in the table at first
 const PAUSE = 350; // between two steps of a key after which a value counts as given [ms]
 
-const largest = (groups) =>
-  groups.reduce(
-    (most, each) => (each.robots.length > (most?.robots.length ?? 0) ? each : most),
-    null,
-  );
+/**
+ * @param {LapGroup[]} groups
+ * @returns {LapGroup | null}
+ */
+function largest(groups) {
+  const most = Math.max(...groups.map(({ robots }) => robots.length));
+  return groups.find(({ robots }) => robots.length === most) ?? null;
+}
 
 /** Times and speeds in the units of the scenario; the report has exact times, not ticks. */
-class Said {
+export class Said {
+  /** @param {Units} units */
   constructor(units) {
     this.units = units;
     this.quantities = new Quantities(units, [1, 1]);
   }
+  /**
+   * @param {Ratio} value
+   * @returns {string}
+   */
   time(value) {
     return this.quantities.duration(asText(value));
   }
-  /** Where there is little room: a bare number where no unit of time is known. */
+  /**
+   * Where there is little room: a bare number where no unit of time is known.
+   * @param {Ratio} value
+   * @returns {string}
+   */
   short(value) {
     return this.quantities.short(asText(value));
   }
+  /**
+   * @param {Ratio} value
+   * @returns {string}
+   */
   speed(value) {
     return this.quantities.speed(asText(value));
   }
+  /**
+   * @param {{kind: string}} curve
+   * @param {Ratio} value
+   * @returns {string}
+   */
   value({ kind }, value) {
     return kind === "speed" ? this.speed(value) : this.time(value);
   }
-  /** Laps in an hour, or in 3600 time units. */
+  /**
+   * Laps in an hour, or in 3600 time units.
+   * @param {number} laps
+   * @param {Ratio} period
+   * @returns {string}
+   */
   throughput(laps, period) {
-    const seconds = times(period, SECONDS[this.units.time] ?? [1n, 1n]);
+    const seconds = times(period, SECONDS[this.units.time ?? ""] ?? [1n, 1n]);
     return decimal(over(times([BigInt(laps), 1n], HOUR), seconds), 1);
   }
 }
 
+/**
+ * @param {Ratio} value
+ * @returns {string}
+ */
 const asText = ([top, bottom]) => `${top}/${bottom}`;
+/**
+ * @param {LapGroup} group
+ * @returns {number}
+ */
 const lapsIn = ({ laps_per_period: laps }) =>
   Object.values(laps).reduce((sum, count) => sum + count, 0);
 
-/** The group of the robot that is chosen, or the largest one that repeats; and the largest that does not. */
+/**
+ * The group of the robot that is chosen, or the largest one that repeats; and the largest that does not.
+ * @param {Props & {report: LapsReport}} props
+ */
 export function Laps({ studio, report }) {
   const { groups } = report;
   const chosen = studio.stage.isPlan ? studio.stage.choice.robot?.name : undefined;
@@ -74,30 +117,43 @@ export function Laps({ studio, report }) {
     ${group && group.period !== null && html`<${Pace} key=${`${studio.runs.shown} ${group.robots[0]}`} studio=${studio} report=${report} group=${group} chosen=${chosen} />`}`;
 }
 
-/** The period, now and with one value changed; the circle that sets it; and the sliders. */
+/**
+ * The period, now and with one value changed; the circle that sets it; and the sliders.
+ * @param {Props & {report: LapsReport, group: LapGroup, chosen: string | undefined}} props
+ */
 function Pace({ studio, report, group, chosen }) {
-  const [moved, setMoved] = useState(null); // { curve, position }
-  const [other, setOther] = useState(null); // laps in a new order: { period, laps } or { why }
+  const [moved, setMoved] = useState(/** @type {Moved | null} */ (null));
+  const [other, setOther] = useState(/** @type {OtherOrder | null} */ (null)); // laps in a new order
   const { runs } = studio;
   const said = new Said(report.units);
   const curves = useMade(group, () =>
     (group.curves?.curves ?? []).map((each) => new ParameterCurve(each)),
   );
-  const at = fraction(group.period);
-  const value = moved?.curve.at(moved.position);
-  const period = moved ? moved.curve.period(value) : at;
-  const piece = moved?.curve.pieceAt(value);
-  const circle = moved ? group.curves.circuits[piece.circuit] : null;
+  const at = fraction(present(group.period));
+  const value = moved && moved.curve.at(moved.position);
+  const period = moved && value ? moved.curve.period(value) : at;
+  const piece = moved && value && moved.curve.pieceAt(value);
+  const circle = piece ? present(group.curves).circuits[piece.circuit] : null;
   const pieces = circle?.pieces ?? group.bottleneck ?? [];
   useEffect(() => studio.stage.lightCircle(group.robots, circle?.visits ?? null), [circle]);
   useEffect(() => () => studio.stage.lightCircle(group.robots, null), []);
   const asked = useRef(0);
+  /**
+   * @param {ParameterCurve | null} curve
+   * @param {number} position
+   * @returns {void}
+   */
   const move = (curve, position) => {
     asked.current++;
     setOther(null);
-    setMoved(position ? { curve, position } : null);
+    setMoved(curve && position ? { curve, position } : null);
   };
-  /** Ask for laps in a new order, once the value has stayed for a moment. */
+  /**
+   * Ask for laps in a new order, once the value has stayed for a moment.
+   * @param {ParameterCurve} curve
+   * @param {number} position
+   * @returns {void}
+   */
   const release = (curve, position) => {
     const turn = ++asked.current;
     if (!position) return;
@@ -119,10 +175,11 @@ function Pace({ studio, report, group, chosen }) {
     ({ robot }) => robot === null || robot === chosen || leaders(group).includes(robot),
   );
   const laps = lapsIn(group);
-  const isLong = [laps, other?.laps].some((count) => count > group.robots.length); // of several laps each
-  const given = moved && `${nameOf(studio, moved.curve)} ${said.value(moved.curve, value)}`;
+  const isLong = [laps, other?.laps ?? 0].some((count) => count > group.robots.length); // of several laps each
+  const given =
+    moved && value && `${nameOf(studio, moved.curve)} ${said.value(moved.curve, value)}`;
   const anew = newOrder(said, other, isLong);
-  const about = anew && (other.why || isLong) ? `${given}. ${anew}` : given;
+  const about = anew && (other?.why || isLong) ? `${given}. ${anew}` : given;
   return html`
     <div class="pace">
       <p class="figure"><output>${said.short(period)}</output><span>${isLong ? words.periodOf(laps, said.short(over(period, [BigInt(laps), 1n]))) : words.period}</span></p>
@@ -131,7 +188,7 @@ function Pace({ studio, report, group, chosen }) {
       <p class="hint">${moved ? about : words.moveSlider}</p>
       <div class="buttons">
         <button type="button" class="framed" disabled=${!moved} onClick=${() => move(null, 0)}>${words.resetValue}</button>
-        <button type="button" class="framed" disabled=${!moved || !robotsOf(studio.store.document) || !runs.isOf(studio.store.document)} onClick=${() => take(studio, moved.curve, value)}>${words.takeValue}</button>
+        <button type="button" class="framed" disabled=${!moved || !robotsOf(studio.store.document) || !runs.isOf(studio.store.document)} onClick=${() => moved && value && take(studio, moved.curve, value)}>${words.takeValue}</button>
       </div>
     </div>
     <h3>${robots.length ? words.setsThePace(several(robots)) : words.circleTooLong}</h3>
@@ -147,11 +204,19 @@ function Pace({ studio, report, group, chosen }) {
     <p class="hint">${[group.curves?.why, curves.length > shown.length && words.moreSliders, group.curves?.exact === false && words.rounded].filter(Boolean).join(" ")}</p>`;
 }
 
-/** Laps of each robot, how much of its time it waits, and whom it waits for most. */
+/**
+ * Laps of each robot, how much of its time it waits, and whom it waits for most.
+ * @param {Props & {said: Said, group: LapGroup}} props
+ */
 function Robots({ said, group, studio }) {
   const [isWhole, setWhole] = useState(false);
   const shown = isWhole ? group.robots : group.robots.slice(0, MOST_ROWS);
+  /**
+   * @param {string} name
+   * @returns {string}
+   */
   const behind = (name) => {
+    /** @type {Map<string | undefined, Ratio>} */
     const sums = new Map();
     for (const { waits, robots, for: time } of group.conflicts ?? []) {
       const other = robots.find((each) => each !== waits);
@@ -160,6 +225,10 @@ function Robots({ said, group, studio }) {
     const [most] = [...sums].sort(([, one], [, other]) => compared(other, one));
     return most ? words.behind(most[0], said.short(most[1])) : "";
   };
+  /**
+   * @param {string} name
+   * @returns {void}
+   */
   const choose = (name) =>
     studio.stage.choice.chooseRobot(
       studio.stage.plan.planned.findIndex((one) => one.name === name),
@@ -175,29 +244,53 @@ function Robots({ said, group, studio }) {
     ${group.robots.length > shown.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreRows(group.robots.length - shown.length)}</button>`}`;
 }
 
-/** The robots of the circle that have sliders. */
+/**
+ * The robots of the circle that have sliders.
+ * @param {LapGroup} group
+ * @returns {string[]}
+ */
 const leaders = ({ bottleneck }) =>
   [...new Set((bottleneck ?? []).map(({ robot }) => robot))].slice(0, MOST_ROBOTS);
 
-/** What laps in a new order achieve, of an answer. */
-function answerOf({ groups, message }, { robots }) {
-  if (message) return { why: message };
-  const found = groups.find((each) => each.robots.includes(robots[0]));
+/**
+ * What laps in a new order achieve, of an answer.
+ * @param {LapsAnswer | {message: string}} answer
+ * @param {LapGroup} group
+ * @returns {OtherOrder}
+ */
+function answerOf(answer, { robots }) {
+  if ("message" in answer) return { why: answer.message };
+  const found = answer.groups.find((each) => each.robots.includes(robots[0]));
   if (found.period === null) return { why: found.why };
   return { period: fraction(found.period), laps: lapsIn(found) };
 }
 
-/** In words, what a new order would reach. */
+/**
+ * In words, what a new order would reach.
+ * @param {Said} said
+ * @param {OtherOrder | null} other
+ * @param {boolean} isLong
+ * @returns {string}
+ */
 function newOrder(said, other, isLong) {
   if (!other || other.isAsked) return "";
   if (other.why) return words.noNewOrder(other.why);
   const { period, laps } = other;
+  if (!period || !laps) return "";
   if (!isLong) return words.newOrder(said.time(period));
   return words.newPattern(laps, said.short(period), said.short(over(period, [BigInt(laps), 1n])));
 }
 
-/** Period and laps: as they are, with the value in the same order, and with it in a new order. */
+/**
+ * Period and laps: as they are, with the value in the same order, and with it in a new order.
+ * @param {{said: Said, group: LapGroup, at: Ratio, period: Ratio | null, other: OtherOrder | null}} props
+ */
 function Table({ said, group, at, period, other }) {
+  /**
+   * @param {string} name
+   * @param {Ratio | string} found
+   * @param {number} laps
+   */
   const row = (name, found, laps) => {
     const isKnown = Array.isArray(found);
     return html`<tr data-known=${String(isKnown)}><th scope="row">${name}</th>
@@ -205,13 +298,23 @@ function Table({ said, group, at, period, other }) {
   };
   const waits = other?.isAsked ? "…" : "–";
   return html`<table class="orders"><thead><tr><td></td><th scope="col">${words.period}</th><th scope="col">${words.throughput(Boolean(said.units.time))}</th></tr></thead>
-    <tbody>${row(words.orders.now, at, lapsIn(group))}${row(words.orders.same, period ?? "–", lapsIn(group))}${row(words.orders.anew, other?.period ?? waits, other?.laps)}</tbody></table>`;
+    <tbody>${row(words.orders.now, at, lapsIn(group))}${row(words.orders.same, period ?? "–", lapsIn(group))}${row(words.orders.anew, other?.period ?? waits, other?.laps ?? 0)}</tbody></table>`;
 }
 
-/** Write a value into the scenario, and repeat the laps with it. */
+/**
+ * Write a value into the scenario, and repeat the laps with it.
+ * @param {Studio} studio
+ * @param {ParameterCurve} curve
+ * @param {Ratio} value
+ * @returns {void}
+ */
 function take(studio, { kind, robot, stop }, value) {
   const { store, runs } = studio;
   const given = written(value);
+  /**
+   * @param {RobotData} one
+   * @returns {RobotData}
+   */
   const edit = (one) => {
     if (kind === "speed") return { ...one, speed: given };
     const stops = stopsOf(one).map((each, index) =>
@@ -219,7 +322,7 @@ function take(studio, { kind, robot, stop }, value) {
     );
     return withStops(one, stops);
   };
-  const request = runs.run.request;
+  const request = runs.run?.request;
   store.change((document) => {
     if (kind === "headway") return { ...document, rules: { ...document.rules, headway: given } };
     const index = robotsOf(document).findIndex(({ name }) => name === robot);
@@ -229,14 +332,23 @@ function take(studio, { kind, robot, stop }, value) {
   studio.study({ kind: "laps", document, folder, source: name, ...request }, document);
 }
 
-/** A value that is made once for each of what it is made of. */
+/**
+ * A value that is made once for each of what it is made of.
+ * @template T
+ * @param {object} of
+ * @param {() => T} make
+ * @returns {T}
+ */
 function useMade(of, make) {
-  const kept = useRef({});
+  const kept = useRef(/** @type {{of?: object, made: T}} */ ({ made: later() }));
   if (kept.current.of !== of) kept.current = { of, made: make() };
   return kept.current.made;
 }
 
-/** One parameter: its value, the period for every value, and what the next change costs, in words. */
+/**
+ * One parameter: its value, the period for every value, and what the next change costs, in words.
+ * @param {Props & {curve: ParameterCurve, said: Said, now: Ratio, position: number, move: (curve: ParameterCurve, position: number) => void, release: (curve: ParameterCurve, position: number) => void}} props
+ */
 function Slider({ curve, said, now, position, move, release, studio }) {
   const value = curve.at(position);
   const period = curve.period(value);
@@ -259,6 +371,11 @@ function Slider({ curve, said, now, position, move, release, studio }) {
     </div>`;
 }
 
+/**
+ * @param {Studio} studio
+ * @param {ParameterCurve} curve
+ * @returns {string}
+ */
 function nameOf(studio, { kind, robot, stop }) {
   if (kind === "headway") return words.parameters.headway;
   if (kind === "speed") return words.parameters.speed(robot);
@@ -267,7 +384,13 @@ function nameOf(studio, { kind, robot, stop }) {
   return words.parameters.work(robot, stage ? studio.stage.words.where(stage.vertex) : stop + 1);
 }
 
-/** What a small change of a value does, and from where on that is otherwise. */
+/**
+ * What a small change of a value does, and from where on that is otherwise.
+ * @param {Said} said
+ * @param {ParameterCurve} curve
+ * @param {Ratio} value
+ * @returns {string}
+ */
 function effectOf(said, curve, value) {
   const piece = curve.pieceAt(value);
   const index = curve.pieces.indexOf(piece);
@@ -284,6 +407,10 @@ function effectOf(said, curve, value) {
     return words.fasterSaves(said.time(saved), next && !next.slope[0] ? to : "");
   }
   const unit = words.timeUnit(said.units.time);
+  /**
+   * @param {Ratio} slope
+   * @returns {string}
+   */
   const costs = (slope) => said.time(slope);
   if (!piece.slope[0]) return next ? words.freeUpTo(to, unit, costs(next.slope)) : words.free;
   return words.eachCosts(unit, costs(piece.slope), to, next && costs(next.slope));
@@ -291,12 +418,23 @@ function effectOf(said, curve, value) {
 
 const [WIDTH, HEIGHT, SAMPLES] = [200, 30, 60];
 
-/** The period over the values of a slider; where another circle takes over there is a line. */
+/**
+ * The period over the values of a slider; where another circle takes over there is a line.
+ * @param {{curve: ParameterCurve, value: Ratio, now: Ratio}} props
+ */
 function Picture({ curve, value, now }) {
   const [least, span] = [number(curve.least), number(minus(curve.most, curve.least))];
+  /**
+   * @param {Ratio} at
+   * @returns {number}
+   */
   const x = (at) => ((number(at) - least) / span) * WIDTH;
   const periods = [curve.least, curve.most].map((at) => number(curve.period(at)));
   const [low, high] = [Math.min(...periods), Math.min(Math.max(...periods), 2 * number(now))];
+  /**
+   * @param {Ratio} period
+   * @returns {number}
+   */
   const y = (period) => 2 + (HEIGHT - 4) * (1 - (number(period) - low) / (high - low || 1));
   const inner = Array.from({ length: SAMPLES + 1 }, (_, k) =>
     plus(curve.least, times(minus(curve.most, curve.least), [BigInt(k), BigInt(SAMPLES)])),

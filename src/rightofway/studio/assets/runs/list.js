@@ -6,19 +6,36 @@ import { Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { doNotRun, faultsOf, inShort } from "./faults.js";
 import { canBeShown, isOver, isWithoutPlan } from "./run_store.js";
+/** @import { ErrorData, Figures, RunData } from "../api_types.js" */
+/** @import { Studio } from "../studio.js" */
+/** @import { LiveRun, Props } from "../types.js" */
+/** @import { PageEvent } from "../vendor/htm-preact.js" */
 
 const MOST = 12; // that are listed at once; the others on request
 
-/** What a run is called: its own name, its file, or what it is. */
+/**
+ * What a run is called: its own name, its file, or what it is.
+ * @param {Pick<RunData, "name" | "source" | "kind">} run
+ * @returns {string}
+ */
 export const titleOf = (run) => run.name || fileOf(run) || words.runKinds[run.kind] || run.kind;
 
-/** The file that a run was made from; a draft has a name without an ending. */
+/**
+ * The file that a run was made from; a draft has a name without an ending.
+ * @param {Pick<RunData, "source">} run
+ * @returns {string}
+ */
 const fileOf = ({ source }) => (/\.\w+$/.test(source) ? source : "");
 
-/** How long a run took [s], or NaN. */
+/**
+ * How long a run took [s], or NaN.
+ * @param {Pick<RunData, "started" | "ended">} run
+ * @returns {number}
+ */
 export const secondsOf = ({ started, ended }) =>
-  started && ended > started ? ended - started : NaN;
+  started && ended && ended > started ? ended - started : NaN;
 
+/** @type {Record<string, (run: LiveRun) => number>} */
 const SORTS = {
   number: ({ number }) => -number,
   flowtime: (run) => {
@@ -29,6 +46,7 @@ const SORTS = {
   took: (run) => secondsOf(run) || Infinity,
 };
 
+/** @param {Props} props */
 export function RunList({ studio }) {
   const { runs, store } = studio;
   const [listed, setListed] = useState(MOST);
@@ -46,12 +64,18 @@ export function RunList({ studio }) {
     runs.notes.find(shown.map(({ number }) => number));
   }, [shown.map(({ number, state }) => `${number} ${state}`).join()]);
   if (!runs.runs.length) return null;
+  /**
+   * @param {string} key
+   * @param {string} text
+   * @param {string} [hint]
+   */
   const head = (key, text, hint = "") => {
     const way = key === "number" ? "descending" : "ascending";
     return html`<th scope="col" class=${key} aria-sort=${sort === key ? way : undefined}>
       <button type="button" class="quiet" title=${hint} onClick=${() => setSort(key)}>
         ${text}</button></th>`;
   };
+  /** @param {LiveRun} run */
   const row = (run) => html`<${Row} key=${run.number} studio=${studio} run=${run}
     order=${shown} isOwn=${file === null} />`;
   const left = found.length - listed;
@@ -77,7 +101,10 @@ export function RunList({ studio }) {
     </section>`;
 }
 
-/** The runs that came to nothing: one line until somebody wants to see them. */
+/**
+ * The runs that came to nothing: one line until somebody wants to see them.
+ * @param {Props & {runs: LiveRun[], row: (run: LiveRun) => unknown}} props
+ */
 function Empty({ studio, runs, row }) {
   const [isOpen, setOpen] = useState(false);
   const numbers = runs.map(({ number }) => number);
@@ -92,7 +119,10 @@ function Empty({ studio, runs, row }) {
     ${isOpen && runs.map(row)}</tbody>`;
 }
 
-/** Whose runs are listed, where there are others than those of this document. */
+/**
+ * Whose runs are listed, where there are others than those of this document.
+ * @param {Props & {file: string | null, setFile: (file: string | null) => void}} props
+ */
 function Files({ studio, file, setFile }) {
   const { runs, store } = studio;
   const [own, all] = [null, "*"].map((whose) => runs.plans(store, whose).length);
@@ -107,7 +137,10 @@ function Files({ studio, file, setFile }) {
     ${others.map((each) => html`<option value=${each}>${each}</option>`)}</select>`;
 }
 
-/** What can be done with the runs that are selected. */
+/**
+ * What can be done with the runs that are selected.
+ * @param {Props} props
+ */
 function Selection({ studio }) {
   const { runs } = studio;
   const { selected } = runs;
@@ -121,7 +154,13 @@ function Selection({ studio }) {
     <button type="button" class="framed" onClick=${none}>${words.selectNone}</button></p>`;
 }
 
-/** Forget runs, with an undo while the notice stands. */
+/**
+ * Forget runs, with an undo while the notice stands.
+ * @param {Studio} studio
+ * @param {number[]} numbers
+ * @param {string} [about]
+ * @returns {void}
+ */
 function forget({ runs, notices }, numbers, about = "") {
   const text =
     numbers.length === 1 ? words.runDeleted(numbers[0]) : words.runsDeleted(numbers.length);
@@ -129,11 +168,16 @@ function forget({ runs, notices }, numbers, about = "") {
   notices.say(about ? words.deleted(about) : text, words.undo, undo);
 }
 
+/** @param {Props & {run: LiveRun, order: LiveRun[], isOwn: boolean}} props */
 function Row({ studio, run, order, isOwn }) {
   const { runs } = studio;
   const { number, figures } = run;
   const isShown = number === runs.shown;
   const isSelected = runs.selected.includes(number);
+  /**
+   * @param {string} action
+   * @returns {string}
+   */
   const named = (action) => `${action}: ${number} ${titleOf(run)}`;
   const method =
     run.request?.planner ??
@@ -146,9 +190,18 @@ function Row({ studio, run, order, isOwn }) {
   const flowtime = figures?.tick
     ? new Quantities(figures.units, figures.tick).short(figures.flowtime)
     : figures?.text.flowtime;
+  /**
+   * @param {PageEvent} event
+   * @returns {void}
+   */
   const select = (event) =>
-    studio.attempt(() => runs.toggle(number, event.shiftKey ? order : null));
-  const rename = ({ target }) => studio.attempt(() => runs.rename(number, target.value.trim()));
+    void studio.attempt(() => runs.toggle(number, event.shiftKey ? order : null));
+  /**
+   * @param {{target: HTMLInputElement}} event
+   * @returns {void}
+   */
+  const rename = ({ target }) =>
+    void studio.attempt(() => runs.rename(number, target.value.trim()));
   const remove = html`<button type="button" class="quiet" title=${words.remove}
     aria-label=${named(words.remove)} onClick=${() => forget(studio, [number])}>✕</button>`;
   return html`
@@ -176,14 +229,20 @@ function Row({ studio, run, order, isOwn }) {
     }`;
 }
 
-/** How far the flowtime is above the bound: a bar, full from twice the bound on, and a figure. */
+/**
+ * How far the flowtime is above the bound: a bar, full from twice the bound on, and a figure.
+ * @param {{figures: Figures}} props
+ */
 function Gap({ figures: { flowtime, lower_bound: bound, text } }) {
   const share = Math.min(flowtime / bound - 1, 1);
   return html`<small title=${`${words.gap} ${text.gap}`}>
     <span class="gap-bar" style=${{ "--gap": share }}></span>+${text.gap}</small>`;
 }
 
-/** Why a run failed, as the library says it; each proven reason lights its places on the map. */
+/**
+ * Why a run failed, as the library says it; each proven reason lights its places on the map.
+ * @param {Props & {error: ErrorData}} props
+ */
 function Failure({ studio, error }) {
   const reasons = error.reasons?.filter(({ vertices }) => vertices.length) ?? [];
   if (!reasons.length) return html`<p class="wrong" lang="en">${error.message}</p>`;

@@ -12,7 +12,9 @@ import { RunList } from "./list.js";
 import { Settings } from "./settings.js";
 import { Report, Studies } from "./studies.js";
 import { Waits } from "./waits.js";
+/** @import { Props } from "../types.js" */
 
+/** @param {Props} props */
 export function PlanPanel({ studio }) {
   const { runs, stage, store } = studio;
   const { running, run } = runs;

@@ -1,21 +1,60 @@
 /** The period as a function of a speed, a work time or the headway: exact, from the pieces of the report. */
 
 import { decimal, fraction } from "../../../viz/page/assets/quantities.js";
+/** @import { CurveData } from "../api_types.js" */
+/** @import { Numeral, ParameterPiece, Ratio } from "../types.js" */
 
+/**
+ * @param {Ratio} one
+ * @param {Ratio} other
+ * @returns {Ratio}
+ */
 export const plus = ([a, b], [c, d]) => [a * d + c * b, b * d];
+/**
+ * @param {Ratio} one
+ * @param {Ratio} other
+ * @returns {Ratio}
+ */
 export const minus = ([a, b], [c, d]) => [a * d - c * b, b * d];
+/**
+ * @param {Ratio} one
+ * @param {Ratio} other
+ * @returns {Ratio}
+ */
 export const times = ([a, b], [c, d]) => reduced([a * c, b * d]);
+/**
+ * @param {Ratio} one
+ * @param {Ratio} other
+ * @returns {Ratio}
+ */
 export const over = ([a, b], [c, d]) => reduced([a * d, b * c]);
+/**
+ * @param {Ratio} value
+ * @returns {number}
+ */
 export const number = ([top, bottom]) => Number(top) / Number(bottom);
+/**
+ * @param {Ratio} one
+ * @param {Ratio} other
+ * @returns {number}
+ */
 export const compared = ([a, b], [c, d]) => Number(a * d - c * b);
 
+/**
+ * @param {Ratio} value
+ * @returns {Ratio}
+ */
 function reduced([top, bottom]) {
   let [a, b] = [top < 0n ? -top : top, bottom];
   while (b) [a, b] = [b, a % b];
   return a ? [top / a, bottom / a] : [0n, 1n];
 }
 
-/** As a document has it: a number, or text where it has no end as a decimal. */
+/**
+ * As a document has it: a number, or text where it has no end as a decimal.
+ * @param {Ratio} value
+ * @returns {Numeral}
+ */
 export function written([top, bottom]) {
   const text = decimal([top, bottom], 9);
   const isExact = compared(fraction(text), [top, bottom]) === 0;
@@ -23,20 +62,31 @@ export function written([top, bottom]) {
 }
 
 const STEPS = 100; // about so many positions of a slider
-const ROUND = [1n, 2n, 5n, 10n];
+const ROUND = [1n, 2n, 5n];
 
-/** A length of steps that is easy to read: 1, 2 or 5, times a power of ten. */
+/**
+ * A length of steps that is easy to read: 1, 2 or 5, times a power of ten.
+ * @param {number} span
+ * @returns {Ratio}
+ */
 function roundStep(span) {
   const power = Math.floor(Math.log10(span / STEPS));
+  /** @type {Ratio} */
   const ten = power < 0 ? [1n, 10n ** BigInt(-power)] : [10n ** BigInt(power), 1n];
-  const factor = ROUND.find((each) => (Number(each) * number(ten) * STEPS) / span >= 0.999);
+  const factor = ROUND.find((each) => (Number(each) * number(ten) * STEPS) / span >= 0.999) ?? 10n;
   return times([factor, 1n], ten);
 }
 
 export class ParameterCurve {
+  /** @param {CurveData} curve */
   constructor({ kind, robot, stop, value, pieces }) {
-    Object.assign(this, { kind, robot, stop, key: `${kind} ${robot} ${stop}` });
+    this.kind = kind;
+    this.robot = robot;
+    this.stop = stop;
+    this.key = `${kind} ${robot} ${stop}`;
+    /** @type {Ratio} */
     this.value = fraction(value);
+    /** @type {ParameterPiece[]} */
     this.pieces = pieces.map(({ from, to, fixed, slope, circuit }) => ({
       from: fraction(from),
       to: fraction(to),
@@ -44,8 +94,13 @@ export class ParameterCurve {
       slope: fraction(slope),
       circuit,
     }));
-    [this.least, this.most] = [this.pieces[0].from, this.pieces.at(-1).to];
+    this.least = this.pieces[0].from;
+    this.most = this.pieces[this.pieces.length - 1].to;
     this.step = this.isFixed ? [1n, 1n] : roundStep(number(minus(this.most, this.least)));
+    /**
+     * @param {Ratio} span
+     * @returns {number}
+     */
     const steps = (span) => Math.ceil(number(over(span, this.step)) - 1e-9);
     this.first = -steps(minus(this.value, this.least));
     this.last = steps(minus(this.most, this.value));
@@ -56,19 +111,33 @@ export class ParameterCurve {
     return compared(this.least, this.most) === 0;
   }
 
-  /** The value of a position of the slider; 0 is that of the scenario. */
+  /**
+   * The value of a position of the slider; 0 is that of the scenario.
+   * @param {number} position
+   * @returns {Ratio}
+   */
   at(position) {
     const value = plus(this.value, times([BigInt(position), 1n], this.step));
     if (compared(value, this.least) < 0) return this.least;
     return compared(value, this.most) > 0 ? this.most : reduced(value);
   }
 
-  /** The piece of a value; where two meet, the one of larger values. */
+  /**
+   * The piece of a value; where two meet, the one of larger values.
+   * @param {Ratio} value
+   * @returns {ParameterPiece}
+   */
   pieceAt(value) {
-    return this.pieces.find(({ to }) => compared(value, to) < 0) ?? this.pieces.at(-1);
+    return (
+      this.pieces.find(({ to }) => compared(value, to) < 0) ?? this.pieces[this.pieces.length - 1]
+    );
   }
 
-  /** The period for a value [time unit]. */
+  /**
+   * The period for a value [time unit].
+   * @param {Ratio} value
+   * @returns {Ratio}
+   */
   period(value) {
     const { fixed, slope } = this.pieceAt(value);
     return reduced(plus(fixed, this.kind === "speed" ? over(slope, value) : times(slope, value)));

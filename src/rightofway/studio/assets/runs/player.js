@@ -7,7 +7,14 @@ import { writeMarkup } from "../../../viz/page/assets/language.js";
 import { States } from "../../../viz/page/assets/states.js";
 import { Transport } from "../../../viz/page/assets/transport.js";
 import { Use } from "../../../viz/page/assets/use.js";
+import { later, present } from "../given.js";
+/** @import { MapView } from "../../../viz/page/assets/map_view.js" */
+/** @import { Stage } from "../stage.js" */
 
+/**
+ * @param {string} path
+ * @returns {string}
+ */
 const icon = (path) => `<svg viewBox="0 0 20 20" aria-hidden="true">${path}</svg>`;
 
 const BELOW = `<ul id="states" class="states" data-label="states"></ul><div class="tools" role="toolbar" data-label="mapView">
@@ -24,9 +31,34 @@ const TIME = `<h2 id="diagram-title"></h2><div class="bar"><div class="caption">
 <input type="range" id="slider" min="0" step="any" value="0" data-label="time"></div></div>
 <div class="diagram"><canvas id="diagram" role="img"></canvas><div id="needle" class="needle" aria-hidden="true"></div></div>`;
 
+/**
+ * A part of the markup.
+ * @param {string} id
+ * @returns {HTMLElement}
+ */
+const part = (id) => present(document.getElementById(id));
+
 export class Player {
-  constructor({ plan, clock, choice, motion, words: said, theme, below, time, card }) {
-    Object.assign(this, { plan, clock, choice, motion, words: said, theme, below, time, card });
+  /** @type {Diagram} */
+  diagram = later();
+  /** @type {Transport} */
+  transport = later();
+  /** @type {States} */
+  states = later();
+  observer = new ResizeObserver(() => this.stage.ask()); // of the diagram
+
+  /** @param {Stage} stage */
+  constructor(stage) {
+    const { plan, clock, choice, motion, words: said, theme, below, time, card } = stage;
+    this.stage = stage;
+    this.plan = plan;
+    this.clock = clock;
+    this.choice = choice;
+    this.motion = motion;
+    this.words = said;
+    this.theme = theme;
+    this.below = below;
+    this.card = card;
     below.innerHTML = BELOW;
     time.innerHTML = TIME;
     writeMarkup();
@@ -34,34 +66,47 @@ export class Player {
     this.bottleneck = new Bottleneck(plan, clock, choice, theme, said);
   }
 
-  /** Begin to show, beside the view of the map. */
+  /**
+   * Begin to show, beside the view of the map.
+   * @param {MapView} view
+   * @returns {void}
+   */
   begin(view) {
     const { plan, clock, choice, motion, words: said, theme, below } = this;
     this.diagram = new Diagram(plan, clock, choice, theme, said, this.use, this.bottleneck);
     this.transport = new Transport(plan, clock, said);
     this.states = new States(motion, choice);
-    this.observer = new ResizeObserver(() => this.ask?.());
     this.observer.observe(this.diagram.canvas);
     new Card(plan, clock, choice, said, null, view.space);
     this.card.hidden = true;
-    const press = (id, action) => below.querySelector(`#${id}`).addEventListener("click", action);
-    const shows = (id, isOn) => below.querySelector(`#${id}`).setAttribute("aria-pressed", isOn);
+    /**
+     * @param {string} id
+     * @param {() => void} action
+     * @returns {void}
+     */
+    const press = (id, action) => part(id).addEventListener("click", action);
+    /**
+     * @param {string} id
+     * @param {boolean} isOn
+     * @returns {void}
+     */
+    const shows = (id, isOn) => part(id).setAttribute("aria-pressed", String(isOn));
     press("heat", () => choice.toggleHeat());
     press("space", () => choice.toggleSpace());
-    below.querySelector("#space").hidden = !plan.hasSpace;
+    part("space").hidden = !plan.hasSpace;
     choice.on("space", () => shows("space", choice.space));
     choice.on("heat", () => {
       shows("heat", choice.heat);
-      document.getElementById("heat-legend").hidden = !choice.heat;
+      part("heat-legend").hidden = !choice.heat;
       const marks = [0, this.use.most].map((ticks) =>
         Object.assign(document.createElement("span"), { textContent: said.duration(ticks) }),
       );
-      document.getElementById("heat-scale").replaceChildren(...marks);
+      part("heat-scale").replaceChildren(...marks);
     });
   }
 
   end() {
-    this.observer?.disconnect();
+    this.observer.disconnect();
     this.clock.playing = false;
   }
 

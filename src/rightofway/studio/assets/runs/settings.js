@@ -3,12 +3,19 @@
 import { html } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
 import { language, words } from "../words.js";
+/** @import { PlannerData, PlannerOption } from "../api_types.js" */
+/** @import { Props, SearchForm } from "../types.js" */
 
+/** @param {Props} props */
 export function Settings({ studio }) {
   const { settings, runs, store } = studio;
   const { planners } = runs;
   const chosen = settings.planner || planners.default;
   const spec = planners.planners.find(({ name }) => name === chosen);
+  /**
+   * @param {Partial<SearchForm>} change
+   * @returns {void}
+   */
   const set = (change) => {
     Object.assign(settings, change);
     studio.tell("change");
@@ -26,7 +33,7 @@ export function Settings({ studio }) {
         <label>${words.seed}<input type="number" id="seed" required min="0" max="4294967295" step="1" value=${settings.seed} onInput=${({ target }) => set({ seed: target.value })} /></label>
       </div>
       <p id="planner-summary" class="hint" lang="en">${spec?.summary}</p>
-      ${spec?.options.length > 0 && html`<details><summary>${words.options}</summary><${Options} spec=${spec} given=${settings.options} set=${(options) => set({ options })} /></details>`}
+      ${spec && spec.options.length > 0 && html`<details><summary>${words.options}</summary><${Options} spec=${spec} given=${settings.options} set=${(/** @type {Record<string, string | number>} */ options) => set({ options })} /></details>`}
       </details>
       <label class="check"><input type="checkbox" checked=${studio.isLive} onChange=${({
         target,
@@ -43,12 +50,21 @@ export function Settings({ studio }) {
     </form>`;
 }
 
-/** The options of a planner as its registry describes them; a field that is left empty has the default. */
+/**
+ * The options of a planner as its registry describes them; a field that is left empty has the default.
+ * @param {{spec: PlannerData, given: Record<string, string | number>, set: (options: Record<string, string | number>) => void}} props
+ */
 function Options({ spec, given, set }) {
+  /**
+   * @param {string} name
+   * @param {string} value
+   * @returns {void}
+   */
   const write = (name, value) => {
     const { [name]: before, ...rest } = given;
     set(value === "" ? rest : { ...rest, [name]: value });
   };
+  /** @param {PlannerOption} option */
   const field = ({ name, choices, least, default: usual }) =>
     choices.length
       ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option lang="en">${each}</option>`)}</select>`

@@ -5,26 +5,36 @@ import { words } from "../words.js";
 import { causeOf, Causes, notation } from "./causes.js";
 import { Delays } from "./delays.js";
 import { Laps } from "./laps.js";
+import { present } from "../given.js";
+/** @import { NewLaps, NewSimulation } from "../api_types.js" */
+/** @import { Cause, Props, ScenarioDocument } from "../types.js" */
 
 let isWanted = false; // whether the next report is to be brought into sight: somebody has asked for it
 
+/** @param {Props} props */
 export function Studies({ studio }) {
   const { runs, store, stage } = studio;
   const { run, choices } = runs;
   const [rule, setRule] = useState("first-come");
-  const [chosen, setCauses] = useState(null); // causes of delay; null while nobody has changed any
+  const [chosen, setCauses] = useState(/** @type {Cause[] | null} */ (null)); // causes of delay; null while nobody has changed any
   const [count, setCount] = useState(1000);
   const { seed, time_limit } = studio.settings;
   const names = stage.isPlan ? stage.plan.planned.map(({ name }) => name) : [];
   const causes = chosen ?? [causeOf("exponential", names)];
+  /**
+   * @param {NewLaps | NewSimulation} request
+   * @param {ScenarioDocument} [document]
+   * @returns {Promise<void>}
+   */
   const study = (request, document) => {
     isWanted = true;
     return studio.study(request, document);
   };
   const simulate = () =>
+    run &&
     study({
       kind: "simulate",
-      based_on: run.kind === "simulate" ? run.based_on : run.number,
+      based_on: present(run.kind === "simulate" ? run.based_on : run.number),
       seed: Number(seed),
       runs: Number(count),
       delays: causes.map(notation),
@@ -59,14 +69,17 @@ export function Studies({ studio }) {
           event.preventDefault();
           simulate();
         }}>
-          <label>${words.runCount}<input type="number" id="run-count" required min="1" max="100000" step="1" value=${count} onInput=${({ target }) => setCount(target.value)} /></label>
+          <label>${words.runCount}<input type="number" id="run-count" required min="1" max="100000" step="1" value=${count} onInput=${({ target }) => setCount(Number(target.value))} /></label>
           <button type="submit" class="framed" disabled=${Boolean(runs.running)}>${words.simulate}</button>
         </form></details>`
       }
     </section>`;
 }
 
-/** What came of laps or of delays. */
+/**
+ * What came of laps or of delays.
+ * @param {Props} props
+ */
 export function Report({ studio }) {
   const { report, run } = studio.runs;
   const section = useRef(null);
@@ -75,10 +88,10 @@ export function Report({ studio }) {
     isWanted = false;
     section.current.scrollIntoView({ block: "start" });
   }, [report]);
-  if (!report?.text) return null;
+  if (!report || !("text" in report)) return null;
   return html`
-    <section class="study" aria-labelledby="report-title" ref=${section}><h2 id="report-title">${report.groups ? words.lapsResult : words.delaysResult}</h2>
-      ${report.groups && html`<${Laps} studio=${studio} report=${report} />`}
-      ${report.ranks && html`<${Delays} key=${run.number} studio=${studio} report=${report} />`}
+    <section class="study" aria-labelledby="report-title" ref=${section}><h2 id="report-title">${"groups" in report ? words.lapsResult : words.delaysResult}</h2>
+      ${"groups" in report && html`<${Laps} studio=${studio} report=${report} />`}
+      ${"ranks" in report && html`<${Delays} key=${run?.number} studio=${studio} report=${report} />`}
     </section>`;
 }

@@ -3,4 +3,5 @@
 import { html } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 
+/** @param {{of: "flowtime" | "makespan" | "bound" | "gap"}} props */
 export const Term = ({ of }) => html`<span title=${words.terms[of]}>${words[of]}</span>`;

@@ -3,13 +3,18 @@
 import { html } from "../vendor/htm-preact.js";
 import { texts } from "../../../viz/page/assets/language.js";
 import { words } from "../words.js";
+/** @import { Robot } from "../../../viz/page/assets/robot.js" */
+/** @import { LossData } from "../api_types.js" */
+/** @import { Stage } from "../stage.js" */
+/** @import { Props } from "../types.js" */
 
 const MOST = 30;
 
+/** @param {Props} props */
 export function Waits({ studio }) {
   const { runs, stage } = studio;
   const chosen = stage.isPlan ? stage.choice.robot?.name : undefined;
-  const found = runs.losses.filter(({ robot }) => chosen === undefined || robot === chosen);
+  const found = (runs.losses ?? []).filter(({ robot }) => chosen === undefined || robot === chosen);
   if (chosen !== undefined && !found.length) return null; // the card says that it loses no time
   return html`
     <section aria-labelledby="waits-title"><h2 id="waits-title">${chosen ? words.waitsOf(chosen) : words.waits}</h2>
@@ -28,7 +33,12 @@ export function Waits({ studio }) {
     </section>`;
 }
 
-/** How a robot loses time, as the viewer says it; the server and the viewer list the same losses. */
+/**
+ * How a robot loses time, as the viewer says it; the server and the viewer list the same losses.
+ * @param {Stage} stage
+ * @param {LossData} loss
+ * @returns {string}
+ */
 export function sentenceOn(stage, { robot, tick, vertex, sentence }) {
   const loss = lossOn(stage, { robot, tick, vertex });
   if (!loss) return sentence;
@@ -36,18 +46,34 @@ export function sentenceOn(stage, { robot, tick, vertex, sentence }) {
   return `${robot} ${said.loss(loss, plan.planned[loss.robot])}, ${texts.at(said.moment(tick))}.`;
 }
 
-/** What the viewer knows of a loss that the server lists. */
+/**
+ * What the viewer knows of a loss that the server lists.
+ * @param {Stage} stage
+ * @param {Pick<LossData, "robot" | "tick" | "vertex">} loss
+ * @returns {Robot["losses"][number] | undefined}
+ */
 export function lossOn({ plan }, { robot, tick, vertex }) {
   return plan.planned
     ?.find(({ name }) => name === robot)
     ?.losses.find((each) => each.tick === tick && plan.roadmap.name(each.vertex) === vertex);
 }
 
-/** Whether the other robot could not have gone first: then that is not offered. */
-const isOnlyChoice = ({ plan }, { because }) => plan.decisions[because?.index]?.level === "only";
+/**
+ * Whether the other robot could not have gone first: then that is not offered.
+ * @param {Stage} stage
+ * @param {LossData} loss
+ * @returns {boolean}
+ */
+const isOnlyChoice = ({ plan }, { because }) =>
+  plan.decisions[because?.index ?? -1]?.level === "only";
 
-/** The decision behind it, and why it was taken. */
+/**
+ * The decision behind it, and why it was taken.
+ * @param {Stage} stage
+ * @param {LossData} loss
+ * @returns {string}
+ */
 function reasonOf({ plan, words: said }, { because }) {
-  const decision = plan.decisions[because.index];
+  const decision = plan.decisions[because?.index ?? -1];
   return decision ? `${said.decisionAtLength(decision)} ${said.reason(decision)}` : "";
 }

@@ -1,5 +1,10 @@
 /** The texts of the studio in German. */
 
+
+/** @type {Record<string, string>} */
+const UNITS = { ms: "Millisekunde", s: "Sekunde", min: "Minute", h: "Stunde" };
+
+/** @type {Texts} */
 export const GERMAN = {
   mapRole: "Karte zum Zeichnen",
   side: "Karte, Roboter, Plan",
@@ -278,6 +283,7 @@ export const GERMAN = {
   delaysResult: "Verzögerungen",
   period: "Periode",
   periodOf: (laps, each) => `Periode aus ${laps} Umläufen, ${each} je Umlauf`,
+  /** @type {(isTimed: boolean) => string} */
   throughput: (isTimed) => (isTimed ? "Umläufe je Stunde" : "Umläufe in 3600"),
   orders: { now: "wie es ist", same: "gleiche Reihenfolge", anew: "neue Reihenfolge" },
   openGroup: (names, count, why) =>
@@ -303,8 +309,7 @@ export const GERMAN = {
   },
   noRoom: "Für einen Zeitabstand ist kein Platz: Roboter rücken im Kreis nach.",
   valueAndPeriod: (value, period) => `${value}: Periode ${period}`,
-  timeUnit: (unit) =>
-    ({ ms: "Millisekunde", s: "Sekunde", min: "Minute", h: "Stunde" })[unit] ?? "Zeiteinheit",
+  timeUnit: (unit) => UNITS[unit ?? ""] ?? "Zeiteinheit",
   free: "Ändert nichts.",
   freeUpTo: (to, unit, cost) =>
     `Bis ${to} ändert sich nichts; von da an kostet jede ${unit} ${cost}.`,

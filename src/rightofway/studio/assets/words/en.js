@@ -1,6 +1,14 @@
 /** The texts of the studio in English. */
 
+/**
+ * @param {number} count
+ * @param {string} thing
+ * @param {string} [things]
+ */
 const counted = (count, thing, things = `${thing}s`) => `${count} ${count === 1 ? thing : things}`;
+
+/** @type {Record<string, string>} */
+const UNITS = { ms: "millisecond", s: "second", min: "minute", h: "hour" };
 
 export const ENGLISH = {
   mapRole: "map to draw on",
@@ -12,26 +20,27 @@ export const ENGLISH = {
   toFiles: "All files, drafts and examples",
   save: "Save",
   saved: "Saved",
-  savedAs: (name) => `Saved as ${name}.`,
+  savedAs: (/** @type {string} */ name) => `Saved as ${name}.`,
   keptAsDraft: "Draft",
   draftHint: "Every change is kept as a draft. Save writes a file.",
   fileName: "Name of the file",
   unnamed: "Untitled",
   replace: "Replace",
-  otherContent: (names) => `In the folder is another ${names}.`,
-  putIntoFolder: (names, folder) => `${names}: now in the folder ${folder}.`,
-  draftIsNewer: (name) => `This is newer than ${name} and not saved yet.`,
+  otherContent: (/** @type {string} */ names) => `In the folder is another ${names}.`,
+  putIntoFolder: (/** @type {string} */ names, /** @type {string} */ folder) =>
+    `${names}: now in the folder ${folder}.`,
+  draftIsNewer: (/** @type {string} */ name) => `This is newer than ${name} and not saved yet.`,
   openSaved: "Open what was saved",
   changedElsewhere: "There is another draft of this floor.",
   loadOther: "Load it",
   keepCopy: "Keep mine as a copy",
   draftRemoved: "The draft is deleted.",
-  deleted: (what) => `Deleted: ${what}.`,
+  deleted: (/** @type {string} */ what) => `Deleted: ${what}.`,
   counted: {
-    robots: (count) => counted(count, "robot"),
-    obstacles: (count) => counted(count, "wall or block", "walls and blocks"),
-    vertices: (count) => counted(count, "vertex", "vertices"),
-    lanes: (count) => counted(count, "lane"),
+    robots: (/** @type {number} */ count) => counted(count, "robot"),
+    obstacles: (/** @type {number} */ count) => counted(count, "wall or block", "walls and blocks"),
+    vertices: (/** @type {number} */ count) => counted(count, "vertex", "vertices"),
+    lanes: (/** @type {number} */ count) => counted(count, "lane"),
   },
   newName: "floor",
   undo: "Undo",
@@ -52,9 +61,10 @@ export const ENGLISH = {
   formats:
     "A scenario, workbook or plan; a ROS map with its picture; LIF, Open-RMF, openTCS, Nav2, GraphML, MovingAI.",
   pictureMissing: "Drop the picture here, too; then the map opens.",
-  inFolder: (name) => `In the folder ${name}`,
+  inFolder: (/** @type {string} */ name) => `In the folder ${name}`,
   draftsTitle: "Go on with",
   examplesTitle: "Try an example",
+  /** @type {Record<string, string>} */
   examples: {
     bay: "One bay, three robots",
     crossroad: "Crossroad",
@@ -62,11 +72,12 @@ export const ENGLISH = {
     floor: "Workshop in metres",
     warehouse: "Warehouse, fifty robots",
   },
-  moreFiles: (count) => `Show ${counted(count, "more file")}`,
+  moreFiles: (/** @type {number} */ count) => `Show ${counted(count, "more file")}`,
   notRead: "cannot be opened",
   mapAlone: "map",
-  robotCount: (count) => counted(count, "robot"),
-  planOf: (what) => `plan of ${what}`,
+  robotCount: (/** @type {number} */ count) => counted(count, "robot"),
+  planOf: (/** @type {string} */ what) => `plan of ${what}`,
+  /** @type {Record<string, string>} */
   toolNames: {
     select: "Select",
     line: "Wall",
@@ -79,6 +90,7 @@ export const ENGLISH = {
     mark: "Station",
     robot: "Robots",
   },
+  /** @type {Record<string, string[]>} */
   tools: {
     pick: ["Pick", "Press a place on the picture."],
     select: [
@@ -106,7 +118,8 @@ export const ENGLISH = {
   nextPlan: "Next: plan and watch",
   needsRobots:
     "A plan needs robots: press the home of one on the map, then the place where it works.",
-  needsMending: (count) => `First mend ${counted(count, "fault")}: see the list.`,
+  needsMending: (/** @type {number} */ count) =>
+    `First mend ${counted(count, "fault")}: see the list.`,
   planning: "The best plan so far plays while the search goes on.",
   noWaitNext:
     "No robot waits. Take the plan along at the right, or change something and plan again.",
@@ -135,9 +148,9 @@ export const ENGLISH = {
   pressLane: "Press the next vertex, or the same one to end.",
   robotsElsewhere: "The robots are in another file.",
   writeHere: "Write them here",
-  mapElsewhere: (file) => `The map is the file ${file}.`,
+  mapElsewhere: (/** @type {string} */ file) => `The map is the file ${file}.`,
   drawOnIt: "Draw on a copy of it",
-  selected: (count) => counted(count, "thing") + " selected",
+  selected: (/** @type {number} */ count) => counted(count, "thing") + " selected",
   name: "Name",
   duplicate: "Copy beside",
   control: "Ctrl",
@@ -173,9 +186,10 @@ export const ENGLISH = {
   units: "Unit of length",
   spacing: "Split lanes at",
   findings: "What will hurt",
-  moreFindings: (count) => `${count} more`,
+  moreFindings: (/** @type {number} */ count) => `${count} more`,
   notes: "About this map",
   noUnit: "none",
+  /** @type {Record<string, string[]>} */
   columns: {
     name: ["Name", "Name"],
     home: ["Home", "Where it starts and ends: N3, or 1.25, 0.75"],
@@ -193,11 +207,11 @@ export const ENGLISH = {
     "As in a spreadsheet: typing replaces, Enter or F2 edits, Escape restores; paste rows, Shift selects, Ctrl+D fills down, the last row adds.",
   newRow: "new robot",
   findRobot: "Find a robot or place",
-  moreRows: (count) => `Show ${count} more`,
+  moreRows: (/** @type {number} */ count) => `Show ${count} more`,
   noRobots: "No robots yet: press a home on the map, then a place to work at.",
   randomFleet: "Robots at random",
   deal: "Add them",
-  dealFew: (count, between) =>
+  dealFew: (/** @type {number} */ count, /** @type {string} */ between) =>
     between === "stations" ? `Add ${count} between stations` : `Add ${count} at random`,
   betweenStations: "between stations",
   random: { count: "Robots", seed: "Seed", work: "Work", speed: "Speed" },
@@ -220,20 +234,28 @@ export const ENGLISH = {
     gap: "Gap: how far the sum of arrivals is above that of robots that drive alone",
   },
   curve: "Sum of arrivals while the search goes on",
-  curveOf: (number, first, start, best, end) =>
+  curveOf: (
+    /** @type {number} */ number,
+    /** @type {string} */ first,
+    /** @type {string} */ start,
+    /** @type {string} */ best,
+    /** @type {string} */ end,
+  ) =>
     first === best
       ? `Plan ${number}: ${best} from ${start} s on`
       : `Plan ${number}: from ${first} at ${start} s to ${best} at ${end} s`,
   changedSince: "The map or the robots have changed since this plan.",
   asBefore: "as before",
-  wasBefore: (text) => `was ${text}`,
+  wasBefore: (/** @type {string} */ text) => `was ${text}`,
   gains: "Earlier:",
   losesTime: "Later:",
-  andMore: (count) => `and ${count} more`,
+  andMore: (/** @type {number} */ count) => `and ${count} more`,
   putBack: "Put it back",
-  keptRoutes: (kept, robots) => `The same route as before: ${kept} of ${counted(robots, "robot")}.`,
+  keptRoutes: (/** @type {number} */ kept, /** @type {number} */ robots) =>
+    `The same route as before: ${kept} of ${counted(robots, "robot")}.`,
   formerRoute: "Dashed on the map: the route before.",
-  goesBefore: ({ waits, goes_first }) => `${waits} goes before ${goes_first}`,
+  goesBefore: (/** @type {{waits?: string, goes_first?: string}} */ { waits, goes_first }) =>
+    `${waits} goes before ${goes_first}`,
   cancel: "Cancel",
   timeUsed: "Time used",
   show: "Play",
@@ -248,7 +270,7 @@ export const ENGLISH = {
   copyCommand: "Copy the command line",
   saveFirst: "The command reads the file as it is saved, not what is drawn here.",
   whatIf: "What if",
-  whatIfOf: (name) => `What if ${name} were different`,
+  whatIfOf: (/** @type {string} */ name) => `What if ${name} were different`,
   chooseRobot:
     "Choose a robot on the map; then drag its home or a stop, or change its speed or work.",
   closeByPress: "Close a place on the map",
@@ -261,56 +283,84 @@ export const ENGLISH = {
   lapsResult: "Laps",
   delaysResult: "Delays",
   period: "period",
-  periodOf: (laps, each) => `period of ${laps} laps, ${each} each`,
+  periodOf: (/** @type {number} */ laps, /** @type {string} */ each) =>
+    `period of ${laps} laps, ${each} each`,
+  /** @type {(isTimed: boolean) => string} */
   throughput: (isTimed) => (isTimed ? "laps per hour" : "laps in 3600"),
   orders: { now: "as it is", same: "same order", anew: "new order" },
-  openGroup: (names, count, why) =>
+  openGroup: (
+    /** @type {string} */ names,
+    /** @type {number} */ count,
+    /** @type {string} */ why,
+  ) =>
     `${names}${count > 1 ? " share places" : ""}: ${why}. More time or the rule timetable may help.`,
-  groupOf: (names, count) => `One of ${count} groups that share no place: ${names}.`,
+  groupOf: (/** @type {string} */ names, /** @type {number} */ count) =>
+    `One of ${count} groups that share no place: ${names}.`,
   moveSlider: "Move a slider to see what another value does.",
-  sameOrder: (period, before) => `In the same order ${period} instead of ${before}.`,
-  newOrder: (period) => `With a new order ${period}.`,
-  newPattern: (laps, period, each) =>
-    `New order: the pattern repeats every ${laps} laps: ${period}, ${each} for each lap.`,
-  noNewOrder: (why) => `With a new order: ${why}.`,
+  sameOrder: (/** @type {string} */ period, /** @type {string} */ before) =>
+    `In the same order ${period} instead of ${before}.`,
+  newOrder: (/** @type {string} */ period) => `With a new order ${period}.`,
+  newPattern: (
+    /** @type {number} */ laps,
+    /** @type {string} */ period,
+    /** @type {string} */ each,
+  ) => `New order: the pattern repeats every ${laps} laps: ${period}, ${each} for each lap.`,
+  noNewOrder: (/** @type {string} */ why) => `With a new order: ${why}.`,
   resetValue: "Back",
   takeValue: "Take the value, repeat the laps",
-  setsThePace: (names) => `What sets the pace: ${names}`,
+  setsThePace: (/** @type {string} */ names) => `What sets the pace: ${names}`,
   circleTooLong: "What sets the pace is in the report.",
   whatHelps: "What would change the period",
   moreSliders: "Press a robot on the map for its sliders.",
   rounded: "Drives are rounded up to ticks as they are now.",
   parameters: {
     headway: "Headway",
-    speed: (name) => `${name}: speed`,
-    work: (name, place) => `${name}: work at ${place}`,
+    speed: (/** @type {string} */ name) => `${name}: speed`,
+    work: (/** @type {string} */ name, /** @type {string | number} */ place) =>
+      `${name}: work at ${place}`,
   },
   noRoom: "There is no room for a headway: robots hand places round in a circle.",
-  valueAndPeriod: (value, period) => `${value}: period ${period}`,
-  timeUnit: (unit) =>
-    ({ ms: "millisecond", s: "second", min: "minute", h: "hour" })[unit] ?? "time unit",
+  valueAndPeriod: (/** @type {string} */ value, /** @type {string} */ period) =>
+    `${value}: period ${period}`,
+  timeUnit: (/** @type {string | null} */ unit) => UNITS[unit ?? ""] ?? "time unit",
   free: "It changes nothing.",
-  freeUpTo: (to, unit, cost) =>
+  freeUpTo: (/** @type {string} */ to, /** @type {string} */ unit, /** @type {string} */ cost) =>
     `Up to ${to} nothing changes; from there each ${unit} costs ${cost}.`,
-  eachCosts: (unit, cost, to, then) =>
-    `Each ${unit} costs ${cost} of the period${then ? `; from ${to} on ${then}` : ""}.`,
-  fasterGainsNothing: (from) =>
+  eachCosts: (
+    /** @type {string} */ unit,
+    /** @type {string} */ cost,
+    /** @type {string | undefined} */ to,
+    /** @type {string | undefined} */ then,
+  ) => `Each ${unit} costs ${cost} of the period${then ? `; from ${to} on ${then}` : ""}.`,
+  fasterGainsNothing: (/** @type {string} */ from) =>
     from ? `Faster gains nothing; below ${from} the period grows.` : "The speed changes nothing.",
-  fasterSaves: (saved, flat) =>
+  fasterSaves: (/** @type {string} */ saved, /** @type {string | undefined} */ flat) =>
     `10 % faster: ${saved} less${flat ? `; above ${flat} nothing more` : ""}.`,
-  moreSteps: (count) => `Show ${counted(count, "more step")}`,
+  moreSteps: (/** @type {number} */ count) => `Show ${counted(count, "more step")}`,
   steps: {
-    laps: (name, laps) => `${name} makes ${counted(laps, "lap")} of its own`,
-    way: (name, from, to, isHome) => `${name} drives from ${from} ${isHome ? "home" : `to ${to}`}`,
-    work: (name, place) => `${name} works at ${place}`,
-    turn: (name, place) => `${name} turns at ${place}`,
-    right: (name, place, other) =>
+    laps: (/** @type {string} */ name, /** @type {number} */ laps) =>
+      `${name} makes ${counted(laps, "lap")} of its own`,
+    way: (
+      /** @type {string} */ name,
+      /** @type {string} */ from,
+      /** @type {string} */ to,
+      /** @type {boolean} */ isHome,
+    ) => `${name} drives from ${from} ${isHome ? "home" : `to ${to}`}`,
+    work: (/** @type {string} */ name, /** @type {string | number} */ place) =>
+      `${name} works at ${place}`,
+    turn: (/** @type {string} */ name, /** @type {string} */ place) => `${name} turns at ${place}`,
+    right: (
+      /** @type {string} */ name,
+      /** @type {string} */ place,
+      /** @type {string | undefined} */ other,
+    ) =>
       other && other !== name
         ? `${name} enters ${place} when ${other} has left`
         : `${name} enters ${place}`,
   },
   cause: "Cause of delay",
   anotherCause: "Another cause",
+  /** @type {Record<string, {name: string, fields: string[]}>} */
   causes: {
     exponential: { name: "Everything takes longer", fields: ["on average by"] },
     uniform: { name: "Everything takes longer, within bounds", fields: ["by", "to"] },
@@ -319,6 +369,7 @@ export const ENGLISH = {
     stop: { name: "One robot stands still", fields: ["robot", "from time", "for"] },
     slow: { name: "One robot is slower", fields: ["robot", "times"] },
   },
+  /** @type {Record<string, string>} */
   rules: {
     "first-come": "First come, first served",
     "fixed-order": "Order of the list of robots",
@@ -326,13 +377,13 @@ export const ENGLISH = {
     "two-level": "The paper's method",
     timetable: "Chosen in advance for most laps",
   },
-  byClock: (share, collisions) =>
+  byClock: (/** @type {string | number} */ share, /** @type {number} */ collisions) =>
     `Robots keep the order of the plan, so ${collisions ? `${collisions} collide` : "none collide"}; by the clock alone, ${share} % of the runs would.`,
   lapsOfEach: "Laps of each robot",
   lapsCount: "laps",
   meanLap: "mean lap",
   waitsShare: "waits",
-  behind: (name, time) => ` ${time} for ${name}`,
+  behind: (/** @type {string} */ name, /** @type {string} */ time) => ` ${time} for ${name}`,
   never: "never",
   lapsTitle: "Let all robots repeat their trips",
   rule: "Right of way",
@@ -340,33 +391,47 @@ export const ENGLISH = {
   delaysTitle: "Execute the plan with delays",
   runCount: "Runs",
   simulate: "Simulate",
-  laterBy: (time) => `${time} later`,
+  laterBy: (/** @type {string} */ time) => `${time} later`,
   inTime: "in time",
-  lateInSum: (median, most, worst) =>
+  lateInSum: (
+    /** @type {string} */ median,
+    /** @type {string} */ most,
+    /** @type {string} */ worst,
+  ) =>
     `Later than planned, all robots together: half of the runs at most ${median}, 90 % at most ${most}, the worst ${worst}.`,
-  plannedSum: (time) => `planned ${time}`,
+  plannedSum: (/** @type {string} */ time) => `planned ${time}`,
   runByRank: "A run, from the best to the worst",
-  runSays: (run, flowtime, share) =>
-    `Run ${run}: sum of arrivals ${flowtime}; ${share} % of the runs are better.`,
-  runNeverEnds: (run) => `Run ${run}: a robot never arrives.`,
-  runsNeverEnd: (count, all) => `In ${count} of ${all} runs a robot never arrives.`,
+  runSays: (
+    /** @type {number} */ run,
+    /** @type {string} */ flowtime,
+    /** @type {string | number} */ share,
+  ) => `Run ${run}: sum of arrivals ${flowtime}; ${share} % of the runs are better.`,
+  runNeverEnds: (/** @type {number} */ run) => `Run ${run}: a robot never arrives.`,
+  runsNeverEnd: (/** @type {number} */ count, /** @type {number} */ all) =>
+    `In ${count} of ${all} runs a robot never arrives.`,
   best: "Best",
   typical: "Median",
   worst: "Worst",
   heldUp: "Held up in this run",
   nobodyHeldUp: "Nobody waits longer than planned.",
   suffersMost: "Who suffers most",
-  suffers: (p95, own, behind, waits) =>
+  suffers: (
+    /** @type {string} */ p95,
+    /** @type {string} */ own,
+    /** @type {string} */ behind,
+    /** @type {string} */ waits,
+  ) =>
     `${own} of its own${behind ? `, ${waits} behind ${behind}` : ""}; in 95 % of the runs at most ${p95}`,
-  spread: (from, to, planned) =>
+  spread: (/** @type {string} */ from, /** @type {string} */ to, /** @type {string} */ planned) =>
     `Sum of arrivals of the runs: ${from} to ${to}; planned: ${planned}`,
   waits: "Who waits, and why",
-  waitsOf: (name) => `Why ${name} waits`,
+  waitsOf: (/** @type {string} */ name) => `Why ${name} waits`,
   noWaits: "No robot waits for another one.",
-  letGoFirst: (name) => `Let ${name} go first`,
-  moreWaits: (count) => `and ${count} more; choose a robot on the map`,
-  exportTitle: (title) => `Export plan ${title}`,
+  letGoFirst: (/** @type {string} */ name) => `Let ${name} go first`,
+  moreWaits: (/** @type {number} */ count) => `and ${count} more; choose a robot on the map`,
+  exportTitle: (/** @type {string} */ title) => `Export plan ${title}`,
   command: "Command line",
+  /** @type {Record<string, string>} */
   forms: {
     html: "Web page",
     xlsx: "Workbook",
@@ -374,6 +439,7 @@ export const ENGLISH = {
     gif: "Film",
     json: "Plan file",
   },
+  /** @type {Record<string, string>} */
   formHints: {
     html: "One file that plays in every browser, without a network",
     xlsx: "Tables for a spreadsheet",
@@ -384,21 +450,24 @@ export const ENGLISH = {
   runs: "Plans",
   number: "No.",
   noRuns: "Nothing has been planned yet.",
-  withoutPlan: (count) => `${count} without a plan`,
+  withoutPlan: (/** @type {number} */ count) => `${count} without a plan`,
   whoseRuns: "Whose plans are listed",
-  ownRuns: (count) => `This one (${count})`,
-  allRuns: (count) => `All plans (${count})`,
+  ownRuns: (/** @type {number} */ count) => `This one (${count})`,
+  allRuns: (/** @type {number} */ count) => `All plans (${count})`,
   selectMore: "Select another plan to compare.",
-  plansSelected: (count) => `${count} plans are compared below.`,
-  mostCompared: (count) => `At most ${count} plans are compared: select fewer.`,
+  plansSelected: (/** @type {number} */ count) => `${count} plans are compared below.`,
+  mostCompared: (/** @type {number} */ count) =>
+    `At most ${count} plans are compared: select fewer.`,
   selectNone: "Select none",
-  runDeleted: (number) => `Plan ${number} is deleted.`,
-  runsDeleted: (count) => `${count} plans are deleted.`,
+  runDeleted: (/** @type {number} */ number) => `Plan ${number} is deleted.`,
+  runsDeleted: (/** @type {number} */ count) => `${count} plans are deleted.`,
   settingChanged: {
-    seed: (before, after) => `seed ${before} → ${after}`,
-    time_limit: (before, after) => `${before} s → ${after} s`,
+    seed: (/** @type {string | number} */ before, /** @type {string | number} */ after) =>
+      `seed ${before} → ${after}`,
+    time_limit: (/** @type {string | number} */ before, /** @type {string | number} */ after) =>
+      `${before} s → ${after} s`,
   },
-  asGoodAs: (number) => `as good as ${number}`,
+  asGoodAs: (/** @type {number} */ number) => `as good as ${number}`,
   compare: "Compare",
   compareHint: "Select to compare; with Shift all between",
   runName: "Name of the plan",
@@ -419,8 +488,10 @@ export const ENGLISH = {
     failed: "failed",
     interrupted: "interrupted",
   },
-  dragPlaces: (name) => `Drag the home or a stop of ${name} to another place to see what changes.`,
+  dragPlaces: (/** @type {string} */ name) =>
+    `Drag the home or a stop of ${name} to another place to see what changes.`,
   watching: "Press a robot or a wait to see why it loses time.",
+  /** @type {Record<string, string>} */
   keyGroups: {
     tools: "Tools",
     map: "On the map",
@@ -458,3 +529,5 @@ export const ENGLISH = {
     ],
   },
 };
+
+/** @typedef {typeof ENGLISH} Texts */

@@ -1,0 +1,730 @@
+/** What the API takes and answers; written by `just api-types` from the Python of its routes. */
+
+import type { ComparisonPayload, ScenarioDocument, SitePayload } from "./types.js";
+
+/** What a studio is. */
+export interface About {
+  version: string;
+  folder: string;
+  file: string | null;
+  keeps: boolean;
+  limits: Limits;
+}
+
+/** The decision that a wait follows from. */
+export interface Because {
+  index: number;
+  decision: string;
+  reason: string;
+}
+
+/** What happens to robots that go by the clock alone. */
+export interface ByClock {
+  share_of_runs: number;
+}
+
+/** In what the scenario of a run differs from that of a run before it. */
+export interface Changes {
+  before: number | null;
+  changes: Array<Record<string, string>>;
+}
+
+/** Rules of laps, notations of delays, formats of exports, each with a sentence. */
+export interface Choices {
+  rules: Record<string, string>;
+  delays: DelayChoices;
+  formats: Record<string, string>;
+}
+
+/** A step of the circle that sets the pace of laps. */
+export interface CirclePiece {
+  kind: string;
+  robot: string;
+  vertices: Array<string>;
+  for: number | string;
+}
+
+/** A circle that sets the pace for some values. */
+export interface Circuit {
+  periods: number;
+  pieces: Array<CirclePiece> | null;
+  visits: Array<[number, number]>;
+}
+
+/** The command line that gives the same; empty where none does. */
+export interface CommandLine {
+  command: string;
+}
+
+/** Plans beside each other. */
+export interface Compared {
+  runs: Array<number>;
+  plans: Array<ComparedFigures>;
+  robots: Array<ComparedRobot>;
+  titles: Array<string>;
+  comparison: ComparisonPayload;
+}
+
+/** What a plan costs, beside another one. */
+export interface ComparedFigures {
+  flowtime: number;
+  makespan: number;
+  lower_bound: number;
+  text: FigureTexts;
+  tick: [number, number];
+  units: Units;
+  scenario: string;
+  start?: Kept | null;
+  robots?: number;
+  time: Record<string, number>;
+}
+
+/** When a robot completes in each plan [time unit]; null where it is not in it. */
+export interface ComparedRobot {
+  name: string;
+  completion: Array<number | null>;
+}
+
+/** The period as a function of a speed, a work time or the headway. */
+export interface CurveData {
+  kind: "speed" | "work" | "headway";
+  robot: string | null;
+  stop: number | null;
+  value: number | string;
+  pieces: Array<CurvePiece>;
+}
+
+/** The period as a function of a value, from one value to another. */
+export interface CurvePiece {
+  from: number | string;
+  to: number | string;
+  fixed: number | string;
+  slope: number | string;
+  circuit: number;
+}
+
+/** The period as functions of what can be changed. */
+export interface Curves {
+  exact: boolean;
+  why: string;
+  curves: Array<CurveData>;
+  circuits: Array<Circuit>;
+}
+
+/** A fleet that is to be dealt out over the map of a document. */
+export interface Deal {
+  document: ScenarioDocument;
+  folder?: string;
+  robots: number;
+  seed?: number;
+  speeds?: Array<string | number>;
+  work?: [number, number];
+  between?: "anywhere" | "stations";
+}
+
+/** Robots that were dealt out. */
+export interface Dealt {
+  robots: Array<DealtRobot>;
+}
+
+/** A robot that was dealt out. */
+export interface DealtRobot {
+  name: string;
+  home: string;
+  target: string;
+  speed: number | string;
+  work: number | string;
+}
+
+/** Notations of delays, and what each means. */
+export interface DelayChoices {
+  default: string;
+  examples: Record<string, string>;
+}
+
+/** What becomes of a plan with delays. */
+export interface DelaysReport {
+  units: Units;
+  tick: number | string;
+  runs: number;
+  collisions: number;
+  played: number;
+  lateness: Lateness;
+  by_clock: ByClock;
+  spread: SpreadData | null;
+  ranks: Ranks;
+  text: string;
+}
+
+/** A document that somebody draws. */
+export interface Draft {
+  document: ScenarioDocument;
+  revision?: string | null;
+}
+
+/** A draft. */
+export interface DraftData {
+  name: string;
+  saved: number;
+  revision: string;
+  document: ScenarioDocument;
+}
+
+/** A draft in a list. */
+export interface DraftEntry {
+  name: string;
+  saved: number;
+  size: number;
+}
+
+/** The drafts, the latest first. */
+export interface DraftList {
+  drafts: Array<DraftEntry>;
+  are_kept: boolean;
+}
+
+/** Why a request was refused or a run has failed. */
+export interface ErrorData {
+  kind: string;
+  message: string;
+  status?: number;
+  faults?: Array<Fault>;
+  reasons?: Array<Reason>;
+  robots?: Array<string>;
+  vertices?: Array<string>;
+}
+
+/** An example. */
+export interface ExampleData {
+  kind: string;
+  document: ScenarioDocument;
+}
+
+/** An example in a list. */
+export interface ExampleEntry {
+  name: string;
+  sentence: string;
+}
+
+/** The examples. */
+export interface ExampleList {
+  examples: Array<ExampleEntry>;
+}
+
+/** What was found, and what to do. */
+export interface FactAndRemedy {
+  fact: Array<string | Record<string, unknown>>;
+  remedy: Array<string | Record<string, unknown>>;
+}
+
+/** One thing wrong with a document. */
+export interface Fault {
+  place: string;
+  message: string;
+  line: number | null;
+  named: string;
+}
+
+/** Figures as people read them. */
+export interface FigureTexts {
+  flowtime: string;
+  makespan: string;
+  lower_bound: string;
+  gap: string | null;
+}
+
+/** What a plan costs [ticks]. */
+export interface Figures {
+  flowtime: number;
+  makespan: number;
+  lower_bound: number;
+  text: FigureTexts;
+  tick: [number, number];
+  units: Units;
+  scenario: string;
+  start?: Kept | null;
+  robots?: number;
+}
+
+/** A file of the folder. */
+export interface FileEntry {
+  path: string;
+  kind: string;
+  size: number;
+  modified: number;
+}
+
+/** The files that may be opened. */
+export interface FileList {
+  files: Array<FileEntry>;
+  is_whole: boolean;
+}
+
+/** What will hurt on a map. */
+export interface Finding {
+  kind: string;
+  severity: "error" | "warning" | "note";
+  fact: string;
+  remedy: string;
+  vertices: Array<string>;
+  robots: Array<string>;
+  sentence: string;
+  phrases: FactAndRemedy;
+}
+
+/** A right of way that is to be flipped. */
+export interface Flip {
+  waits: string;
+  goes_first: string;
+  tick: number;
+  time_limit?: number;
+  name?: string;
+}
+
+/** A timetable in which another robot goes first. */
+export interface Flipped {
+  before: Figures;
+  run: RunData;
+}
+
+/** A document as a card shows it. */
+export interface Glance {
+  kind: string;
+  what: string;
+  robots: number | null;
+  extent: Array<string>;
+  unit: string | null;
+  picture: string;
+}
+
+/** A document with its map and robots in it. */
+export interface Inlined {
+  document: ScenarioDocument;
+}
+
+/** What a plan has kept of the plan that it was made from: robots. */
+export interface Kept {
+  routes: number;
+  tracks: number;
+}
+
+/** A draft as it was kept. */
+export interface KeptDraft {
+  name: string;
+  saved: number;
+  revision: string;
+}
+
+/** The period as a function of a value, from one value to another. */
+export interface LapConflict {
+  robots: Array<string>;
+  waits: string;
+  for: number | string;
+}
+
+/** Robots that share places, and how they repeat themselves; null where they do not. */
+export interface LapGroup {
+  robots: Array<string>;
+  why: string;
+  period: number | string | null;
+  laps_per_period: Record<string, number>;
+  mean_lap: Record<string, number | string | null>;
+  waiting_share: Record<string, number | string | null>;
+  conflicts: Array<LapConflict> | null;
+  bottleneck: Array<CirclePiece> | null;
+  curves: Curves | null;
+}
+
+/** What laps in a new order achieve. */
+export interface LapsAnswer {
+  groups: Array<LapGroup>;
+}
+
+/** What a fleet that repeats its trips achieves. */
+export interface LapsReport {
+  units: Units;
+  groups: Array<LapGroup>;
+  text: string;
+}
+
+/** Lateness of the fleet and of each robot. */
+export interface Lateness {
+  flowtime: LatenessFigures;
+  robots: Array<RobotLateness>;
+}
+
+/** Lateness over all runs [ticks]. */
+export interface LatenessFigures {
+  median: number;
+  p90: number;
+  max: number;
+}
+
+/** What the server takes at most. */
+export interface Limits {
+  body: number;
+  seconds: number;
+  runs_at_once: number;
+}
+
+/** A wait, or another cause of lost time [ticks]. */
+export interface LossData {
+  kind: string;
+  robot: string;
+  for: string | null;
+  vertex: string;
+  towards: string;
+  freed: string | null;
+  tick: number;
+  end: number;
+  ticks: number;
+  sentence: string;
+  because: Because | null;
+}
+
+/** Why robots lose time. */
+export interface LossList {
+  losses: Array<LossData>;
+}
+
+/** A run whose plan is to be improved. */
+export interface NewImprovement {
+  planner?: string | null;
+  options?: Record<string, string | number>;
+  time_limit?: number;
+  seed?: number;
+  kind: "improve";
+  based_on: number;
+  name?: string;
+}
+
+/** A document whose robots are to repeat their trips. */
+export interface NewLaps {
+  kind: "laps";
+  document: ScenarioDocument;
+  folder?: string;
+  source?: string;
+  name?: string;
+  rule?: string;
+  routes?: string | null;
+  time_limit?: number;
+  seed?: number;
+}
+
+/** A document that is to be planned. */
+export interface NewPlan {
+  planner?: string | null;
+  options?: Record<string, string | number>;
+  time_limit?: number;
+  seed?: number;
+  kind?: "plan";
+  document: ScenarioDocument;
+  folder?: string;
+  source?: string;
+  name?: string;
+  based_on?: number | null;
+  start?: number | null;
+}
+
+/** A run whose plan is to be executed with delays. */
+export interface NewSimulation {
+  kind: "simulate";
+  based_on: number;
+  name?: string;
+  delays?: Array<string>;
+  runs?: number;
+  run?: number | "typical" | "worst";
+  seed?: number;
+  switch?: boolean;
+  replan?: boolean;
+  time_limit?: number;
+}
+
+/** A file that was opened. */
+export interface Opened {
+  path: string;
+  folder: string;
+  kind: "scenario" | "layout" | "plan";
+  notes?: Array<Array<string | Record<string, unknown>> | string>;
+  document?: ScenarioDocument;
+  save_as?: string;
+  revision?: string;
+  figures?: Figures;
+  run?: RunData;
+}
+
+/** Another value of a speed, a work time or the headway of laps. */
+export interface OtherLaps {
+  kind: "speed" | "work" | "headway";
+  robot?: string | null;
+  stop?: number | null;
+  value: string | number;
+  time_limit?: number;
+}
+
+/** A document, and where it stands. */
+export interface Placed {
+  document: ScenarioDocument;
+  folder?: string;
+}
+
+/** A document, and the folder that its paths are in. */
+export interface PlacedDocument {
+  document: ScenarioDocument;
+  folder: string;
+}
+
+/** An event: a run has a better plan. */
+export interface PlanFound {
+  number: number;
+  revision: number;
+  figures: Figures;
+}
+
+/** What `plan --json` reports of a plan; the page shows the plan itself. */
+export interface PlanSummary {
+}
+
+/** A planner. */
+export interface PlannerData {
+  name: string;
+  summary: string;
+  improves: boolean;
+  knows_sizes: boolean;
+  options: Array<PlannerOption>;
+}
+
+/** The planners; which is the default, and which improves plans. */
+export interface PlannerList {
+  default: string;
+  improver: string;
+  planners: Array<PlannerData>;
+}
+
+/** An option of a planner. */
+export interface PlannerOption {
+  name: string;
+  default: string | number | null;
+  summary: string;
+  choices: Array<string>;
+  least: number | null;
+}
+
+/** The answer to a request that is refused. */
+export interface Problem {
+  error: ErrorData;
+}
+
+/** An event of a run that is going on. */
+export interface Progress {
+  number: number;
+  seconds?: number;
+  flowtime?: number;
+  lower_bound?: number;
+  message?: string;
+}
+
+/** Runs from the best to the worst. */
+export interface Ranks {
+  rank: Array<number>;
+  run: Array<number>;
+  flowtime: Array<number | null>;
+}
+
+/** A proof that no plan exists, and the vertices that it names. */
+export interface Reason {
+  reason: string;
+  robots: Array<string>;
+  vertices: Array<string>;
+}
+
+/** A name for a run. */
+export interface Rename {
+  name: string;
+}
+
+/** How late a robot is over all runs, by itself and for others [ticks]. */
+export interface RobotLateness {
+  name: string;
+  mean: number;
+  p95: number;
+  own: number;
+  waiting: Record<string, number>;
+}
+
+/** A run. */
+export interface RunData {
+  number: number;
+  name: string;
+  kind: "plan" | "improve" | "laps" | "simulate" | "flip" | "opened";
+  state: "queued" | "running" | "done" | "stopped" | "cancelled" | "failed" | "interrupted";
+  request: RunRequest;
+  source: string;
+  based_on: number | null;
+  created: number;
+  started: number | null;
+  ended: number | null;
+  status: string;
+  figures: Figures | null;
+  error: ErrorData | null;
+  points: Array<[number, number]>;
+  revision: number;
+  has_report: boolean;
+  has_payload: boolean;
+  has_plan: boolean;
+}
+
+/** The runs, the latest first. */
+export interface RunList {
+  runs: Array<RunData>;
+  are_kept: boolean;
+}
+
+/** A run that was deleted. */
+export interface RunNumber {
+  number: number;
+}
+
+/** The settings of the task of a run; which there are depends on its kind. */
+export interface RunRequest {
+  planner?: string;
+  options?: Record<string, string | number>;
+  time_limit?: number;
+  seed?: number;
+  start?: number;
+  rule?: string;
+  routes?: string | null;
+  delays?: Array<string>;
+  runs?: number;
+  run?: number | string;
+  switch?: boolean;
+  replan?: boolean;
+  revision?: string;
+  waits?: string;
+  goes_first?: string;
+  tick?: number;
+}
+
+/** A document that is to be saved. */
+export interface Save {
+  document: ScenarioDocument;
+  folder?: string;
+  revision?: string | null;
+}
+
+/** A file as it was written. */
+export interface Saved {
+  path: string;
+  revision: string;
+}
+
+/** How many runs have which flowtime [ticks]. */
+export interface SpreadData {
+  counts: Array<number>;
+  planned: number;
+  from: number;
+  to: number;
+  text: Record<string, string>;
+}
+
+/** A document that somebody changes. */
+export interface Survey {
+  document: ScenarioDocument;
+  folder?: string;
+  inspects?: boolean;
+  identifies?: boolean;
+}
+
+/** What an editor shows at each change. */
+export interface SurveyData {
+  ok: boolean;
+  faults: Array<Fault>;
+  notes: Array<Array<string | Record<string, unknown>> | string>;
+  site: SitePayload | null;
+  findings: Array<Finding>;
+  sentences: Array<string>;
+  phrases: Array<Array<string | Record<string, unknown>>>;
+  scenario?: string | null;
+}
+
+/** Units of a scenario, each a name or null. */
+export interface Units {
+  length: string | null;
+  time: string | null;
+}
+
+/** The faults of a document. */
+export interface Validation {
+  ok: boolean;
+  faults: Array<Fault>;
+  notes: Array<Array<string | Record<string, unknown>> | string>;
+}
+
+/** What DELETE answers, by the path with what follows it. */
+export type DeleteAnswer<Path extends string> =
+  Path extends `/runs/${number}` | `/runs/${number}?${string}` ? RunNumber :
+  unknown;
+
+/** What GET answers, by the path with what follows it. */
+export type GetAnswer<Path extends string> =
+  Path extends `/glances/${string}/${string}` | `/glances/${string}/${string}?${string}` ? Glance :
+  Path extends `/runs/${number}/changes` | `/runs/${number}/changes?${string}` ? Changes :
+  Path extends `/runs/${number}/command` | `/runs/${number}/command?${string}` ? CommandLine :
+  Path extends `/runs/${number}/document` | `/runs/${number}/document?${string}` ? PlacedDocument :
+  Path extends `/runs/${number}/losses` | `/runs/${number}/losses?${string}` ? LossList :
+  Path extends `/runs/${number}/payload` | `/runs/${number}/payload?${string}` ? SitePayload :
+  Path extends `/runs/${number}/report` | `/runs/${number}/report?${string}` ? LapsReport | DelaysReport | PlanSummary :
+  Path extends `/documents/${string}` | `/documents/${string}?${string}` ? Opened :
+  Path extends `/drafts/${string}` | `/drafts/${string}?${string}` ? DraftData :
+  Path extends `/examples/${string}` | `/examples/${string}?${string}` ? ExampleData :
+  Path extends `/runs/${number}` | `/runs/${number}?${string}` ? RunData :
+  Path extends `/` | `/?${string}` ? About :
+  Path extends `/choices` | `/choices?${string}` ? Choices :
+  Path extends `/compare` | `/compare?${string}` ? Compared :
+  Path extends `/drafts` | `/drafts?${string}` ? DraftList :
+  Path extends `/examples` | `/examples?${string}` ? ExampleList :
+  Path extends `/files` | `/files?${string}` ? FileList :
+  Path extends `/planners` | `/planners?${string}` ? PlannerList :
+  Path extends `/runs` | `/runs?${string}` ? RunList :
+  unknown;
+
+/** What PATCH answers, by the path with what follows it. */
+export type PatchAnswer<Path extends string> =
+  Path extends `/runs/${number}` | `/runs/${number}?${string}` ? RunData :
+  unknown;
+
+/** What POST answers, by the path with what follows it. */
+export type PostAnswer<Path extends string> =
+  Path extends `/runs/${number}/cancel` | `/runs/${number}/cancel?${string}` ? RunData :
+  Path extends `/runs/${number}/flip` | `/runs/${number}/flip?${string}` ? Flipped :
+  Path extends `/runs/${number}/laps` | `/runs/${number}/laps?${string}` ? LapsAnswer :
+  Path extends `/runs/${number}/stop` | `/runs/${number}/stop?${string}` ? RunData :
+  Path extends `/deal` | `/deal?${string}` ? Dealt :
+  Path extends `/inline` | `/inline?${string}` ? Inlined :
+  Path extends `/runs` | `/runs?${string}` ? RunData :
+  Path extends `/survey` | `/survey?${string}` ? SurveyData :
+  Path extends `/validate` | `/validate?${string}` ? Validation :
+  unknown;
+
+/** What PUT answers, by the path with what follows it. */
+export type PutAnswer<Path extends string> =
+  Path extends `/documents/${string}` | `/documents/${string}?${string}` ? Saved :
+  Path extends `/drafts/${string}` | `/drafts/${string}?${string}` ? KeptDraft :
+  Path extends `/files/${string}` | `/files/${string}?${string}` ? Saved :
+  unknown;
+
+/** What a request may hold, by method. */
+export interface Bodies {
+  PATCH: Rename;
+  POST: Placed | Survey | Deal | NewPlan | NewImprovement | NewLaps | NewSimulation | OtherLaps | Flip;
+  PUT: Save | Draft;
+}
+
+/** What events hold, by their names. */
+export interface Events {
+  runs: RunList;
+  run: RunData;
+  progress: Progress;
+  plan: PlanFound;
+  deleted: RunNumber;
+}

@@ -1,0 +1,690 @@
+"""What answers of the API hold, as the page reads them: its types are written from these.
+
+Answers are plain data that workers and stores make. Nothing here is checked while the studio runs;
+tests compare answers of a studio with these types, key for key.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, NotRequired, TypedDict
+
+from rightofway.studio.routes.models import (
+    Deal,
+    Document,
+    Draft,
+    Flip,
+    NewRun,
+    OtherLaps,
+    Placed,
+    Rename,
+    Save,
+    Survey,
+)
+from rightofway.studio.runs import Kind, State
+
+Payload = Annotated[dict[str, Any], "SitePayload"]
+"""What the viewer draws."""
+
+Comparison = Annotated[dict[str, Any], "ComparisonPayload"]
+"""What the viewer compares."""
+
+Phrase = list[str | dict[str, Any]]
+"""A sentence with places for values, and the values."""
+
+Exact = int | float | str
+"""A number; a fraction is text."""
+
+Ratio = tuple[int, int]
+"""Numerator and denominator."""
+
+
+class Fault(TypedDict):
+    """One thing wrong with a document."""
+
+    place: str
+    message: str
+    line: int | None
+    named: str
+
+
+class Reason(TypedDict):
+    """A proof that no plan exists, and the vertices that it names."""
+
+    reason: str
+    robots: list[str]
+    vertices: list[str]
+
+
+class ErrorData(TypedDict):
+    """Why a request was refused or a run has failed."""
+
+    kind: str
+    message: str
+    status: NotRequired[int]
+    faults: NotRequired[list[Fault]]
+    reasons: NotRequired[list[Reason]]
+    robots: NotRequired[list[str]]
+    vertices: NotRequired[list[str]]
+
+
+class Problem(TypedDict):
+    """The answer to a request that is refused."""
+
+    error: ErrorData
+
+
+class Limits(TypedDict):
+    """What the server takes at most."""
+
+    body: int
+    seconds: int
+    runs_at_once: int
+
+
+class About(TypedDict):
+    """What a studio is."""
+
+    version: str
+    folder: str
+    file: str | None
+    keeps: bool
+    limits: Limits
+
+
+class FileEntry(TypedDict):
+    """A file of the folder."""
+
+    path: str
+    kind: str
+    size: int
+    modified: float
+
+
+class FileList(TypedDict):
+    """The files that may be opened."""
+
+    files: list[FileEntry]
+    is_whole: bool
+
+
+class Saved(TypedDict):
+    """A file as it was written."""
+
+    path: str
+    revision: str
+
+
+class DraftEntry(TypedDict):
+    """A draft in a list."""
+
+    name: str
+    saved: float
+    size: int
+
+
+class DraftList(TypedDict):
+    """The drafts, the latest first."""
+
+    drafts: list[DraftEntry]
+    are_kept: bool
+
+
+class DraftData(TypedDict):
+    """A draft."""
+
+    name: str
+    saved: float
+    revision: str
+    document: Document
+
+
+class KeptDraft(TypedDict):
+    """A draft as it was kept."""
+
+    name: str
+    saved: float
+    revision: str
+
+
+class ExampleEntry(TypedDict):
+    """An example in a list."""
+
+    name: str
+    sentence: str
+
+
+class ExampleList(TypedDict):
+    """The examples."""
+
+    examples: list[ExampleEntry]
+
+
+class ExampleData(TypedDict):
+    """An example."""
+
+    kind: str
+    document: Document
+
+
+class Glance(TypedDict):
+    """A document as a card shows it."""
+
+    kind: str
+    what: str
+    robots: int | None
+    extent: list[str]
+    unit: str | None
+    picture: str
+
+
+class Units(TypedDict):
+    """Units of a scenario, each a name or null."""
+
+    length: str | None
+    time: str | None
+
+
+class FigureTexts(TypedDict):
+    """Figures as people read them."""
+
+    flowtime: str
+    makespan: str
+    lower_bound: str
+    gap: str | None
+
+
+class Kept(TypedDict):
+    """What a plan has kept of the plan that it was made from: robots."""
+
+    routes: int
+    tracks: int
+
+
+class Figures(TypedDict):
+    """What a plan costs [ticks]."""
+
+    flowtime: int
+    makespan: int
+    lower_bound: int
+    text: FigureTexts
+    tick: Ratio
+    units: Units
+    scenario: str
+    start: NotRequired[Kept | None]
+    robots: NotRequired[int]
+
+
+class RunRequest(TypedDict):
+    """The settings of the task of a run; which there are depends on its kind."""
+
+    planner: NotRequired[str]
+    options: NotRequired[dict[str, str | int]]
+    time_limit: NotRequired[float]
+    seed: NotRequired[int]
+    start: NotRequired[int]
+    rule: NotRequired[str]
+    routes: NotRequired[str | None]
+    delays: NotRequired[list[str]]
+    runs: NotRequired[int]
+    run: NotRequired[int | str]
+    switch: NotRequired[bool]
+    replan: NotRequired[bool]
+    revision: NotRequired[str]
+    waits: NotRequired[str]
+    goes_first: NotRequired[str]
+    tick: NotRequired[int]
+
+
+class RunData(TypedDict):
+    """A run."""
+
+    number: int
+    name: str
+    kind: Kind
+    state: State
+    request: RunRequest
+    source: str
+    based_on: int | None
+    created: float
+    started: float | None
+    ended: float | None
+    status: str
+    figures: Figures | None
+    error: ErrorData | None
+    points: list[tuple[float, float]]
+    revision: int
+    has_report: bool
+    has_payload: bool
+    has_plan: bool
+
+
+class RunNumber(TypedDict):
+    """A run that was deleted."""
+
+    number: int
+
+
+class RunList(TypedDict):
+    """The runs, the latest first."""
+
+    runs: list[RunData]
+    are_kept: bool
+
+
+class Progress(TypedDict):
+    """An event of a run that is going on."""
+
+    number: int
+    seconds: NotRequired[float]
+    flowtime: NotRequired[int]
+    lower_bound: NotRequired[int]
+    message: NotRequired[str]
+
+
+class PlanFound(TypedDict):
+    """An event: a run has a better plan."""
+
+    number: int
+    revision: int
+    figures: Figures
+
+
+class Opened(TypedDict):
+    """A file that was opened."""
+
+    path: str
+    folder: str
+    kind: Literal["scenario", "layout", "plan"]
+    notes: NotRequired[list[Phrase | str]]
+    document: NotRequired[Document]
+    save_as: NotRequired[str]
+    revision: NotRequired[str]
+    figures: NotRequired[Figures]
+    run: NotRequired[RunData]
+
+
+class PlacedDocument(TypedDict):
+    """A document, and the folder that its paths are in."""
+
+    document: Document
+    folder: str
+
+
+class Inlined(TypedDict):
+    """A document with its map and robots in it."""
+
+    document: Document
+
+
+class FactAndRemedy(TypedDict):
+    """What was found, and what to do."""
+
+    fact: Phrase
+    remedy: Phrase
+
+
+class Finding(TypedDict):
+    """What will hurt on a map."""
+
+    kind: str
+    severity: Literal["error", "warning", "note"]
+    fact: str
+    remedy: str
+    vertices: list[str]
+    robots: list[str]
+    sentence: str
+    phrases: FactAndRemedy
+
+
+class SurveyData(TypedDict):
+    """What an editor shows at each change."""
+
+    ok: bool
+    faults: list[Fault]
+    notes: list[Phrase | str]
+    site: Payload | None
+    findings: list[Finding]
+    sentences: list[str]
+    phrases: list[Phrase]
+    scenario: NotRequired[str | None]
+
+
+class Validation(TypedDict):
+    """The faults of a document."""
+
+    ok: bool
+    faults: list[Fault]
+    notes: list[Phrase | str]
+
+
+class DealtRobot(TypedDict):
+    """A robot that was dealt out."""
+
+    name: str
+    home: str
+    target: str
+    speed: Exact
+    work: Exact
+
+
+class Dealt(TypedDict):
+    """Robots that were dealt out."""
+
+    robots: list[DealtRobot]
+
+
+class PlannerOption(TypedDict):
+    """An option of a planner."""
+
+    name: str
+    default: str | int | None
+    summary: str
+    choices: list[str]
+    least: int | None
+
+
+class PlannerData(TypedDict):
+    """A planner."""
+
+    name: str
+    summary: str
+    improves: bool
+    knows_sizes: bool
+    options: list[PlannerOption]
+
+
+class PlannerList(TypedDict):
+    """The planners; which is the default, and which improves plans."""
+
+    default: str
+    improver: str
+    planners: list[PlannerData]
+
+
+class DelayChoices(TypedDict):
+    """Notations of delays, and what each means."""
+
+    default: str
+    examples: dict[str, str]
+
+
+class Choices(TypedDict):
+    """Rules of laps, notations of delays, formats of exports, each with a sentence."""
+
+    rules: dict[str, str]
+    delays: DelayChoices
+    formats: dict[str, str]
+
+
+class Because(TypedDict):
+    """The decision that a wait follows from."""
+
+    index: int
+    decision: str
+    reason: str
+
+
+LossData = TypedDict(
+    "LossData",
+    {
+        "kind": str,
+        "robot": str,
+        "for": str | None,
+        "vertex": str,
+        "towards": str,
+        "freed": str | None,
+        "tick": int,
+        "end": int,
+        "ticks": int,
+        "sentence": str,
+        "because": Because | None,
+    },
+)
+"""A wait, or another cause of lost time [ticks]."""
+
+
+class LossList(TypedDict):
+    """Why robots lose time."""
+
+    losses: list[LossData]
+
+
+class CommandLine(TypedDict):
+    """The command line that gives the same; empty where none does."""
+
+    command: str
+
+
+class Changes(TypedDict):
+    """In what the scenario of a run differs from that of a run before it."""
+
+    before: int | None
+    changes: list[dict[str, str]]
+
+
+class ComparedFigures(Figures):
+    """What a plan costs, beside another one."""
+
+    time: dict[str, float]
+
+
+class ComparedRobot(TypedDict):
+    """When a robot completes in each plan [time unit]; null where it is not in it."""
+
+    name: str
+    completion: list[float | None]
+
+
+class Compared(TypedDict):
+    """Plans beside each other."""
+
+    runs: list[int]
+    plans: list[ComparedFigures]
+    robots: list[ComparedRobot]
+    titles: list[str]
+    comparison: Comparison
+
+
+CirclePiece = TypedDict(
+    "CirclePiece", {"kind": str, "robot": str, "vertices": list[str], "for": Exact}
+)
+"""A step of the circle that sets the pace of laps."""
+
+LapConflict = TypedDict("LapConflict", {"robots": list[str], "waits": str, "for": Exact})
+"""A wait that comes again in each period."""
+
+CurvePiece = TypedDict(
+    "CurvePiece", {"from": Exact, "to": Exact, "fixed": Exact, "slope": Exact, "circuit": int}
+)
+"""The period as a function of a value, from one value to another."""
+
+
+class CurveData(TypedDict):
+    """The period as a function of a speed, a work time or the headway."""
+
+    kind: Literal["speed", "work", "headway"]
+    robot: str | None
+    stop: int | None
+    value: Exact
+    pieces: list[CurvePiece]
+
+
+class Circuit(TypedDict):
+    """A circle that sets the pace for some values."""
+
+    periods: int
+    pieces: list[CirclePiece] | None
+    visits: list[Ratio]
+
+
+class Curves(TypedDict):
+    """The period as functions of what can be changed."""
+
+    exact: bool
+    why: str
+    curves: list[CurveData]
+    circuits: list[Circuit]
+
+
+class LapGroup(TypedDict):
+    """Robots that share places, and how they repeat themselves; null where they do not."""
+
+    robots: list[str]
+    why: str
+    period: Exact | None
+    laps_per_period: dict[str, int]
+    mean_lap: dict[str, Exact | None]
+    waiting_share: dict[str, Exact | None]
+    conflicts: list[LapConflict] | None
+    bottleneck: list[CirclePiece] | None
+    curves: Curves | None
+
+
+class LapsAnswer(TypedDict):
+    """What laps in a new order achieve."""
+
+    groups: list[LapGroup]
+
+
+class LapsReport(TypedDict):
+    """What a fleet that repeats its trips achieves."""
+
+    units: Units
+    groups: list[LapGroup]
+    text: str
+
+
+class LatenessFigures(TypedDict):
+    """Lateness over all runs [ticks]."""
+
+    median: float
+    p90: float
+    max: float
+
+
+class RobotLateness(TypedDict):
+    """How late a robot is over all runs, by itself and for others [ticks]."""
+
+    name: str
+    mean: float
+    p95: float
+    own: float
+    waiting: dict[str, float]
+
+
+class Lateness(TypedDict):
+    """Lateness of the fleet and of each robot."""
+
+    flowtime: LatenessFigures
+    robots: list[RobotLateness]
+
+
+class ByClock(TypedDict):
+    """What happens to robots that go by the clock alone."""
+
+    share_of_runs: float
+
+
+SpreadData = TypedDict(
+    "SpreadData",
+    {"counts": list[int], "planned": int, "from": float, "to": float, "text": dict[str, str]},
+)
+"""How many runs have which flowtime [ticks]."""
+
+
+class Ranks(TypedDict):
+    """Runs from the best to the worst."""
+
+    rank: list[int]
+    run: list[int]
+    flowtime: list[int | None]
+
+
+class DelaysReport(TypedDict):
+    """What becomes of a plan with delays."""
+
+    units: Units
+    tick: Exact
+    runs: int
+    collisions: int
+    played: int
+    lateness: Lateness
+    by_clock: ByClock
+    spread: SpreadData | None
+    ranks: Ranks
+    text: str
+
+
+class PlanSummary(TypedDict):
+    """What `plan --json` reports of a plan; the page shows the plan itself."""
+
+
+Report = LapsReport | DelaysReport | PlanSummary
+
+
+class Flipped(TypedDict):
+    """A timetable in which another robot goes first."""
+
+    before: Figures
+    run: RunData
+
+
+ANSWERS: dict[tuple[str, str], Any] = {
+    ("GET", "/"): About,
+    ("GET", "/files"): FileList,
+    ("PUT", "/files/{path}"): Saved,
+    ("GET", "/documents/{path}"): Opened,
+    ("PUT", "/documents/{path}"): Saved,
+    ("POST", "/validate"): Validation,
+    ("POST", "/survey"): SurveyData,
+    ("POST", "/inline"): Inlined,
+    ("POST", "/deal"): Dealt,
+    ("GET", "/drafts"): DraftList,
+    ("GET", "/drafts/{name}"): DraftData,
+    ("PUT", "/drafts/{name}"): KeptDraft,
+    ("GET", "/examples"): ExampleList,
+    ("GET", "/examples/{name}"): ExampleData,
+    ("GET", "/glances/{source}/{name}"): Glance,
+    ("GET", "/planners"): PlannerList,
+    ("GET", "/choices"): Choices,
+    ("GET", "/runs"): RunList,
+    ("POST", "/runs"): RunData,
+    ("GET", "/runs/{number}"): RunData,
+    ("PATCH", "/runs/{number}"): RunData,
+    ("DELETE", "/runs/{number}"): RunNumber,
+    ("POST", "/runs/{number}/stop"): RunData,
+    ("POST", "/runs/{number}/cancel"): RunData,
+    ("GET", "/runs/{number}/payload"): Payload,
+    ("GET", "/runs/{number}/document"): PlacedDocument,
+    ("GET", "/runs/{number}/command"): CommandLine,
+    ("GET", "/runs/{number}/losses"): LossList,
+    ("GET", "/runs/{number}/report"): Report,
+    ("GET", "/runs/{number}/changes"): Changes,
+    ("POST", "/runs/{number}/laps"): LapsAnswer,
+    ("POST", "/runs/{number}/flip"): Flipped,
+    ("GET", "/compare"): Compared,
+}
+"""What each route answers that the page asks; `Problem` where it refuses."""
+
+BODIES: dict[tuple[str, str], Any] = {
+    ("PUT", "/documents/{path}"): Save,
+    ("POST", "/validate"): Placed,
+    ("POST", "/survey"): Survey,
+    ("POST", "/inline"): Placed,
+    ("POST", "/deal"): Deal,
+    ("PUT", "/drafts/{name}"): Draft,
+    ("POST", "/runs"): NewRun,
+    ("PATCH", "/runs/{number}"): Rename,
+    ("POST", "/runs/{number}/laps"): OtherLaps,
+    ("POST", "/runs/{number}/flip"): Flip,
+}
+"""What each of these takes."""
+
+EVENTS: dict[str, type] = {
+    "runs": RunList,
+    "run": RunData,
+    "progress": Progress,
+    "plan": PlanFound,
+    "deleted": RunNumber,
+}
+"""What the events of `/events` hold."""
