@@ -1,4 +1,4 @@
-"""Write the types of the API for the page: ``python -m tests.builders.api_types``."""
+"""Types of the API for the page, from the types of its routes and their answers."""
 
 from __future__ import annotations
 
@@ -15,20 +15,17 @@ from typing import (
     get_args,
     get_origin,
     get_type_hints,
-    is_typeddict,
 )
 
 from pydantic import BaseModel
+from typing_extensions import is_typeddict
 
-import rightofway
 from rightofway.studio.routes import answers
 from rightofway.studio.routes.answers import ANSWERS, BODIES, EVENTS, Comparison, Payload, Problem
 from rightofway.studio.routes.models import Document
 
-API_TYPES = Path(rightofway.__file__).parent / "studio" / "assets" / "api_types.d.ts"
-
 HEAD = """\
-/** What the API takes and answers; written by `just api-types` from the Python of its routes. */
+// Generated from studio/routes/answers.py: change it there, then run `just types-refresh`.
 
 import type { ComparisonPayload, ScenarioDocument, SitePayload } from "./types.js";
 """
@@ -47,7 +44,7 @@ PLACES = {"number": "${number}"}
 
 
 def api_types() -> str:
-    """Return the declarations, as `API_TYPES` has them."""
+    """Return the declarations."""
     wanted = [*ANSWERS.values(), *BODIES.values(), *EVENTS.values(), Problem]
     shapes = {each.__name__: each for root in wanted for each in _shapes(root, set())}
     declared = [_interface(shapes[name]) for name in sorted(shapes)]
@@ -149,7 +146,3 @@ def _conditional(method: str) -> str:
 def _bodies(method: str) -> str:
     known = [written(shape) for (each, _), shape in BODIES.items() if each == method]
     return " | ".join(dict.fromkeys(known))
-
-
-if __name__ == "__main__":
-    API_TYPES.write_text(api_types(), "utf-8")

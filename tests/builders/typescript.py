@@ -14,6 +14,7 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from rightofway.viz.page.schema import InspectionPayload, Payload
+from tests.builders.api_types import api_types
 
 ROOT = Path(__file__).parents[2]
 PLAIN = {"string": "string", "integer": "number", "number": "number", "boolean": "boolean"}
@@ -31,6 +32,7 @@ def payload_types() -> str:
 
 FILES: dict[str, Callable[[], str]] = {
     "src/rightofway/viz/page/assets/payload.d.ts": payload_types,
+    "src/rightofway/studio/assets/api_types.d.ts": api_types,
 }
 """What is written where."""
 

@@ -126,7 +126,9 @@ def test_both_languages_have_the_same_texts_of_the_same_values(
     studio: StudioPage, folder_of_texts: str
 ) -> None:
     shape = """(async (folder) => {
-      const values = (text) => text.toString().match(/^\\(?([^)=]*)/)[1].split(/,\\s*/);
+      const plain = (text) => text.toString().replace(/\\/\\*.*?\\*\\//g, '');
+      const listed = (text) => plain(text).match(/^\\(?([^)=]*)/)[1].split(',');
+      const values = (text) => listed(text).map((each) => each.trim()).filter(Boolean);
       const shape = (texts) => (typeof texts === 'object'
         ? Object.entries(texts).map(([key, value]) => [key, shape(value)]).sort()
         : typeof texts === 'function' ? values(texts) : typeof texts);

@@ -2,7 +2,6 @@
 
 /** @import { Bodies, DeleteAnswer, ErrorData, GetAnswer, PatchAnswer, PostAnswer, PutAnswer, Saved } from "./api_types.js" */
 
-
 const ROOT = "/api/v1";
 
 /** What the server refuses: its message, its status, and the faults of a document with their places. */

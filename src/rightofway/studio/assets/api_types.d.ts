@@ -1,4 +1,4 @@
-/** What the API takes and answers; written by `just api-types` from the Python of its routes. */
+// Generated from studio/routes/answers.py: change it there, then run `just types-refresh`.
 
 import type { ComparisonPayload, ScenarioDocument, SitePayload } from "./types.js";
 
@@ -76,6 +76,7 @@ export interface ComparedFigures {
   scenario: string;
   start?: Kept | null;
   robots?: number;
+  faults?: number;
   time: Record<string, number>;
 }
 
@@ -244,6 +245,7 @@ export interface Figures {
   scenario: string;
   start?: Kept | null;
   robots?: number;
+  faults?: number;
 }
 
 /** A file of the folder. */

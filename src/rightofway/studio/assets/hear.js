@@ -3,7 +3,6 @@
 /** @import { Events, RunData } from "./api_types.js" */
 /** @import { EventPair, Tell } from "./types.js" */
 
-
 /** @type {(keyof Events)[]} */
 const EVENTS = ["runs", "run", "progress", "plan", "deleted"];
 

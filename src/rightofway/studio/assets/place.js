@@ -3,7 +3,6 @@
 /** @import { Studio } from "./studio.js" */
 /** @import { Tab } from "./types.js" */
 
-
 const TABS = "tabs"; // the key of the tabs that documents were left at, by address, the latest last
 const MOST_TABS = 50;
 

@@ -398,8 +398,8 @@ export class Studio extends Observable {
     if (store.site && (this.tab !== "plan" || !this.runs.payload))
       stage.show(store.site, { keeps: !this.isFresh });
     this.isFresh = false;
-    if (store.survey.scenario && !this.#isPlaying)
-      this.attempt(() => this.runs.showLatest(store.survey.scenario, store.survey.of));
+    const { scenario, of } = store.survey;
+    if (scenario && of && !this.#isPlaying) this.attempt(() => this.runs.showLatest(scenario, of));
     if (store.survey.of !== store.document) return; // that is looked at next
     const isWanted = this.isLive || this.#isAsked;
     this.#isAsked = false;

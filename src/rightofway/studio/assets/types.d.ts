@@ -146,6 +146,8 @@ export interface MapData {
 export interface RulesData {
   walls?: string;
   headway?: Numeral;
+  turn?: Numeral;
+  return?: string;
 }
 
 /** A scenario as in its file; what else a file may hold is kept as it is. */

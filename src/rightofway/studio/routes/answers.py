@@ -6,7 +6,9 @@ tests compare answers of a studio with these types, key for key.
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, NotRequired, TypedDict
+from typing import Annotated, Any, Literal, NotRequired
+
+from typing_extensions import TypedDict
 
 from rightofway.studio.routes.models import (
     Deal,
@@ -212,6 +214,7 @@ class Figures(TypedDict):
     scenario: str
     start: NotRequired[Kept | None]
     robots: NotRequired[int]
+    faults: NotRequired[int]
 
 
 class RunRequest(TypedDict):

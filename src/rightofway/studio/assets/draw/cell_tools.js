@@ -65,11 +65,9 @@ class CellTool {
 
   /**
    * The cell that is meant by the one below the pointer.
-   * @param {Cell} cell
-   * @param {DrawingPoint} _
-   * @returns {Cell}
+   * @type {(cell: Cell, point: DrawingPoint) => Cell}
    */
-  aimed(cell, _) {
+  aimed(cell) {
     return cell;
   }
 

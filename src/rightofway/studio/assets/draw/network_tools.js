@@ -30,8 +30,8 @@ class PointTool {
     this.editor = editor;
   }
 
-  /** @param {DrawingPoint} _ */
-  press(_) {}
+  /** @type {(point: DrawingPoint) => void} */
+  press() {}
 
   /**
    * @param {DrawingPoint} point

@@ -3,7 +3,6 @@
 /** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
 /** @import { MapData, Numeral, Place, Point, ScenarioDocument } from "../types.js" */
 
-
 /**
  * Both axes of a point.
  * @type {[0, 1]}

@@ -2,7 +2,6 @@
 
 /** @import { Item } from "../types.js" */
 
-
 export class Selection {
   /** @type {Map<string, Item>} */
   #items = new Map();

@@ -48,7 +48,7 @@ export function Change({ studio }) {
       <p><${Term} of="flowtime" /> <b>${after}</b>${before === after ? ` ${words.asBefore}` : `, ${words.wasBefore(before)}`}</p>
       <${Robots} studio=${studio} className="gain" label=${words.gains} found=${found.filter(({ by }) => by < 0)} />
       <${Robots} studio=${studio} className="lose" label=${words.losesTime} found=${found.filter(({ by }) => by > 0).reverse()} />
-      ${start && html`<p class="hint">${words.keptRoutes(start.routes, robots)}</p>`}
+      ${start && html`<p class="hint">${words.keptRoutes(start.routes, robots ?? 0)}</p>`}
       ${studio.former.ways.length > 0 && html`<p class="hint">${words.formerRoute}</p>`}
       ${runs.run?.request.start === comparison.runs[0] && html`<button type="button" class="framed" onClick=${() => studio.putBack(comparison.runs[0])}>${words.putBack}</button>`}
     </section>`;

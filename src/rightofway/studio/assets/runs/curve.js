@@ -83,8 +83,8 @@ export function Curve({ run, others = [], quantities = null }) {
 }
 
 /**
- * What has been reached, in figures.
- * @param {{run: LiveRun, bound: number | undefined, seconds: number}} props
+ * What has been reached, in figures; those of a plan with faults are worth nothing.
+ * @param {{run: LiveRun, isFaulty: boolean, bound: number | undefined, seconds: number}} props
  */
 function Caption({ run: { state, figures, status }, isFaulty, bound, seconds }) {
   const isLive = !isOver({ state });
@@ -94,7 +94,7 @@ function Caption({ run: { state, figures, status }, isFaulty, bound, seconds }) 
     ${state === "running" && `${seconds.toFixed(1)} s `}
     ${said && html`<${Term} of="flowtime" /> <b>${said.duration(figures.flowtime)}</b>, `}
     ${said && html`<${Term} of="bound" /> ${said.duration(figures.lower_bound)}`}
-    ${said && figures.flowtime > bound && ` (+${figures.text.gap})`}
+    ${said && figures.flowtime > (bound ?? Infinity) && ` (+${figures.text.gap})`}
     ${!isLive && status && html` <span class="hint" lang="en">${status}</span>`}
   </figcaption>`;
 }

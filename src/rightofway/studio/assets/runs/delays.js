@@ -50,6 +50,8 @@ export function Delays({ studio, report }) {
       ? words.runNeverEnds(run[index])
       : words.runSays(run[index], ticks(found), share);
   };
+  const choice = (/** @type {string} */ name, /** @type {number} */ index) =>
+    html`<button type="button" class="framed" aria-pressed=${String(at === index)} onClick=${() => play(index)}>${name}</button>`;
   const { median, p90, max } = report.lateness.flowtime;
   const never = report.runs - (report.spread?.counts.reduce((sum, count) => sum + count, 0) ?? 0);
   return html`
@@ -64,14 +66,7 @@ export function Delays({ studio, report }) {
         onInput=${({ target }) => setAt(Number(target.value))} onChange=${({ target }) => play(Number(target.value))} /></label>
     <p role="status">${says(at)}</p>
     <div class="buttons">
-      ${[
-        [words.best, 0],
-        [words.typical, middle],
-        [words.worst, run.length - 1],
-      ].map(
-        ([name, index]) =>
-          html`<button type="button" class="framed" aria-pressed=${String(at === index)} onClick=${() => play(index)}>${name}</button>`,
-      )}
+      ${choice(words.best, 0)}${choice(words.typical, middle)}${choice(words.worst, run.length - 1)}
     </div>
     <p class="hint">${words.byClock((100 * report.by_clock.share_of_runs).toFixed(0), report.collisions)}</p>
     <${HeldUp} studio=${studio} />

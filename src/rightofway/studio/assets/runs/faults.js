@@ -4,18 +4,34 @@ import { html } from "../vendor/htm-preact.js";
 import { texts } from "../../../viz/page/assets/language.js";
 import { languageOfFault } from "../../../viz/page/assets/words.js";
 import { words } from "../words.js";
+/** @import { Plan } from "../../../viz/page/assets/plan.js" */
+/** @import { RunData } from "../api_types.js" */
+/** @import { Props } from "../types.js" */
 
 const MOST = 5; // that are listed at once; the others on request
 
-/** How many faults the plan of a run has; 0 where none is known. */
+/**
+ * How many faults the plan of a run has; 0 where none is known.
+ * @param {Pick<RunData, "figures"> | undefined} run
+ * @returns {number}
+ */
 export const faultsOf = (run) => run?.figures?.faults ?? 0;
 
-/** "2 faults: do not run this plan", as the exported page has it. */
+/**
+ * "2 faults: do not run this plan", as the exported page has it.
+ * @param {number} count
+ * @returns {string}
+ */
 export const doNotRun = (count) => texts.doNotRun(count);
 
-/** The same in few words: "2 faults". */
+/**
+ * The same in few words: "2 faults".
+ * @param {number} count
+ * @returns {string}
+ */
 export const inShort = (count) => texts.faults(count);
 
+/** @param {Props} props */
 export function PlanFaults({ studio }) {
   const { stage } = studio;
   if (!stage.isPlan || !stage.plan.faultCount) return null;
@@ -32,7 +48,10 @@ export function PlanFaults({ studio }) {
     </section>`;
 }
 
-/** A fault in a sentence; a press shows its place at its time. */
+/**
+ * A fault in a sentence; a press shows its place at its time.
+ * @param {Props & {fault: Plan["faults"][number], index: number}} props
+ */
 function Press({ studio, fault, index }) {
   const { plan, words: said, clock, choice } = studio.stage;
   const look = () => {

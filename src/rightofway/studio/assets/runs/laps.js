@@ -2,11 +2,12 @@
 
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { post } from "../api.js";
-import { changeRobots, robotsOf, stopsOf, withStops } from "../robots/fleet.js";
+import { changeRobots, robotsOf, stopsOf, withStops, writtenIn } from "../robots/fleet.js";
 import { decimal, fraction, Quantities } from "../../../viz/page/assets/quantities.js";
 import { several } from "../../../viz/page/assets/words.js";
 import { words } from "../words.js";
 import { Circle } from "./circle.js";
+import { withHeadway } from "./rules.js";
 import {
   compared,
   minus,
@@ -161,7 +162,7 @@ function Pace({ studio, report, group, chosen }) {
       if (turn !== asked.current) return;
       const { kind, robot, stop } = curve;
       setOther({ isAsked: true });
-      const found = await post(`/runs/${runs.shown}/laps`, {
+      const found = await post(/** @type {const} */ (`/runs/${present(runs.shown)}/laps`), {
         kind,
         robot,
         stop,
@@ -216,11 +217,12 @@ function Robots({ said, group, studio }) {
    * @returns {string}
    */
   const behind = (name) => {
-    /** @type {Map<string | undefined, Ratio>} */
+    /** @type {Map<string, Ratio>} */
     const sums = new Map();
     for (const { waits, robots, for: time } of group.conflicts ?? []) {
       const other = robots.find((each) => each !== waits);
-      if (waits === name) sums.set(other, plus(sums.get(other) ?? [0n, 1n], fraction(time)));
+      if (other !== undefined && waits === name)
+        sums.set(other, plus(sums.get(other) ?? [0n, 1n], fraction(time)));
     }
     const [most] = [...sums].sort(([, one], [, other]) => compared(other, one));
     return most ? words.behind(most[0], said.short(most[1])) : "";
@@ -260,7 +262,7 @@ const leaders = ({ bottleneck }) =>
  */
 function answerOf(answer, { robots }) {
   if ("message" in answer) return { why: answer.message };
-  const found = answer.groups.find((each) => each.robots.includes(robots[0]));
+  const found = present(answer.groups.find((each) => each.robots.includes(robots[0])));
   if (found.period === null) return { why: found.why };
   return { period: fraction(found.period), laps: lapsIn(found) };
 }
@@ -324,8 +326,8 @@ function take(studio, { kind, robot, stop }, value) {
   };
   const request = runs.run?.request;
   store.change((document) => {
-    if (kind === "headway") return { ...document, rules: { ...document.rules, headway: given } };
-    const index = robotsOf(document).findIndex(({ name }) => name === robot);
+    if (kind === "headway") return withHeadway(document, given);
+    const index = writtenIn(document).findIndex(({ name }) => name === robot);
     return changeRobots(document, [index], edit);
   });
   const { document, folder, name } = store;
@@ -378,10 +380,14 @@ function Slider({ curve, said, now, position, move, release, studio }) {
  */
 function nameOf(studio, { kind, robot, stop }) {
   if (kind === "headway") return words.parameters.headway;
-  if (kind === "speed") return words.parameters.speed(robot);
+  const name = robot ?? "";
+  if (kind === "speed") return words.parameters.speed(name);
   const plan = studio.stage.isPlan ? studio.stage.plan : null;
-  const stage = plan?.robots.find(({ name }) => name === robot)?.stages[stop];
-  return words.parameters.work(robot, stage ? studio.stage.words.where(stage.vertex) : stop + 1);
+  const stage = plan?.robots.find((each) => each.name === robot)?.stages[stop ?? 0];
+  return words.parameters.work(
+    name,
+    stage ? studio.stage.words.where(stage.vertex) : (stop ?? 0) + 1,
+  );
 }
 
 /**

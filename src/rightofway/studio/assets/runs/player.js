@@ -72,7 +72,7 @@ export class Player {
    * @returns {void}
    */
   begin(view) {
-    const { plan, clock, choice, motion, words: said, theme, below } = this;
+    const { plan, clock, choice, motion, words: said, theme } = this;
     this.diagram = new Diagram(plan, clock, choice, theme, said, this.use, this.bottleneck);
     this.transport = new Transport(plan, clock, said);
     this.states = new States(motion, choice);

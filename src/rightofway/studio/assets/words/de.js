@@ -1,5 +1,6 @@
 /** The texts of the studio in German. */
 
+/** @import { Texts } from "./en.js" */
 
 /** @type {Record<string, string>} */
 const UNITS = { ms: "Millisekunde", s: "Sekunde", min: "Minute", h: "Stunde" };

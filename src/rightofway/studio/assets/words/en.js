@@ -215,8 +215,9 @@ export const ENGLISH = {
     between === "stations" ? `Add ${count} between stations` : `Add ${count} at random`,
   betweenStations: "between stations",
   random: { count: "Robots", seed: "Seed", work: "Work", speed: "Speed" },
-  moreFaults: (count) => `${count} more`,
-  planSummary: (planner, seconds) => `${planner}, up to ${seconds} s`,
+  moreFaults: (/** @type {number} */ count) => `${count} more`,
+  planSummary: (/** @type {string} */ planner, /** @type {number | string} */ seconds) =>
+    `${planner}, up to ${seconds} s`,
   plan: "Plan",
   limit: "Time limit [s]",
   seed: "Seed",
