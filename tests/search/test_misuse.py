@@ -1,0 +1,54 @@
+"""What functions for callers say of arguments that are something else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import rightofway
+from rightofway import search
+from rightofway.errors import InputError
+
+DOOR = rightofway.load(Path(__file__).parents[2] / "examples/door.yaml")
+PROBLEM = DOOR.problem
+FLOOR = search.Distances(PROBLEM.roadmap)
+PACE = PROBLEM.itineraries[0].edge_ticks
+
+MISUSE: list[tuple[Callable[[], Any], str]] = [
+    (lambda: rightofway.measure(None), "plan: nothing is no plan"),  # type: ignore[arg-type]
+    (lambda: rightofway.check(3), "plan: 3 is no plan"),  # type: ignore[arg-type]
+    (lambda: rightofway.waits("x"), "plan: 'x' is no plan"),  # type: ignore[arg-type]
+    (lambda: rightofway.lost_time([]), "is no plan"),  # type: ignore[arg-type]
+    (lambda: rightofway.simulate(None), "plan: nothing is no plan"),  # type: ignore[arg-type]
+    (lambda: rightofway.run_laps(None), "scenario: nothing is no scenario"),  # type: ignore[arg-type]
+    (lambda: rightofway.best_timetable(3), "scenario: 3 is no scenario"),  # type: ignore[arg-type]
+    (lambda: rightofway.plan_of(3), "result: 3 is no result of laps"),  # type: ignore[arg-type]
+    (lambda: search.bound(DOOR), "problem: .* is no problem"),  # type: ignore[arg-type]
+    (lambda: search.FleetSearch(PROBLEM, seed=-1), "seed: -1 is no seed"),
+    (lambda: search.FleetSearch(PROBLEM, threads=-1), "threads: -1 is out of range"),
+    (
+        lambda: search.FleetSearch(PROBLEM).prioritize(
+            [0.5, 1.2],  # type: ignore[list-item]
+            searches=9,
+            time_limit=None,
+        ),
+        r"order\[0\]: 0.5 is none of 2",
+    ),
+    (lambda: search.FleetSearch(PROBLEM).start(["a"]), r"tracks\[0\]: 'a' is no track"),  # type: ignore[list-item]
+    (lambda: FLOOR.ticks_of_edges(PACE + PACE), "edge_ticks: 2 for 1 length classes"),
+    (lambda: FLOOR.path(-1, 0, PACE), "start: -1 is none of 7"),  # type: ignore[arg-type]
+    (lambda: FLOOR.cost((0, 99), PACE), r"path\[1\]: 99 is none of 7"),  # type: ignore[arg-type]
+    (lambda: search.untimed_lacam(PROBLEM, ends_anywhere=[9]), "ends_anywhere: 9 is none of 2"),
+    (lambda: search.earliest_track(9, search.Bookings(PROBLEM), FLOOR), "robot: 9 is none of 2"),
+]
+
+
+@pytest.mark.parametrize(("misuse", "message"), MISUSE)
+def test_what_is_something_else_is_refused_by_place_and_value(
+    misuse: Callable[[], Any], message: str
+) -> None:
+    with pytest.raises(InputError, match=message):
+        misuse()
