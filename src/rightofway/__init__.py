@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from rightofway.check import Fault, Report, check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
-from rightofway.fleet_builder import FleetBuilder
+from rightofway.fleet_builder import FleetBuilder, plan_of_paths
 from rightofway.model import (
     Decision,
     ExecutionTrace,
@@ -139,6 +139,7 @@ __all__ = [
     "lost_time",
     "measure",
     "plan_of",
+    "plan_of_paths",
     "run_laps",
     "simulate",
     "solve",
