@@ -9,6 +9,7 @@ namespace {
 constexpr std::int64_t effort_between_questions = 4096;
 constexpr std::int32_t levels_between_snapshots = 32;
 constexpr std::size_t most_snapshots = 16;
+constexpr Tick longest_wait = Tick{1} << 31;  // that urgencies tell apart: no product overflows
 
 }  // namespace
 
@@ -118,7 +119,8 @@ void Lacam::branch(Node& node, std::int32_t constraint) {
 std::span<const RobotId> Lacam::by_urgency() {
     urgencies_.clear();
     for (const RobotId robot : state_.undecided()) {
-        const Tick urgency = pibt_.pace(robot) * (state_.now() - state_.on_its_way_since(robot));
+        const Tick waited = state_.now() - state_.on_its_way_since(robot);
+        const Tick urgency = pibt_.pace(robot) * std::min(waited, longest_wait);
         urgencies_.push_back({urgency, rank_[robot], robot});
     }
     std::sort(urgencies_.begin(), urgencies_.end(), [](const Urgency& left, const Urgency& right) {
