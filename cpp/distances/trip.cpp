@@ -45,7 +45,7 @@ const Trip& TripReader::read(RobotId robot) {
     if (robot == robot_) {
         return trip_;
     }
-    robot_ = robot;
+    robot_ = nobody;  // until the trip is whole: a table may be refused
     const Problem& problem = distances_.problem();
     static_cast<Itinerary&>(trip_) = problem.itinerary(robot);
     trip_.first_row = problem.first_row(robot);
@@ -56,6 +56,7 @@ const Trip& TripReader::read(RobotId robot) {
         tables_.push_back(distances_.to(stage, robot));
         trip_.to_stage.push_back(tables_.back()->view(distances_.scale(robot)));
     }
+    robot_ = robot;
     return trip_;
 }
 
