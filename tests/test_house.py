@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 from tests.conftest import NIGHTLY, SLOW, TESTS
 
@@ -48,3 +49,26 @@ def test_includes_of_the_native_core_never_point_back() -> None:
     ]
     assert len(found) > len(ROOMS)
     assert [what for own, room, what in found if ROOMS.index(room) > ROOMS.index(own)] == []
+
+
+SLEEPS = {
+    "builders/broken_calls.py": "a call that is watched while it runs",
+    "builders/browsers.py": "Viewer.poll, which has a deadline",
+    "builders/suites.py": "soon, which has a deadline",
+    "builders/odd_planners.py": "planners that are slow on purpose",
+    "campaigns/kills.py": "a process that is killed some time after a start",
+    "cli/test_process.py": "an interrupt some time after a start: each time has to end well",
+    "cyclic/test_run.py": "a robot that takes all of its time on purpose",
+}
+"""Files in which something sleeps, each once a reason; all others wait for what they await."""
+
+
+def test_no_test_sleeps_for_a_fixed_time() -> None:
+    """A sleep is too short on a busy machine, and too long on any other one."""
+    sleeps = re.compile(r"\bsleep\(|wait_for_timeout\(")
+    found = {
+        path.relative_to(TESTS).as_posix()
+        for path in TESTS.rglob("*.py")
+        if path != Path(__file__) and sleeps.search(path.read_text(encoding="utf-8"))
+    }
+    assert found == set(SLEEPS)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import shutil
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
@@ -24,6 +24,11 @@ FOUND = os.environ.get("RIGHTOFWAY_CHROMIUM") or next(filter(None, map(shutil.wh
 CHROMIUM = FOUND if find_spec("playwright") else ""
 """Path of the browser; empty where there is none, or no Playwright."""
 
+if CHROMIUM:
+    from playwright.sync_api import expect as expect  # noqa: PLC0414 (tests import it from here)
+
+    expect.set_options(timeout=30_000)
+
 needs_browser = pytest.mark.skipif(not CHROMIUM, reason="there is no browser")
 
 PATIENCE = 30.0
@@ -33,6 +38,9 @@ ARGUMENTS = (
     "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync",
 )  # fmt: skip
+
+
+FRAMES = "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
 class Viewer:
@@ -62,11 +70,19 @@ class Viewer:
 
     def wait_for(self, expression: str) -> None:
         """Wait until an expression holds; the page's policy forbids it to watch itself."""
+        self.poll(lambda: self.ask(expression), expression)
+
+    def poll(self, holds: Callable[[], object], what: str) -> None:
+        """Look again and again whether something holds, until `PATIENCE` is over."""
         ends = time.monotonic() + PATIENCE
-        while not self.ask(expression):
+        while not holds():
             if time.monotonic() > ends:
-                pytest.fail(f"{expression} did not come true")
-            self.page.wait_for_timeout(20)
+                pytest.fail(f"{what} did not come true")
+            self.page.wait_for_timeout(20)  # a polling helper
+
+    def painted(self) -> None:
+        """Wait until what was done last is painted."""
+        self.page.evaluate(FRAMES)
 
     def text(self, selector: str) -> str:
         """Return the text that stands in an element."""

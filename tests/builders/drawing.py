@@ -93,13 +93,18 @@ class StudioPage(Viewer):
         self.settle()
 
     def settle(self) -> None:
-        """Wait until the library has looked at what is drawn, and it is on the screen."""
-        self.page.evaluate("studio.store.settled()")
-        self.page.wait_for_timeout(30)
+        """Wait until nothing is under way: what is drawn was looked at, kept and painted."""
+        self.page.locator("[aria-busy=false] #map").wait_for(state="attached")
+        self.page.locator(".change[aria-busy=true]").wait_for(state="detached")
 
     def opened(self) -> None:
         """Wait until a document is on the screen."""
-        self.wait_for("Boolean(studio.store.site)")
+        self.page.get_by_role("application").wait_for()
+        self.settle()
+
+    def saved(self) -> None:
+        """Wait until the document is saved as a file."""
+        self.page.get_by_role("banner").get_by_role("status").get_by_text("Saved").wait_for()
         self.settle()
 
     def keep(self, name: str) -> None:

@@ -9,7 +9,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Coroutine, Iterator
 from contextlib import closing, contextmanager
 from http.client import HTTPConnection
@@ -26,6 +25,7 @@ from rightofway.studio.guard import Access
 from rightofway.studio.runs import Runs
 from rightofway.studio.serve import bound
 from rightofway.studio.session import Studio
+from tests.builders.suites import soon
 
 DOOR: dict[str, Any] = {
     "format": "rightofway-scenario/1",
@@ -119,8 +119,7 @@ def running(folder: Path, access: Access | None = None, **settings: Any) -> Iter
         server = uvicorn.Server(config)
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         thread.start()
-        while not server.started and thread.is_alive():
-            time.sleep(0.01)
+        assert soon(lambda: server.started or not thread.is_alive())
         try:
             base = f"http://127.0.0.1:{port}/api/v1"
             with Client(base_url=base, timeout=PATIENCE) as client:
@@ -215,13 +214,14 @@ def over(client: httpx.Client, number: int) -> dict[str, Any]:
 
 def until(client: httpx.Client, number: int, holds: Any) -> dict[str, Any]:
     """Wait until something holds for a run, and return the run."""
-    ends = time.monotonic() + PATIENCE
-    while time.monotonic() < ends:
-        run: dict[str, Any] = client.get(f"/runs/{number}").json()
-        if holds(run):
-            return run
-        time.sleep(0.02)
-    raise AssertionError(f"run {number} is still {run['state']}")
+    run: dict[str, Any] = {}
+
+    def looked() -> bool:
+        run.update(client.get(f"/runs/{number}").json())
+        return bool(holds(run))
+
+    assert soon(looked, PATIENCE), f"run {number} is still {run['state']}"
+    return run
 
 
 def planned(client: httpx.Client, document: Any = DOOR, **request: Any) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+import threading
 import time
 
 import pytest
@@ -29,8 +30,16 @@ def test_the_line_is_kept_up_to_date_while_a_planner_says_nothing(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    written = threading.Event()
+    write = sys.stderr.write
+
+    def heard(text: str) -> int:
+        written.set()
+        return write(text)
+
+    monkeypatch.setattr(sys.stderr, "write", heard)
     with progress(10):
-        time.sleep(0.7)
+        assert written.wait(30)
     *lines, end = capsys.readouterr().err.split(CLEAR)[1:]
     assert lines
     assert all(re.fullmatch(r"\d\.\d of 10 s", line) for line in lines)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.builders.browsers import needs_browser
+from tests.builders.browsers import expect, needs_browser
 from tests.builders.drawing import StudioPage, studio_page
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def wall(studio: StudioPage) -> None:
     studio.button("Create the floor").click()
     studio.opened()
     studio.drag((7.25, 0.25), (7.25, 3.75))
-    studio.wait_for("studio.store.isKept")
+    studio.settle()  # and the draft is kept
 
 
 def test_an_example_is_one_press_away_and_planned_with_a_second(studio: StudioPage) -> None:
@@ -45,12 +46,12 @@ def test_an_example_is_one_press_away_and_planned_with_a_second(studio: StudioPa
     studio.opened()
     studio.button("Plan").click()
     studio.planned()
-    assert studio.ask("studio.stage.plan.robots.length") == 4
+    studio.page.get_by_role("application", name="Map with 4 robots").wait_for()
     assert studio.complaints == []
 
 
 def test_the_first_press_of_enter_makes_a_floor(studio: StudioPage) -> None:
-    assert studio.ask("document.activeElement.textContent") == "Create the floor"
+    expect(studio.button("Create the floor")).to_be_focused()
     studio.page.keyboard.press("Enter")
     studio.opened()
     assert studio.document["map"]["floor"]["size"] == [12, 8]
@@ -72,7 +73,7 @@ def test_a_reload_and_the_way_back_lead_to_the_same_document(studio: StudioPage)
     wall(studio)
     drawn = studio.document
     studio.page.reload()
-    studio.wait_for("Boolean(window.studio?.store.site)")
+    studio.opened()
     assert studio.document == drawn
     studio.button("Files").click()
     studio.page.locator("main.start").wait_for()
@@ -86,18 +87,17 @@ def test_a_draft_that_is_newer_than_its_file_is_opened_and_the_file_is_one_press
 ) -> None:
     wall(studio)
     studio.button("Save").click()
-    studio.wait_for("studio.store.isSaved")
+    studio.saved()
     saved = studio.document
     studio.drag((2.25, 5.25), (5.25, 5.25))
     changed = studio.document
-    studio.wait_for("studio.store.isKept")
-    studio.page.wait_for_timeout(200)
+    studio.settle()  # and the draft is kept
     studio.button("Files").click()
     studio.page.get_by_label("In the folder").get_by_role("button", name="floor.yaml").click()
     studio.opened()
     assert studio.document == changed
     studio.button("Open what was saved").click()
-    studio.wait_for("studio.store.isSaved")
+    studio.saved()
     assert studio.document == saved
 
 
@@ -105,9 +105,10 @@ def test_a_draft_is_deleted_and_taken_back(studio: StudioPage) -> None:
     wall(studio)
     studio.button("Files").click()
     studio.page.get_by_label("Delete: Untitled").click()
-    studio.wait_for("!studio.shelf.drafts.length")
+    draft = studio.page.get_by_role("button", name=re.compile("^Untitled"))
+    draft.wait_for(state="detached")
     studio.button("Undo").click()
-    studio.wait_for("studio.shelf.drafts.length === 1")
+    draft.wait_for()
 
 
 def test_a_ros_map_waits_for_its_picture(studio: StudioPage) -> None:
@@ -139,7 +140,7 @@ def test_the_plan_button_says_what_is_missing_and_leads_there(studio: StudioPage
     plan = studio.button("Plan")
     assert "needs robots" in (plan.get_attribute("title") or "")
     plan.click(force=True)
-    assert studio.ask("studio.tab") == "robots"
+    expect(studio.page.get_by_role("tab", name="Robots")).to_have_attribute("aria-selected", "true")
     studio.page.get_by_text("A plan needs robots").wait_for()
 
 
@@ -150,7 +151,7 @@ def test_a_name_without_an_ending_is_saved_as_yaml_with_enter(
     field = studio.page.get_by_label("Name of the file")
     field.fill("floor one")
     field.press("Enter")
-    studio.wait_for("studio.store.isSaved")
+    studio.saved()
     assert (empty.folder / "floor one.yaml").is_file()
 
 

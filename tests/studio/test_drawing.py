@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -71,7 +70,7 @@ def test_an_adaptive_floor_is_drawn_on_in_steps_of_its_smallest_cell(studio: Stu
     studio.opened()
     studio.drag((6.25, 0.25), (6.25, 4.75))
     assert obstacles(studio) == [[6, 0, 0.5, 5]]
-    assert studio.ask("studio.store.faults") == []
+    assert "fault" not in studio.text(".status")
 
 
 def test_walls_and_robots_are_made_with_the_keyboard_alone(floor: StudioPage) -> None:
@@ -193,7 +192,7 @@ def test_lanes_stations_limits_zones_and_closures_are_drawn(lanes: StudioPage) -
         "zones": [{"name": "zone 1", "vertices": [], "edges": [["V2", "V3"], ["V3", "V2"]]}],
     }
     assert document["closures"] == [{"edge": ["V2", "V3"]}]
-    assert lanes.ask("studio.store.faults") == []
+    assert "fault" not in lanes.text(".status")
 
 
 def test_a_vertex_is_moved_renamed_and_deleted_with_all_that_names_it(lanes: StudioPage) -> None:
@@ -215,7 +214,7 @@ def test_a_vertex_is_moved_renamed_and_deleted_with_all_that_names_it(lanes: Stu
 def test_what_is_not_saved_is_there_after_the_page_was_closed(floor: StudioPage) -> None:
     floor.drag((1.25, 1.25), (3.25, 1.25))
     drawn = floor.document
-    floor.wait_for("studio.store.isKept")
+    floor.settle()  # and the draft is kept
     floor.page.goto(floor.ask("location.origin"))
     floor.page.locator("section[aria-labelledby=drafts-title] button").first.click()
     floor.opened()
@@ -237,20 +236,20 @@ def drafts(studio: StudioPage) -> dict[str, Any]:
 def test_two_pages_on_one_draft_lose_nothing(floor: StudioPage) -> None:
     """The second page draws first; the first one is asked, keeps its own, then loads the other."""
     floor.drag((1.25, 1.25), (3.25, 1.25))
-    floor.wait_for("studio.store.isKept")
+    floor.settle()  # and the draft is kept
     (name,) = drafts(floor)
     other = StudioPage(floor.page.context.new_page(), floor.page.url)
     other.ask(f"studio.shelf.openDraft('{name}')")
     other.opened()
     other.page.locator("[data-tool=line]").click()
     other.drag((1.25, 3.25), (3.25, 3.25))
-    other.wait_for("studio.store.isKept")
+    other.settle()  # and the draft is kept
     floor.drag((1.25, 5.25), (3.25, 5.25))
     choice = floor.page.get_by_role("alert")
     choice.wait_for()
     floor.button("Keep mine as a copy").click()
     choice.wait_for(state="detached")
-    floor.page.wait_for_timeout(300)
+    floor.settle()
     kept = drafts(floor)
     assert len(kept) == 2
     assert kept[name] == other.document
@@ -263,13 +262,13 @@ def test_two_pages_on_one_draft_lose_nothing(floor: StudioPage) -> None:
 
 def test_saving_leaves_the_draft_of_another_page(floor: StudioPage) -> None:
     floor.drag((1.25, 1.25), (3.25, 1.25))
-    floor.wait_for("studio.store.isKept")
+    floor.settle()  # and the draft is kept
     (name,) = drafts(floor)
     other = {"map": {"grid": ["..."]}}
     address = f"{floor.ask('location.origin')}/api/v1/drafts/{name}"
     floor.page.request.put(address, data={"document": other})
     floor.button("Save").click()
-    floor.wait_for("studio.store.isSaved")
+    floor.saved()
     assert drafts(floor) == {name: other}
 
 
@@ -277,7 +276,7 @@ def test_a_floor_is_saved_under_a_name(floor: StudioPage, site: Client) -> None:
     floor.page.get_by_label("Name of the file").fill("drawn.yaml")
     floor.page.get_by_label("Name of the file").press("Enter")
     floor.button("Save").click()
-    floor.wait_for("studio.store.isSaved")
+    floor.saved()
     assert "size: [12, 8]" in (site.folder / "drawn.yaml").read_text()
 
 
@@ -288,17 +287,24 @@ def test_findings_are_listed_and_lit_on_the_map(studio: StudioPage) -> None:
     assert studio.ask("studio.stage.choice.lit.length") > 0
 
 
+def _hold_one(held: list[Route], route: Route) -> None:
+    """Keep the first request of a page waiting, and no other one."""
+    if held:
+        route.continue_()
+    else:
+        held.append(route)
+
+
 def test_a_picture_below_a_roadmap_gets_scale_and_origin_by_presses(lanes: StudioPage) -> None:
     png = LAYOUTS.parents[2] / "docs" / "images" / "door.png"
 
-    def late(route: Route) -> None:
-        """Let the picture come when all else has been said of the map."""
-        time.sleep(0.5)
-        route.continue_()
-
-    lanes.page.route("**/files/door.png", late)
+    held: list[Route] = []
+    lanes.page.route("**/files/door.png", lambda route: _hold_one(held, route))
     lanes.tab("Map")
     lanes.page.get_by_label("Choose a picture to draw over").set_input_files(png)
+    lanes.poll(lambda: held, "the page asks for the picture")
+    lanes.settle()  # all else has been said of the map
+    held[0].continue_()
     lanes.wait_for("Boolean(studio.backdrop.image)")
     lanes.settle()
     before = lanes.document["map"]["picture"]

@@ -22,6 +22,7 @@ from PIL import Image
 import rightofway
 from rightofway.studio.guard import Access, Guard
 from tests.builders.studios import DOOR, Client, running, sent
+from tests.builders.suites import soon
 
 
 def refused(answer: httpx.Response) -> str:
@@ -363,7 +364,7 @@ def test_a_body_that_comes_too_slowly_is_given_up(
 
 
 def test_a_stream_that_nobody_reads_is_ended(
-    client: httpx.Client, monkeypatch: pytest.MonkeyPatch
+    client: Client, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("rightofway.studio.guard.UNREAD", 0.2)
     monkeypatch.setattr("rightofway.studio.events.HEARTBEAT", 0.1)
@@ -371,7 +372,9 @@ def test_a_stream_that_nobody_reads_is_ended(
     host = f"{client.base_url.host}:{client.base_url.port}"
     with socket.create_connection((client.base_url.host, client.base_url.port), 10) as connection:
         connection.sendall(f"GET /api/v1/events HTTP/1.1\r\nHost: {host}\r\n\r\n".encode())
-        time.sleep(1)
+        streams = client.studio.runs._listeners._of
+        assert soon(lambda: streams)  # it has begun ...
+        assert soon(lambda: not streams)  # ... and nobody reads it
         connection.settimeout(2)
         read = 0
         while part := connection.recv(10**6):

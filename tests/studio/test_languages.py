@@ -56,10 +56,10 @@ def test_a_plan_its_robots_and_its_waits_are_german(german: StudioPage) -> None:
     assert not english_on(german), "\n".join(english_on(german))
     for robot in range(german.ask("studio.stage.plan.robots.length")):
         german.ask(f"studio.stage.choice.chooseRobot({robot})")
-        german.page.wait_for_timeout(100)
+        german.settle()
         assert english_on(german) == [], robot
     german.ask("studio.stage.choice.toggleHeat(); studio.stage.clock.seek(9)")
-    german.page.wait_for_timeout(100)
+    german.settle()
     german.keep("german-heat")
     assert not english_on(german), "\n".join(english_on(german))
 

@@ -262,7 +262,7 @@ def test_a_draft_that_is_opened_again_has_its_plan_until_it_differs(opened: Open
     studio.settle()
     studio.wait_for("studio.store.isKept")
     reloaded(studio)
-    studio.page.wait_for_timeout(300)
+    studio.settle()
     assert studio.ask("studio.runs.shown") is None
     assert studio.complaints == []
 
@@ -295,7 +295,7 @@ def test_a_run_of_another_document_goes_on_unseen(opened: Opener) -> None:
     studio.ask("fetch('/api/v1/runs/1/stop', { method: 'POST',"
                " headers: { 'content-type': 'application/json' }, body: '{}' })")  # fmt: skip
     studio.wait_for("studio.runs.find(1).state === 'stopped'")
-    studio.page.wait_for_timeout(300)
+    studio.settle()
     assert studio.ask("studio.runs.shown") is None
 
 

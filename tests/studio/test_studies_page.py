@@ -62,7 +62,7 @@ def slider(studio: StudioPage, name: str) -> Locator:
 
 def lit(studio: StudioPage) -> set[int]:
     """Return the vertices that are lit as the circle, once the page is painted."""
-    studio.page.wait_for_timeout(150)
+    studio.settle()
     return set(studio.ask("studio.stage.plan.steady.largest.circuit.map(({vertex}) => vertex)"))
 
 

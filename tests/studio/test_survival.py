@@ -17,22 +17,21 @@ import httpx
 from rightofway import load
 from tests.builders.crowds import CROWD
 from tests.builders.studios import DOOR, PATIENCE, command, over, planned, until
+from tests.builders.suites import soon
 
 LONG = {"document": CROWD, "planner": "lns", "time_limit": 60}
 
 
 def is_gone(process: int) -> bool:
     """Wait until a process has ended; false if it does not."""
-    ends = time.monotonic() + PATIENCE
-    while time.monotonic() < ends:
+
+    def has_ended() -> bool:
         try:
-            state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+            return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
         except OSError:
             return True
-        if state == "Z":
-            return True
-        time.sleep(0.05)
-    return False
+
+    return soon(has_ended)
 
 
 def test_whatever_was_answered_is_there_after_a_kill(tmp_path: Path) -> None:
@@ -71,9 +70,11 @@ def test_a_file_is_whole_whenever_the_server_is_killed(tmp_path: Path) -> None:
     """Two documents of different length replace each other until the server is gone."""
     documents = [{**DOOR, "robots": DOOR["robots"][:count]} for count in (1, 2)]
     with command(tmp_path) as studio:
+        saved = threading.Semaphore(0)
 
         def save(document: Any) -> None:
             studio.client.put("/documents/door.yaml", json={"document": document, "revision": None})
+            saved.release()
 
         def save_for_ever() -> None:
             with suppress(httpx.TransportError, RuntimeError):
@@ -83,8 +84,9 @@ def test_a_file_is_whole_whenever_the_server_is_killed(tmp_path: Path) -> None:
         save(documents[0])
         saving = threading.Thread(target=save_for_ever)
         saving.start()
-        time.sleep(1)
-        studio.process.kill()
+        for _ in range(20):
+            assert saved.acquire(timeout=PATIENCE)
+        studio.process.kill()  # within a file, or between two
         saving.join()
         studio.end(signal.SIGKILL)
     assert [robot.name for robot in load(tmp_path / "door.yaml").robots] in (["R1"], ["R1", "R2"])
@@ -116,11 +118,7 @@ def seconds_of(process: int) -> int:
 
 def is_over_soon(client: Any, number: int) -> bool:
     """Return whether a run is over within a second."""
-    for _ in range(50):
-        if client.get(f"/runs/{number}").json()["ended"]:
-            return True
-        time.sleep(0.02)
-    return False
+    return soon(lambda: client.get(f"/runs/{number}").json()["ended"], seconds=1)
 
 
 def test_every_worker_killed_again_and_again_is_replaced(tmp_path: Path) -> None:

@@ -224,7 +224,7 @@ def test_heads_and_names_stay_where_many_plans_are_scrolled(show: Opener) -> Non
     )
     viewer.ask("document.getElementById('compared-figures').style.maxHeight = '90px'")
     viewer.ask("document.querySelectorAll('.compared-wide').forEach((it) => it.scrollTo(150, 40))")
-    viewer.page.wait_for_timeout(100)
+    viewer.painted()
     stay = (
         "['.compared-figures tbody th', '.compared-figures thead td', '.compared-head > *',"
         " '.compared-row .robot'].map((each) => { const it = document.querySelector(each);"

@@ -60,7 +60,7 @@ def test_no_state_of_the_page_says_an_english_word_to_a_german(
     assert english_on(viewer) == []
     for state in range(viewer.ask(f"{EACH_CHOICE}.length")):
         viewer.ask(f"{EACH_CHOICE}[{state}]()")
-        viewer.page.wait_for_timeout(60)
+        viewer.painted()
         assert english_on(viewer) == [], state
     assert viewer.complaints == []
 

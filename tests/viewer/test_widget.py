@@ -9,6 +9,7 @@ import pytest
 
 from rightofway.viz.page.document import payload_text
 from rightofway.viz.page.widget import widget_module
+from tests.builders.browsers import expect
 from tests.builders.plans import door
 
 if TYPE_CHECKING:
@@ -58,6 +59,5 @@ def test_keys_work_in_the_cell_that_has_the_focus(notebook: Page) -> None:
     first, second = (notebook.locator(".page").nth(cell) for cell in (0, 1))
     second.locator("#robot-list").focus()
     notebook.keyboard.press("ArrowRight")
-    notebook.wait_for_timeout(100)
-    assert second.locator("#readout").inner_text() == "1 of 10"
+    expect(second.locator("#readout")).to_have_text("1 of 10")
     assert first.locator("#readout").inner_text() == "0 of 10"

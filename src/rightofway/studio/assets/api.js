@@ -1,6 +1,7 @@
 /** The API of the studio: version 1, the same for every client. */
 
 /** @import { Bodies, DeleteAnswer, ErrorData, GetAnswer, PatchAnswer, PostAnswer, PutAnswer, Saved } from "./api_types.js" */
+import { whileBusy } from "./busy.js";
 
 const ROOT = "/api/v1";
 
@@ -25,7 +26,10 @@ export class Refusal extends Error {
  * @param {Bodies[keyof Bodies] | {}} [body]
  * @returns {Promise<any>} What the path answers: the functions below say what that is.
  */
-async function request(method, path, body) {
+const request = (method, path, body) => whileBusy(answered(method, path, body));
+
+/** @type {typeof request} */
+async function answered(method, path, body) {
   /** @type {HeadersInit} */
   const headers = body === undefined ? {} : { "content-type": "application/json" };
   const answer = await fetch(ROOT + path, {
@@ -89,7 +93,10 @@ export const inAddress = (path) => path.split("/").map(encodeURIComponent).join(
  * @param {{replace?: boolean}} [options]
  * @returns {Promise<Saved>}
  */
-export async function upload(file, path, { replace = false } = {}) {
+export const upload = (file, path, options = {}) => whileBusy(uploaded(file, path, options));
+
+/** @type {typeof upload} */
+async function uploaded(file, path, { replace = false } = {}) {
   const answer = await fetch(`${ROOT}/files/${inAddress(path)}?replace=${replace}`, {
     method: "PUT",
     headers: { "content-type": "application/octet-stream" },

@@ -1,6 +1,7 @@
 /** The page: a head, tools at the left, the map in the middle, what is said about it at the right. */
 
 import { html, render, useEffect, useReducer, useRef, useState } from "./vendor/htm-preact.js";
+import { showBusyOn } from "./busy.js";
 import { Elsewhere } from "./elsewhere.js";
 import { Header } from "./header.js";
 import { Help } from "./help.js";
@@ -34,6 +35,7 @@ function App() {
       time: time.current,
       card: card.current,
     });
+    showBusyOn(holder.current);
     made.on("change", refresh);
     listenToKeys(made);
     listenToDrops(made);

@@ -3,6 +3,7 @@
 import { toDrawing } from "./draw/places.js";
 import { later } from "./given.js";
 import { RULER } from "./draw/readout.js";
+import { beginWork, endWork } from "./busy.js";
 import { Player } from "./runs/player.js";
 import { fitCanvas } from "../../viz/page/assets/canvas.js";
 import { Choice } from "../../viz/page/assets/choice.js";
@@ -198,7 +199,12 @@ export class Stage extends Observable {
   ask() {
     if (this.asked || !this.view) return;
     this.asked = true;
-    requestAnimationFrame((now) => this.#paint(now));
+    const isStill = !this.clock.playing;
+    if (isStill) beginWork(); // a plan that plays is no work that ends
+    requestAnimationFrame((now) => {
+      this.#paint(now);
+      if (isStill) endWork();
+    });
   }
 
   /**

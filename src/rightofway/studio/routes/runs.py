@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body
 from fastapi.responses import StreamingResponse
+from starlette.types import Receive, Scope, Send
 
 from rightofway.planners import DEFAULT, IMPROVER, find
 from rightofway.studio.events import Event
@@ -124,16 +125,25 @@ async def all_events(studio: InStudio) -> StreamingResponse:
     return await _stream(studio.runs.listen_to_all())
 
 
+class _Stream(StreamingResponse):
+    """Events as lines; their listener is free as soon as nothing more can be sent."""
+
+    def __init__(self, first: Event | None, events: AsyncGenerator[Event | None]) -> None:
+        super().__init__(self._lines(first), media_type="text/event-stream")
+        self._events = events
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        async with aclosing(self._events):
+            await super().__call__(scope, receive, send)
+
+    async def _lines(self, first: Event | None) -> AsyncIterator[str]:
+        yield _line(first)
+        async for event in self._events:
+            yield _line(event)
+
+
 async def _stream(events: AsyncGenerator[Event | None]) -> StreamingResponse:
-    first = await anext(events)
-
-    async def lines() -> AsyncIterator[str]:
-        async with aclosing(events):
-            yield _line(first)
-            async for event in events:
-                yield _line(event)
-
-    return StreamingResponse(lines(), media_type="text/event-stream")
+    return _Stream(await anext(events), events)
 
 
 def _line(event: Event | None) -> str:
