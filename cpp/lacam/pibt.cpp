@@ -120,20 +120,44 @@ bool Pibt::any_near(const FleetState& now, RobotId robot, VertexId place, const 
 // Calls `use` with each robot that has to leave before this robot drives to a place.
 template <class Use>
 bool Pibt::any_ahead(const FleetState& now, RobotId robot, VertexId place, const Use& use) const {
-    const auto n_vertices = problem_.n_vertices();
-    return any_near(
-        now, robot, place, [&](std::int32_t resource, std::int32_t size, bool is_drive) {
-            const auto is_other = [&](RobotId other) {
-                return other != nobody && other != robot && problem_.first_row(other) == size;
-            };
-            const RobotId other = now.here(resource);
-            if (is_other(other) && use(other)) {
-                return true;
-            }
-            const RobotId crosses = resource < n_vertices ? nobody : claim_[resource];
-            return is_other(crosses) && (!is_drive || goes_first(now, crosses, robot)) &&
-                   use(crosses);
-        });
+    Ahead ahead{place};
+    for (RobotId other; (other = next_ahead(now, robot, ahead)) != nobody;) {
+        if (use(other)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The next robot that has to leave before this robot drives to a place, by the choices so far;
+// `nobody` if all have been asked.
+RobotId Pibt::next_ahead(const FleetState& now, RobotId robot, Ahead& ahead) const {
+    if (!problem_.has_sizes()) {
+        const RobotId other = ahead.n_asked++ == 0 ? now.here(ahead.place) : nobody;
+        return other == robot ? nobody : other;
+    }
+    const std::int32_t n_resources = problem_.n_resources();
+    const auto near_place = problem_.excluded(problem_.vertex_row(robot, ahead.place));
+    const auto near_drive =
+        problem_.edges_exclude() && ahead.place != now.at(robot)
+            ? problem_.excluded(problem_.edge_row(robot, edge_to(now, robot, ahead.place)))
+            : std::span<const std::int32_t>{};
+    while (ahead.n_asked < 2 * (near_place.size() + near_drive.size())) {
+        const std::size_t k = ahead.n_asked / 2;
+        const bool is_drive = k >= near_place.size();
+        const std::int32_t row = is_drive ? near_drive[k - near_place.size()] : near_place[k];
+        const std::int32_t resource = row < n_resources ? row : row % n_resources;
+        const bool asks_who_crosses = ahead.n_asked++ % 2 == 1;
+        if (asks_who_crosses && resource < problem_.n_vertices()) {
+            continue;
+        }
+        const RobotId other = asks_who_crosses ? claim_[resource] : now.here(resource);
+        if (other != nobody && other != robot && problem_.first_row(other) == row - resource &&
+            (!asks_who_crosses || !is_drive || goes_first(now, other, robot))) {
+            return other;
+        }
+    }
+    return nobody;
 }
 
 // Of two robots that chose edges near to each other: a robot whose vertex is in the way goes first,
@@ -228,7 +252,18 @@ bool Pibt::closes_circle(const FleetState& now, RobotId robot) {
     return false;
 }
 
+// A robot that is pushed chooses before the robot that pushes it. The chain of pushes is as long as
+// the queue in a corridor, so it is a stack of frames and not of calls.
 bool Pibt::choose_one(const FleetState& now, RobotId robot) {
+    Choice latest = begin(now, robot);
+    while (!frames_.empty()) {
+        latest = go_on(now, latest);
+    }
+    return latest == Choice::found;
+}
+
+// Lets a robot choose that has no candidates to try; `open`: it has, and a frame is pushed.
+Pibt::Choice Pibt::begin(const FleetState& now, RobotId robot) {
     ++n_choices_;
     const VertexId here = now.at(robot);
     if (has_to_wait(now, robot)) {
@@ -236,7 +271,7 @@ bool Pibt::choose_one(const FleetState& now, RobotId robot) {
             draw_step * (problem_.graph().heads(here).size() + 1);  // as after a ranking of places
         const bool may_stay = is_open(now, robot, here);
         take(now, robot, here);
-        return may_stay;
+        return may_stay ? Choice::found : Choice::failed;
     }
     const std::size_t first = places_.size();
     push_places(now, robot);
@@ -245,12 +280,78 @@ bool Pibt::choose_one(const FleetState& now, RobotId robot) {
     if (partner != nobody) {
         std::reverse(places_.begin() + static_cast<std::ptrdiff_t>(first), places_.end());
     }
-    const bool found = try_places(now, robot, first, partner);
-    places_.resize(first);
-    if (!found) {
-        take(now, robot, here);
+    frames_.push_back({robot, partner, first, places_.size(), first});
+    return Choice::open;
+}
+
+// Tries candidates of the robot on top of the stack until it has chosen, or has to push another
+// robot (`open`). `pushed`: what the robot that it pushed last has chosen.
+Pibt::Choice Pibt::go_on(const FleetState& now, Choice pushed) {
+    Frame& frame = frames_.back();
+    const auto stays = [&](RobotId other) { return next_[other] == now.at(other); };
+    while (frame.ahead.place != nowhere || take_next_place(now, frame)) {
+        bool is_held = pushed == Choice::failed || (pushed == Choice::found && stays(frame.pushed));
+        for (RobotId other; !is_held;) {
+            other = next_ahead(now, frame.robot, frame.ahead);
+            if (other == nobody) {
+                break;
+            }
+            if (is_idle(now, other)) {
+                frame.pushed = other;
+                pushed = begin(now, other);
+                if (pushed == Choice::open) {
+                    return Choice::open;
+                }
+                is_held = pushed == Choice::failed;
+            }
+            is_held = is_held || stays(other);
+        }
+        if (!is_held) {
+            return end(now, true);
+        }
+        pushed = Choice::open;
+        frame.ahead = {};
+        ++frame.k;
     }
-    return found;
+    return end(now, false);
+}
+
+// Takes the next candidate that is open and closes no circle; false if none is left.
+bool Pibt::take_next_place(const FleetState& now, Frame& frame) {
+    for (; frame.k < frame.end; ++frame.k) {
+        const VertexId place = places_[frame.k].vertex;
+        if (!is_open(now, frame.robot, place)) {
+            continue;
+        }
+        take(now, frame.robot, place);
+        if (!problem_.may_rotate() && place != now.at(frame.robot) &&
+            closes_circle(now, frame.robot)) {
+            release(now, frame.robot);
+            continue;
+        }
+        frame.ahead = {place};
+        return true;
+    }
+    return false;
+}
+
+// Takes the top of the stack off. A robot that found a place pulls its partner, another one stays.
+Pibt::Choice Pibt::end(const FleetState& now, bool is_found) {
+    const Frame frame = frames_.back();
+    const VertexId here = now.at(frame.robot);
+    const RobotId partner = frame.partner;
+    const bool pulls =
+        is_found && partner != nobody && frame.k == frame.first && places_[frame.k].vertex != here;
+    if (pulls && is_idle(now, partner) && claim_[here] == nobody &&
+        edge_to(now, partner, here) >= 0) {
+        pull(now, partner, here);
+    }
+    places_.resize(frame.first);
+    frames_.pop_back();
+    if (!is_found) {
+        take(now, frame.robot, here);
+    }
+    return is_found ? Choice::found : Choice::failed;
 }
 
 // Whether the robot stays; a shortcut without a ranking of places, for most waiting robots. True if
@@ -288,36 +389,6 @@ bool Pibt::has_partner(const FleetState& now, RobotId robot) {
         }
     }
     return Swaps(Choosing{*this, now}).partner(robot, best.vertex) != nobody;
-}
-
-bool Pibt::try_places(const FleetState& now, RobotId robot, std::size_t first, RobotId partner) {
-    const VertexId here = now.at(robot);
-    const std::size_t end = places_.size();
-    for (std::size_t k = first; k < end; ++k) {
-        const VertexId place = places_[k].vertex;
-        if (!is_open(now, robot, place)) {
-            continue;
-        }
-        take(now, robot, place);
-        if (!problem_.may_rotate() && place != here && closes_circle(now, robot)) {
-            release(now, robot);
-            continue;
-        }
-        const bool is_held = any_ahead(now, robot, place, [&](RobotId other) {
-            return (is_idle(now, other) && !choose_one(now, other)) ||
-                   next_[other] == now.at(other);  // `other` stays
-        });
-        if (is_held) {
-            continue;
-        }
-        const bool pulls = partner != nobody && k == first && place != here;
-        if (pulls && is_idle(now, partner) && claim_[here] == nobody &&
-            edge_to(now, partner, here) >= 0) {
-            pull(now, partner, here);
-        }
-        return true;
-    }
-    return false;
 }
 
 // Lets the partner follow the robot, if no other robot is in its way.

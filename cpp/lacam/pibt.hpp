@@ -65,17 +65,37 @@ class Pibt {
         std::uint32_t tie;
         VertexId vertex;
     };
+    // How far a robot has asked those that have to leave before it drives to a place.
+    struct Ahead {
+        VertexId place = -1;
+        std::size_t n_asked = 0;  // two for each resource: the robot there, the one that crosses it
+    };
+    // A robot that is choosing; those above it on the stack choose before it can go on.
+    struct Frame {
+        RobotId robot;
+        RobotId partner;
+        std::size_t first;  // its candidates: places_[first] .. places_[end - 1]
+        std::size_t end;
+        std::size_t k;  // the candidate that it tries
+        Ahead ahead{};  // of that candidate; no place: it is not taken yet
+        RobotId pushed = nobody;
+    };
+    enum class Choice : std::uint8_t { open, found, failed };
 
     bool take_fixed(const FleetState& now);
     bool choose_all(const FleetState& now, std::span<const RobotId> order);
     bool choose_one(const FleetState& now, RobotId robot);
+    Choice begin(const FleetState& now, RobotId robot);
+    Choice go_on(const FleetState& now, Choice pushed);
+    bool take_next_place(const FleetState& now, Frame& frame);
+    Choice end(const FleetState& now, bool is_found);
     bool has_to_wait(const FleetState& now, RobotId robot);
     bool has_partner(const FleetState& now, RobotId robot);
-    bool try_places(const FleetState& now, RobotId robot, std::size_t first, RobotId partner);
     template <class Use>
     bool any_near(const FleetState& now, RobotId robot, VertexId place, const Use& use) const;
     template <class Use>
     bool any_ahead(const FleetState& now, RobotId robot, VertexId place, const Use& use) const;
+    RobotId next_ahead(const FleetState& now, RobotId robot, Ahead& ahead) const;
     bool goes_first(const FleetState& now, RobotId other, RobotId robot) const;
     void pull(const FleetState& now, RobotId partner, VertexId place);
     bool is_open(const FleetState& now, RobotId robot, VertexId place) const;
@@ -122,6 +142,7 @@ class Pibt {
     std::vector<std::int64_t> seen_by_;  // of each robot: the latest search for a circle
     std::int64_t n_circles_ = 0;         // searches
     std::vector<Place> places_;          // a stack: candidates of each robot that is choosing
+    std::vector<Frame> frames_;  // a stack: robots that are choosing, each pushed by the last
     std::vector<Fixed> fixed_;
     std::vector<Decision> decisions_;
     std::int64_t n_choices_ = 0;

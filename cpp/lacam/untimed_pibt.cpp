@@ -90,50 +90,79 @@ void UntimedPibt::take(RobotId robot, VertexId vertex) {
     next_[robot] = vertex;
 }
 
+// A robot that is pushed chooses before the robot that pushes it. The chain of pushes is as long as
+// the queue in a corridor, so it is a stack of frames and not of calls.
 bool UntimedPibt::choose(const Configuration& now, RobotId robot) {
-    const VertexId here = now.at[robot];
-    std::vector<VertexId> places = places_by_distance(now, robot);
-    const Choosing fleet{*this, now};
-    const RobotId partner = Swaps(fleet).partner(robot, places.front());
-    if (partner != nobody) {
-        std::reverse(places.begin(), places.end());
-    }
-    for (const VertexId place : places) {
-        const RobotId other = here_[place];
-        if (comes_[place] != nobody || is_swap(now, robot, place)) {
+    bool found = false;  // of the robot that has chosen last
+    begin(now, robot);
+    while (!frames_.empty()) {
+        Frame& frame = frames_.back();
+        RobotId pushed = nobody;
+        // Where the robot that was pushed stays, its place is occupied.
+        while (!found && pushed == nobody && frame.next < frame.end) {
+            const VertexId place = places_[frame.next++];
+            const RobotId other = here_[place];
+            if (comes_[place] != nobody || is_swap(now, frame.robot, place)) {
+                continue;
+            }
+            take(frame.robot, place);
+            found = other == nobody || other == frame.robot || next_[other] != nowhere;
+            pushed = found ? nobody : other;
+        }
+        if (pushed != nobody) {
+            begin(now, pushed);
             continue;
         }
-        take(robot, place);
-        if (other != nobody && other != robot && next_[other] == nowhere && !choose(now, other)) {
-            continue;  // `other` stays, so the place is occupied
+        if (found) {
+            pull_partner(now, frame);
+        } else {
+            take(frame.robot, now.at[frame.robot]);
         }
-        const bool pulls = partner != nobody && place == places.front() && place != here;
-        if (pulls && next_[partner] == nowhere && comes_[here] == nobody &&
-            has(problem_.graph().heads(now.at[partner]), here)) {
-            take(partner, here);
-        }
-        return true;
+        places_.resize(frame.first);
+        frames_.pop_back();
     }
-    take(robot, here);
-    return false;
+    return found;
 }
 
-// All candidates, nearest to the robot's stage first; ties are random.
-std::vector<VertexId> UntimedPibt::places_by_distance(const Configuration& now, RobotId robot) {
-    const auto heads = problem_.graph().heads(now.at[robot]);
-    std::vector<VertexId> places(heads.begin(), heads.end());
-    places.push_back(now.at[robot]);
-    for (const VertexId place : places) {
-        tie_[place] = static_cast<std::uint32_t>(draw_());
+// Pushes a robot with its candidates.
+void UntimedPibt::begin(const Configuration& now, RobotId robot) {
+    const std::size_t first = places_.size();
+    push_places_by_distance(now, robot);
+    const Choosing fleet{*this, now};
+    const RobotId partner = Swaps(fleet).partner(robot, places_[first]);
+    if (partner != nobody) {
+        std::reverse(places_.begin() + static_cast<std::ptrdiff_t>(first), places_.end());
     }
-    std::sort(places.begin(), places.end(), [&](VertexId left, VertexId right) {
+    frames_.push_back({robot, partner, first, places_.size(), first});
+}
+
+// Lets the partner follow a robot that took its first candidate.
+void UntimedPibt::pull_partner(const Configuration& now, const Frame& frame) {
+    const VertexId here = now.at[frame.robot];
+    const VertexId place = next_[frame.robot];
+    const bool pulls = frame.partner != nobody && place == places_[frame.first] && place != here;
+    if (pulls && next_[frame.partner] == nowhere && comes_[here] == nobody &&
+        has(problem_.graph().heads(now.at[frame.partner]), here)) {
+        take(frame.partner, here);
+    }
+}
+
+// Pushes all candidates, nearest to the robot's stage first; ties are random.
+void UntimedPibt::push_places_by_distance(const Configuration& now, RobotId robot) {
+    const auto first = static_cast<std::ptrdiff_t>(places_.size());
+    const auto heads = problem_.graph().heads(now.at[robot]);
+    places_.insert(places_.end(), heads.begin(), heads.end());
+    places_.push_back(now.at[robot]);
+    for (auto place = places_.begin() + first; place != places_.end(); ++place) {
+        tie_[*place] = static_cast<std::uint32_t>(draw_());
+    }
+    std::sort(places_.begin() + first, places_.end(), [&](VertexId left, VertexId right) {
         const auto way_left = way(now, robot, left);
         const auto way_right = way(now, robot, right);
         return way_left != way_right       ? way_left < way_right
                : tie_[left] != tie_[right] ? tie_[left] < tie_[right]
                                            : left < right;
     });
-    return places;
 }
 
 // Follows each robot to the robot that it displaces; three or more that return to the first rotate.

@@ -76,12 +76,22 @@ class UntimedPibt {
         RobotId robot;
         VertexId vertex;
     };
+    // A robot that is choosing; those above it on the stack choose before it can go on.
+    struct Frame {
+        RobotId robot;
+        RobotId partner;
+        std::size_t first;  // its candidates: places_[first] .. places_[end - 1]
+        std::size_t end;
+        std::size_t next;  // the candidate to try next
+    };
 
     bool take_fixed(const Configuration& now);
     bool is_swap(const Configuration& now, RobotId robot, VertexId vertex) const;
     void take(RobotId robot, VertexId vertex);
     bool choose(const Configuration& now, RobotId robot);
-    std::vector<VertexId> places_by_distance(const Configuration& now, RobotId robot);
+    void begin(const Configuration& now, RobotId robot);
+    void pull_partner(const Configuration& now, const Frame& frame);
+    void push_places_by_distance(const Configuration& now, RobotId robot);
     bool closes_rotation(const Configuration& now) const;
 
     const Problem& problem_;
@@ -92,6 +102,8 @@ class UntimedPibt {
     std::vector<RobotId> comes_;      // of each vertex: robot after the step
     std::vector<VertexId> next_;      // of each robot: vertex after the step
     std::vector<std::uint32_t> tie_;  // of each vertex; drawn for each choice
+    std::vector<VertexId> places_;    // a stack: candidates of each robot that is choosing
+    std::vector<Frame> frames_;       // a stack: robots that are choosing, each pushed by the last
     std::vector<Fixed> fixed_;
 };
 

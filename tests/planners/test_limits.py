@@ -107,6 +107,24 @@ def test_infinity_is_no_limit(scenario: Scenario) -> None:
     ]
 
 
+def test_a_queue_of_robots_that_push_each_other_needs_no_deep_stack() -> None:
+    """10 000 robots go one cell on; a thread has the stack that threads have on macOS."""
+    script = (
+        "import threading, rightofway as rw\n"
+        "from tests.builders.fleets import grid_fleet\n"
+        "ways = [(f'N{k}', f'N{k + 1}') for k in range(10_000)]\n"
+        "fleet = grid_fleet(['.' * 10_001], ways, rules=rw.Rules(ends='none'))\n"
+        "def run(): print(rw.solve(fleet, 'lacam', time_limit=None).makespan)\n"
+        "threading.stack_size(512 * 1024)\n"
+        "thread = threading.Thread(target=run)\n"
+        "thread.start()\n"
+        "thread.join()\n"
+    )
+    call = [sys.executable, "-c", script]
+    done = subprocess.run(call, capture_output=True, text=True, timeout=120, check=True)
+    assert done.stdout == "1\n"
+
+
 @pytest.fixture
 def interrupted() -> Iterator[None]:
     """Have this thread interrupted after two seconds, whatever the runner does with interrupts."""

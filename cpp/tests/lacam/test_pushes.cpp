@@ -1,0 +1,68 @@
+#include <doctest/doctest.h>
+
+#if __has_include(<pthread.h>)
+#include <pthread.h>
+
+#include <functional>
+
+#include "fleets.hpp"
+#include "lacam/lacam.hpp"
+#include "lacam/untimed_lacam.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr VertexId n_robots = 10'000;
+
+// Robots on all vertices of a corridor but the last; each is to go one vertex on, and the first to
+// choose pushes all others.
+test::Fleet queue() {
+    test::Roads corridor(0, {});
+    std::vector<test::Robot> robots;
+    for (VertexId v = 0; v <= n_robots; ++v) {
+        if (v > 0) {
+            corridor.heads.push_back(v - 1);
+        }
+        if (v < n_robots) {
+            corridor.heads.push_back(v + 1);
+            robots.push_back({v, {{v + 1}}});
+        }
+        corridor.indptr.push_back(static_cast<EdgeId>(corridor.heads.size()));
+    }
+    return {corridor, robots};
+}
+
+// Runs in a thread with the stack that threads have on macOS: 512 kB.
+void run_on_a_small_stack(std::function<void()> work) {
+    constexpr std::size_t stack = std::size_t{512} << 10;
+    pthread_attr_t attributes;
+    REQUIRE(pthread_attr_init(&attributes) == 0);
+    REQUIRE(pthread_attr_setstacksize(&attributes, stack) == 0);
+    pthread_t thread{};
+    const auto call = [](void* given) -> void* {
+        (*static_cast<std::function<void()>*>(given))();
+        return nullptr;
+    };
+    REQUIRE(pthread_create(&thread, &attributes, call, &work) == 0);
+    REQUIRE(pthread_join(thread, nullptr) == 0);
+    pthread_attr_destroy(&attributes);
+}
+
+TEST_CASE("a queue of 10 000 robots that push each other needs no deep stack") {
+    const test::Fleet fleet = queue();
+    const Problem problem = fleet.problem();
+    SearchEnd end = SearchEnd::stopped;
+    SearchEnd untimed_end = SearchEnd::stopped;
+    run_on_a_small_stack([&] {
+        StepTables tables(problem.graph());
+        SpaceUtilization paths(problem, tables);
+        end = Lacam(problem, tables, paths, 0).run(test::no_deadline, 100 * n_robots);
+        untimed_end = UntimedLacam(problem, tables, 0).run(test::no_deadline);
+    });
+    CHECK(end == SearchEnd::found);
+    CHECK(untimed_end == SearchEnd::found);
+}
+
+}  // namespace
+}  // namespace rightofway
+#endif
