@@ -1,8 +1,8 @@
 #include "core/task_crew.hpp"
 
-#include <thread>
 #include <utility>
-#include <vector>
+
+#include "core/thread_group.hpp"
 
 namespace rightofway {
 namespace {
@@ -20,14 +20,26 @@ void TaskCrew::run(std::size_t n_tasks, const Work& work, const StopCondition& i
             work(worker, k, must_stop);
         }
     };
-    std::vector<std::thread> others;
-    for (std::size_t worker = 1; worker < n_workers_; ++worker) {
-        others.emplace_back(
-            [&, worker] { take_tasks(worker, [this] { return is_stopped_.load(); }); });
+    const auto stop = [this] { is_stopped_ = true; };
+    ThreadGroup others;
+    try {
+        for (std::size_t worker = 1; worker < n_workers_; ++worker) {
+            const auto take_some = [&, worker] {
+                take_tasks(worker, [this] { return is_stopped_.load(); });
+            };
+            others.start(take_some, stop);
+        }
+        take_tasks(0, [&] { return ask(is_over); });
+    } catch (...) {
+        stop();
+        thrown_ = std::current_exception();
     }
-    take_tasks(0, [&] { return ask(is_over); });
-    for (std::thread& other : others) {
-        other.join();
+    try {
+        others.join();
+    } catch (...) {
+        if (!thrown_) {
+            thrown_ = std::current_exception();
+        }
     }
 }
 

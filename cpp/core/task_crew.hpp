@@ -22,14 +22,15 @@ class TaskCrew {
 
     explicit TaskCrew(std::size_t n_workers) : n_workers_(n_workers) {}
 
-    // Does tasks 0 .. n_tasks - 1, or the first of them if `is_over` says so. What that throws
-    // means the same and is kept, so that the caller can tidy up before it calls `pass_on`.
+    // Does tasks 0 .. n_tasks - 1, or the first of them if `is_over` says so. An exception of
+    // `is_over` or of a task on any thread means the same and is kept, so that the caller can tidy
+    // up before it calls `pass_on`.
     void run(std::size_t n_tasks, const Work& work, const StopCondition& is_over);
 
     // Whether `is_over` stopped the last run.
     bool is_stopped() const { return is_stopped_; }
 
-    // Rethrows the exception that `is_over` threw in the last run, if any; only once.
+    // Rethrows the exception that the last run kept, if any; only once.
     void pass_on();
 
   private:

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/reject.hpp"
+#include "core/thread_group.hpp"
 
 namespace rightofway {
 namespace {
@@ -21,6 +22,8 @@ constexpr std::size_t first_block_size = std::size_t{1} << 20;
 constexpr std::size_t most_block_size = std::size_t{1} << 26;
 // The greatest distance of a vertex from the first vertex of its line [edges].
 constexpr std::int32_t line_radius = 15;
+// The most vertices that are looked at to fill a line; bounds the time on dense graphs.
+constexpr std::size_t most_for_a_line = 2048;
 constexpr std::int32_t most_steps = std::numeric_limits<std::uint16_t>::max() - 1;
 constexpr std::size_t legs_between_questions = 64;
 constexpr std::size_t least_for_a_thread = 16;
@@ -86,7 +89,7 @@ void StepTables::find_places(const Graph& graph) {
         reached_from[first] = first;
         std::size_t end_of_level = 1;
         std::int32_t distance = 0;
-        for (std::size_t k = 0; k < reached.size() && next < size_; ++k) {
+        for (std::size_t k = 0; k < reached.size() && k < most_for_a_line && next < size_; ++k) {
             if (k == end_of_level) {
                 end_of_level = reached.size();
                 if (++distance > line_radius) {
@@ -179,11 +182,12 @@ void StepTables::search_all(std::span<const Request> requests) {
     };
     const std::size_t n_shares = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1,
                                                          1 + requests.size() / least_for_a_thread);
-    std::vector<std::jthread> threads;
+    ThreadGroup others;
     for (std::size_t share = 1; share < n_shares; ++share) {
-        threads.emplace_back(search_share, share, n_shares);
+        others.start([&, share] { search_share(share, n_shares); }, [] {});
     }
     search_share(0, n_shares);
+    others.join();
 }
 
 void StepTables::next_level(TableId table, std::vector<Place>& scratch) {

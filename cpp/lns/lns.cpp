@@ -109,25 +109,38 @@ void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
         worker.plan.exchange(task.robots[k], task.tracks[k]);
         slack += task.tracks[k].cost - alone_[static_cast<std::size_t>(task.robots[k])];
     }
-    bool is_found = slack > 0;
-    for (std::size_t k = 0; k < n && is_found; ++k) {
-        const RobotId robot = task.robots[k];
+    const auto restore = [&] {
+        for (std::size_t k = 0; k < n; ++k) {
+            worker.plan.exchange(task.robots[k], task.tracks[k]);
+        }
+    };
+    bool is_found = false;
+    try {
+        is_found = slack > 0 && find_tracks(worker, task, slack, is_over);
+    } catch (...) {
+        restore();
+        throw;
+    }
+    restore();
+    task.gain = is_found ? slack : -1;
+}
+
+// Gives the robots of a task new tracks in the worker's plan, one after another.
+bool Lns::find_tracks(Worker& worker, const Task& task, Tick& slack, const StopCondition& is_over) {
+    for (const RobotId robot : task.robots) {
         const Tick alone = alone_[static_cast<std::size_t>(robot)];
         const SearchRequest errand{
             worker.reader.read(robot), worker.plan.bookings(), {}, alone + slack};
-        is_found = worker.search.run(errand, is_over) == SearchEnd::found;
-        if (is_found) {
-            worker.search.track(worker.found.visits);
-            worker.found.cost = worker.search.cost();
-            slack -= worker.found.cost - alone;
-            worker.plan.exchange(robot, worker.found);
-            worker.found.cost = 0;
+        if (worker.search.run(errand, is_over) != SearchEnd::found) {
+            return false;
         }
+        worker.search.track(worker.found.visits);
+        worker.found.cost = worker.search.cost();
+        slack -= worker.found.cost - alone;
+        worker.plan.exchange(robot, worker.found);
+        worker.found.cost = 0;
     }
-    for (std::size_t k = 0; k < n; ++k) {
-        worker.plan.exchange(task.robots[k], task.tracks[k]);
-    }
-    task.gain = is_found ? slack : -1;
+    return true;
 }
 
 // Adopts, in order of tasks, the results that still fit together.

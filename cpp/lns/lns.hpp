@@ -34,7 +34,7 @@ class Lns {
 
     // Does `n_tasks` tasks. Stops early after `patience` tasks in a row without a gain, once
     // `is_over` is true, or at the end of a round if `is_due` is true. Only the calling thread
-    // evaluates both. Rethrows an exception of `is_over` once the plan is complete.
+    // evaluates both. Rethrows an exception of `is_over` or of a task once the plan is complete.
     void run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
              const StopCondition& is_due);
 
@@ -57,6 +57,7 @@ class Lns {
     void round(std::size_t n, const StopCondition& is_over);
     void attempt(Worker& worker, Task& task, Random& random, const StopCondition& is_over);
     void replan(Worker& worker, Task& task, const StopCondition& is_over);
+    bool find_tracks(Worker& worker, const Task& task, Tick& slack, const StopCondition& is_over);
     void settle(std::size_t n);
     bool adopt(Task& task, bool may_clash);
 

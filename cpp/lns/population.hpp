@@ -39,7 +39,7 @@ class Population {
 
     // Improves children with `n_tasks` tasks of `Lns` in all. Stops early after `patience` tasks in
     // a row without a better plan, once `is_over` is true, or between generations if `is_due` is
-    // true. Only the calling thread evaluates both. Rethrows an exception of `is_over`.
+    // true. Only the calling thread evaluates both. Rethrows an exception of `is_over` or a task.
     void run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
              const StopCondition& is_due);
 

@@ -5,6 +5,8 @@
 #include <optional>
 #include <thread>
 
+#include "core/thread_group.hpp"
+
 namespace rightofway {
 namespace {
 
@@ -151,28 +153,30 @@ bool PrioritizedPortfolio::Side::is_beaten_by(const Side& other) const {
 // Runs a side in another thread until destruction or until the rival has beaten it.
 class PrioritizedPortfolio::Beside {
   public:
-    Beside(Side& side, const Side& rival, std::int64_t n_searches)
-        : thread_([this, &side, &rival, n_searches] {
-              side.run(n_searches, [&] { return is_stopped_ || side.is_beaten_by(rival); });
-              has_ended_ = true;
-          }) {}
+    Beside(Side& side, const Side& rival, std::int64_t n_searches) {
+        const auto work = [this, &side, &rival, n_searches] {
+            side.run(n_searches, [&] { return is_stopped_ || side.is_beaten_by(rival); });
+            has_ended_ = true;
+        };
+        thread_.start(work, [this] { has_ended_ = true; });
+    }
     Beside(const Beside&) = delete;
     Beside& operator=(const Beside&) = delete;
-    ~Beside() {
-        is_stopped_ = true;
-        thread_.join();
-    }
+    ~Beside() { is_stopped_ = true; }  // the thread is joined after that
 
-    void wait(const StopCondition& is_over) const {
+    // Waits until the side has ended, or ends it. Rethrows an exception of the side.
+    void finish(const StopCondition& is_over) {
         while (!has_ended_ && !is_over()) {
             std::this_thread::sleep_for(between_questions);
         }
+        is_stopped_ = true;
+        thread_.join();
     }
 
   private:
     std::atomic<bool> has_ended_ = false;
     std::atomic<bool> is_stopped_ = false;
-    std::thread thread_;  // last: uses the other members
+    ThreadGroup thread_;  // last: uses the other members
 };
 
 PrioritizedPortfolio::PrioritizedPortfolio(SharedDistances& distances, FleetPlan& plan,
@@ -198,7 +202,7 @@ bool PrioritizedPortfolio::run(std::int64_t n_searches, bool has_second_thread,
             return hasty_.is_there ? is_late() || patient_.is_beaten_by(hasty_) : is_over();
         });
         if (beside) {
-            beside->wait(is_over);
+            beside->finish(is_over);
         }
     }
     if (hasty_.is_there && (!patient_.is_there || is_hasty_better())) {

@@ -105,7 +105,8 @@ class PrioritizedPortfolio {
 
     // Gives each robot a track within `n_searches` searches per run since the start. False if no
     // run is complete: the plan is in an unknown state, and another call continues. Once the hasty
-    // plan is complete, `is_late` replaces `is_over`; only the calling thread evaluates both.
+    // plan is complete, `is_late` replaces `is_over`; only the calling thread evaluates both. An
+    // exception on either thread comes back when both have ended.
     bool run(std::int64_t n_searches, bool has_second_thread, const StopCondition& is_over,
              const StopCondition& is_late);
 
