@@ -221,13 +221,18 @@ class BoundAdg {
                  const ArrayIn<std::int32_t>& first, const ArrayIn<Tick>& tick,
                  const ArrayIn<Tick>& ticks, bool clock) {
         const DelaySample sample = sample_of(plan_, dwell, drive, first, tick, ticks);
+        const Deadline interrupt(std::nullopt);
         ActualTimes times;
-        if (clock) {
-            by_clock(plan_, sample, times);
-        } else {
-            timetable_.by_right_of_way(sample, times);
+        ConflictCount count;
+        {
+            const nb::gil_scoped_release released;
+            if (clock) {
+                by_clock(plan_, sample, times);
+            } else {
+                timetable_.by_right_of_way(sample, times, interrupt);
+            }
+            count = conflicts_.count(times);
         }
-        const ConflictCount count = conflicts_.count(times);
         return std::tuple(to_numpy(std::move(times.enter)), to_numpy(std::move(times.start)),
                           to_numpy(std::move(times.completion)),
                           to_numpy(std::move(times.is_broken)), to_numpy(as_row(count)),

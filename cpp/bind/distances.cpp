@@ -102,7 +102,13 @@ void bind_distances(nb::module_& module) {
             "path",
             [](Congestion& self, RobotId robot, VertexId start, VertexId target,
                const ArrayIn<std::int32_t>& to_go) {
-                return to_numpy(self.path(robot, start, target, view(to_go)));
+                std::vector<VertexId> path;
+                {
+                    const Deadline interrupt(std::nullopt);
+                    const nb::gil_scoped_release released;
+                    path = self.path(robot, start, target, view(to_go), interrupt);
+                }
+                return to_numpy(std::move(path));
             },
             nb::arg("robot"), nb::arg("start"), nb::arg("target"), array("to_go"), path_doc)
         .def(

@@ -2,6 +2,7 @@
 #include <nanobind/stl/tuple.h>
 
 #include <algorithm>
+#include <chrono>
 #include <numeric>
 #include <optional>
 #include <thread>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "core/poll.hpp"
 #include "core/reject.hpp"
 #include "lns/population.hpp"
 #include "lns/prioritized.hpp"
@@ -132,6 +134,7 @@ constexpr auto retime_doc =
 // Upper limit of a sum of times over a fleet.
 constexpr Tick longest_sum = Tick{1} << 60;
 constexpr std::size_t most_threads = 1024;
+constexpr auto between_questions = std::chrono::milliseconds(5);
 
 using TrackArrays = std::tuple<ArrayOut<std::int32_t>, ArrayOut<VertexId>, ArrayOut<Tick>>;
 
@@ -154,9 +157,14 @@ class FleetSearch {
     const std::vector<Tick>* alone(const StopCondition& deadline) {
         if (!is_alone_known_) {
             std::vector<Tick> alone(static_cast<std::size_t>(problem_.n_robots()));
+            auto asked = std::chrono::steady_clock::now();
             for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
-                if (robot % 64 == 0 && deadline()) {
-                    return nullptr;
+                const auto now = std::chrono::steady_clock::now();
+                if (robot == 0 || now - asked > between_questions) {
+                    asked = now;
+                    if (deadline()) {
+                        return nullptr;
+                    }
                 }
                 alone[static_cast<std::size_t>(robot)] = distances_.alone(robot);
             }
@@ -239,9 +247,11 @@ class FleetSearch {
 
     // The given tracks do not conflict with each other. So a robot can have its track again if all
     // robots in the way of it have theirs, and those in the way of these, and so on.
-    std::int64_t restore(const GivenTracks& given) {
+    std::int64_t restore(const GivenTracks& given, const StopCondition& interrupt) {
         require_tracks(given);
         require_all_tracks("restore");
+        improvement_.reset();
+        Poll poll(interrupt);
         std::vector<TimedTrack> old;
         FleetPlan together(problem_);
         for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
@@ -264,7 +274,7 @@ class FleetSearch {
                 if (is_restored[static_cast<std::size_t>(first)] != 0) {
                     continue;
                 }
-                const std::vector<RobotId> group = in_the_way_of_each_other(first, old);
+                const std::vector<RobotId> group = in_the_way_of_each_other(first, old, poll);
                 Tick gain = 0;
                 for (const RobotId robot : group) {
                     gain += plan_.track(robot).cost - old[static_cast<std::size_t>(robot)].cost;
@@ -280,7 +290,6 @@ class FleetSearch {
                 has_changed = true;
             }
         }
-        improvement_.reset();
         return n_restored;
     }
 
@@ -301,10 +310,10 @@ class FleetSearch {
         return improvement_->n_tasks() - before;
     }
 
-    void retime() {
+    void retime(const StopCondition& interrupt) {
         require_all_tracks("retime");
         improvement_.reset();
-        plan_.retime();
+        plan_.retime(interrupt);
     }
 
     TrackArrays tracks() const {
@@ -357,11 +366,12 @@ class FleetSearch {
     }
 
     // A robot, and all that have to give way for it to have its track of `old`.
-    std::vector<RobotId> in_the_way_of_each_other(RobotId first,
-                                                  std::span<const TimedTrack> old) const {
+    std::vector<RobotId> in_the_way_of_each_other(RobotId first, std::span<const TimedTrack> old,
+                                                  Poll& poll) const {
         std::vector<RobotId> group{first};
         std::vector<RobotId> met;
         for (std::size_t k = 0; k < group.size(); ++k) {
+            poll();
             plan_.in_the_way(group[k], old[static_cast<std::size_t>(group[k])], met);
             for (const RobotId other : met) {
                 if (std::find(group.begin(), group.end(), other) == group.end()) {
@@ -494,8 +504,9 @@ void bind_fleet(nb::module_& module) {
             "restore",
             [](FleetSearch& self, const ArrayIn<std::int32_t>& first_visit,
                const ArrayIn<VertexId>& vertices, const ArrayIn<Tick>& enter) {
+                const Deadline interrupt(std::nullopt);
                 const nb::gil_scoped_release released;
-                return self.restore({view(first_visit), view(vertices), view(enter)});
+                return self.restore({view(first_visit), view(vertices), view(enter)}, interrupt);
             },
             array("first_visit"), array("vertices"), array("enter"), restore_doc)
         .def(
@@ -537,7 +548,14 @@ void bind_fleet(nb::module_& module) {
             },
             nb::arg("n_tasks"), nb::arg("patience"), nb::arg("time_limit").none(),
             nb::arg("pause").none(), improve_doc)
-        .def("retime", &FleetSearch::retime, nb::call_guard<nb::gil_scoped_release>(), retime_doc)
+        .def(
+            "retime",
+            [](FleetSearch& self) {
+                const Deadline interrupt(std::nullopt);
+                const nb::gil_scoped_release released;
+                self.retime(interrupt);
+            },
+            retime_doc)
         .def("tracks", &FleetSearch::tracks,
              R"(Return the tracks of all robots.
 

@@ -268,7 +268,11 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
             "cycle", [](const Graph& self) { return to_numpy(self.cycle()); }, cycle_doc)
         .def(
             "keep_order",
-            [](Graph& self, const ArrayIn<Tick>& when) { return self.keep_order(view(when)); },
+            [](Graph& self, const ArrayIn<Tick>& when) {
+                const Deadline interrupt(std::nullopt);
+                const nb::gil_scoped_release released;
+                return self.keep_order(view(when), interrupt);
+            },
             array("when"), keep_order_doc)
         .def("take_back", &Graph::take_back, nb::arg("a"), nb::arg("b"), take_back_doc)
         .def("checkpoint", &Graph::checkpoint,

@@ -63,7 +63,7 @@ Plan plan_by_lacam(const Problem& problem, bool spreads, std::uint64_t seed,
         const nb::gil_scoped_release released;
         end = search();
         if (end == SearchEnd::found) {
-            retime(problem, tracks);  // once the tables of the search are gone
+            retime(problem, tracks, deadline);  // once the tables of the search are gone
         }
     }
     return {static_cast<int>(end), to_numpy(std::move(tracks.first_visit)),
@@ -113,11 +113,7 @@ Steps untimed_lacam(const Problem& problem, const ArrayIn<std::uint8_t>& ends_an
         end = reach_all(problem, tables, deadline);
         if (end == SearchEnd::found) {
             UntimedLacam lacam(problem, tables, seed, view(ends_anywhere));
-            std::int64_t done = 0;
-            end = lacam.run([&] {
-                done += UntimedLacam::steps_between_questions;
-                return (most_steps && done > *most_steps) || deadline();
-            });
+            end = most_steps ? lacam.run(deadline, *most_steps) : lacam.run(deadline);
             steps = lacam.steps();
         }
     }

@@ -197,9 +197,14 @@ std::optional<ArrayOut<Tick>> search(PeriodicBookings& self, const ArrayIn<Verte
 std::optional<ArrayOut<Tick>> connect(PeriodicBookings& self, const ArrayIn<VertexId>& vertex,
                                       const ArrayIn<Tick>& dwell, const ArrayIn<Tick>& drive,
                                       Tick begins, Tick until, Tick leave, const Rows& edge) {
+    const Visits visits = visits_of(vertex, dwell, drive, edge);
+    const Deadline interrupt(std::nullopt);
     std::vector<Tick> enter;
-    const bool is_found =
-        self.connect(visits_of(vertex, dwell, drive, edge), begins, until, leave, enter);
+    bool is_found = false;
+    {
+        const nb::gil_scoped_release released;
+        is_found = self.connect(visits, begins, until, leave, enter, interrupt);
+    }
     return is_found ? std::optional(to_numpy(std::move(enter))) : std::nullopt;
 }
 

@@ -62,7 +62,8 @@ std::int64_t Congestion::cost_of(EdgeId edge, VertexId target, Tick ticks) const
 }
 
 std::vector<VertexId> Congestion::path(RobotId robot, VertexId start, VertexId target,
-                                       std::span<const std::int32_t> to_go) {
+                                       std::span<const std::int32_t> to_go,
+                                       const StopCondition& interrupt) {
     require_id("robot", robot, problem_.n_robots());
     require_id("start", start, n_vertices());
     require_id("target", target, n_vertices());
@@ -70,7 +71,13 @@ std::vector<VertexId> Congestion::path(RobotId robot, VertexId start, VertexId t
     if (to_go[start] < 0) {
         reject("target", target, "cannot be reached from " + std::to_string(start));
     }
-    search(robot, start, target, to_go);
+    Poll poll(interrupt);
+    try {
+        search(robot, start, target, to_go, poll);
+    } catch (...) {
+        clear();
+        throw;
+    }
     if (cost_[target] >= never) {
         clear();
         reject("target", target,
@@ -85,13 +92,14 @@ std::vector<VertexId> Congestion::path(RobotId robot, VertexId start, VertexId t
 
 // A* that continues until all paths of least cost are known.
 void Congestion::search(RobotId robot, VertexId start, VertexId target,
-                        std::span<const std::int32_t> to_go) {
+                        std::span<const std::int32_t> to_go, Poll& poll) {
     const Graph& graph = problem_.graph();
     cost_[start] = 0;
     reached_.push_back(start);
     const std::int64_t at_least = product(shares_, to_go[start]);
     open_.push_back({at_least, at_least, 0, start});
     while (!open_.empty() && open_.front().cost <= cost_[target]) {
+        poll();
         std::pop_heap(open_.begin(), open_.end(), std::greater<>());
         const Open top = open_.back();
         open_.pop_back();

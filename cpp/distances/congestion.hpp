@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "core/poll.hpp"
 #include "core/types.hpp"
 #include "problem/problem.hpp"
 
@@ -25,9 +26,11 @@ class Congestion {
 
     // A cheapest path; of several, the path with the first possible edge of each vertex. `to_go`
     // has the least ticks from each vertex to the target, -1 if no path exists. Throws
-    // std::invalid_argument if no path leads from the start to the target.
+    // std::invalid_argument if no path leads from the start to the target, and what `interrupt`,
+    // which is polled, throws.
     std::vector<VertexId> path(RobotId robot, VertexId start, VertexId target,
-                               std::span<const std::int32_t> to_go);
+                               std::span<const std::int32_t> to_go,
+                               const StopCondition& interrupt = {});
 
     // Adds a robot's path: opposing drives cost `oncoming` more [shares per tick].
     void add(std::span<const VertexId> path, std::int64_t oncoming);
@@ -49,8 +52,8 @@ class Congestion {
     };
 
     std::int64_t cost_of(EdgeId edge, VertexId target, Tick ticks) const;
-    void search(RobotId robot, VertexId start, VertexId target,
-                std::span<const std::int32_t> to_go);
+    void search(RobotId robot, VertexId start, VertexId target, std::span<const std::int32_t> to_go,
+                Poll& poll);
     void reach(VertexId vertex, VertexId from, std::int64_t cost, std::int64_t to_go);
     void mark_cheapest(VertexId target);
     std::vector<VertexId> first_marked(VertexId start, VertexId target) const;

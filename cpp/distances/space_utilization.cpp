@@ -74,6 +74,7 @@ bool SpaceUtilization::choose(const StopCondition& is_over) {
     }
     pair_edges();
     find_ends();
+    Poll poll(is_over);
     std::int64_t n_chosen = 0;
     for (RobotId r = 0; r < problem_.n_robots(); ++r) {
         VertexId place = problem_.home(r);
@@ -83,8 +84,11 @@ bool SpaceUtilization::choose(const StopCondition& is_over) {
                 return false;
             }
             credit_ += most_opened / n_legs;  // unused credit is for later legs
-            when = choose_leg({r, place, s}, when) + problem_.stage_dwell(s);
+            when = choose_leg({r, place, s}, when, poll) + problem_.stage_dwell(s);
             place = problem_.stage_vertex(s);
+            if (is_stopped_) {
+                return false;
+            }
         }
     }
     return true;
@@ -99,12 +103,12 @@ VertexId SpaceUtilization::next(std::int32_t stage, VertexId at) const {
 }
 
 // Returns the enter of the robot at the leg's end, without waits.
-Tick SpaceUtilization::choose_leg(const Leg& leg, Tick when) {
+Tick SpaceUtilization::choose_leg(const Leg& leg, Tick when, Poll& poll) {
     const VertexId target = problem_.stage_vertex(leg.stage);
     if (leg.start == target) {
         return when;
     }
-    if (search(leg, when)) {
+    if (search(leg, when, poll)) {
         keep(leg);
         return best_[target].when;
     }
@@ -112,7 +116,7 @@ Tick SpaceUtilization::choose_leg(const Leg& leg, Tick when) {
            problem_.quickest_edge(leg.robot) * tables_.steps(tables_.table_of(target), leg.start);
 }
 
-bool SpaceUtilization::search(const Leg& leg, Tick when) {
+bool SpaceUtilization::search(const Leg& leg, Tick when, Poll& poll) {
     const Graph& graph = problem_.graph();
     const VertexId target = problem_.stage_vertex(leg.stage);
     const StepTables::TableId table = tables_.table_of(target);
@@ -123,6 +127,10 @@ bool SpaceUtilization::search(const Leg& leg, Tick when) {
     list_ = first_open_.size();
     open(leg.start, {0, when, none, round_}, table);
     for (Open top{}; credit_ > 0 && take_next(top); --credit_) {
+        if (poll()) {
+            is_stopped_ = true;
+            return false;
+        }
         if (top.vertex == target) {
             return true;
         }

@@ -15,6 +15,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/poll.hpp"
 #include "core/types.hpp"
 #include "distances/step_tables.hpp"
 #include "problem/problem.hpp"
@@ -58,8 +59,8 @@ class SpaceUtilization {
 
     void pair_edges();
     void find_ends();
-    Tick choose_leg(const Leg& leg, Tick when);
-    bool search(const Leg& leg, Tick when);
+    Tick choose_leg(const Leg& leg, Tick when, Poll& poll);
+    bool search(const Leg& leg, Tick when, Poll& poll);
     void open(VertexId vertex, const Best& reached, StepTables::TableId table);
     bool take_next(Open& next);
     void keep(const Leg& leg);
@@ -74,6 +75,7 @@ class SpaceUtilization {
     std::vector<Hop> hops_;                // of all paths; within a path by `from`
     std::vector<std::size_t> first_hop_;   // of each stage
     std::vector<std::size_t> end_hop_;
+    bool is_stopped_ = false;
     std::int64_t credit_ = 0;  // number of vertices that may still be opened
     std::int32_t round_ = 0;
     std::vector<Best> best_;  // of each vertex

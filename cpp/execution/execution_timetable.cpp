@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/poll.hpp"
+
 namespace rightofway {
 namespace {
 
@@ -174,13 +176,16 @@ bool ExecutionTimetable::is_possible(std::span<const VisitId> group) const {
     });
 }
 
-void ExecutionTimetable::by_right_of_way(const DelaySample& sample, ActualTimes& times) {
+void ExecutionTimetable::by_right_of_way(const DelaySample& sample, ActualTimes& times,
+                                         const StopCondition& interrupt) {
+    Poll poll(interrupt);
     reset(plan_, sample, times, next_stoppage_);
     times.cause.assign(times.enter.size(), none);
     times.source.assign(times.enter.size(), none);
     for (std::size_t group = 0; group + 1 < first_of_group_.size(); ++group) {
         const std::int32_t first = first_of_group_[group];
         const std::int32_t end = first_of_group_[group + 1];
+        poll();
         if (end - first == 1) {
             take_place(events_[first], sample, times);
         } else {

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "core/search_end.hpp"
 #include "execution/adg.hpp"
 #include "execution/delays.hpp"
 
@@ -43,7 +44,9 @@ class ExecutionTimetable {
     // False for a visit in or behind a deadlock.
     bool can_take_place(VisitId visit) const { return is_impossible_[visit] == 0; }
 
-    void by_right_of_way(const DelaySample& sample, ActualTimes& times);
+    // Ends early only by an exception of `interrupt`, which is polled.
+    void by_right_of_way(const DelaySample& sample, ActualTimes& times,
+                         const StopCondition& interrupt = {});
 
   private:
     void order_events();

@@ -8,6 +8,9 @@
 namespace rightofway {
 namespace {
 
+constexpr std::int64_t steps_between_counts = 64;
+constexpr std::int64_t choices_between_questions = 4096;
+
 std::size_t hash_of(const Configuration& now) {
     std::size_t hash = 0;
     for (const auto* numbers : {&now.at, &now.stage}) {
@@ -25,7 +28,7 @@ UntimedLacam::UntimedLacam(const Problem& problem, StepTables& tables, std::uint
                            std::span<const std::uint8_t> ends_anywhere)
     : problem_(problem), ends_anywhere_(ends_anywhere), pibt_(problem, tables, seed) {}
 
-SearchEnd UntimedLacam::run(const StopCondition& is_over) {
+SearchEnd UntimedLacam::run(const StopCondition& is_over, std::int64_t most_steps) {
     Configuration start;
     for (RobotId r = 0; r < problem_.n_robots(); ++r) {
         start.at.push_back(problem_.home(r));
@@ -33,8 +36,12 @@ SearchEnd UntimedLacam::run(const StopCondition& is_over) {
         advance(problem_, start, r);
     }
     add(std::move(start), none);
+    // A step of a large fleet takes long.
+    const std::int64_t between_questions = std::clamp<std::int64_t>(
+        choices_between_questions / std::max(problem_.n_robots(), 1), 1, steps_between_counts);
     for (std::int64_t n_steps = 1; !open_.empty(); ++n_steps) {
-        if (n_steps % steps_between_questions == 0 && is_over()) {
+        if ((n_steps % steps_between_counts == 0 && n_steps > most_steps) ||
+            (n_steps % between_questions == 0 && is_over())) {
             return SearchEnd::stopped;
         }
         const std::int32_t top = open_.back();

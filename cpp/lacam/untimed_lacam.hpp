@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -21,19 +22,19 @@ namespace rightofway {
 
 class UntimedLacam {
   public:
-    static constexpr std::int64_t steps_between_questions = 64;
-
     // Borrows everything. `ends_anywhere`: per robot, or empty (see `is_goal`).
     UntimedLacam(const Problem& problem, StepTables& tables, std::uint32_t seed,
                  std::span<const std::uint8_t> ends_anywhere = {});
 
-    // Evaluates `is_over` every `steps_between_questions` steps.
-    SearchEnd run(const StopCondition& is_over);
+    // Stops once `is_over` is true, or after about `most_steps` steps of the fleet.
+    SearchEnd run(const StopCondition& is_over, std::int64_t most_steps = any_number);
 
     // The configurations, n_robots vertices per step; the first n_robots entries are the homes.
     std::vector<VertexId> steps() const;
 
   private:
+    static constexpr std::int64_t any_number = std::numeric_limits<std::int64_t>::max();
+
     // Fixes the next vertex of `robot`, and of the robots up the chain of parents.
     struct Constraint {
         std::int32_t parent;

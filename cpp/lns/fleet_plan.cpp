@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/poll.hpp"
 #include "distances/trip.hpp"
 #include "precedence/timetable.hpp"
 
@@ -93,13 +94,15 @@ void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
     }
 }
 
-void FleetPlan::retime() {
+void FleetPlan::retime(const StopCondition& interrupt) {
     Tracks all = tracks();
-    rightofway::retime(*problem_, all);
+    rightofway::retime(*problem_, all, interrupt);
     FleetPlan retimed(*problem_);
+    Poll poll(interrupt);
     for (RobotId robot = 0; robot < n_robots(); ++robot) {
         TimedTrack one = track(robot);
         for (std::size_t k = 0; k < one.visits.size(); ++k) {
+            poll();
             one.visits[k].enter = all.enter[static_cast<std::size_t>(all.first_visit[robot]) + k];
         }
         one.cost = completion(problem_->itinerary(robot), one.visits) + surcharges(one.visits);

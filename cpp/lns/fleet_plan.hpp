@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/search_end.hpp"
 #include "problem/problem.hpp"
 #include "search/booking_table.hpp"
 
@@ -47,8 +48,9 @@ class FleetPlan {
     void hold_home(RobotId robot, Tick until);
 
     // Shifts each visit to the earliest time that keeps the order of bookings that exclude each
-    // other. Needs all tracks, and a problem without closures.
-    void retime();
+    // other. Needs all tracks, and a problem without closures. An exception of `interrupt`, which
+    // is polled, leaves the plan as it was.
+    void retime(const StopCondition& interrupt = {});
 
     // The booking of visit k of a track.
     Booking booking(const TimedTrack& track, std::size_t k) const;

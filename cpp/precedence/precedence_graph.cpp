@@ -97,7 +97,7 @@ bool PrecedenceGraph::precede(VisitId a, VisitId b) {
     return true;
 }
 
-bool PrecedenceGraph::keep_order(std::span<const Tick> when) {
+bool PrecedenceGraph::keep_order(std::span<const Tick> when, const StopCondition& interrupt) {
     require_length("when", when.size(), static_cast<std::size_t>(n_visits()));
     if (checkpoint() > 0) {
         reject("when", checkpoint(), "changes have been made already (keep an order first)");
@@ -108,7 +108,7 @@ bool PrecedenceGraph::keep_order(std::span<const Tick> when) {
                          "is not after the visit before");
         }
     }
-    if (!timetable_.keep_order(when)) {
+    if (!timetable_.keep_order(when, interrupt)) {
         return false;
     }
     for (VisitId x = 0; x < n_visits(); ++x) {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "core/search_end.hpp"
 #include "core/types.hpp"
 #include "precedence/conflict.hpp"
 #include "precedence/conflict_index.hpp"
@@ -60,7 +61,7 @@ class PrecedenceGraph {
     // See Timetable: orders the visits of every vertex at once. A rollback below this change is
     // refused. Throws std::invalid_argument unless there is one number per visit, rising along
     // each route, and the graph has no rights of way yet.
-    bool keep_order(std::span<const Tick> when);
+    bool keep_order(std::span<const Tick> when, const StopCondition& interrupt = {});
     std::span<const VisitId> cycle() const { return timetable_.cycle(); }
 
     // Takes back one right of way, given at any time; times become the earliest that keep the

@@ -10,6 +10,11 @@
 #include "precedence/routes.hpp"
 
 namespace rightofway {
+namespace {
+
+const StopCondition never_asked;  // empty
+
+}  // namespace
 
 Timetable::Timetable(const Routes& routes)
     : RaiseSearch(none),
@@ -22,7 +27,8 @@ Timetable::Timetable(const Routes& routes)
     for (VisitId x = 0; x < routes_.n_visits(); ++x) {
         enter_[x] = routes_.is_first(x) ? 0 : enter_[x - 1] + routes_.least(x - 1);
     }
-    if (!recompute()) {
+    Poll poll(never_asked);
+    if (!recompute(poll)) {
         throw std::invalid_argument("closed_from: a route is closed at all times");
     }
 }
@@ -54,7 +60,8 @@ bool Timetable::precede(VisitId a, VisitId b) {
     accept();
     if (routes_.closures().is_known()) {
         std::vector<VisitId> open = raised_;
-        const bool is_possible = rise_above_closures(open);
+        Poll poll(never_asked);
+        const bool is_possible = rise_above_closures(open, poll);
         trail_.insert(trail_.end(), risen_.begin(), risen_.end());
         for (const VisitId x : raised_) {
             is_in_instant_[x] = 1;
@@ -80,10 +87,11 @@ bool Timetable::precede(VisitId a, VisitId b) {
 // Raises visits until no booking overlaps a closure: an overlapping booking can only start after
 // the closure, because times only grow. `open`: the visits to begin with. False if some booking
 // cannot start later. Notes the raised visits, each once, in `risen_`.
-bool Timetable::rise_above_closures(std::vector<VisitId>& open) {
+bool Timetable::rise_above_closures(std::vector<VisitId>& open, Poll& poll) {
     risen_.clear();
     bool is_possible = true;
     while (!open.empty() && is_possible) {
+        poll();
         const VisitId x = open.back();
         open.pop_back();
         for_each_arc(x, [&](VisitId to, Tick length) { rise(to, enter_[x] + length, open); });
@@ -130,7 +138,7 @@ Tick Timetable::clear_of_closures(VisitId visit) const {
 
 // Computes the earliest times from the rights of way alone where there are closures, with which
 // times that fall cannot be followed from visit to visit.
-bool Timetable::recompute() {
+bool Timetable::recompute(Poll& poll) {
     if (!routes_.closures().is_known()) {
         return true;
     }
@@ -139,7 +147,7 @@ bool Timetable::recompute() {
         enter_[x] = 0;
         all.push_back(x);
     }
-    const bool is_possible = rise_above_closures(all);
+    const bool is_possible = rise_above_closures(all, poll);
     risen_.clear();
     return is_possible;
 }
@@ -153,23 +161,39 @@ void Timetable::find_changes(const std::vector<Tick>& before) {
     }
 }
 
-bool Timetable::keep_order(std::span<const Tick> when) {
+bool Timetable::keep_order(std::span<const Tick> when, const StopCondition& interrupt) {
     raised_.clear();
     cycle_.clear();
     const std::vector<Tick> before = enter_;
-    const bool is_possible =
-        (routes_.has_sizes() ? give_incompatible_in_order(when) : give_in_order(when)) &&
-        sweep(when) && recompute();
-    if (!is_possible) {
+    const auto restore = [&] {
         enter_ = before;
         rollback(0);
+    };
+    Poll poll(interrupt);
+    bool is_possible = false;
+    try {
+        is_possible = order_all(when, poll);
+    } catch (...) {
+        std::fill(raise_.begin(), raise_.end(), 0);
+        risen_.clear();
+        restore();
+        throw;
+    }
+    if (!is_possible) {
+        restore();
         return false;
     }
     find_changes(before);
     return true;
 }
 
-bool Timetable::give_in_order(std::span<const Tick> when) {
+bool Timetable::order_all(std::span<const Tick> when, Poll& poll) {
+    return (routes_.has_sizes() ? give_incompatible_in_order(when, poll)
+                                : give_in_order(when, poll)) &&
+           sweep(when, poll) && recompute(poll);
+}
+
+bool Timetable::give_in_order(std::span<const Tick> when, Poll& poll) {
     std::vector<VisitId> visits;
     for (VisitId x = 0; x < routes_.n_visits(); ++x) {
         if (routes_.is_active(routes_.robot(x))) {
@@ -177,8 +201,12 @@ bool Timetable::give_in_order(std::span<const Tick> when) {
         }
     }
     const auto key = [&](VisitId x) { return std::tuple(routes_.vertex(x), when[x], x); };
-    std::sort(visits.begin(), visits.end(), [&](VisitId x, VisitId y) { return key(x) < key(y); });
+    std::sort(visits.begin(), visits.end(), [&](VisitId x, VisitId y) {
+        poll();
+        return key(x) < key(y);
+    });
     for (std::size_t k = 1; k < visits.size(); ++k) {
+        poll();
         const VisitId a = visits[k - 1];
         const VisitId b = visits[k];
         if (routes_.vertex(a) != routes_.vertex(b) || routes_.robot(a) == routes_.robot(b)) {
@@ -195,7 +223,7 @@ bool Timetable::give_in_order(std::span<const Tick> when) {
 
 // The start of each visit gets, from each other robot, the latest visit that leaves before it, if
 // no earlier start of the same robot has it already.
-bool Timetable::give_incompatible_in_order(std::span<const Tick> when) {
+bool Timetable::give_incompatible_in_order(std::span<const Tick> when, Poll& poll) {
     const auto leaves = [&](VisitId x) { return routes_.is_last(x) ? never : when[x + 1]; };
     std::vector<VisitId> latest(static_cast<std::size_t>(routes_.n_robots()), none);
     std::vector<RobotId> met;
@@ -208,6 +236,7 @@ bool Timetable::give_incompatible_in_order(std::span<const Tick> when) {
                     continue;
                 }
                 for (const IncompatibleVisit& other : routes_.incompatible(x)) {
+                    poll();
                     const VisitId a = other.visit;
                     if (other.own_starts(x) != b || !routes_.is_active(routes_.robot(a)) ||
                         leaves(a) > leaves(x)) {
@@ -242,10 +271,11 @@ bool Timetable::give_incompatible_in_order(std::span<const Tick> when) {
 
 // Visits of one number may hold each other (a rotation): the loop repeats until no time changes.
 // More rounds than visits prove a cycle of positive length.
-bool Timetable::sweep(std::span<const Tick> when) {
+bool Timetable::sweep(std::span<const Tick> when, Poll& poll) {
     std::vector<VisitId> in_order(enter_.size());
     std::iota(in_order.begin(), in_order.end(), 0);
     std::sort(in_order.begin(), in_order.end(), [&](VisitId x, VisitId y) {
+        poll();
         return std::tuple(when[x], x) < std::tuple(when[y], y);
     });
     for (std::size_t first = 0, end = 0; first < in_order.size(); first = end) {
@@ -259,6 +289,7 @@ bool Timetable::sweep(std::span<const Tick> when) {
             }
             has_changed = false;
             for (std::size_t k = first; k < end; ++k) {
+                poll();
                 const VisitId x = in_order[k];
                 const Tick held = routes_.is_first(x) ? 0 : held_to(x);
                 has_changed = has_changed || held > enter_[x];
@@ -280,7 +311,8 @@ bool Timetable::take_back(VisitId a, VisitId b) {
     if (routes_.closures().is_known()) {
         const std::vector<Tick> before = enter_;
         const std::size_t mark = trail_.size();
-        recompute();
+        Poll poll(never_asked);
+        recompute(poll);
         find_changes(before);
         journal_.push_back({right, false, mark});
         return true;
@@ -466,8 +498,8 @@ namespace {
 // booking started to drive off earlier. `edge` is driven out of each visit; `least` are the ticks
 // from its enter to the next.
 void retime_with_sizes(const Problem& problem, std::span<const EdgeId> edge,
-                       std::span<const Tick> least, std::span<const Tick> approach,
-                       Tracks& tracks) {
+                       std::span<const Tick> least, std::span<const Tick> approach, Tracks& tracks,
+                       Poll& poll) {
     struct Latest {  // ends of bookings: the latest end, and the latest of any other robot
         Tick end = 0;
         Tick end_of_others = 0;
@@ -486,8 +518,12 @@ void retime_with_sizes(const Problem& problem, std::span<const EdgeId> edge,
             drives.push_back({tracks.enter[x] - approach[x], x, r});
         }
     }
-    std::sort(drives.begin(), drives.end());
+    std::sort(drives.begin(), drives.end(), [&](const Drive& left, const Drive& right) {
+        poll();
+        return left < right;
+    });
     for (const auto& [start, x, robot] : drives) {
+        poll();
         const std::int32_t along = problem.edge_row(robot, edge[x - 1]);
         Tick enter = tracks.enter[x - 1] + least[x - 1];
         for (const std::int32_t row : {problem.vertex_row(robot, tracks.vertex[x]), along}) {
@@ -514,7 +550,8 @@ void retime_with_sizes(const Problem& problem, std::span<const EdgeId> edge,
 
 }  // namespace
 
-void retime(const Problem& problem, Tracks& tracks) {
+void retime(const Problem& problem, Tracks& tracks, const StopCondition& interrupt) {
+    Poll poll(interrupt);
     std::vector<Tick> least(tracks.vertex.size(), 1);
     std::vector<Tick> approach(tracks.vertex.size(), 0);
     std::vector<EdgeId> edges(tracks.vertex.size(), -1);  // driven out of each visit
@@ -523,6 +560,7 @@ void retime(const Problem& problem, Tracks& tracks) {
         std::size_t stage = 0;
         EdgeId before = -1;
         for (VisitId x = tracks.first_visit[r]; x + 1 < tracks.first_visit[r + 1]; ++x) {
+            poll();
             const EdgeId edge = problem.graph().edge(tracks.vertex[x], tracks.vertex[x + 1]);
             const Tick drive = problem.drive(r, edge);
             const Tick turn = itinerary.turns.between(before, edge);
@@ -537,14 +575,14 @@ void retime(const Problem& problem, Tracks& tracks) {
         }
     }
     if (problem.has_sizes()) {
-        retime_with_sizes(problem, edges, least, approach, tracks);
+        retime_with_sizes(problem, edges, least, approach, tracks, poll);
         return;
     }
     const std::vector<std::uint8_t> active(static_cast<std::size_t>(problem.n_robots()), 1);
     const Routes routes({tracks.first_visit, tracks.vertex, least, approach,
                          problem.rules().headway, false, active});
     Timetable timetable(routes);
-    if (timetable.keep_order(tracks.enter)) {
+    if (timetable.keep_order(tracks.enter, interrupt)) {
         tracks.enter.assign(timetable.enters().begin(), timetable.enters().end());
     }
 }

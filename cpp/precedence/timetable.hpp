@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "core/poll.hpp"
 #include "core/types.hpp"
 #include "precedence/raise_search.hpp"
 #include "precedence/rights_of_way.hpp"
@@ -46,8 +47,8 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     // robots have sizes, it orders all incompatible visits by the numbers of their leaves. Numbers
     // rise along routes, and no visit waits for a leave with a larger number. Returns false and
     // changes nothing if numbers break these conditions or the order is impossible. Precondition:
-    // no rights of way.
-    bool keep_order(std::span<const Tick> when);
+    // no rights of way. An exception of `interrupt`, which is polled, changes nothing either.
+    bool keep_order(std::span<const Tick> when, const StopCondition& interrupt = {});
 
     // The cycle that the last refused right of way would close: visits in order, b first. Empty
     // if the refusal had another reason.
@@ -91,9 +92,10 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     };
 
     bool closes_swap(VisitId a, VisitId b) const;
-    bool give_in_order(std::span<const Tick> when);
-    bool give_incompatible_in_order(std::span<const Tick> when);
-    bool sweep(std::span<const Tick> when);
+    bool order_all(std::span<const Tick> when, Poll& poll);
+    bool give_in_order(std::span<const Tick> when, Poll& poll);
+    bool give_incompatible_in_order(std::span<const Tick> when, Poll& poll);
+    bool sweep(std::span<const Tick> when, Poll& poll);
     Tick& raise(VisitId visit) { return raise_[visit]; }
     VisitId& cause(VisitId visit) { return cause_[visit]; }
     template <class Use>
@@ -107,10 +109,10 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
         }
     }
     VisitId held_by(VisitId visit, std::span<const VisitId> passed) const;
-    bool rise_above_closures(std::vector<VisitId>& open);
+    bool rise_above_closures(std::vector<VisitId>& open, Poll& poll);
     void rise(VisitId visit, Tick tick, std::vector<VisitId>& open);
     Tick clear_of_closures(VisitId visit) const;
-    bool recompute();
+    bool recompute(Poll& poll);
     void find_changes(const std::vector<Tick>& before);
     void lower(VisitId b);
     void gather_instant();
@@ -137,7 +139,8 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
 
 // Shifts each visit of the tracks to the earliest time that keeps the order of visits at every
 // vertex, or of bookings that exclude each other where robots have sizes, in one sweep.
-// Precondition: no conflicts. No visit becomes later.
-void retime(const Problem& problem, Tracks& tracks);
+// Precondition: no conflicts. No visit becomes later. Only an exception of `interrupt`, which is
+// polled, ends it early.
+void retime(const Problem& problem, Tracks& tracks, const StopCondition& interrupt = {});
 
 }  // namespace rightofway

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "core/poll.hpp"
 #include "core/reject.hpp"
 
 namespace rightofway {
@@ -276,7 +277,7 @@ bool PeriodicBookings::close_from(const Visits& visits, const Gap& home, Tick st
         home.end == never ? start : home.end - headway_ - visits.dwell[0] - visits.drive[1];
     while (start <= latest && !is_over()) {
         // Visit n repeats visit 0, in the same gap a period later.
-        const auto& last = spread(visits, n, {start, home, none}, latest + period_);
+        const auto& last = spread(visits, n, {start, home, none}, latest + period_, is_over);
         const auto again = std::find_if(last.begin(), last.end(), [&](const Stay& stay) {
             return home.end == never || stay.gap.start == home.start + period_;
         });
@@ -295,7 +296,7 @@ bool PeriodicBookings::close_from(const Visits& visits, const Gap& home, Tick st
 }
 
 bool PeriodicBookings::connect(const Visits& visits, Tick from, Tick until, Tick leave,
-                               std::vector<Tick>& enter) {
+                               std::vector<Tick>& enter, const StopCondition& is_over) {
     require_visits(visits, *this, 1);
     require_range("begins", from, -latest_tick, latest_tick);
     require_range("until", until, -latest_tick, latest_tick);
@@ -318,7 +319,7 @@ bool PeriodicBookings::connect(const Visits& visits, Tick from, Tick until, Tick
     if (!first) {
         return false;
     }
-    const auto& stays = spread(visits, last, {from, *first, none}, until);
+    const auto& stays = spread(visits, last, {from, *first, none}, until, is_over);
     const auto found = std::find_if(stays.begin(), stays.end(), [&](const Stay& stay) {
         return stay.enter <= until && (stay.gap.end == never || leave + headway_ <= stay.gap.end);
     });
@@ -330,11 +331,12 @@ bool PeriodicBookings::connect(const Visits& visits, Tick from, Tick until, Tick
 }
 
 // The earliest enter into each gap of visit `last` after the stay `first`, at most `latest`. Visit
-// n repeats visit 0.
+// n repeats visit 0. None if it is stopped.
 const std::vector<PeriodicBookings::Stay>& PeriodicBookings::spread(const Visits& visits,
                                                                     std::size_t last,
-                                                                    const Stay& first,
-                                                                    Tick latest) {
+                                                                    const Stay& first, Tick latest,
+                                                                    const StopCondition& is_over) {
+    Poll poll(is_over);
     for (std::size_t k = 0; k <= last; ++k) {
         stays_[k].clear();
     }
@@ -344,6 +346,10 @@ const std::vector<PeriodicBookings::Stay>& PeriodicBookings::spread(const Visits
         const std::size_t next = (k + 1) % visits.vertex.size();
         const Tick ahead = approach(visits, next);
         for (std::size_t from = 0; from < stays_[k].size(); ++from) {
+            if (poll()) {
+                stays_[last].clear();
+                return stays_[last];
+            }
             const Stay& here = stays_[k][from];
             const Tick soonest = here.enter + visits.dwell[k] + visits.drive[next];
             const Tick latest_enter = std::min(

@@ -95,7 +95,8 @@ class PeriodicBookings {
 
     // Finds the earliest enters where the first visit begins at `from` and the last visit begins by
     // `until` and lasts until `leave`. False if none exist.
-    bool connect(const Visits& visits, Tick from, Tick until, Tick leave, std::vector<Tick>& enter);
+    bool connect(const Visits& visits, Tick from, Tick until, Tick leave, std::vector<Tick>& enter,
+                 const StopCondition& is_over = {});
 
     // The last visit that the latest search could enter; the search failed at the next visit.
     std::size_t reached() const { return reached_; }
@@ -140,7 +141,7 @@ class PeriodicBookings {
     bool close_from(const Visits& visits, const Gap& home, Tick start, std::vector<Tick>& enter,
                     const StopCondition& is_over);
     const std::vector<Stay>& spread(const Visits& visits, std::size_t last, const Stay& first,
-                                    Tick latest);
+                                    Tick latest, const StopCondition& is_over);
     void trace(std::size_t last, const Stay& stay, std::vector<Tick>& enter) const;
 
     Tick period_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,23 @@ inline Roads corridor() { return {4, {{0, 1}, {1, 2}, {2, 3}}}; }
 // 0 - 1 - 2, and a bay, 3, at 1
 inline Roads corridor_with_bay() { return {4, {{0, 1}, {1, 2}, {1, 3}}}; }
 
+// A corridor of any length.
+inline Roads corridor(VertexId n) {
+    Roads roads(0, {});
+    for (VertexId v = 0; v < n; ++v) {
+        for (const VertexId head : {v - 1, v + 1}) {
+            if (head >= 0 && head < n) {
+                roads.heads.push_back(head);
+            }
+        }
+        roads.indptr.push_back(static_cast<EdgeId>(roads.heads.size()));
+    }
+    return roads;
+}
+
 inline bool no_deadline() { return false; }
+
+// What a user's interrupt does.
+inline bool interrupted() { throw std::runtime_error("enough"); }
 
 }  // namespace rightofway::test

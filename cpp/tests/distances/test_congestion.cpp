@@ -67,5 +67,18 @@ TEST_CASE("a table that hides the target, and costs beyond all numbers, are refu
                       "shares: 1099511627777 is not in 1..1099511627776");
 }
 
+TEST_CASE("a long search can be interrupted, and the next one is not disturbed") {
+    const test::Fleet fleet{test::corridor(600), {{0, {{599}}}}};
+    const Problem problem = fleet.problem();
+    const std::vector<std::int64_t> station(600, 0);
+    std::vector<std::int32_t> to_go(600);
+    for (VertexId v = 0; v < 600; ++v) {
+        to_go[v] = 599 - v;
+    }
+    Congestion traffic(problem, 16, station);
+    CHECK_THROWS_AS(traffic.path(0, 0, 599, to_go, test::interrupted), std::runtime_error);
+    CHECK(traffic.path(0, 0, 599, to_go).size() == 600);
+}
+
 }  // namespace
 }  // namespace rightofway

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "corridors.hpp"
 #include "execution/executed_conflicts.hpp"
 #include "execution/execution_timetable.hpp"
 #include "execution/runs.hpp"
@@ -146,6 +147,23 @@ TEST_CASE("an exchange of two vertices is a swap") {
     const ActionDependencyGraph plan = late.plan();
     ExecutedConflicts conflicts(plan);
     CHECK(conflicts.count(in_order(late, late.sample())).swap == 1);
+}
+
+TEST_CASE("an execution of many visits can be interrupted") {
+    Late alone;
+    alone.first_visit = {0, 600};
+    for (VertexId v = 0; v < 600; ++v) {
+        alone.vertex.push_back(v);
+        alone.planned.push_back(v);
+        alone.dwell.push_back(0);
+        alone.drive.push_back(v > 0 ? 1 : 0);
+        alone.before.push_back(none);
+    }
+    const ActionDependencyGraph plan = alone.plan();
+    ActualTimes times;
+    CHECK_THROWS_AS(
+        ExecutionTimetable(plan).by_right_of_way(alone.sample(), times, test::interrupted),
+        std::runtime_error);
 }
 
 }  // namespace

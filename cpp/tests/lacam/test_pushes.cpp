@@ -17,19 +17,11 @@ constexpr VertexId n_robots = 10'000;
 // Robots on all vertices of a corridor but the last; each is to go one vertex on, and the first to
 // choose pushes all others.
 test::Fleet queue() {
-    test::Roads corridor(0, {});
     std::vector<test::Robot> robots;
-    for (VertexId v = 0; v <= n_robots; ++v) {
-        if (v > 0) {
-            corridor.heads.push_back(v - 1);
-        }
-        if (v < n_robots) {
-            corridor.heads.push_back(v + 1);
-            robots.push_back({v, {{v + 1}}});
-        }
-        corridor.indptr.push_back(static_cast<EdgeId>(corridor.heads.size()));
+    for (VertexId v = 0; v < n_robots; ++v) {
+        robots.push_back({v, {{v + 1}}});
     }
-    return {corridor, robots};
+    return {test::corridor(n_robots + 1), robots};
 }
 
 // Runs in a thread with the stack that threads have on macOS: 512 kB.

@@ -57,5 +57,15 @@ TEST_CASE("a plan in which all leave home late is retimed to what it would be wi
     }
 }
 
+TEST_CASE("a retiming that is interrupted leaves the plan as it was") {
+    const Crossing crossing(24);  // 66 robots of 24 visits each, and more where they make room
+    const Problem problem(crossing.arrays(), {});
+    SharedDistances distances(problem);
+    FleetPlan plan = planned(distances);
+    const std::vector<Tick> before = plan.tracks().enter;
+    CHECK_THROWS_AS(plan.retime(test::interrupted), std::runtime_error);
+    CHECK(plan.tracks().enter == before);
+}
+
 }  // namespace
 }  // namespace rightofway

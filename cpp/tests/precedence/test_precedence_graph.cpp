@@ -1,5 +1,7 @@
+#include <numeric>
 #include <stdexcept>
 
+#include "corridors.hpp"
 #include "example.hpp"
 #include "precedence/precedence_graph.hpp"
 
@@ -162,6 +164,32 @@ TEST_CASE("so many visits to one vertex that their conflicts might overflow are 
     CHECK_THROWS_WITH(PrecedenceGraph(example.arrays()),
                       "robots: 1073767311 pairs of their visits share a vertex, more than "
                       "1073741824 cannot be counted (plan fewer laps or fewer robots at once)");
+}
+
+TEST_CASE("an order of many visits can be interrupted, and changes nothing then") {
+    // The second robot goes along the way of the first one, two ticks behind it.
+    std::vector<VertexId> way(600);
+    std::iota(way.begin(), way.end(), 0);
+    std::vector<VertexId> behind{600};
+    behind.insert(behind.end(), way.begin(), way.end());
+    way.push_back(601);
+    Ticks when;
+    for (Tick tick = 0; tick < 601; ++tick) {
+        when.push_back(tick);
+    }
+    for (Tick tick = 0; tick < 601; ++tick) {
+        when.push_back(tick + (tick > 0 ? 2 : 0));
+    }
+    PrecedenceGraph graph(Example({way, behind}).arrays());
+    const Ticks before = listed(graph.enters());
+    const Tick conflicts = graph.conflicts();
+    CHECK_THROWS_AS(graph.keep_order(when, interrupted), std::runtime_error);
+    CHECK(graph.checkpoint() == 0);
+    CHECK(graph.rights_of_way().empty());
+    CHECK(listed(graph.enters()) == before);
+    CHECK(graph.conflicts() == conflicts);
+    CHECK(graph.keep_order(when));
+    CHECK(graph.checkpoint() == 600);
 }
 
 }  // namespace

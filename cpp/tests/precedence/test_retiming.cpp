@@ -38,5 +38,15 @@ TEST_CASE("a robot that comes back to a vertex does not wait for itself") {
     CHECK(tracks.enter == Ticks{0, 1, 2});
 }
 
+TEST_CASE("a long retiming can be interrupted") {
+    test::Fleet fleet{test::corridor(600), {{0, {{599}}}}};
+    Tracks tracks{{0, 600}, {}, {}};
+    for (VertexId v = 0; v < 600; ++v) {
+        tracks.vertex.push_back(v);
+        tracks.enter.push_back(2 * v);
+    }
+    CHECK_THROWS_AS(retime(fleet.problem(), tracks, test::interrupted), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace rightofway

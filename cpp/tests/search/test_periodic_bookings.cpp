@@ -1,9 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "corridors.hpp"
 #include "search/periodic_bookings.hpp"
 
 namespace rightofway {
@@ -258,6 +260,20 @@ TEST_CASE("the lists of excluded rows are checked before they are used") {
     const std::vector<std::int32_t> excluded{0, 1, 2};
     CHECK_THROWS_WITH(PeriodicBookings(3, 10, 0, true, {first, excluded}),
                       "first[2]: 1 is less than the entry before it");
+}
+
+TEST_CASE("visits between two others can be interrupted") {
+    PeriodicBookings line(600, std::nullopt, 0, false);
+    std::vector<VertexId> vertices(600);
+    std::iota(vertices.begin(), vertices.end(), 0);
+    const Ticks zeros(600, 0);
+    const Ticks ones(600, 1);
+    Ticks enter;
+    const Visits visits{vertices, zeros, ones};
+    CHECK_THROWS_AS(line.connect(visits, 0, 600, 700, enter, test::interrupted),
+                    std::runtime_error);
+    CHECK(line.connect(visits, 0, 600, 700, enter));
+    CHECK(enter.back() == 599);
 }
 
 }  // namespace
