@@ -32,6 +32,7 @@ SLOW = (
     "laws/test_lacam_plans.py",
     "laws/test_optimum_with_sizes.py",
     "laws/test_space.py",
+    "laws/test_time_limits.py",
     "laws/test_turning.py",  # every planner
     "planners/test_limits.py",  # limits of time, and interrupts
     "studio/test_accessibility.py",  # a browser

@@ -292,7 +292,7 @@ def refuse_closed_ways(
     distances, found = Distances(scenario.roadmap), []
     for robot in range(len(scenario.robots)) if robots is None else robots:
         deadline.check("looking for ways around closures")
-        if not _has_track_alone(scenario, robot, distances):
+        if not _has_track_alone(scenario, robot, distances, deadline):
             found.append(_closed_in(scenario, robot, distances, deadline))
             if len(found) == MAX_REASONS:
                 break
@@ -300,8 +300,12 @@ def refuse_closed_ways(
         raise NoPlanExists(found)
 
 
-def _has_track_alone(scenario: Scenario, robot: int, distances: Distances) -> bool:
-    return earliest_track(robot, Bookings(scenario.problem), distances) is not None
+def _has_track_alone(
+    scenario: Scenario, robot: int, distances: Distances, deadline: Deadline
+) -> bool:
+    left = deadline.seconds_left()
+    track = earliest_track(robot, Bookings(scenario.problem), distances, time_limit=left)
+    return track is not None
 
 
 def _closed_in(
@@ -313,8 +317,10 @@ def _closed_in(
     for closure in scenario.closures if len(left) <= MOST_TRIALS else ():
         fewer = [one for one in left if one is not closure]
         trial = replace(scenario, closures=tuple(fewer), clock=clock)
-        if deadline.seconds_left() != 0 and not _has_track_alone(trial, robot, distances):
-            left = fewer
+        try:
+            left = left if _has_track_alone(trial, robot, distances, deadline) else fewer
+        except GaveUp:
+            break
     closed = [_closed_text(scenario, closure) for closure in left[:MAX_REASONS]]
     itinerary = scenario.problem.itineraries[robot]
     places = dict.fromkeys([itinerary.home, *(stage.vertex for stage in itinerary.stages)])

@@ -47,7 +47,7 @@ class Deadline:
         GaveUp
             Saying what the planner was doing.
         """
-        if self.at is not None and time.monotonic() > self.at:
+        if self.at is not None and time.monotonic() >= self.at:
             raise GaveUp(f"time ran out while {doing} (give a longer time limit)")
 
 

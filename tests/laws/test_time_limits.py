@@ -1,0 +1,219 @@
+"""A time limit holds for every native call that takes one, and for every planner.
+
+A limit that is over, negative or tiny ends a call at once: it returns or gives up.
+"""
+
+from __future__ import annotations
+
+import ast
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rightofway
+from rightofway import _core
+from rightofway.cyclic import best_timetable
+from rightofway.errors import RightOfWayError
+from rightofway.model import Lap, Plan, Scenario, Tick, VertexId
+from rightofway.planners import registered
+from rightofway.planners.flip import flipped
+from rightofway.precedence import ActionDependencyGraph, DelayModel, TimedEventGraph
+from rightofway.search import (
+    Bookings,
+    Distances,
+    FleetSearch,
+    PeriodicBookings,
+    RoundTrip,
+    alone_completions,
+    earliest_track,
+    plan_by_lacam,
+    untimed_lacam,
+)
+from tests.builders.fleets import grid_fleet, random_fleet
+from tests.builders.periodic import random_timetable
+
+LIMITS = [0.0, -0.0, -1.0, -1e-9, 1e-9, 1e-4]
+
+HARD = Path(__file__).parents[1] / "data" / "hard"
+
+MOST = 0.5
+"""How much longer than its limit a call may take [s]."""
+
+
+@contextmanager
+def in_time(limit: float) -> Iterator[None]:
+    """Fail if what is inside takes much longer than a limit [s] of this process's time."""
+    began = time.process_time()
+    with suppress(RightOfWayError):
+        yield
+    assert time.process_time() - began < max(limit, 0) + MOST
+
+
+@cache
+def scenarios() -> dict[str, Scenario]:
+    """Return fleets with a plan and without one."""
+    swap = grid_fleet(["...."], [("N0", "N3"), ("N3", "N0")])
+    return {
+        "a fleet": random_fleet(3, size=16, robots=40),
+        "no plan": swap,
+        "one way": rightofway.load(HARD / "one-way-circle.json"),
+    }
+
+
+def native_calls_with_a_limit() -> set[str]:
+    """Return what takes a limit, as the stub of the native core has it."""
+    stub = Path(_core.__file__).with_name("_core.pyi")
+    if not stub.exists():
+        stub = Path(rightofway.__file__).with_name("_core.pyi")
+
+    def named(body: list[ast.stmt], within: str = "") -> Iterator[str]:
+        for node in body:
+            if isinstance(node, ast.ClassDef):
+                yield from named(node.body, f"{node.name}.")
+            elif isinstance(node, ast.FunctionDef):
+                arguments = [one.arg for one in (*node.args.args, *node.args.kwonlyargs)]
+                if {"time_limit", "with_net", "pause"} & set(arguments):
+                    yield within + node.name
+
+    return set(named(ast.parse(stub.read_text()).body))
+
+
+def order(scenario: Scenario) -> list[int]:
+    return list(range(len(scenario.robots)))
+
+
+def improve(scenario: Scenario, limit: float) -> None:
+    search = FleetSearch(scenario.problem)
+    if search.prioritize(order(scenario), searches=100, time_limit=None):
+        search.improve(10**9, patience=10**9, time_limit=limit)
+
+
+def go_on(scenario: Scenario, limit: float) -> None:
+    search = FleetSearch(scenario.problem)
+    search.prioritize(order(scenario), searches=1, time_limit=None)
+    search.go_on(searches=10**9, time_limit=limit)
+
+
+def prioritize(scenario: Scenario, limit: float) -> None:
+    search = FleetSearch(scenario.problem)
+    search.prioritize(order(scenario), searches=10**9, time_limit=limit)
+
+
+def repair(scenario: Scenario, limit: float) -> None:
+    search = FleetSearch(scenario.problem)
+    search.repair(order(scenario), searches=10**9, time_limit=limit)
+
+
+def track(scenario: Scenario, limit: float) -> None:
+    bookings, distances = Bookings(scenario.problem), Distances(scenario.roadmap)
+    earliest_track(0, bookings, distances, time_limit=limit)
+
+
+def periodic() -> tuple[PeriodicBookings, Lap]:
+    """Return bookings of a door that are free for a tick now and then, and a lap through it."""
+    made = PeriodicBookings(3, Tick(30_000), headway=Tick(0), books_ahead=False)
+    busy = Lap(
+        vertices=(VertexId(2), VertexId(1)), dwell=(Tick(0), Tick(1)), drive=(Tick(1), Tick(1))
+    )
+    made.add(0, busy, 5_000, np.arange(10_000, dtype=np.int64) * 3)
+    return made, replace(busy, vertices=(VertexId(0), VertexId(1)))
+
+
+def search(_: Scenario, limit: float) -> None:
+    made, lap = periodic()
+    made.search(lap, 1_000, 0, time_limit=limit)
+
+
+def find_route(scenario: Scenario, limit: float) -> None:
+    problem, distances = scenario.problem, Distances(scenario.roadmap)
+    made = PeriodicBookings(
+        scenario.roadmap.n_vertices, Tick(10**6), headway=Tick(0), books_ahead=False
+    )
+    made.find_route(RoundTrip.of(problem.itineraries[0], distances), 0, time_limit=limit)
+
+
+def event_graph() -> TimedEventGraph:
+    timetable = random_timetable(1, robots=5, headway=0, books_ahead=False)
+    return TimedEventGraph(timetable, headway=Tick(0), books_ahead=False)
+
+
+@cache
+def plan() -> Plan:
+    return rightofway.solve(scenarios()["a fleet"], "lacam", time_limit=None)
+
+
+def runs(_: Scenario, limit: float) -> None:
+    adg = ActionDependencyGraph(plan().scenario, plan().tracks, DelayModel.none(40))
+    adg.runs(0, 0, 10**7, limit)
+
+
+CALLS: dict[str, Callable[[Scenario, float], object]] = {
+    "ActionDependencyGraph.runs": runs,
+    "CyclicSimulator.advance": lambda one, limit: rightofway.run_laps(one, time_limit=limit),
+    "FleetSearch.alone": lambda one, limit: alone_completions(one, time_limit=limit),
+    "FleetSearch.go_on": go_on,
+    "FleetSearch.improve": improve,
+    "FleetSearch.prioritize": prioritize,
+    "FleetSearch.repair": repair,
+    "PeriodicBookings.find_route": find_route,
+    "PeriodicBookings.search": search,
+    "critical_circuit": lambda _, limit: event_graph().critical_circuit(time_limit=limit),
+    "earliest_times": lambda _, limit: event_graph().earliest(Tick(10**6), time_limit=limit),
+    "earliest_track": track,
+    "plan_by_lacam": lambda one, limit: plan_by_lacam(
+        one.problem, most_effort=10**12, time_limit=limit
+    ),
+    "untimed_lacam": lambda one, limit: untimed_lacam(one.problem, time_limit=limit),
+}
+
+
+def test_every_native_call_with_a_limit_is_tested() -> None:
+    assert set(CALLS) == native_calls_with_a_limit()
+
+
+@pytest.mark.parametrize("fleet", ["a fleet", "no plan", "one way"])
+@pytest.mark.parametrize("name", CALLS)
+def test_a_native_call_ends_when_its_limit_is_over(name: str, fleet: str) -> None:
+    scenario = scenarios()[fleet]
+    plan()
+    for limit in LIMITS:
+        with in_time(limit):
+            CALLS[name](scenario, limit)
+
+
+@pytest.mark.parametrize("fleet", ["a fleet", "no plan", "one way"])
+@pytest.mark.parametrize("planner", registered())
+def test_a_planner_ends_when_its_limit_is_over(planner: str, fleet: str) -> None:
+    for limit in (0, 1e-9, 1e-4, 0.02):
+        with in_time(limit):
+            rightofway.solve(scenarios()[fleet], planner, time_limit=limit)
+
+
+def longest_wait(plan: Plan) -> tuple[int, int, Tick]:
+    """Return the robot of the longest wait for another one, that one, and when the wait ends."""
+    losses = [loss for one in plan.lost_time for loss in one.losses if loss.for_robot is not None]
+    loss = max(losses, key=lambda loss: loss.ticks)
+    assert loss.for_robot is not None
+    return loss.robot, loss.for_robot, loss.end
+
+
+def test_what_follows_a_plan_ends_when_its_limit_is_over() -> None:
+    some = plan()
+    waits, goes_first, end = longest_wait(some)
+    for limit in (0, 1e-9, 1e-4):
+        with in_time(limit):
+            rightofway.improve(some, time_limit=limit)
+        with in_time(limit):
+            best_timetable(some.scenario, time_limit=limit)
+        with in_time(limit):
+            rightofway.simulate(some, runs=10**6, switch=True, time_limit=limit)
+        with in_time(limit):
+            rightofway.simulate(some, "stop:R1@3+50", runs=10**6, replan=True, time_limit=limit)
+        with in_time(limit):
+            flipped(some, waits, goes_first, end, time_limit=limit)
