@@ -80,7 +80,7 @@ fuzz-bindings *args:
 # The same under AddressSanitizer and UndefinedBehaviorSanitizer: builds the module with them first
 fuzz-bindings-sanitized *args:
     cmake -S . -B build/sanitized-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
-        -DRIGHTOFWAY_BINDING=ON -DRIGHTOFWAY_SANITIZE=ON -DPython_EXECUTABLE="$(which python)" \
+        -DRIGHTOFWAY_BINDING=ON -DRIGHTOFWAY_SANITIZE=address,undefined -DPython_EXECUTABLE="$(which python)" \
         -Dnanobind_DIR="$(python -m nanobind --cmake_dir)"
     cmake --build build/sanitized-core --parallel
     CORE="$(echo build/sanitized-core/_core*.so)" ASAN_OPTIONS=detect_leaks=0 \
@@ -92,6 +92,12 @@ native:
     cmake --preset sanitize
     cmake --build --preset sanitize --parallel
     ctest --preset sanitize
+
+# The native tests that run threads, under ThreadSanitizer
+native-threads:
+    cmake --preset thread
+    cmake --build --preset thread --parallel
+    build/thread/rightofway_tests -tc='*thread*,*task*,*crew*,*stuck*,*population*,*turn*,*caller*'
 
 # Write the stub of the native core from the installed module
 stub:
