@@ -116,6 +116,10 @@ docs:
 docs-refresh:
     python docs/refresh.py
 
+# Write the scripts of others that the studio ships, from the packages of npm that package.json pins
+vendor: node-modules
+    python -m tests.builders.vendored
+
 # Write the types that JavaScript shares with Python
 types-refresh:
     python -m tests.builders.typescript
