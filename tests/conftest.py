@@ -26,7 +26,6 @@ SLOW = (
     "cli/test_process.py",  # starts the command as a process, and interrupts it
     "conformance/test_execution.py",  # hundreds of runs for each planner and scenario
     "conformance/test_samples.py",  # plans on 36 real layouts
-    "docs/test_examples.py",  # runs every command on every page
     "laws/test_best_timetable.py",
     "laws/test_io_fuzz.py",
     "laws/test_lacam_plans.py",

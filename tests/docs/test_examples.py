@@ -17,12 +17,17 @@ import pytest
 from tests.builders.pages import PAGES, ROOT, Block, blocks, title_of
 
 RUN = {"python", "console"}
+QUICK = {"README.md", "docs/tutorial.md", "docs/python.md", "docs/model.md"}
+"""Pages of the quick lane; the others take a minute of a processor."""
+
 PAGES_WITH_EXAMPLES = [
-    page for page in PAGES if any(block.language in RUN for block in blocks(page))
+    pytest.param(page, marks=() if title_of(page) in QUICK else pytest.mark.slow, id=title_of(page))
+    for page in PAGES
+    if any(block.language in RUN for block in blocks(page))
 ]
 
 
-@pytest.mark.parametrize("page", PAGES_WITH_EXAMPLES, ids=title_of)
+@pytest.mark.parametrize("page", PAGES_WITH_EXAMPLES)
 def test_the_examples_of_a_page_do_what_it_says(
     page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
