@@ -1,4 +1,10 @@
-/** Undo first differences: [3, 1, 2] is [3, 4, 6]. */
+/**
+ * Undo first differences: [3, 1, 2] is [3, 4, 6].
+ *
+ * @template {Int32Array | Float64Array} T
+ * @param {readonly number[]} differences
+ * @param {new (length: number) => T} Numbers
+ */
 export function fromDifferences(differences, Numbers) {
   const numbers = new Numbers(differences.length);
   let sum = 0;
@@ -6,7 +12,25 @@ export function fromDifferences(differences, Numbers) {
   return numbers;
 }
 
-/** The index of the point nearest to (x, y) and within `reach`, or -1. */
+/**
+ * The last of some items, of which there is at least one.
+ *
+ * @template T
+ * @param {ArrayLike<T>} items
+ */
+export function lastOf(items) {
+  return items[items.length - 1];
+}
+
+/**
+ * The index of the point nearest to (x, y) and within `reach`, or -1.
+ *
+ * @param {ArrayLike<number>} xs
+ * @param {ArrayLike<number>} ys
+ * @param {number} x
+ * @param {number} y
+ * @param {number} reach
+ */
 export function nearest(xs, ys, x, y, reach) {
   let best = -1;
   let least = reach * reach;
@@ -17,7 +41,12 @@ export function nearest(xs, ys, x, y, reach) {
   return best;
 }
 
-/** The index of the last of these increasing numbers that is at most `limit`; 0 if none is. */
+/**
+ * The index of the last of these increasing numbers that is at most `limit`; 0 if none is.
+ *
+ * @param {ArrayLike<number>} numbers
+ * @param {number} limit
+ */
 export function lastAtMost(numbers, limit) {
   let [low, high] = [0, numbers.length - 1];
   while (low < high) {

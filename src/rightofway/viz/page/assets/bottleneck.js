@@ -1,12 +1,35 @@
+import { byId } from "./dom.js";
 import { disc, line } from "./shapes.js";
 import { NARROWEST_PERIOD } from "./steady_band.js";
 
+/** @import { Area } from "./axis.js" */
+/** @import { Choice } from "./choice.js" */
+/** @import { Moments } from "./clock.js" */
+/** @import { Motion } from "./motion.js" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Step } from "./steady.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Words } from "./words.js" */
+
+/** @typedef {{ top: number, height: number }} SpanRow Where the row of a visit is. */
+
 /** The critical circuit of the group that is looked at, lit on the map and in the diagram. */
 export class Bottleneck {
+  /**
+   * @param {Plan} plan
+   * @param {Moments} clock
+   * @param {Choice} choice
+   * @param {Theme} theme
+   * @param {Words} words
+   */
   constructor(plan, clock, choice, theme, words) {
-    Object.assign(this, { plan, clock, choice, theme, words });
-    this.button = document.getElementById("bottleneck");
-    this.legend = document.getElementById("bottleneck-legend");
+    this.plan = plan;
+    this.clock = clock;
+    this.choice = choice;
+    this.theme = theme;
+    this.words = words;
+    this.button = byId("bottleneck");
+    this.legend = byId("bottleneck-legend");
     this.button.hidden = !plan.steady?.groups.some(({ circuit }) => circuit.length);
     this.button.addEventListener("click", () => choice.toggleBottleneck());
     choice.on("bottleneck", () => this.#show());
@@ -21,10 +44,18 @@ export class Bottleneck {
   }
 
   get group() {
-    return this.plan.steady.group(this.choice.robot);
+    const { steady } = this.plan;
+    if (!steady)
+      throw new Error("bottleneck: the plan does not repeat itself (ask for its circuit)");
+    return steady.group(this.choice.robot);
   }
 
-  /** The places of the circuit, in map units; under everything that moves. */
+  /**
+   * The places of the circuit, in map units; under everything that moves.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} scale
+   */
   paintMap(context, scale) {
     const { circuit } = this;
     if (!circuit.length) return;
@@ -46,7 +77,13 @@ export class Bottleneck {
     context.lineCap = "butt";
   }
 
-  /** A disc under the robots that are on the circuit at this moment. */
+  /**
+   * A disc under the robots that are on the circuit at this moment.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Motion} motion
+   * @param {number} scale
+   */
   paintRobots(context, motion, scale) {
     for (const index of this.robotsNow(this.clock.tick)) {
       context.fillStyle = this.theme.lit;
@@ -57,11 +94,16 @@ export class Bottleneck {
     }
   }
 
-  /** Who is on the circuit at this moment. */
+  /**
+   * Who is on the circuit at this moment.
+   *
+   * @param {number} tick
+   */
   robotsNow(tick) {
     const { circuit } = this;
     if (!circuit.length || tick < this.group.start || this.choice.mode !== "plan") return [];
     const { period } = this.group;
+    /** @param {Step} options */
     const since = ({ begin }) => (((tick - begin) % period) + period) % period;
     return [
       ...new Set(
@@ -70,7 +112,13 @@ export class Bottleneck {
     ];
   }
 
-  /** Light the visits of all periods; `rowOf` returns top and height of a visit's row, or nothing. */
+  /**
+   * Light the visits of all periods; `rowOf` returns top and height of a visit's row, or nothing.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   * @param {(step: Step) => SpanRow | null} rowOf
+   */
   paintDiagram(context, area, rowOf) {
     const { circuit } = this;
     if (!circuit.length || this.choice.mode !== "plan") return;
@@ -87,11 +135,22 @@ export class Bottleneck {
     }
   }
 
-  /** Whether the plan repeats itself at a tick. */
+  /**
+   * Whether the plan repeats itself at a tick.
+   *
+   * @param {number} tick
+   */
   #repeats(tick) {
     return tick >= this.group.start && tick < this.group.until;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   * @param {SpanRow | null} row
+   * @param {Step} options
+   * @param {number} shift
+   */
   #cell(context, area, row, { begin, ticks }, shift) {
     if (!row || !ticks || !this.#repeats(begin + shift)) return;
     const { top, height } = row;
@@ -106,7 +165,16 @@ export class Bottleneck {
     if (width >= 4) context.stroke();
   }
 
-  /** From a visit to that of another robot, which waits for it. */
+  /**
+   * From a visit to that of another robot, which waits for it.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   * @param {SpanRow | null} from
+   * @param {SpanRow | null} to
+   * @param {Step} options
+   * @param {number} shift
+   */
   #link(context, area, from, to, { begin, next }, shift) {
     if (
       !from ||
@@ -133,10 +201,11 @@ export class Bottleneck {
 
   #show() {
     const { circuit, button, legend } = this;
-    button.setAttribute("aria-pressed", this.choice.bottleneck);
+    button.setAttribute("aria-pressed", String(this.choice.bottleneck));
     legend.hidden = !circuit.length || !this.group.isCritical;
     if (legend.hidden) return;
-    legend.lastElementChild.textContent = this.words.bottleneck(this.group);
+    if (legend.lastElementChild)
+      legend.lastElementChild.textContent = this.words.bottleneck(this.group);
     legend.title = this.words.bottleneckAtLength(this.group);
   }
 }

@@ -1,21 +1,47 @@
-import { element, english, facts, goTo, link, swatch } from "./dom.js";
+import { all, byId, element, english, facts, goTo, link, swatch } from "./dom.js";
+import { FloorRobot } from "./floor.js";
 import { texts, withKey } from "./language.js";
 import { BROKEN, WAIT } from "./phases.js";
 import { joined, languageOfFault } from "./words.js";
 
+/** @import { Choice } from "./choice.js" */
+/** @import { Clock } from "./clock.js" */
+/** @import { Comparison } from "./comparison.js" */
+/** @import { DecisionData, FaultData } from "./payload.d.ts" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Robot, Stage } from "./robot.js" */
+/** @import { Space } from "./space.js" */
+/** @import { Words } from "./words.js" */
+
 const MOST_LINES = 200; // of stages or losses in a card
+
+/** @typedef {[string, string | Node | null]} Term A term, and what it is. */
 
 /** All about the robot or decision that is chosen. */
 export class Card {
+  /**
+   * @param {Plan} plan
+   * @param {Clock} clock
+   * @param {Choice} choice
+   * @param {Words} words
+   * @param {Comparison | null} comparison
+   * @param {Space} space
+   */
   constructor(plan, clock, choice, words, comparison, space) {
-    Object.assign(this, { plan, clock, choice, words, comparison, space });
-    this.box = document.getElementById("card");
+    this.plan = plan;
+    this.clock = clock;
+    this.choice = choice;
+    this.words = words;
+    this.comparison = comparison;
+    this.space = space;
+    this.box = byId("card");
     choice.on("choice", () => this.#show());
     choice.on("mode", () => this.#show());
   }
 
   #show() {
-    const { robot, decision, fault } = this.choice;
+    const { robot, fault, decisionIndex } = this.choice;
+    const decision = this.plan.decisions[decisionIndex];
     this.box.hidden = !robot;
     if (!robot) return;
     const content = fault
@@ -30,7 +56,7 @@ export class Card {
 
   /** Where the card lies over the lower half of the screen, bring the map above it. */
   #clearMap() {
-    const map = document.querySelector(".map");
+    const [map] = all(".map", HTMLElement);
     const { top, bottom } = map.getBoundingClientRect();
     const isOver =
       getComputedStyle(this.box).position === "fixed" &&
@@ -38,6 +64,7 @@ export class Card {
     if (isOver && top > 0 && top < innerHeight / 2) map.scrollIntoView();
   }
 
+  /** @param {...Node | string} title */
   #header(...title) {
     const said = { ariaLabel: texts.chooseNothing, title: withKey(texts.chooseNothing, "Esc") };
     const close = element("button", { type: "button", className: "quiet", ...said }, "✕");
@@ -45,18 +72,21 @@ export class Card {
     return element("header", {}, ...title, close);
   }
 
+  /** @param {Robot} robot */
   #robot(robot) {
     const { words } = this;
     const rerouted = this.plan.reroutes.find((reroute) => reroute.robot === robot.index);
+    /** @type {Term[]} */
+    const changes = (this.comparison?.changesOf(robot) ?? []).map(([title, change]) => [
+      texts.inPlan(title),
+      change,
+    ]);
     return [
       this.#header(swatch(robot), element("h2", { className: "name" }, robot.name)),
-      ...(robot.planned || this.plan.steady ? [] : this.#sum(robot)),
+      ...(robot instanceof FloorRobot || this.plan.steady ? [] : this.#sum(robot)),
       facts([
         ...this.#times(robot),
-        ...(this.comparison?.changesOf(robot) ?? []).map(([title, change]) => [
-          texts.inPlan(title),
-          change,
-        ]),
+        ...changes,
         [texts.speed, this.plan.quantities.speed(robot.speed)],
         [texts.radius, robot.radius ? this.plan.quantities.length(robot.radius) : ""],
         [texts.home, words.where(robot.home)],
@@ -69,7 +99,11 @@ export class Card {
     ];
   }
 
-  /** How near other robots come, the one with least room to spare first. */
+  /**
+   * How near other robots come, the one with least room to spare first.
+   *
+   * @param {Robot} robot
+   */
   #encounters(robot) {
     const encounters = this.space.encounters(robot);
     if (!encounters.length) return [];
@@ -84,14 +118,26 @@ export class Card {
     return [element("h3", {}, texts.closest), lines];
   }
 
-  /** Where the completion time goes: alone + detours + making room + waiting. */
+  /**
+   * Where the completion time goes: alone + detours + making room + waiting.
+   *
+   * @param {Robot} robot
+   */
   #sum(robot) {
     const { detours, makingRoom, waiting } = robot.lost;
-    const parts = [
+    /** @type {[string, number][]} */
+    const causes = [
       [texts.detours, detours],
       [texts.makingRoom, makingRoom],
       [texts.waiting, waiting],
-    ].filter(([, ticks]) => ticks);
+    ];
+    const parts = causes.filter(([, ticks]) => ticks);
+    /**
+     * @param {string} sign
+     * @param {string} term
+     * @param {number} ticks
+     * @param {string} [className]
+     */
     const row = (sign, term, ticks, className = "") =>
       element(
         "tr",
@@ -113,14 +159,23 @@ export class Card {
       : [table, element("p", { className: "none-lost" }, texts.losesNothing)];
   }
 
+  /**
+   * @param {Robot} robot
+   * @returns {Term[]}
+   */
   #times(robot) {
-    if (robot.planned) return this.#floorTimes(robot);
+    if (robot instanceof FloorRobot) return this.#floorTimes(robot);
     return this.plan.steady ? this.#lapTimes(robot) : [];
   }
 
+  /**
+   * @param {FloorRobot} robot
+   * @returns {Term[]}
+   */
   #floorTimes(robot) {
     const { words } = this;
     const waited = robot.losses.reduce((sum, { ticks }) => sum + ticks, 0);
+    /** @type {Term[]} */
     const planned = [
       [texts.planned, words.time(robot.planned.completion)],
       [texts.heldUp, robot.held ? texts.inAll(words.time(robot.held)) : ""],
@@ -129,7 +184,7 @@ export class Card {
     if (robot.ending === BROKEN)
       return [[texts.breaksDown, texts.at(words.time(robot.broken))], ...planned];
     if (robot.ending === WAIT)
-      return [[texts.done, words.stuck(robot.stuckBehind(this.plan.happened))], ...planned];
+      return [[texts.done, words.stuck(robot.stuckBehind(this.plan.happened ?? []))], ...planned];
     return [
       [
         texts.doneAt(false),
@@ -139,15 +194,25 @@ export class Card {
     ];
   }
 
-  /** From when on it repeats itself, and how often. */
+  /**
+   * From when on it repeats itself, and how often.
+   *
+   * @param {Robot} robot
+   * @returns {Term[]}
+   */
   #lapTimes(robot) {
-    const group = this.plan.steady.groupOf[robot.index];
-    if (!group?.whole) return [[texts.repeats, texts.notShown]];
-    const laps = this.plan.steady.lapsInPeriod(robot.index);
+    const { steady } = this.plan;
+    const group = steady?.groupOf[robot.index];
+    if (!steady || !group?.whole) return [[texts.repeats, texts.notShown]];
+    const laps = steady.lapsInPeriod(robot.index);
     const [period, start] = [group.period, group.start].map((ticks) => this.words.time(ticks));
     return [[texts.repeats, texts.lapsEvery(laps, period, start)]];
   }
 
+  /**
+   * @param {Robot} robot
+   * @param {Stage} stage
+   */
   #stage(robot, stage) {
     const dwell = [];
     if (stage.work) dwell.push(texts.works(this.words.duration(stage.work)));
@@ -158,14 +223,20 @@ export class Card {
     return this.#moment(robot.enter[stage.visit], text);
   }
 
+  /** @param {Robot} robot */
   #losses(robot) {
     if (!robot.losses.length) return [];
     const lines = this.#lines(robot.losses, (loss) =>
       this.#moment(loss.tick, this.words.loss(loss, robot), loss.places),
     );
-    return [element("h3", {}, robot.planned ? texts.waits : texts.losesTime), lines];
+    return [element("h3", {}, robot instanceof FloorRobot ? texts.waits : texts.losesTime), lines];
   }
 
+  /**
+   * @template I
+   * @param {readonly I[]} items
+   * @param {(item: I) => HTMLElement} make
+   */
   #lines(items, make) {
     const list = element("ol", {}, ...items.slice(0, MOST_LINES).map(make));
     if (items.length > MOST_LINES)
@@ -173,6 +244,11 @@ export class Card {
     return list;
   }
 
+  /**
+   * @param {number} tick
+   * @param {string} text
+   * @param {number[]} [places]
+   */
   #moment(tick, text, places = []) {
     return goTo(this.words.time(tick), text, () => {
       this.clock.pause();
@@ -181,6 +257,7 @@ export class Card {
     });
   }
 
+  /** @param {FaultData} fault */
   #fault(fault) {
     const robots = fault.robots.map((index) => this.plan.robots[index]);
     const names = robots.map((robot) =>
@@ -210,6 +287,7 @@ export class Card {
     ];
   }
 
+  /** @param {DecisionData} decision */
   #decision(decision) {
     const pair = decision.robots.map((index) => this.plan.robots[index]);
     const names = pair.map((robot) => link(robot.name, () => this.choice.chooseRobot(robot.index)));
@@ -222,14 +300,29 @@ export class Card {
     ];
   }
 
-  /** The two choices side by side, the one that was taken stronger; nothing where no figure decided. */
+  /**
+   * The two choices side by side, the one that was taken stronger; nothing where no figure decided.
+   *
+   * @param {DecisionData} decision
+   * @param {Robot[]} pair
+   */
   #choices(decision, pair) {
+    /**
+     * @param {"th" | "td"} tag
+     * @param {string | number} text
+     * @param {number} side
+     */
     const cell = (tag, text, side) =>
       element(
         tag,
         { className: decision.waits === decision.robots[side] ? "taken" : "" },
         String(text),
       );
+    /**
+     * @param {"th" | "td"} tag
+     * @param {string} label
+     * @param {(string | number)[]} both
+     */
     const row = (tag, label, both) =>
       element(
         "tr",
@@ -242,7 +335,9 @@ export class Card {
       texts.ifItWaits,
       pair.map((robot) => robot.name),
     );
-    const rows = this.words.figures(decision).map(([label, ...both]) => row("td", label, both));
+    const rows = this.words
+      .figures(decision)
+      .map(([label, ...both]) => row("td", String(label), both));
     return rows.length ? [element("table", { className: "choices" }, head, ...rows)] : [];
   }
 }

@@ -2,6 +2,12 @@ import { FleetMemo } from "./fleet_memo.js";
 import { texts } from "./language.js";
 import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "./phases.js";
 
+/** @import { Area } from "./axis.js" */
+/** @import { Choice } from "./choice.js" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Theme } from "./theme.js" */
+
 const MOST_SAMPLES = 1200;
 const STACK = [WORK, TURN, DRIVE, WAIT, HELD, BROKEN]; // from the bottom up; robots that are done are the empty space above
 
@@ -10,10 +16,17 @@ export class Census {
   #counts;
   #beside;
 
+  /**
+   * @param {Plan} plan
+   * @param {Theme} theme
+   * @param {Choice} choice
+   */
   constructor(plan, theme, choice) {
-    Object.assign(this, { plan, theme, choice });
+    this.plan = plan;
+    this.theme = theme;
+    this.choice = choice;
     this.#counts = new FleetMemo(plan, () => this.#count(plan.robots));
-    this.#beside = new FleetMemo(plan, () => this.#out(this.#count(choice.beside)));
+    this.#beside = new FleetMemo(plan, () => this.#out(this.#count(choice.beside ?? [])));
     this.samples = Math.min(plan.end, MOST_SAMPLES);
   }
 
@@ -22,10 +35,15 @@ export class Census {
     return this.choice.beside ? texts.censusBeside(what) : what;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   */
   paint(context, area) {
     const counts = this.#counts.value;
     const below = new Float64Array(this.samples);
     const { work, turn, drive, wait, held, broken } = this.theme;
+    /** @type {Record<number, string>} */
     const colours = {
       [WORK]: work,
       [TURN]: turn,
@@ -48,14 +66,26 @@ export class Census {
     );
   }
 
-  /** How many robots are not done yet, in each sample. */
+  /**
+   * How many robots are not done yet, in each sample.
+   *
+   * @param {Int32Array[]} counts
+   */
   #out(counts) {
     return counts[DONE].map((done) => this.plan.robots.length - done);
   }
 
-  /** A line at the height of these numbers of robots. */
+  /**
+   * A line at the height of these numbers of robots.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   * @param {Int32Array} robots
+   */
   #outline(context, area, robots) {
+    /** @param {number} sample */
     const x = (sample) => area.x((sample / this.samples) * area.end);
+    /** @param {number} count */
     const y = (count) => area.bottom - (count / this.plan.robots.length) * area.height;
     context.strokeStyle = this.theme.ink;
     context.lineWidth = 1.25;
@@ -67,9 +97,14 @@ export class Census {
     context.stroke();
   }
 
-  /** Robots by activity, in the middle of each sample. */
+  /**
+   * Robots by activity, in the middle of each sample.
+   *
+   * @param {readonly Robot[]} robots
+   */
   #count(robots) {
     const counts = texts.activities.map(() => new Int32Array(this.samples + 1));
+    /** @param {number} tick */
     const sample = (tick) =>
       Math.min(Math.max(Math.ceil((tick / this.plan.end) * this.samples - 0.5), 0), this.samples);
     for (const { phases } of robots) {
@@ -82,9 +117,18 @@ export class Census {
     return counts;
   }
 
-  /** Paint one activity on top of what lies below, and add it to that. */
+  /**
+   * Paint one activity on top of what lies below, and add it to that.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   * @param {Float64Array} below
+   * @param {Int32Array} counts
+   */
   #band(context, area, below, counts) {
+    /** @param {number} sample */
     const x = (sample) => area.x((sample / this.samples) * area.end);
+    /** @param {number} robots */
     const y = (robots) => area.bottom - (robots / this.plan.robots.length) * area.height;
     context.beginPath();
     for (let i = 0; i < this.samples; i++) {
@@ -102,6 +146,11 @@ export class Census {
     context.fill();
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   * @param {Record<number, string>} colours
+   */
   #legend(context, area, colours) {
     context.font = this.theme.font(12.5);
     context.textAlign = "left";

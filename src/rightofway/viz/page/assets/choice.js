@@ -1,12 +1,17 @@
 import { shortestWay } from "./corridor.js";
 import { Observable } from "./observable.js";
 
+/** @import { Site } from "./site.js" */
+
+/** @typedef {"plan" | "floor" | "both"} Mode What to show: the plan, what happened on the floor, or both. */
+
 /**
  * What the user looks at: a robot, a decision or fault, the heat map, the plan or what became of it,
  * the bottleneck, a corridor, what robots book, places of a finding. Events: `choice`, `heat`, `mode`,
  * `bottleneck`, `corridor`, `space`.
  */
 export class Choice extends Observable {
+  /** @param {Site} plan */
   constructor(plan) {
     super();
     this.plan = plan;
@@ -14,13 +19,17 @@ export class Choice extends Observable {
     this.decisionIndex = -1;
     this.faultIndex = -1;
     this.heat = false;
+    /** @type {Mode} */
     this.mode = plan.happened ? "both" : "plan";
     this.bottleneck = true;
     this.allFaulty = [...new Set(plan.faults.flatMap(({ robots }) => robots))];
+    /** @type {number[] | null} */
     this.corridor = null; // the vertices of the way whose distances are the axis of the diagram
     this.space = false; // whether bookings and the room that robots need are shown
     this.pair = -1; // the robot whose distance to the one chosen is shown; -1 for the nearest one
+    /** @type {number[]} */
     this.lit = []; // the vertices that a finding or a wait is about
+    /** @type {number[] | null} */
     this.picked = null; // the ends of the next corridor that are chosen so far
   }
 
@@ -44,16 +53,25 @@ export class Choice extends Observable {
     return this.fault ? this.fault.robots : this.allFaulty;
   }
 
+  /** @param {number} index */
   chooseRobot(index) {
     this.#set(index, -1);
   }
 
-  /** Look at a decision, and so at the robot that waits. */
+  /**
+   * Look at a decision, and so at the robot that waits.
+   *
+   * @param {number} index
+   */
   chooseDecision(index) {
     this.#set(this.plan.decisions[index]?.waits ?? -1, index);
   }
 
-  /** Look at a fault, and so at the first of its robots. */
+  /**
+   * Look at a fault, and so at the first of its robots.
+   *
+   * @param {number} index
+   */
   chooseFault(index) {
     this.#set(this.plan.faults[index]?.robots[0] ?? -1, -1, index);
   }
@@ -74,14 +92,22 @@ export class Choice extends Observable {
     this.tell("space");
   }
 
-  /** Show how near another robot is to the one chosen. */
+  /**
+   * Show how near another robot is to the one chosen.
+   *
+   * @param {number} other
+   */
   lookAtPair(other) {
     this.pair = other;
     this.space = true;
     this.tell("space");
   }
 
-  /** Light places; none for an empty list. */
+  /**
+   * Light places; none for an empty list.
+   *
+   * @param {number[]} vertices
+   */
   light(vertices) {
     this.lit = vertices;
     this.tell("choice");
@@ -99,27 +125,41 @@ export class Choice extends Observable {
     this.tell("corridor");
   }
 
-  /** Choose an end of the corridor: with the second one it is the shortest way between both. */
+  /**
+   * Choose an end of the corridor: with the second one it is the shortest way between both.
+   *
+   * @param {number} vertex
+   */
   pickEnd(vertex) {
-    if (this.picked.includes(vertex)) return;
+    if (!this.picked || this.picked.includes(vertex)) return;
     this.picked.push(vertex);
-    if (this.picked.length === 2) this.showCorridor(...this.picked);
+    if (this.picked.length === 2) this.showCorridor(this.picked[0], vertex);
     this.tell("corridor");
   }
 
-  /** Show the shortest way between two places; nothing changes without one, or for the place -1. */
+  /**
+   * Show the shortest way between two places; nothing changes without one, or for the place -1.
+   *
+   * @param {number} from
+   * @param {number} to
+   */
   showCorridor(from, to) {
     const corridor = from >= 0 && to >= 0 ? shortestWay(this.plan.roadmap, from, to) : null;
-    if (corridor) Object.assign(this, { corridor, picked: null });
+    if (corridor) [this.corridor, this.picked] = [corridor, null];
     else if (this.picked) this.picked = [];
     this.tell("corridor");
   }
 
-  /** Show the plan, what became of it on the `floor`, or `both`. */
+  /**
+   * Show the plan, what became of it on the `floor`, or `both`.
+   *
+   * @param {Mode} mode
+   */
   show(mode) {
     if (mode === this.mode) return;
     this.mode = mode;
-    this.plan.robots = mode === "plan" ? this.plan.planned : this.plan.happened;
+    const { planned, happened } = this.plan;
+    this.plan.robots = mode === "plan" ? planned : (happened ?? planned);
     this.tell("mode");
   }
 
@@ -133,17 +173,30 @@ export class Choice extends Observable {
     return this.ghosts ? this.plan.planned : null;
   }
 
-  /** The robots whose routes are drawn, by index. */
+  /**
+   * The robots whose routes are drawn, by index.
+   *
+   * @returns {number[]}
+   */
   get routed() {
     return this.decision?.robots ?? (this.robot ? [this.robotIndex] : []);
   }
 
-  /** Whether a robot is to stand out; all do while none is chosen. */
+  /**
+   * Whether a robot is to stand out; all do while none is chosen.
+   *
+   * @param {number} index
+   */
   standsOut(index) {
     if (this.decision) return this.decision.robots.includes(index);
     return this.robotIndex < 0 || this.robotIndex === index;
   }
 
+  /**
+   * @param {number} robot
+   * @param {number} decision
+   * @param {number} [fault]
+   */
   #set(robot, decision, fault = -1) {
     if (robot === this.robotIndex && decision === this.decisionIndex && fault === this.faultIndex)
       return;

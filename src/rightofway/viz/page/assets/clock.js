@@ -2,6 +2,21 @@ import { lastAtMost } from "./arrays.js";
 import { FleetMemo } from "./fleet_memo.js";
 import { Observable } from "./observable.js";
 
+/** @import { Site } from "./site.js" */
+/** @import { Robot } from "./robot.js" */
+
+/** @typedef {{ from: number, to: number }} Stretch Of time, in ticks. */
+/**
+ * The moment that a view shows: of a clock, of one that follows another, of a map that stands still.
+ *
+ * @typedef {object} Moments
+ * @property {number} tick
+ * @property {boolean} playing
+ * @property {Stretch | null} loop
+ * @property {() => void} pause
+ * @property {(tick: number) => void} seek
+ */
+
 /** How many time units pass in a second. */
 export const RATES = [1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024];
 
@@ -13,6 +28,7 @@ const PLEASANT_SECONDS = 24;
  * `loop` when it begins or ends to play a stretch of time again and again.
  */
 export class Clock extends Observable {
+  /** @param {Site} plan */
   constructor(plan) {
     super();
     this.end = plan.end;
@@ -23,7 +39,8 @@ export class Clock extends Observable {
       plan.steady && !plan.happened ? Math.min(2 * plan.steady.largest.period, this.end) : this.end;
     const pace = shown / this.ticksPerUnit / PLEASANT_SECONDS;
     this.rate = RATES.findLast((rate) => rate < 1.5 * pace) ?? RATES[0];
-    this.loop = null; // { from, to }
+    /** @type {Stretch | null} */
+    this.loop = null;
     this.turns = 0; // how often it has gone back since it loops
     this.#events = new FleetMemo(plan, () => eventsOf(plan));
   }
@@ -40,19 +57,28 @@ export class Clock extends Observable {
     return this.loop ? this.tick + this.turns * (this.loop.to - this.loop.from) : this.tick;
   }
 
-  /** Show a moment; one after the loop ends it. */
+  /**
+   * Show a moment; one after the loop ends it.
+   *
+   * @param {number} tick
+   */
   seek(tick) {
     if (this.loop && tick > this.loop.to) this.setLoop(null);
     this.turns = 0;
     this.#go(tick);
   }
 
+  /** @param {number} tick */
   #go(tick) {
     this.tick = Math.min(Math.max(tick, 0), this.end);
     this.tell("tick");
   }
 
-  /** Play from `from` to `to` again and again; null to go on. What comes before `from` is played once. */
+  /**
+   * Play from `from` to `to` again and again; null to go on. What comes before `from` is played once.
+   *
+   * @param {Stretch | null} loop
+   */
   setLoop(loop) {
     const { running } = this;
     this.loop = loop;
@@ -61,9 +87,13 @@ export class Clock extends Observable {
     this.tell("loop");
   }
 
-  /** The moment of the loop that is like this one. */
+  /**
+   * The moment of the loop that is like this one.
+   *
+   * @param {number} tick
+   */
   #wrapped(tick) {
-    const { from, to } = this.loop;
+    const { from, to } = /** @type {Stretch} */ (this.loop);
     const turns = Math.max(Math.floor((tick - from) / (to - from)), 0);
     this.turns += turns;
     return tick - turns * (to - from);
@@ -85,32 +115,50 @@ export class Clock extends Observable {
     this.tell("playing");
   }
 
+  /** @param {number} rate */
   setRate(rate) {
     this.rate = rate;
     this.tell("playing");
   }
 
-  /** Take the next slower (-1) or faster (1) rate. */
+  /**
+   * Take the next slower (-1) or faster (1) rate.
+   *
+   * @param {number} by
+   */
   changeRate(by) {
     const index = RATES.indexOf(this.rate) + by;
     if (RATES[index]) this.setRate(RATES[index]);
   }
 
-  /** Let time run on. */
+  /**
+   * Let time run on.
+   *
+   * @param {number} seconds
+   */
   advance(seconds) {
     const tick = this.tick + seconds * this.rate * this.ticksPerUnit;
     this.#go(this.loop ? this.#wrapped(tick) : tick);
     if (this.tick >= this.end && !this.loop) this.pause();
   }
 
-  /** Go one whole tick back (-1) or on (1). */
+  /**
+   * Go one whole tick back (-1) or on (1).
+   *
+   * @param {number} by
+   */
   step(by) {
     this.pause();
     const tick = by < 0 ? Math.ceil(this.tick - 1e-9) - 1 : this.wholeTick + 1;
     this.#go(this.loop ? this.#wrapped(tick) : tick);
   }
 
-  /** Go to the last (-1) or next (1) instant at which `robot`, or any robot for null, does something new. */
+  /**
+   * Go to the last (-1) or next (1) instant at which `robot`, or any robot for null, does something new.
+   *
+   * @param {number} by
+   * @param {Robot | null} robot
+   */
   stepEvent(by, robot) {
     this.pause();
     const events = robot ? robot.phases.begin : this.#events.value;
@@ -121,9 +169,15 @@ export class Clock extends Observable {
 
 /** The clock of another plan: the same moment in ticks of its own, `ratio` of which are one of the other clock. */
 export class Follower extends Observable {
+  /**
+   * @param {Clock} clock
+   * @param {number} ratio
+   */
   constructor(clock, ratio) {
     super();
-    Object.assign(this, { clock, ratio, loop: null });
+    this.clock = clock;
+    this.ratio = ratio;
+    this.loop = null;
     for (const event of ["tick", "playing"]) clock.on(event, () => this.tell(event));
   }
 
@@ -139,12 +193,17 @@ export class Follower extends Observable {
     this.clock.pause();
   }
 
+  /** @param {number} tick */
   seek(tick) {
     this.clock.seek(tick / this.ratio);
   }
 }
 
-/** All instants at which a robot does something new, in order. */
+/**
+ * All instants at which a robot does something new, in order.
+ *
+ * @param {Site} plan
+ */
 function eventsOf(plan) {
   const begins = new Set();
   for (const robot of plan.robots) for (const begin of robot.phases.begin) begins.add(begin);

@@ -2,12 +2,25 @@ import { element } from "./dom.js";
 import { texts } from "./language.js";
 import { VirtualList } from "./virtual_list.js";
 
+/** @import { Compared } from "./compared.js" */
+/** @import { ComparedRobot } from "./payload.d.ts" */
+
 /** Which robots gain and lose against the base, with a bar for each plan; a press on a head sorts by it. */
 export class ComparedRobots {
-  /** `choose` is called with the name of the robot that is pressed; `colourOf` returns its colour. */
+  /**
+   * `choose` is called with the name of the robot that is pressed; `colourOf` returns its colour.
+   *
+   * @param {Compared} compared
+   * @param {HTMLElement} box
+   * @param {{ choose: (name: string) => void, colourOf: (name: string) => string }} options
+   */
   constructor(compared, box, { choose, colourOf }) {
-    Object.assign(this, { compared, box, colourOf });
+    this.compared = compared;
+    this.box = box;
+    this.colourOf = colourOf;
     this.search = "";
+    this.most = 1; // the largest change of a robot [ticks]
+    /** @type {number | null} */
     this.place = null; // the plan that the robots are sorted by; null for the largest change, -1 for the name
     this.head = element("div", { className: "compared-head" });
     const list = element("div", {
@@ -18,7 +31,7 @@ export class ComparedRobots {
     list.setAttribute("role", "listbox");
     list.setAttribute("aria-label", texts.compared.figures.robots);
     const sheet = element("div", { className: "compared-sheet" }, this.head, list);
-    sheet.style.setProperty("--plans", compared.plans.length);
+    sheet.style.setProperty("--plans", String(compared.plans.length));
     box.replaceChildren(sheet);
     this.list = new VirtualList(list, {
       rowHeight: 30,
@@ -43,11 +56,13 @@ export class ComparedRobots {
     this.list.setItems(compared.sorted(this.search, this.place));
   }
 
+  /** @param {string} search */
   find(search) {
     this.search = search;
     this.refresh();
   }
 
+  /** @param {string} name */
   setChosen(name) {
     this.list.setChosen(this.compared.robots.find((robot) => robot.name === name) ?? null);
   }
@@ -55,9 +70,15 @@ export class ComparedRobots {
   /** The columns: the robot, its time in the base, its change in each other plan. */
   #writeHead() {
     const { compared } = this;
+    /**
+     * @param {number} place
+     * @param {string} text
+     * @param {string} title
+     * @param {boolean} isPressed
+     */
     const sorts = (place, text, title, isPressed) => {
       const button = element("button", { type: "button", className: "quiet name", title }, text);
-      button.setAttribute("aria-pressed", isPressed);
+      button.setAttribute("aria-pressed", String(isPressed));
       button.addEventListener("click", () => {
         this.place = place;
         this.refresh();
@@ -77,6 +98,10 @@ export class ComparedRobots {
     );
   }
 
+  /**
+   * @param {HTMLElement & { written?: string, filled?: ComparedRobot }} row
+   * @param {ComparedRobot} robot
+   */
   #fill(row, robot) {
     const { compared } = this;
     const written = `${robot.name} ${compared.base}`;
@@ -103,12 +128,16 @@ export class ComparedRobots {
     );
   }
 
+  /**
+   * @param {ComparedRobot} robot
+   * @param {number} place
+   */
   #change(robot, place) {
     const { compared } = this;
     const by = compared.change(robot, place);
     const way = by < 0 ? "gain" : by > 0 ? "lose" : "equal";
     const bar = element("span", { className: "amount" });
-    bar.style.setProperty("--by", Math.abs(by || 0) / this.most);
+    bar.style.setProperty("--by", String(Math.abs(by || 0) / this.most));
     const after = robot.completion[place];
     const cell = element(
       "span",
@@ -120,6 +149,10 @@ export class ComparedRobots {
     return cell;
   }
 
+  /**
+   * @param {ComparedRobot} robot
+   * @param {number} place
+   */
   #inWords(robot, place) {
     const { compared } = this;
     const by = compared.change(robot, place);

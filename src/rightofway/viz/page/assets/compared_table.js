@@ -1,25 +1,38 @@
 import { element } from "./dom.js";
 import { texts } from "./language.js";
 
+/** @import { Compared, ComparedFigures } from "./compared.js" */
+/** @import { ChangeData } from "./payload.d.ts" */
+/** @import { Texts } from "./texts/en.js" */
+
 const MOST_CHANGES = 12; // that are listed of one plan
-const TIMES = ["flowtime", "makespan", "lower_bound"];
+const TIMES = /** @type {const} */ (["flowtime", "makespan", "lower_bound"]);
+const RATES_OF_PLANS = /** @type {const} */ (["gap", "seconds"]);
 
 /** The figures of plans, a column each, the best of each row marked; a press on a head makes that plan the base. */
 export class ComparedTable {
+  /** @type {HTMLElement[]} */
+  heads = [];
+
+  /**
+   * @param {Compared} compared
+   * @param {HTMLElement} box
+   */
   constructor(compared, box) {
-    Object.assign(this, { compared, box });
+    this.compared = compared;
+    this.box = box;
     const { plans } = compared;
     const isFaulty = plans.some(({ faults }) => faults);
     const rows = [
-      isFaulty && this.#row("faults", ({ faults }) => this.#faults(faults)),
+      isFaulty ? this.#row("faults", ({ faults }) => this.#faults(faults)) : null,
       this.#row("planner", ({ planner }) => planner),
       ...TIMES.map((key) => this.#row(key, (figures) => compared.time(figures[key]))),
-      ...["gap", "seconds"].map((key) => this.#row(key, ({ text }) => text[key])),
+      ...RATES_OF_PLANS.map((key) => this.#row(key, ({ text }) => text[key])),
       this.#row("seed", ({ seed }) => String(seed)),
     ];
     if (new Set(plans.map(({ robots }) => robots)).size > 1)
       rows.push(this.#row("robots", ({ robots }) => String(robots)));
-    const body = element("tbody", {}, ...rows.filter(Boolean));
+    const body = element("tbody", {}, ...rows.filter((row) => row !== null));
     this.table = element("table", { className: "compared-figures" }, this.#head(), body);
     box.replaceChildren(this.table, ...this.#changes());
     compared.on("base", () => this.#mark());
@@ -36,23 +49,33 @@ export class ComparedTable {
     return element("thead", {}, element("tr", {}, element("td"), ...this.heads));
   }
 
+  /** @param {number} count */
   #faults(count) {
     return count ? element("b", { className: "wrong" }, texts.doNotRun(count)) : texts.none;
   }
 
-  /** A row of one figure; nothing where no plan has it. */
+  /**
+   * A row of one figure; nothing where no plan has it.
+   *
+   * @param {keyof Texts["compared"]["figures"]} key
+   * @param {(plan: ComparedFigures) => string | Node} valueOf
+   */
   #row(key, valueOf) {
     const values = this.compared.plans.map(valueOf);
-    if (!values.some((value) => value instanceof Element || value?.length)) return null;
-    const best = this.compared.best[key] ?? [];
+    if (values.every((value) => value === "")) return null;
+    /** @type {Partial<Record<string, number[]>>} */
+    const bests = { ...this.compared.best };
+    const best = bests[key] ?? [];
     const cells = values.map((value, place) => {
-      const cell = element("td", {}, ...[value].flat());
+      const cell = element("td", {}, value);
       if (!best.includes(place)) return cell;
       cell.className = "best";
       cell.append(element("span", { className: "unseen" }, ` (${texts.compared.isBest})`));
       return cell;
     });
-    const { figures, terms } = texts.compared;
+    const { figures } = texts.compared;
+    /** @type {Partial<Record<string, string>>} */
+    const terms = texts.compared.terms;
     const head = element("th", { scope: "row", title: terms[key] ?? "" }, figures[key]);
     return element("tr", {}, head, ...cells);
   }
@@ -81,16 +104,21 @@ export class ComparedTable {
     this.heads.forEach((head, place) => {
       const isBase = place === this.compared.base;
       head.classList.toggle("base", isBase);
-      head.firstChild.setAttribute("aria-pressed", isBase);
+      head.firstElementChild?.setAttribute("aria-pressed", String(isBase));
     });
   }
 }
 
-/** A change of a scenario: "R2: speed 1 m/s → 2 m/s". */
+/**
+ * A change of a scenario: "R2: speed 1 m/s → 2 m/s".
+ *
+ * @param {ChangeData} options
+ */
 export function changeInWords({ what, key, before, after }) {
+  /** @type {Record<"whats" | "keys", Partial<Record<string, string>>>} */
   const { whats, keys } = texts.compared;
   const [, count] = /^(\d+) robots$/.exec(what) ?? [];
-  const whose = count ? texts.robots(count) : (whats[what] ?? what);
+  const whose = count ? texts.robots(Number(count)) : (whats[what] ?? what);
   const values = before || after ? `${before} → ${after}` : "";
   return `${whose}: ${[keys[key] ?? key, values].filter(Boolean).join(" ")}`;
 }

@@ -5,13 +5,19 @@ import { Compared } from "./compared.js";
 import { ComparedRobots } from "./compared_robots.js";
 import { ComparedTable } from "./compared_table.js";
 import { Diagram } from "./diagram.js";
-import { element } from "./dom.js";
+import { all, byId, element } from "./dom.js";
 import { connectFind } from "./find.js";
 import { texts } from "./language.js";
 import { MapView } from "./map_view.js";
 import { Motion } from "./motion.js";
 import { Use } from "./use.js";
 import { Words } from "./words.js";
+
+/** @import { Clock } from "./clock.js" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Roadmap } from "./roadmap.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Theme } from "./theme.js" */
 
 const LEAST_MAP = 150; // pixels that a map is wide, so that one can read its title
 const AROUND = 80; // pixels above and below a map: its title, the scale bar
@@ -21,25 +27,37 @@ const AROUND = 80; // pixels above and below a map: its title, the scale bar
  * choice; what plans cost, and what each robot gains or loses.
  */
 export class Comparison {
+  /**
+   * @param {Plan} plan
+   * @param {Clock} clock
+   * @param {Choice} choice
+   * @param {Theme} theme
+   * @param {MapView} mapView
+   * @param {Diagram} diagram
+   */
   constructor(plan, clock, choice, theme, mapView, diagram) {
-    Object.assign(this, { plan, clock, choice, theme });
+    this.plan = plan;
+    this.clock = clock;
+    this.choice = choice;
+    this.theme = theme;
     const { others, comparison } = plan;
+    if (!comparison) throw new Error("comparison: this plan is compared with none (give others)");
     this.plans = [plan, ...others];
     this.compared = new Compared(
       comparison,
       this.plans.map(({ title }) => title),
     );
     document.body.classList.add("compared");
-    this.maps = document.querySelector(".maps");
-    document.body.style.setProperty("--plans", this.plans.length);
-    this.#title(document.getElementById("map-title"), plan);
+    this.maps = all(".maps", HTMLElement)[0];
+    document.body.style.setProperty("--plans", String(this.plans.length));
+    this.#title(byId("map-title"), plan);
     this.stack = this.#stack(diagram);
     this.beside = others.map((other, i) =>
       this.#beside(other, comparison.scales[i + 1] / comparison.scales[0], diagram),
     );
     this.#linkViews([mapView, ...this.beside.map(({ view }) => view)]);
     this.#linkChoices();
-    this.#listRobots();
+    this.robots = this.#listRobots();
     diagram.hasLabels = false;
     for (const each of this.diagrams.slice(0, -1)) each.hasLabels = false;
     theme.on("theme", () => this.repaint());
@@ -59,6 +77,7 @@ export class Comparison {
   layOut() {
     const { clientWidth: width, clientHeight: height } = this.maps;
     const { roadmap } = this.plan;
+    /** @param {number} columns */
     const scale = (columns) =>
       Math.min(
         width / columns / roadmap.width,
@@ -66,7 +85,7 @@ export class Comparison {
       );
     const columns = this.plans.map((_, i) => i + 1).filter((each) => width >= each * LEAST_MAP);
     const best = columns.reduce((most, each) => (scale(each) > scale(most) ? each : most), 1);
-    this.maps.style.setProperty("--columns", best);
+    this.maps.style.setProperty("--columns", String(best));
   }
 
   /** Paint a frame. */
@@ -87,19 +106,30 @@ export class Comparison {
     this.robots.list.refresh();
   }
 
-  /** How a robot of the first plan fares in each other plan: title and "6 s earlier". */
+  /**
+   * How a robot of the first plan fares in each other plan: title and "6 s earlier".
+   *
+   * @param {{ name: string }} options
+   * @returns {[string, string][]}
+   */
   changesOf({ name }) {
     const robot = this.compared.robots.find((each) => each.name === name);
     return this.beside.map(({ plan }, i) => {
-      const [before, after] = [robot.completion[0], robot.completion[i + 1]];
-      if (after === null) return [plan.title, texts.compared.isMissing];
+      const [before, after] = [robot?.completion[0] ?? null, robot?.completion[i + 1] ?? null];
+      if (before === null || after === null) return [plan.title, texts.compared.isMissing];
       const time = this.compared.time(Math.abs(after - before));
       if (after === before) return [plan.title, texts.same];
       return [plan.title, after < before ? texts.isEarlier(time) : texts.isLater(time)];
     });
   }
 
-  /** Another plan: its map, its diagram, and what they are moved by. */
+  /**
+   * Another plan: its map, its diagram, and what they are moved by.
+   *
+   * @param {Plan} plan
+   * @param {number} scale
+   * @param {Diagram} options
+   */
   #beside(plan, scale, { axis }) {
     const { theme } = this;
     const clock = new Follower(this.clock, 1 / scale);
@@ -131,9 +161,13 @@ export class Comparison {
     return { plan, clock, choice, motion, words, view, diagram };
   }
 
-  /** Diagrams below each other: the first plan's is there already, and has the labels of the axis last. */
+  /**
+   * Diagrams below each other: the first plan's is there already, and has the labels of the axis last.
+   *
+   * @param {Diagram} diagram
+   */
   #stack(diagram) {
-    const box = diagram.canvas.parentElement;
+    const box = diagram.canvas.parentElement ?? document.body;
     const stack = element("div", { className: "stack" });
     box.classList.add("stacked");
     box.prepend(stack);
@@ -142,6 +176,7 @@ export class Comparison {
     return stack;
   }
 
+  /** @param {Plan} plan */
   #row(plan) {
     const canvas = element("canvas");
     canvas.setAttribute("role", "img");
@@ -149,6 +184,7 @@ export class Comparison {
     return canvas;
   }
 
+  /** @param {{ title: string }} options */
   #caption({ title }) {
     return element("figcaption", { className: "name" }, title);
   }
@@ -156,8 +192,14 @@ export class Comparison {
   /** One choice holds for all plans: by the names of robots. */
   #linkChoices() {
     const { choice } = this;
+    /** @param {Choice} options */
     const nameOf = ({ robot }) => robot?.name;
     for (const { plan, choice: other } of this.beside) {
+      /**
+       * @param {Choice} from
+       * @param {Choice} to
+       * @param {readonly Robot[]} robots
+       */
       const follow = (from, to, robots) => {
         if (nameOf(from) === nameOf(to)) return;
         const index = robots.findIndex(({ name }) => name === nameOf(from));
@@ -175,8 +217,13 @@ export class Comparison {
     }
   }
 
-  /** Maps of one size show the same part. */
+  /**
+   * Maps of one size show the same part.
+   *
+   * @param {MapView[]} views
+   */
   #linkViews(views) {
+    /** @param {{ roadmap: Roadmap }} options */
     const size = ({ roadmap: { width, height, unit } }) => `${width} ${height} ${unit}`;
     for (const view of views) {
       const followers = views.filter((other) => other !== view && size(other) === size(view));
@@ -192,6 +239,10 @@ export class Comparison {
     }
   }
 
+  /**
+   * @param {HTMLElement} heading
+   * @param {Plan} plan
+   */
   #title(heading, plan) {
     const { title, metrics, endsAtHome, faultCount } = plan;
     const words = new Words(plan);
@@ -207,18 +258,24 @@ export class Comparison {
     const colours = new Map(
       plans.flatMap(({ planned }) => planned.map(({ name, colour }) => [name, colour])),
     );
-    new ComparedTable(compared, document.getElementById("compared-figures"));
-    this.robots = new ComparedRobots(compared, document.getElementById("compared-robots"), {
+    new ComparedTable(compared, byId("compared-figures"));
+    const robots = new ComparedRobots(compared, byId("compared-robots"), {
       choose: (name) => this.#choose(name),
-      colourOf: (name) => colours.get(name),
+      colourOf: (name) => colours.get(name) ?? "",
     });
-    const find = document.getElementById("find-compared");
-    connectFind(find, this.robots.list, () => this.robots.find(find.value));
-    choice.on("choice", () => choice.robot && this.robots.setChosen(choice.robot.name));
+    const find = byId("find-compared", HTMLInputElement);
+    connectFind(find, robots.list, () => robots.find(find.value));
+    choice.on("choice", () => choice.robot && robots.setChosen(choice.robot.name));
+    return robots;
   }
 
-  /** Choose a robot wherever it is. */
+  /**
+   * Choose a robot wherever it is.
+   *
+   * @param {string} name
+   */
   #choose(name) {
+    /** @param {Plan} plan */
     const indexIn = (plan) => plan.robots.findIndex((robot) => robot.name === name);
     this.choice.chooseRobot(indexIn(this.plan));
     for (const { plan, choice } of this.beside) choice.chooseRobot(indexIn(plan));

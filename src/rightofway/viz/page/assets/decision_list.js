@@ -1,12 +1,30 @@
-import { element } from "./dom.js";
+import { byId, element } from "./dom.js";
 import { connectFind, matches } from "./find.js";
 import { language, texts } from "./language.js";
 import { VirtualList } from "./virtual_list.js";
 
+/** @import { Choice } from "./choice.js" */
+/** @import { Clock } from "./clock.js" */
+/** @import { DecisionData, RerouteData } from "./payload.d.ts" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Words } from "./words.js" */
+
+/** @typedef {{ head: string, detail: string, isEnglish?: boolean, isChosen?: () => boolean, choose: () => void }} TwoLines An item of a list. */
+
 /** All resolved conflicts, and the robots that were sent another way. */
 export class DecisionList {
+  /**
+   * @param {Plan} plan
+   * @param {Clock} clock
+   * @param {Choice} choice
+   * @param {Words} words
+   */
   constructor(plan, clock, choice, words) {
-    Object.assign(this, { plan, clock, choice, words });
+    this.plan = plan;
+    this.clock = clock;
+    this.choice = choice;
+    this.words = words;
+    /** @type {TwoLines[]} */
     this.items = [
       ...plan.reroutes.map((reroute) => this.#reroute(reroute)),
       ...plan.decisions.map((decision, index) => this.#decision(decision, index)),
@@ -14,9 +32,10 @@ export class DecisionList {
     const isLate = plan.noPlan || plan.planned.some(({ delay }) => delay > 0);
     const isSilent = !this.items.length && isLate; // as the plan of a search is
     const isLong = plan.roadmap.isMeasured && plan.decisions.length > 0; // coordinates are longer than names
+    /** @type {string | number} */
     this.count = isSilent ? "–" : this.items.length;
-    this.find = document.getElementById("find-decision");
-    this.list = new VirtualList(document.getElementById("decision-list"), {
+    this.find = byId("find-decision", HTMLInputElement);
+    this.list = new VirtualList(byId("decision-list"), {
       rowHeight: isLong ? 72 : 52,
       className: isLong ? "two long" : "two",
       none: isSilent
@@ -29,7 +48,7 @@ export class DecisionList {
     });
     connectFind(this.find, this.list, () => this.#select());
     choice.on("choice", () =>
-      this.list.setChosen(this.items.find((item) => item.isChosen()) ?? null),
+      this.list.setChosen(this.items.find((item) => item.isChosen?.()) ?? null),
     );
     this.#select();
   }
@@ -38,6 +57,10 @@ export class DecisionList {
     this.list.refresh();
   }
 
+  /**
+   * @param {DecisionData} decision
+   * @param {number} index
+   */
   #decision(decision, index) {
     const parts = [
       texts.at(this.words.moment(decision.tick)),
@@ -56,6 +79,7 @@ export class DecisionList {
     };
   }
 
+  /** @param {RerouteData} reroute */
   #reroute(reroute) {
     return {
       head: texts.rerouted(this.words.robot(reroute.robot)),
@@ -73,7 +97,12 @@ export class DecisionList {
   }
 }
 
-/** Write an item with a head and a detail into a row. */
+/**
+ * Write an item with a head and a detail into a row.
+ *
+ * @param {HTMLElement & { filled?: TwoLines }} row
+ * @param {TwoLines} item
+ */
 export function fillTwoLines(row, item) {
   if (row.filled === item) return;
   row.filled = item;

@@ -1,13 +1,25 @@
-import { EMBEDDED } from "./dom.js";
+import { lastOf } from "./arrays.js";
+import { isEmbedded } from "./dom.js";
 import { MODES } from "./mode_switch.js";
+
+/** @import { Choice } from "./choice.js" */
+/** @import { Clock } from "./clock.js" */
+/** @import { Plan } from "./plan.js" */
 
 /** Keeps moment and choice in the address, so that a link shows what its sender saw. */
 export class DeepLink {
   #timer = 0;
 
+  /**
+   * @param {Plan} plan
+   * @param {Clock} clock
+   * @param {Choice} choice
+   */
   constructor(plan, clock, choice) {
-    Object.assign(this, { plan, clock, choice });
-    if (EMBEDDED) return;
+    this.plan = plan;
+    this.clock = clock;
+    this.choice = choice;
+    if (isEmbedded()) return;
     clock.on("tick", () => this.#soon());
     choice.on("choice", () => this.#soon());
     choice.on("mode", () => this.#soon());
@@ -17,20 +29,22 @@ export class DeepLink {
 
   /** Show what the address says; returns whether it says anything. */
   read() {
-    const asked = new URLSearchParams(EMBEDDED ? "" : location.hash.slice(1));
+    const asked = new URLSearchParams(isEmbedded() ? "" : location.hash.slice(1));
     const robot = this.plan.robots.findIndex(({ name }) => name === asked.get("robot"));
     const decision = Number.parseInt(asked.get("decision") ?? "", 10) - 1;
     const fault = Number.parseInt(asked.get("fault") ?? "", 10) - 1;
     if (this.plan.faults[fault]) this.choice.chooseFault(fault);
     else if (this.plan.decisions[decision]) this.choice.chooseDecision(decision);
     else if (robot >= 0) this.choice.chooseRobot(robot);
-    if (this.plan.happened && MODES.includes(asked.get("show")))
-      this.choice.show(asked.get("show"));
+    const mode = MODES.find((each) => each === asked.get("show"));
+    if (this.plan.happened && mode) this.choice.show(mode);
+    const { roadmap } = this.plan;
     this.choice.showCorridor(
-      ...["from", "to"].map((end) => this.plan.roadmap.vertexNamed(asked.get(end))),
+      roadmap.vertexNamed(asked.get("from")),
+      roadmap.vertexNamed(asked.get("to")),
     );
     const tick = asked.get("tick") ?? this.choice.decision?.tick ?? 0;
-    this.clock.seek(Number.parseFloat(tick) || 0);
+    this.clock.seek(Number.parseFloat(String(tick)) || 0);
     return asked.size > 0;
   }
 
@@ -52,8 +66,10 @@ export class DeepLink {
     else if (this.choice.robot) state.set("robot", this.choice.robot.name);
     if (this.plan.happened) state.set("show", this.choice.mode);
     const { corridor } = this.choice;
-    if (corridor)
-      ["from", "to"].forEach((end, i) => state.set(end, this.plan.roadmap.name(corridor.at(-i))));
+    if (corridor) {
+      state.set("from", this.plan.roadmap.name(corridor[0]));
+      state.set("to", this.plan.roadmap.name(lastOf(corridor)));
+    }
     return `${location.href.split("#")[0]}#${state}`;
   }
 }

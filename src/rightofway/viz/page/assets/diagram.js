@@ -1,11 +1,20 @@
 import { AXIS_HEIGHT, Area, paintAxis } from "./axis.js";
-import { Layer, fitCanvas } from "./canvas.js";
+import { Layer, contextOf, fitCanvas } from "./canvas.js";
 import { Census } from "./census.js";
+import { byId } from "./dom.js";
 import { texts } from "./language.js";
 import { MOST_ROWS, RobotRows } from "./robot_rows.js";
 import { pointer } from "./shapes.js";
 import { SpaceTime } from "./space_time.js";
 import { SteadyBand } from "./steady_band.js";
+
+/** @import { Bottleneck } from "./bottleneck.js" */
+/** @import { Choice } from "./choice.js" */
+/** @import { Moments } from "./clock.js" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Use } from "./use.js" */
+/** @import { Words } from "./words.js" */
 
 const EDGE = 5; // pixels below a diagram that has another one below it
 
@@ -14,13 +23,28 @@ const EDGE = 5; // pixels below a diagram that has another one below it
  * each other has a canvas of its own and the `axis` of the first one; the last one has the labels.
  */
 export class Diagram {
+  /**
+   * @param {Plan} plan
+   * @param {Moments} clock
+   * @param {Choice} choice
+   * @param {Theme} theme
+   * @param {Words} words
+   * @param {Use} use
+   * @param {Bottleneck} bottleneck
+   * @param {{ canvas?: HTMLCanvasElement, axis?: { plan: Plan, words: Words } }} [options]
+   */
   constructor(plan, clock, choice, theme, words, use, bottleneck, { canvas, axis } = {}) {
-    Object.assign(this, { plan, clock, choice, theme, words });
+    this.plan = plan;
+    this.clock = clock;
+    this.choice = choice;
+    this.theme = theme;
+    this.words = words;
     this.axis = axis ?? { plan, words };
     this.hasLabels = true;
-    this.canvas = canvas ?? document.getElementById("diagram");
-    this.needle = canvas ? null : document.getElementById("needle");
-    this.heading = canvas ? null : document.getElementById("diagram-title");
+    this.area = new Area(0, 0, plan.end); // until the first frame
+    this.canvas = canvas ?? byId("diagram", HTMLCanvasElement);
+    this.needle = canvas ? null : byId("needle");
+    this.heading = canvas ? null : byId("diagram-title");
     this.spaceTime = new SpaceTime(plan, theme, words, use, choice, bottleneck);
     this.rows = new RobotRows(plan, theme, choice, bottleneck);
     this.census = new Census(plan, theme, choice);
@@ -41,7 +65,7 @@ export class Diagram {
     if (!size.width) return; // no room for it on a low screen
     if (size.changed || this.layer.stale) {
       this.area = this.#areaOf(size);
-      const context = this.canvas.getContext("2d");
+      const context = contextOf(this.canvas);
       context.setTransform(1, 0, 0, 1, 0, 0);
       context.clearRect(0, 0, this.canvas.width, this.canvas.height);
       this.layer.drawOn(context, size);
@@ -58,10 +82,19 @@ export class Diagram {
     return texts.corridorEnds(this.words.vertex(picked[0]));
   }
 
+  /**
+   * @param {{ width: number, height: number }} options
+   * @param {{ end: number }} [other]
+   */
   #areaOf({ width, height }, { end } = this.plan) {
     return new Area(width, height, end, this.band.height, this.hasLabels ? AXIS_HEIGHT : EDGE);
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} width
+   * @param {number} height
+   */
   #paintView(context, width, height) {
     const area = this.#areaOf({ width, height });
     const { plan, words } = this.axis;
@@ -83,7 +116,12 @@ export class Diagram {
     context.restore();
   }
 
-  /** A small triangle at the top wherever somebody was given the right of way. */
+  /**
+   * A small triangle at the top wherever somebody was given the right of way.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   */
   #decisions(context, area) {
     const { decisions } = this.plan;
     context.fillStyle = this.theme.muted;
@@ -110,8 +148,9 @@ export class Diagram {
     });
   }
 
+  /** @param {number} y */
   #chooseAt(y) {
-    const robot = this.view.robotAt?.(y) ?? -1;
+    const robot = this.view === this.rows ? this.rows.robotAt(y) : -1;
     if (robot >= 0) this.choice.chooseRobot(robot);
   }
 }

@@ -1,33 +1,101 @@
-/** Whether the page is part of another one, such as a notebook. */
-export const EMBEDDED = Boolean(document.isPart) || window.parent !== window;
+/** @import { Robot } from "./robot.js" */
 
-/** Make an element. Text is always text, never markup: names come from strangers' files. */
+/** Whether the page is part of another one, such as a notebook. */
+export function isEmbedded() {
+  return isPart() || window.parent !== window;
+}
+
+/** Whether the page is an element of a notebook, see `widget.js`. */
+export function isPart() {
+  return "isPart" in document;
+}
+
+/**
+ * An element of the page.
+ *
+ * @template {HTMLElement} [E=HTMLElement]
+ * @param {string} id
+ * @param {abstract new () => E} [Kind] its class
+ * @returns {E}
+ */
+export function byId(id, Kind) {
+  const found = document.getElementById(id);
+  if (!(found instanceof (Kind ?? HTMLElement)))
+    throw new Error(`page: there is no ${Kind?.name ?? "element"} "${id}" (look at the markup)`);
+  return /** @type {E} */ (found);
+}
+
+/**
+ * All elements that a selector finds.
+ *
+ * @template {Element} E
+ * @param {string} selector
+ * @param {new () => E} Kind their class; elements of others are left out
+ * @param {ParentNode} [within]
+ * @returns {E[]}
+ */
+export function all(selector, Kind, within = document) {
+  /** @type {E[]} */
+  const found = [];
+  for (const each of within.querySelectorAll(selector)) if (each instanceof Kind) found.push(each);
+  return found;
+}
+
+/**
+ * Make an element. Text is always text, never markup: names come from strangers' files.
+ *
+ * @template {keyof HTMLElementTagNameMap} K
+ * @param {K} tag
+ * @param {Partial<Omit<HTMLElementTagNameMap[K], "style">>} [properties]
+ * @param {...(Node | string)} children
+ * @returns {HTMLElementTagNameMap[K]}
+ */
 export function element(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
+  const made = document.createElement(tag);
+  Object.assign(made, properties);
   made.append(...children);
   return made;
 }
 
-/** Words of the library that have no translation: marked, so that they are read out rightly. */
+/**
+ * Words of the library that have no translation: marked, so that they are read out rightly.
+ *
+ * @param {string} text
+ */
 export function english(text) {
-  return text && element("span", { lang: "en" }, text);
+  return text ? element("span", { lang: "en" }, text) : "";
 }
 
-/** A dot in a robot's colour. */
+/**
+ * A dot in a robot's colour.
+ *
+ * @param {Robot} robot
+ */
 export function swatch(robot) {
   const dot = element("span", { className: "swatch" });
   dot.style.setProperty("--robot", robot.colour);
   return dot;
 }
 
-/** A button that reads as part of a sentence. */
+/**
+ * A button that reads as part of a sentence.
+ *
+ * @param {string} text
+ * @param {() => void} action
+ */
 export function link(text, action) {
   const button = element("button", { type: "button", className: "link name" }, text);
   button.addEventListener("click", action);
   return button;
 }
 
-/** A line of a list: a time, and what happens then; pressing it goes there. */
+/**
+ * A line of a list: a time, and what happens then; pressing it goes there.
+ *
+ * @param {string} time
+ * @param {string} text
+ * @param {() => void} action
+ */
 export function goTo(time, text, action) {
   const button = element(
     "button",
@@ -39,12 +107,16 @@ export function goTo(time, text, action) {
   return element("li", {}, button);
 }
 
-/** Terms and what they are; leaves out those without. */
+/**
+ * Terms and what they are; leaves out those without.
+ *
+ * @param {[string, string | Node | null][]} pairs
+ */
 export function facts(pairs) {
   const given = pairs.filter(([, value]) => value !== null && value !== "");
   return element(
     "dl",
     { className: "facts" },
-    ...given.flatMap(([term, value]) => [element("dt", {}, term), element("dd", {}, value)]),
+    ...given.flatMap(([term, value]) => [element("dt", {}, term), element("dd", {}, value ?? "")]),
   );
 }

@@ -1,21 +1,39 @@
 import { fillTwoLines } from "./decision_list.js";
+import { byId } from "./dom.js";
 import { connectFind, matches } from "./find.js";
 import { texts } from "./language.js";
 import { VirtualList } from "./virtual_list.js";
 import { languageOfFault } from "./words.js";
 
+/** @import { Choice } from "./choice.js" */
+/** @import { Clock } from "./clock.js" */
+/** @import { FaultData } from "./payload.d.ts" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Words } from "./words.js" */
+/** @import { TwoLines } from "./decision_list.js" */
+
 const LINE = 36; // letters of a fault that surely fit in a line
 
 /** All faults of a plan that breaks rules: the earliest first; choosing one goes to its moment and place. */
 export class FaultList {
+  /**
+   * @param {Plan} plan
+   * @param {Clock} clock
+   * @param {Choice} choice
+   * @param {Words} words
+   */
   constructor(plan, clock, choice, words) {
-    Object.assign(this, { plan, clock, choice, words });
-    this.find = document.getElementById("find-fault");
+    this.plan = plan;
+    this.clock = clock;
+    this.choice = choice;
+    this.words = words;
+    this.find = byId("find-fault", HTMLInputElement);
+    /** @type {TwoLines[]} */
     this.items = plan.faults.map((fault, index) => this.#item(fault, index));
     const isLong = this.items.some(
       ({ head, detail }) => Math.max(head.length, detail.length) > LINE,
     );
-    this.list = new VirtualList(document.getElementById("fault-list"), {
+    this.list = new VirtualList(byId("fault-list"), {
       rowHeight: isLong ? 72 : 52,
       className: isLong ? "two long" : "two",
       none: this.items.length ? texts.noFaultFits : texts.noFaults,
@@ -33,6 +51,10 @@ export class FaultList {
     this.list.refresh();
   }
 
+  /**
+   * @param {FaultData} fault
+   * @param {number} index
+   */
   #item(fault, index) {
     return {
       isEnglish: languageOfFault(fault) === "en",

@@ -1,4 +1,10 @@
-/** A search field over a list: typing filters, Enter takes the first match, arrow keys move on in the list. */
+/**
+ * A search field over a list: typing filters, Enter takes the first match, arrow keys move on in the list.
+ *
+ * @param {HTMLInputElement} field
+ * @param {{ chooseFirst(): void, step(by: number): void }} list
+ * @param {() => void} filter
+ */
 export function connectFind(field, list, filter) {
   field.addEventListener("input", filter);
   field.addEventListener("keydown", (event) => {
@@ -14,7 +20,12 @@ export function connectFind(field, list, filter) {
   });
 }
 
-/** Whether a text has all words of a search, in any order. */
+/**
+ * Whether a text has all words of a search, in any order.
+ *
+ * @param {string} text
+ * @param {string} search
+ */
 export function matches(text, search) {
   const whole = text.toLowerCase();
   return search

@@ -1,18 +1,32 @@
-import { lastAtMost } from "./arrays.js";
+import { lastAtMost, lastOf } from "./arrays.js";
 import { BROKEN, DONE, HELD, WAIT } from "./phases.js";
 import { Robot, giveLosses } from "./robot.js";
 
-/** The robots as they drove on the floor: the same visits at other ticks, and some of them never. */
-export function onTheFloor(raw, planned) {
-  const robots = raw.floor.robots.map(
+/** @import { DrivenData, FloorData, Payload, RobotData } from "./payload.d.ts" */
+/** @import { Loss, Trip } from "./robot.js" */
+
+/**
+ * The robots as they drove on the floor: the same visits at other ticks, and some of them never.
+ *
+ * @param {Payload} raw
+ * @param {FloorData} floor
+ * @param {Robot[]} planned
+ */
+export function onTheFloor(raw, floor, planned) {
+  const robots = floor.robots.map(
     (run, index) => new FloorRobot(raw.robots[index], run, planned[index]),
   );
-  giveLosses(robots, raw.floor.losses);
+  giveLosses(robots, floor.losses);
   return robots;
 }
 
 /** A robot and what became of its part of the plan. */
-class FloorRobot extends Robot {
+export class FloorRobot extends Robot {
+  /**
+   * @param {RobotData} raw
+   * @param {DrivenData} run
+   * @param {Robot} planned
+   */
   constructor(raw, run, planned) {
     super(floorTrip(raw, run), planned.index);
     this.planned = planned;
@@ -22,7 +36,12 @@ class FloorRobot extends Robot {
     this.plannedWait = waitedByVisit(planned);
   }
 
-  /** How much later than planned it is, at a tick and in a visit; null where it goes another way. */
+  /**
+   * How much later than planned it is, at a tick and in a visit; null where it goes another way.
+   *
+   * @param {number} tick
+   * @param {number} visit
+   */
   lateness(tick, visit) {
     if (this.ending === DONE && visit === this.vertices.length - 1) return this.delayInAll;
     if (visit >= this.asPlanned) return null;
@@ -39,7 +58,11 @@ class FloorRobot extends Robot {
     );
   }
 
-  /** How much longer the waits of a loss were than planned. */
+  /**
+   * How much longer the waits of a loss were than planned.
+   *
+   * @param {Loss} loss
+   */
   unplanned(loss) {
     const [first, last] = [
       lastAtMost(this.enter, loss.tick),
@@ -51,30 +74,55 @@ class FloorRobot extends Robot {
       .reduce((rest, planned) => rest - planned, loss.ticks);
   }
 
-  /** The robot that stands for ever where this one has to go next, or null. */
+  /**
+   * The robot that stands for ever where this one has to go next, or null.
+   *
+   * @param {readonly Robot[]} robots
+   */
   stuckBehind(robots) {
     const next = this.planned.vertices[this.vertices.length];
-    return robots.find((robot) => robot !== this && robot.vertices.at(-1) === next) ?? null;
+    return robots.find((robot) => robot !== this && lastOf(robot.vertices) === next) ?? null;
   }
 
-  /** When it begins to wait longer than planned, in a phase that is a wait. */
+  /**
+   * When it begins to wait longer than planned, in a phase that is a wait.
+   *
+   * @param {number} phase
+   */
   unplannedFrom(phase) {
     const visit = this.phases.visit[phase];
     return visit < this.asPlanned ? this.phases.begin[phase] + this.plannedWait[visit] : Infinity;
   }
 }
 
+/**
+ * @param {RobotData} raw
+ * @param {DrivenData} run
+ * @returns {Trip}
+ */
 function floorTrip(raw, run) {
+  /** @type {[number, number][]} */
   const still = run.still.map(([begin, ticks]) => [
     begin,
     ticks === null ? Infinity : begin + ticks,
   ]);
   const isBroken = still.some(([, to]) => to === Infinity);
   const ending = run.completion !== null ? DONE : isBroken ? BROKEN : WAIT;
-  return { ...raw, vertices: raw.vertices.slice(0, run.enter.length), ...run, still, ending };
+  return {
+    ...raw,
+    vertices: raw.vertices.slice(0, run.enter.length),
+    ...run,
+    completion: run.completion ?? Infinity,
+    still,
+    ending,
+  };
 }
 
-/** How long a robot waits in each visit. */
+/**
+ * How long a robot waits in each visit.
+ *
+ * @param {Robot} options
+ */
 function waitedByVisit({ phases, vertices }) {
   const waited = new Float64Array(vertices.length);
   phases.activity.forEach((activity, i) => {

@@ -1,5 +1,5 @@
 import { nearest } from "./arrays.js";
-import { element } from "./dom.js";
+import { all, byId, element } from "./dom.js";
 import { connectFind, matches } from "./find.js";
 import {
   askedLanguage,
@@ -16,16 +16,24 @@ import { Theme } from "./theme.js";
 import { VirtualList } from "./virtual_list.js";
 import { upperFirst } from "./words.js";
 
+/** @import { FindingData, InspectionPayload, PhraseData } from "./payload.d.ts" */
+
+const SEVERITIES = /** @type {const} */ (["error", "warning", "note"]); // the worst first
 const FEW_NOTES = 3; // of the reader, which stand open
 
 /** The page of an inspection: a level of the site at a time, what will hurt on it as a list. */
 class InspectPage {
+  /** @param {InspectionPayload} raw */
   constructor(raw) {
     this.raw = raw;
     this.theme = new Theme();
+    /** @type {FindingData | null} */
     this.chosen = null;
-    this.find = document.getElementById("find-finding");
-    this.list = new VirtualList(document.getElementById("finding-list"), {
+    this.level = raw.levels[0];
+    this.site = new Site({ ...this.level, title: raw.title });
+    this.view = new MapView(byId("map", HTMLCanvasElement), this.site, this.theme);
+    this.find = byId("find-finding", HTMLInputElement);
+    this.list = new VirtualList(byId("finding-list"), {
       rowHeight: 92,
       className: "two long finding",
       none: raw.levels.some(({ findings }) => findings.length)
@@ -40,14 +48,18 @@ class InspectPage {
     this.showLevel(0);
   }
 
-  /** Draw a level and list its findings. */
+  /**
+   * Draw a level and list its findings.
+   *
+   * @param {number} index
+   */
   showLevel(index) {
     this.level = this.raw.levels[index];
-    document.getElementById("level").value = String(index);
-    document.getElementById("size").textContent = this.level.sentences.map(said).join(" ");
-    const before = document.getElementById("map");
-    const canvas = before.cloneNode(); // without the listeners of another level's map
-    before.replaceWith(canvas);
+    byId("level", HTMLSelectElement).value = String(index);
+    byId("size").textContent = this.level.sentences.map(said).join(" ");
+    const before = byId("map", HTMLCanvasElement);
+    before.replaceWith(before.cloneNode()); // without the listeners of another level's map
+    const canvas = byId("map", HTMLCanvasElement);
     this.site = new Site({ ...this.level, title: this.raw.title });
     this.view = new MapView(canvas, this.site, this.theme);
     this.view.viewport.on("view", () => this.#repaint());
@@ -61,7 +73,11 @@ class InspectPage {
     this.view.viewport.fit();
   }
 
-  /** Light a finding on the map and say all of it; null to light none. */
+  /**
+   * Light a finding on the map and say all of it; null to light none.
+   *
+   * @param {FindingData | null} finding
+   */
   choose(finding) {
     this.chosen = finding;
     const { choice, viewport } = this.view;
@@ -75,43 +91,55 @@ class InspectPage {
 
   #showHead() {
     const { title, what, notes, levels } = this.raw;
-    document
-      .getElementById("headline")
-      .replaceChildren(element("b", { className: "name" }, title), inLanguage("span", {}, what));
-    document.getElementById("level-choice").hidden = levels.length < 2;
-    document
-      .getElementById("level")
-      .replaceChildren(
-        ...levels.map(({ name }, index) => element("option", { value: String(index) }, name)),
-      );
-    const box = document.getElementById("notes");
+    byId("headline").replaceChildren(
+      element("b", { className: "name" }, title),
+      inLanguage("span", {}, what),
+    );
+    byId("level-choice").hidden = levels.length < 2;
+    byId("level", HTMLSelectElement).replaceChildren(
+      ...levels.map(({ name }, index) => element("option", { value: String(index) }, name)),
+    );
+    const box = byId("notes", HTMLDetailsElement);
     box.hidden = !notes.length;
     box.open = notes.length <= FEW_NOTES;
-    box.querySelector("summary").textContent = texts.readerNotes(notes.length);
-    box.querySelector("ul").replaceChildren(...notes.map((note) => inLanguage("li", {}, note)));
+    for (const summary of all("summary", HTMLElement, box))
+      summary.textContent = texts.readerNotes(notes.length);
+    for (const list of all("ul", HTMLElement, box))
+      list.replaceChildren(...notes.map((note) => inLanguage("li", {}, note)));
+  }
+
+  /** The findings of each severity, the worst first. */
+  get #groups() {
+    return SEVERITIES.filter((severity) => severity in this.raw.headings).map((severity) => ({
+      severity,
+      heading: said(this.raw.headings[severity]),
+      found: this.level.findings.filter((finding) => finding.severity === severity),
+    }));
   }
 
   /** How many findings there are of each severity. */
   #showCounts() {
-    const counts = Object.entries(this.raw.headings).map(([severity, heading]) => [
+    const counts = this.#groups.map(({ severity, heading, found }) => ({
       severity,
-      said(heading),
-      this.level.findings.filter((finding) => finding.severity === severity).length,
-    ]);
-    document
-      .getElementById("figures")
-      .replaceChildren(
-        ...counts.map(([severity, heading, count]) =>
-          element(
-            "div",
-            { title: heading },
-            element("dt", {}, severitySign(severity), heading.split(" (")[0]),
-            element("dd", {}, String(count)),
-          ),
+      heading,
+      count: found.length,
+    }));
+    byId("figures").replaceChildren(
+      ...counts.map(({ severity, heading, count }) =>
+        element(
+          "div",
+          { title: heading },
+          element("dt", {}, severitySign(severity), heading.split(" (")[0]),
+          element("dd", {}, String(count)),
         ),
-      );
+      ),
+    );
   }
 
+  /**
+   * @param {HTMLElement & { filled?: FindingData }} row
+   * @param {FindingData} finding
+   */
   #fill(row, finding) {
     if (row.filled === finding) return;
     row.filled = finding;
@@ -123,8 +151,9 @@ class InspectPage {
     );
   }
 
+  /** @param {FindingData | null} finding */
   #showCard(finding) {
-    const box = document.getElementById("card");
+    const box = byId("card");
     box.hidden = !finding;
     if (!finding) return;
     const close = element(
@@ -139,12 +168,14 @@ class InspectPage {
     );
     close.addEventListener("click", () => this.choose(null));
     const { severity, kind, fact, remedy } = finding;
+    /** @type {Partial<Record<string, string>>} */
+    const kinds = texts.findingKinds;
     box.replaceChildren(
       element(
         "header",
         {},
         severitySign(finding.severity),
-        element("h2", {}, `${upperFirst(texts.severities[severity])}: ${texts.findingKinds[kind]}`),
+        element("h2", {}, `${upperFirst(texts.severities[severity])}: ${kinds[kind] ?? kind}`),
         close,
       ),
       inLanguage("p", { className: "name" }, fact, `${said(fact)}.`),
@@ -165,7 +196,9 @@ class InspectPage {
       Math.max(0.5, 12 / viewport.scale),
     );
     const about = this.level.findings.filter(({ vertices }) => vertices.includes(vertex));
-    this.choose(about[(about.indexOf(this.chosen) + 1) % about.length] ?? null);
+    this.choose(
+      about[(about.findIndex((each) => each === this.chosen) + 1) % about.length] ?? null,
+    );
   }
 
   #select() {
@@ -183,11 +216,10 @@ class InspectPage {
       fit: () => this.view.viewport.fit(),
       print: () => window.print(),
     };
-    for (const [id, action] of Object.entries(actions))
-      document.getElementById(id).addEventListener("click", action);
-    document
-      .getElementById("level")
-      .addEventListener("change", ({ target }) => this.showLevel(Number(target.value)));
+    for (const [id, action] of Object.entries(actions)) byId(id).addEventListener("click", action);
+    const level = byId("level", HTMLSelectElement);
+    level.addEventListener("change", () => this.showLevel(Number(level.value)));
+    /** @type {Record<string, () => void>} */
     const keys = {
       "+": actions["zoom-in"],
       "=": actions["zoom-in"],
@@ -197,7 +229,9 @@ class InspectPage {
       Escape: () => this.choose(null),
     };
     document.addEventListener("keydown", (event) => {
-      const isWriting = event.target.matches("input, select") && event.key !== "Escape";
+      const { target } = event;
+      const isField = target instanceof Element && target.matches("input, select");
+      const isWriting = isField && event.key !== "Escape";
       if (!keys[event.key] || isWriting || event.ctrlKey || event.metaKey || event.altKey) return;
       event.preventDefault();
       keys[event.key]();
@@ -207,31 +241,29 @@ class InspectPage {
     window.addEventListener("afterprint", () => this.#lay(false));
   }
 
-  /** Get ready for paper, with all findings as a list, or for the screen again. */
+  /**
+   * Get ready for paper, with all findings as a list, or for the screen again.
+   *
+   * @param {boolean} onPaper
+   */
   #lay(onPaper) {
     document.documentElement.classList.toggle("on-paper", onPaper);
     this.theme.refresh();
     this.#paint();
-    const groups = Object.entries(this.raw.headings).map(([severity, heading]) => [
-      said(heading),
-      this.level.findings.filter((finding) => finding.severity === severity),
-    ]);
-    document
-      .getElementById("paper-findings")
-      .replaceChildren(
-        ...groups
-          .filter(([, found]) => found.length)
-          .flatMap(([heading, found]) => [
-            element("h2", {}, `${heading}: ${found.length}`),
-            element(
-              "ul",
-              {},
-              ...found.map(({ fact, remedy }) =>
-                inLanguage("li", {}, fact, `${said(fact)} (${said(remedy)})`),
-              ),
+    byId("paper-findings").replaceChildren(
+      ...this.#groups
+        .filter(({ found }) => found.length)
+        .flatMap(({ heading, found }) => [
+          element("h2", {}, `${heading}: ${found.length}`),
+          element(
+            "ul",
+            {},
+            ...found.map(({ fact, remedy }) =>
+              inLanguage("li", {}, fact, `${said(fact)} (${said(remedy)})`),
             ),
-          ]),
-      );
+          ),
+        ]),
+    );
   }
 
   #repaint() {
@@ -255,12 +287,23 @@ class InspectPage {
   }
 }
 
-/** An element with a phrase of the library, or a text made of it, and the language that it is in. */
+/**
+ * An element with a phrase of the library, or a text made of it, and the language that it is in.
+ *
+ * @param {"span" | "li" | "p"} tag
+ * @param {{ className?: string }} properties
+ * @param {PhraseData} phrase
+ * @param {string} [text]
+ */
 function inLanguage(tag, properties, phrase, text = said(phrase)) {
   return element(tag, { ...properties, lang: languageOf(phrase) }, text);
 }
 
-/** A sign of how much a finding hurts: shape and colour. */
+/**
+ * A sign of how much a finding hurts: shape and colour.
+ *
+ * @param {FindingData["severity"]} severity
+ */
 function severitySign(severity) {
   const sign = element(
     "span",
@@ -274,5 +317,5 @@ function severitySign(severity) {
 
 setLanguage(askedLanguage());
 writeMarkup();
-offerLanguages(document.getElementById("language"));
-const inspectPage = new InspectPage(JSON.parse(document.getElementById("site").textContent));
+offerLanguages(byId("language", HTMLSelectElement));
+const inspectPage = new InspectPage(JSON.parse(byId("site").textContent));

@@ -1,11 +1,30 @@
-/** What the keyboard does wherever no text is being written. */
+import { byId } from "./dom.js";
+
+/** @import { Choice } from "./choice.js" */
+/** @import { Clock } from "./clock.js" */
+/** @import { Loop } from "./loop.js" */
+/** @import { ModeSwitch } from "./mode_switch.js" */
+/** @import { Viewport } from "./viewport.js" */
+
+/**
+ * What the keyboard does wherever no text is being written.
+ *
+ * @param {Clock} clock
+ * @param {Choice} choice
+ * @param {Viewport} viewport
+ * @param {ModeSwitch} modeSwitch
+ * @param {Loop} loop
+ */
 export function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
-  const help = document.getElementById("help");
-  const about = document.getElementById("about");
-  const find = document.getElementById("find-robot");
+  const help = byId("help", HTMLDialogElement);
+  const about = byId("about", HTMLDialogElement);
+  const find = byId("find-robot", HTMLInputElement);
+  /** @type {Record<string, (event: KeyboardEvent) => unknown>} */
   const actions = {
     " ": () => clock.toggle(),
+    /** @param {KeyboardEvent} event */
     ArrowLeft: (event) => (event.shiftKey ? clock.stepEvent(-1, choice.robot) : clock.step(-1)),
+    /** @param {KeyboardEvent} event */
     ArrowRight: (event) => (event.shiftKey ? clock.stepEvent(1, choice.robot) : clock.step(1)),
     Home: () => clock.seek(0),
     End: () => clock.seek(clock.end),
@@ -25,8 +44,8 @@ export function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
     "?": () => help.showModal(),
     Escape: () => choice.chooseNothing(),
   };
-  document.getElementById("help-open").addEventListener("click", () => help.showModal());
-  document.getElementById("about-open").addEventListener("click", () => about.showModal());
+  byId("help-open").addEventListener("click", () => help.showModal());
+  byId("about-open").addEventListener("click", () => about.showModal());
   document.addEventListener("keydown", (event) => {
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (
@@ -44,9 +63,14 @@ export function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
   });
 }
 
-/** Whether the element that has the focus needs this key itself. */
+/**
+ * Whether the element that has the focus needs this key itself.
+ *
+ * @param {KeyboardEvent} event
+ */
 function isTaken(event) {
   const { target } = event;
+  if (!(target instanceof Element)) return false;
   if (target.matches("input[type=search]")) return event.key !== "Escape";
   if (target.matches("select")) return true;
   if (target.matches("input[type=radio]"))

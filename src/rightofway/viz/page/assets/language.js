@@ -1,8 +1,14 @@
-import { EMBEDDED } from "./dom.js";
+import { all, isEmbedded, isPart } from "./dom.js";
 import { GERMAN } from "./texts/de.js";
 import { ENGLISH } from "./texts/en.js";
 
-/** Each language by its code: its own name, and its texts. */
+/** @import { Texts } from "./texts/en.js" */
+
+/**
+ * Each language by its code: its own name, and its texts.
+ *
+ * @type {Record<string, { name: string, texts: Texts }>}
+ */
 export const LANGUAGES = {
   en: { name: "English", texts: ENGLISH },
   de: { name: "Deutsch", texts: GERMAN },
@@ -10,9 +16,14 @@ export const LANGUAGES = {
 
 /** The language that is spoken, and its texts; all modules read them here at the time of writing. */
 export let language = "en";
+/** @type {Texts} */
 export let texts = ENGLISH;
 
-/** Speak a language, English where it is not known; texts that it lacks are English. */
+/**
+ * Speak a language, English where it is not known; texts that it lacks are English.
+ *
+ * @param {string} code
+ */
 export function setLanguage(code) {
   language = Object.hasOwn(LANGUAGES, code) ? code : "en";
   texts = completed(LANGUAGES[language].texts, ENGLISH);
@@ -21,16 +32,26 @@ export function setLanguage(code) {
 
 /** The language that the address asks for (`?lang=de`), or that of the browser. */
 export function askedLanguage() {
-  const asked = new URLSearchParams(document.isPart ? "" : location.search).get("lang");
+  const asked = new URLSearchParams(isPart() ? "" : location.search).get("lang");
   return asked ?? navigator.language.slice(0, 2);
 }
 
-/** Texts, with those of another language where there are none. */
+/**
+ * Texts, with those of another language where there are none.
+ *
+ * @template {object} T
+ * @param {Partial<T>} own
+ * @param {T} other
+ * @returns {T}
+ */
 export function completed(own, other) {
-  const isTable = (value) => typeof value === "object" && !Array.isArray(value);
+  /** @type {Record<string, unknown>} */
+  const known = { ...own };
   const both = Object.entries(other).map(([key, value]) => [
     key,
-    isTable(value) ? completed(own[key] ?? {}, value) : (own[key] ?? value),
+    typeof value === "object" && !Array.isArray(value)
+      ? completed(known[key] ?? {}, value)
+      : (known[key] ?? value),
   ]);
   return { ...own, ...Object.fromEntries(both) };
 }
@@ -40,25 +61,39 @@ export function completed(own, other) {
  * screen readers, `data-title` and `data-hint` what it does, with the key that does it, too.
  */
 export function writeMarkup() {
-  const { markup } = texts;
+  /** @type {Record<string, string>} */
+  const markup = texts.markup;
+  /**
+   * @param {string} kind
+   * @param {(found: HTMLElement, text: string, key: string | undefined) => void} write
+   */
   const each = (kind, write) => {
-    for (const found of document.querySelectorAll(`[data-${kind}]`))
-      write(found, markup[found.dataset[kind]], found.dataset.key);
+    for (const found of all(`[data-${kind}]`, HTMLElement))
+      write(found, markup[found.dataset[kind] ?? ""], found.dataset.key);
   };
   each("text", (found, text) => (found.textContent = text));
   each("label", (found, text) => found.setAttribute("aria-label", text));
   each("title", (found, text, key) => (found.title = withKey(text, key)));
-  each("hint", (found, text, key) => (found.placeholder = withKey(text, key)));
+  each("hint", (found, text, key) => found.setAttribute("placeholder", withKey(text, key)));
 }
 
-/** "Zoom in (+)". */
+/**
+ * "Zoom in (+)".
+ *
+ * @param {string} text
+ * @param {string | undefined} key
+ */
 export function withKey(text, key) {
   return key ? `${text} (${key})` : text;
 }
 
-/** Fill the choice of a language; another one opens the page anew, at the same moment. */
+/**
+ * Fill the choice of a language; another one opens the page anew, at the same moment.
+ *
+ * @param {HTMLSelectElement} select
+ */
 export function offerLanguages(select) {
-  select.hidden = EMBEDDED;
+  select.hidden = isEmbedded();
   for (const [code, { name }] of Object.entries(LANGUAGES)) {
     const option = new Option(code.toUpperCase(), code);
     option.title = name;

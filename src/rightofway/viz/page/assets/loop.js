@@ -1,10 +1,22 @@
+import { byId } from "./dom.js";
 import { texts, withKey } from "./language.js";
+
+/** @import { Choice } from "./choice.js" */
+/** @import { Clock } from "./clock.js" */
+/** @import { Plan } from "./plan.js" */
 
 /** The button that plays one period for ever. */
 export class Loop {
+  /**
+   * @param {Plan} plan
+   * @param {Clock} clock
+   * @param {Choice} choice
+   */
   constructor(plan, clock, choice) {
-    Object.assign(this, { plan, clock, choice });
-    this.button = document.getElementById("loop");
+    this.plan = plan;
+    this.clock = clock;
+    this.choice = choice;
+    this.button = byId("loop", HTMLButtonElement);
     this.button.hidden = !plan.steady;
     this.button.addEventListener("click", () => this.toggle());
     clock.on("loop", () => this.#show());
@@ -25,14 +37,14 @@ export class Loop {
 
   /** The first period of the group that is looked at; null where the plan ends before it does. */
   get #window() {
-    const group = this.plan.steady.group(this.choice.robot);
-    return group.whole ? { from: group.start, to: group.start + group.period } : null;
+    const group = this.plan.steady?.group(this.choice.robot);
+    return group?.whole ? { from: group.start, to: group.start + group.period } : null;
   }
 
   #show() {
     if (!this.plan.steady) return;
     this.button.disabled = !this.#window;
     this.button.title = this.#window ? withKey(texts.loopAtLength, "L") : texts.noLoop;
-    this.button.setAttribute("aria-pressed", Boolean(this.clock.loop));
+    this.button.setAttribute("aria-pressed", String(Boolean(this.clock.loop)));
   }
 }

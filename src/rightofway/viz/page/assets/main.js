@@ -6,7 +6,7 @@ import { Comparison } from "./comparison.js";
 import { DecisionList } from "./decision_list.js";
 import { DeepLink } from "./deep_link.js";
 import { Diagram } from "./diagram.js";
-import { EMBEDDED } from "./dom.js";
+import { all, byId, isEmbedded, isPart } from "./dom.js";
 import { FaultList } from "./fault_list.js";
 import { listenToKeys } from "./keys.js";
 import { askedLanguage, offerLanguages, setLanguage, writeMarkup } from "./language.js";
@@ -28,9 +28,9 @@ import { Words } from "./words.js";
 
 setLanguage(askedLanguage());
 writeMarkup();
-offerLanguages(document.getElementById("language"));
+offerLanguages(byId("language", HTMLSelectElement));
 
-const plan = new Plan(JSON.parse(document.getElementById("plan").textContent));
+const plan = new Plan(JSON.parse(byId("plan").textContent));
 const words = new Words(plan);
 const theme = new Theme();
 const clock = new Clock(plan);
@@ -40,7 +40,7 @@ const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap }); // a
 const use = new Use(plan);
 const bottleneck = new Bottleneck(plan, clock, choice, theme, words);
 
-const mapView = new MapView(document.getElementById("map"), plan, theme, {
+const mapView = new MapView(byId("map", HTMLCanvasElement), plan, theme, {
   motion,
   ghosts,
   clock,
@@ -90,16 +90,18 @@ const paper = new Paper(plan, clock, theme, words, comparison, () =>
 );
 layOut();
 window.addEventListener("resize", layOut);
-document.querySelector(".caption").classList.toggle("full", Boolean(plan.happened || plan.steady));
-for (const row of document.querySelectorAll("#help .repeats")) row.hidden = !plan.steady;
-for (const row of document.querySelectorAll("#help .floor")) row.hidden = !plan.happened;
-for (const row of document.querySelectorAll("#help .sized")) row.hidden = !plan.hasSpace;
+for (const caption of all(".caption", HTMLElement))
+  caption.classList.toggle("full", Boolean(plan.happened || plan.steady));
+for (const row of all("#help .repeats", HTMLElement)) row.hidden = !plan.steady;
+for (const row of all("#help .floor", HTMLElement)) row.hidden = !plan.happened;
+for (const row of all("#help .sized", HTMLElement)) row.hidden = !plan.hasSpace;
 listenToKeys(clock, choice, mapView.viewport, modeSwitch, loop);
 
 const frames = {
   count: 0,
   last: 0,
   asked: false,
+  written: NaN, // the tick that words are about
 
   /** Have a frame painted soon; while nothing changes, none is. */
   ask() {
@@ -108,6 +110,7 @@ const frames = {
     requestAnimationFrame((now) => this.paint(now));
   },
 
+  /** @param {number} now */
   paint(now) {
     this.asked = false;
     if (clock.playing) clock.advance(this.last ? Math.min(now - this.last, 100) / 1000 : 0);
@@ -125,7 +128,8 @@ const frames = {
   /** In a loop each group of robots has a period of its own. */
   moveRobots() {
     const { running } = clock;
-    motion.moveTo(clock.tick, clock.loop && ((index) => plan.steady.tickOf(index, running)));
+    const { steady } = plan;
+    motion.moveTo(clock.tick, clock.loop && steady && ((index) => steady.tickOf(index, running)));
     if (choice.ghosts) ghosts.moveTo(clock.tick);
   },
 
@@ -148,7 +152,7 @@ function layOut() {
   const pane = 0.73 * innerWidth;
   const above = Math.min(pane / width, (0.73 * innerHeight - 200) / height);
   const beside = Math.min(pane / 2 / width, (innerHeight - 150) / height);
-  document.body.classList.toggle("high", !document.isPart && beside > 1.25 * above);
+  document.body.classList.toggle("high", !isPart() && beside > 1.25 * above);
 }
 
 /** Paint again what does not move. */
@@ -188,7 +192,7 @@ frames.ask();
 if (
   !linked &&
   !plan.faultCount &&
-  !EMBEDDED &&
+  !isEmbedded() &&
   !matchMedia("(prefers-reduced-motion: reduce)").matches
 )
   clock.play();

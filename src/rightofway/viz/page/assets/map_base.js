@@ -2,17 +2,45 @@ import { MapGround } from "./map_ground.js";
 import { MapMarks } from "./map_marks.js";
 import { diamond, disc, field, line, ring } from "./shapes.js";
 
+/** @import { Bottleneck } from "./bottleneck.js" */
+/** @import { Choice } from "./choice.js" */
+/** @import { MapSizes } from "./map_sizes.js" */
+/** @import { Site } from "./site.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Use } from "./use.js" */
+/** @import { Viewport } from "./viewport.js" */
+
 const MANY_ROBOTS = 200; // of more, homes and stops are faint, or they would hide the robots
 
 /** What does not move: the ground and its marks, heat, what is lit, homes, stops. */
 export class MapBase {
+  /**
+   * @param {Site} plan
+   * @param {Viewport} viewport
+   * @param {MapSizes} sizes
+   * @param {Theme} theme
+   * @param {Choice} choice
+   * @param {Use} use
+   * @param {Bottleneck | null} bottleneck
+   */
   constructor(plan, viewport, sizes, theme, choice, use, bottleneck) {
-    Object.assign(this, { plan, viewport, sizes, theme, choice, use, bottleneck });
+    this.plan = plan;
+    this.viewport = viewport;
+    this.sizes = sizes;
+    this.theme = theme;
+    this.choice = choice;
+    this.use = use;
+    this.bottleneck = bottleneck;
     this.ground = new MapGround(plan.roadmap, viewport, sizes, theme);
     this.marks = new MapMarks(plan, viewport, sizes, theme);
   }
 
-  /** Paint everything in map units: one unit is a cell. */
+  /**
+   * Paint everything in map units: one unit is a cell.
+   *
+   * @param {CanvasRenderingContext2D} context
+   */
   paint(context) {
     const { scale, left, top } = this.viewport;
     context.save();
@@ -29,11 +57,16 @@ export class MapBase {
     context.restore();
   }
 
-  /** A length in pixels, in map units. */
+  /**
+   * A length in pixels, in map units.
+   *
+   * @param {number} length
+   */
   #pixels(length) {
     return length / this.viewport.scale;
   }
 
+  /** @param {CanvasRenderingContext2D} context */
   #heat(context) {
     const { x, y, size, rows, sides } = this.plan.roadmap;
     for (let vertex = 0; vertex < size; vertex++) {
@@ -46,7 +79,12 @@ export class MapBase {
     }
   }
 
-  /** The corridor that the diagram is drawn along, or the end of it that is chosen. */
+  /**
+   * The corridor that the diagram is drawn along, or the end of it that is chosen.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number[]} vertices
+   */
   #corridor(context, vertices) {
     if (!vertices.length) return;
     const { x, y } = this.plan.roadmap;
@@ -61,7 +99,12 @@ export class MapBase {
     context.lineCap = "butt";
   }
 
-  /** The places that a finding or a wait is about, and the lanes between them. */
+  /**
+   * The places that a finding or a wait is about, and the lanes between them.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number[]} vertices
+   */
   #lit(context, vertices) {
     if (!vertices.length) return;
     const { x, y, lanes, rows } = this.plan.roadmap;
@@ -71,7 +114,7 @@ export class MapBase {
     context.lineCap = "round";
     context.lineWidth = this.#pixels(Math.max(this.sizes.lane * 0.5, 3));
     context.beginPath();
-    for (const [tail, head] of lanes ? [...lanes.bothWays, ...lanes.oneWay] : []) {
+    for (const [tail, head] of [...lanes.bothWays, ...lanes.oneWay]) {
       if (among.has(tail) && among.has(head)) line(context, x[tail], y[tail], x[head], y[head]);
     }
     context.stroke();
@@ -85,6 +128,7 @@ export class MapBase {
     context.lineCap = "butt";
   }
 
+  /** @param {Robot} robot */
   #strength(robot) {
     return (
       (this.choice.standsOut(robot.index) ? 1 : 0.25) *
@@ -92,7 +136,11 @@ export class MapBase {
     );
   }
 
-  /** A home is a frame in the robot's colour. */
+  /**
+   * A home is a frame in the robot's colour.
+   *
+   * @param {CanvasRenderingContext2D} context
+   */
   #homes(context) {
     const { x, y } = this.plan.roadmap;
     for (const robot of this.plan.robots) {
@@ -113,7 +161,11 @@ export class MapBase {
     context.globalAlpha = 1;
   }
 
-  /** A stop is a diamond in the robot's colour; those of several robots stand side by side. */
+  /**
+   * A stop is a diamond in the robot's colour; those of several robots stand side by side.
+   *
+   * @param {CanvasRenderingContext2D} context
+   */
   #stops(context) {
     const { x, y } = this.plan.roadmap;
     const size = this.#pixels(this.sizes.stop);

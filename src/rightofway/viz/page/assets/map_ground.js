@@ -2,32 +2,58 @@ import { pointAlong } from "./roadmap.js";
 import { chevron, disc, line } from "./shapes.js";
 import { inkOn } from "./theme.js";
 
+/** @import { MapSizes } from "./map_sizes.js" */
+/** @import { Lane, Roadmap } from "./roadmap.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Viewport } from "./viewport.js" */
+
 const RULED_CELL = 13; // cells have lines between them from this size on [pixels]
 const ARROW_GAP = 56; // pixels between two arrow heads of a lane
 const MOST_SIGNED = 3000; // lanes in sight; of more, none has arrow heads or a dashed middle
 
 /** What robots drive on: the picture below, floor and walls of a grid, lanes and vertices of a roadmap. */
 export class MapGround {
+  /**
+   * @param {Roadmap} roadmap
+   * @param {Viewport} viewport
+   * @param {MapSizes} sizes
+   * @param {Theme} theme
+   */
   constructor(roadmap, viewport, sizes, theme) {
-    Object.assign(this, { roadmap, viewport, sizes, theme });
+    this.roadmap = roadmap;
+    this.viewport = viewport;
+    this.sizes = sizes;
+    this.theme = theme;
   }
 
-  /** Paint in map units: one unit is a cell. */
+  /**
+   * Paint in map units: one unit is a cell.
+   *
+   * @param {CanvasRenderingContext2D} context
+   */
   paint(context) {
-    if (this.roadmap.rows) this.#grid(context);
+    if (this.roadmap.rows) this.#grid(context, this.roadmap.rows);
     else {
-      if (this.roadmap.sides) this.#squares(context);
+      if (this.roadmap.sides) this.#squares(context, this.roadmap.sides);
       this.#picture(context);
       if (!this.roadmap.sides) this.#network(context);
     }
   }
 
-  /** A length in pixels, in map units. */
+  /**
+   * A length in pixels, in map units.
+   *
+   * @param {number} length
+   */
   #pixels(length) {
     return length / this.viewport.scale;
   }
 
-  /** The picture under the map; the map is painted again once that is there. */
+  /**
+   * The picture under the map; the map is painted again once that is there.
+   *
+   * @param {CanvasRenderingContext2D} context
+   */
   #picture(context) {
     const { background } = this.roadmap;
     if (!background) return;
@@ -45,7 +71,11 @@ export class MapGround {
     context.restore();
   }
 
-  /** The picture at an address, or null until it is there; a page that has it already gives `image`. */
+  /**
+   * The picture at an address, or null until it is there; a page that has it already gives `image`.
+   *
+   * @param {string | undefined} href
+   */
   #loaded(href) {
     if (!href) return null;
     if (!this.image) {
@@ -56,8 +86,12 @@ export class MapGround {
     return this.image.complete ? this.image : null;
   }
 
-  #grid(context) {
-    const { width, height, rows } = this.roadmap;
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {string[]} rows
+   */
+  #grid(context, rows) {
+    const { width, height } = this.roadmap;
     context.fillStyle = this.theme.floor;
     context.fillRect(-0.5, -0.5, width, height);
     this.#picture(context);
@@ -71,7 +105,7 @@ export class MapGround {
           run.index - 0.5,
           y - 0.5,
           run[0].length,
-          1 + more * (rows[y + 1]?.[run.index] !== "."),
+          rows[y + 1]?.[run.index] === "." ? 1 : 1 + more,
         );
       }
     });
@@ -81,13 +115,19 @@ export class MapGround {
     context.strokeRect(-0.5, -0.5, width, height);
   }
 
-  /** The cells of a quadtree; what is not free between them is wall. */
-  #squares(context) {
-    const { width, height, x, y, sides } = this.roadmap;
+  /**
+   * The cells of a quadtree; what is not free between them is wall.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number[]} sides
+   */
+  #squares(context, sides) {
+    const { width, height, x, y } = this.roadmap;
     const gap = this.viewport.scale >= RULED_CELL / 4 ? this.#pixels(1) : 0;
     context.fillStyle = this.theme.wall;
     context.fillRect(-0.5, -0.5, width, height);
     context.fillStyle = this.theme.line;
+    /** @param {number} less */
     const fill = (less) =>
       sides.forEach((side, vertex) =>
         context.fillRect(x[vertex] - side / 2, y[vertex] - side / 2, side - less, side - less),
@@ -97,6 +137,11 @@ export class MapGround {
     fill(gap);
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} width
+   * @param {number} height
+   */
   #rules(context, width, height) {
     context.strokeStyle = this.theme.line;
     context.lineWidth = this.#pixels(1);
@@ -106,13 +151,22 @@ export class MapGround {
     context.stroke();
   }
 
-  /** Lanes: broad with a dashed middle where both ways are driven, narrower with arrow heads for one way. */
+  /**
+   * Lanes: broad with a dashed middle where both ways are driven, narrower with arrow heads for one way.
+   *
+   * @param {CanvasRenderingContext2D} context
+   */
   #network(context) {
     const { x, y } = this.roadmap;
     const [oneWay, bothWays] = [this.roadmap.lanes.oneWay, this.roadmap.lanes.bothWays].map(
       (lanes) => this.#inSight(lanes),
     );
     const { lane } = this.sizes;
+    /**
+     * @param {Lane[]} lanes
+     * @param {number} width
+     * @param {string} colour
+     */
     const draw = (lanes, width, colour) => {
       context.strokeStyle = colour;
       context.lineWidth = this.#pixels(width);
@@ -139,7 +193,11 @@ export class MapGround {
     this.#vertices(context, [...oneWay, ...bothWays]);
   }
 
-  /** The lanes of which something may be seen. */
+  /**
+   * The lanes of which something may be seen.
+   *
+   * @param {Lane[]} lanes
+   */
   #inSight(lanes) {
     const { x, y } = this.roadmap;
     const { viewport } = this;
@@ -159,7 +217,12 @@ export class MapGround {
     );
   }
 
-  /** The ends of lanes, and vertices without any. */
+  /**
+   * The ends of lanes, and vertices without any.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Lane[]} lanes
+   */
   #vertices(context, lanes) {
     const { x, y, lonely } = this.roadmap;
     const isMany = lanes.length > MOST_SIGNED; // then they are plain dots, which are drawn sooner
@@ -176,6 +239,10 @@ export class MapGround {
     }
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Lane[]} lanes
+   */
   #arrows(context, lanes) {
     const { x, y } = this.roadmap;
     const size = Math.min(Math.max(this.sizes.lane * 0.32, 3), 5);

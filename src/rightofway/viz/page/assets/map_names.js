@@ -4,6 +4,16 @@ import { PlaceNames } from "./place_names.js";
 import { haloed } from "./shapes.js";
 import { inkOn } from "./theme.js";
 
+/** @import { Choice } from "./choice.js" */
+/** @import { Moments } from "./clock.js" */
+/** @import { Box } from "./label_board.js" */
+/** @import { MapSizes } from "./map_sizes.js" */
+/** @import { Motion } from "./motion.js" */
+/** @import { Site } from "./site.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Use } from "./use.js" */
+/** @import { Viewport } from "./viewport.js" */
+
 const MOST_NAMED = 100; // robots in sight; the names of more cannot be read
 const ROBOT_TYPE = 13; // pixels
 
@@ -17,10 +27,27 @@ export class MapNames {
   #sides; // of each robot's name, so that it does not jump
   #widths = new TextWidths();
 
+  /**
+   * @param {Site} plan
+   * @param {Motion} motion
+   * @param {Viewport} viewport
+   * @param {MapSizes} sizes
+   * @param {Moments} clock
+   * @param {Theme} theme
+   * @param {Choice} choice
+   * @param {Use} use
+   */
   constructor(plan, motion, viewport, sizes, clock, theme, choice, use) {
-    Object.assign(this, { plan, motion, viewport, sizes, clock, theme, choice });
+    this.plan = plan;
+    this.motion = motion;
+    this.viewport = viewport;
+    this.sizes = sizes;
+    this.clock = clock;
+    this.theme = theme;
+    this.choice = choice;
     this.#sides = new Int8Array(plan.robots.length);
     this.places = new PlaceNames(plan, viewport, sizes, theme, choice, use);
+    /** @type {{ name: string, box: Box }[]} */
     this.written = []; // what the last frame shows: { name, box } of each label
     this.inks = plan.robots.map((robot) => inkOn(robot.colour));
   }
@@ -30,7 +57,13 @@ export class MapNames {
     this.places.refresh();
   }
 
-  /** Write all names, in pixels of the canvas. */
+  /**
+   * Write all names, in pixels of the canvas.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} width
+   * @param {number} height
+   */
   paint(context, width, height) {
     this.written = [];
     const places = this.places.find(context, width, height);
@@ -39,7 +72,10 @@ export class MapNames {
     const named =
       inSight.length <= MOST_NAMED ? inSight : inSight.filter((index) => this.#isChosen(index));
     if (!named.length && !places) return;
-    for (const index of inSight) this.#robots.takeDisc(...this.#at(index), this.#radius(index));
+    for (const index of inSight) {
+      const [x, y] = this.#at(index);
+      this.#robots.takeDisc(x, y, this.#radius(index));
+    }
     const outside = named.filter((index) => !this.#fitsInside(context, index, this.#radius(index)));
     for (const index of outside) this.#beside(context, index, this.#radius(index));
     const outsiders = new Set(outside);
@@ -48,26 +84,35 @@ export class MapNames {
     this.written.push(...this.places.write(context, this.#robots));
   }
 
+  /** @param {number} index */
   #radius(index) {
     return this.sizes.of(this.plan.robots[index]);
   }
 
+  /** @param {number} index */
   #isChosen(index) {
     return this.choice.robotIndex >= 0 && this.choice.standsOut(index);
   }
 
+  /** @param {number} index */
   #at(index) {
     const { left, top, scale } = this.viewport;
     return [left + this.motion.x[index] * scale, top + this.motion.y[index] * scale];
   }
 
-  /** The robots in sight, those chosen first, and those that are done last. */
+  /**
+   * The robots in sight, those chosen first, and those that are done last.
+   *
+   * @param {number} width
+   * @param {number} height
+   */
   #inSight(width, height) {
     const found = [];
     for (let index = 0; index < this.plan.robots.length; index++) {
       const [x, y] = this.#at(index);
       if (x > -5 && x < width + 5 && y > -5 && y < height + 5) found.push(index);
     }
+    /** @param {number} index */
     const rank = (index) =>
       this.#isChosen(index) ? 0 : this.motion.activity[index] === DONE ? 2 : 1;
     return found.length > MOST_NAMED
@@ -75,10 +120,16 @@ export class MapNames {
       : found.sort((one, other) => rank(one) - rank(other) || one - other);
   }
 
+  /** @param {number} radius */
   #insideFont(radius) {
     return this.theme.font(Math.min(Math.round(radius * 0.78), 20), 600);
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} index
+   * @param {number} radius
+   */
   #fitsInside(context, index, radius) {
     return (
       radius >= 13 &&
@@ -87,6 +138,11 @@ export class MapNames {
     );
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} index
+   * @param {number} radius
+   */
   #inside(context, index, radius) {
     const { name } = this.plan.robots[index];
     const activity = this.motion.activity[index];
@@ -110,6 +166,10 @@ export class MapNames {
   /**
    * Beside its disc: where it was if that is free, rather not over the name of a place, a mark or a route.
    * While time runs on, a name changes its side only for another robot.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} index
+   * @param {number} radius
    */
   #beside(context, index, radius) {
     const name = cut(this.plan.robots[index].name);
@@ -121,7 +181,9 @@ export class MapNames {
       radius + (this.#isChosen(index) ? 5 : 0),
     );
     const change = this.clock.playing ? 9 : 1;
-    let [best, least, box] = [-1, Infinity, null];
+    let [best, least] = [-1, Infinity];
+    /** @type {Box | null} */
+    let box = null;
     for (let step = 0; step < SIDES.length; step++) {
       const side = (this.#sides[index] + step) % SIDES.length;
       const there = boxBeside(x, y, away, width, ROBOT_TYPE + 2, SIDES[side]);
@@ -152,8 +214,16 @@ export class MapNames {
     context.globalAlpha = 1;
   }
 
-  /** Where the name of a chosen robot stands in a crowd: over other robots, but over no other name. */
+  /**
+   * Where the name of a chosen robot stands in a crowd: over other robots, but over no other name.
+   *
+   * @param {Box[]} boxes
+   */
   #overOthers(boxes) {
+    /**
+     * @param {Box} box
+     * @param {{ box: Box }} it
+     */
     const covers = (box, it) =>
       box[0] < it.box[2] && it.box[0] < box[2] && box[1] < it.box[3] && it.box[1] < box[3];
     const { width, height } = this.#robots;
@@ -165,6 +235,7 @@ export class MapNames {
     );
   }
 
+  /** @param {number} index */
   #isHome(index) {
     const { x, y } = this.plan.roadmap;
     const { home } = this.plan.robots[index];
@@ -175,6 +246,12 @@ export class MapNames {
     );
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {string} name
+   * @param {Box} box
+   * @param {string} ink
+   */
   #write(context, name, box, ink) {
     context.textAlign = "left";
     context.textBaseline = "middle";

@@ -1,15 +1,41 @@
+import { FloorRobot } from "./floor.js";
 import { BROKEN, DONE, HELD, TURN, WAIT, WORK } from "./phases.js";
 import { arc, disc, line, ring } from "./shapes.js";
+
+/** @import { Choice } from "./choice.js" */
+/** @import { MapSizes } from "./map_sizes.js" */
+/** @import { Motion } from "./motion.js" */
+/** @import { Site } from "./site.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Theme } from "./theme.js" */
 
 const FEW = 80; // up to here, waiting robots point to where they want to go
 
 /** The robots at their true size, if they have one: a disc that drives, a ring that waits, an arc that counts work, two that turn. */
 export class MapRobots {
+  /**
+   * @param {Site} plan
+   * @param {Motion} motion
+   * @param {Motion} ghosts
+   * @param {MapSizes} sizes
+   * @param {Theme} theme
+   * @param {Choice} choice
+   */
   constructor(plan, motion, ghosts, sizes, theme, choice) {
-    Object.assign(this, { plan, motion, ghosts, sizes, theme, choice });
+    this.plan = plan;
+    this.motion = motion;
+    this.ghosts = ghosts;
+    this.sizes = sizes;
+    this.theme = theme;
+    this.choice = choice;
   }
 
-  /** Paint all robots in map units; those that stand out come last, and so on top. */
+  /**
+   * Paint all robots in map units; those that stand out come last, and so on top.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} scale
+   */
   paint(context, scale) {
     if (this.choice.ghosts)
       for (const robot of this.#haunted)
@@ -30,11 +56,20 @@ export class MapRobots {
     this.#faulty(context, scale);
   }
 
+  /**
+   * @param {Robot} robot
+   * @param {number} scale
+   */
   #radius(robot, scale) {
     return this.sizes.of(robot) / scale;
   }
 
-  /** A red ring round the robots that break a rule. */
+  /**
+   * A red ring round the robots that break a rule.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} scale
+   */
   #faulty(context, scale) {
     context.strokeStyle = this.theme.held;
     context.lineWidth = Math.max(0.03, 2 / scale);
@@ -58,7 +93,14 @@ export class MapRobots {
     return this.plan.robots.length <= FEW ? this.plan.robots : [];
   }
 
-  /** A dashed ring where the plan has a robot that is elsewhere, and a line to where it is. */
+  /**
+   * A dashed ring where the plan has a robot that is elsewhere, and a line to where it is.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {number} radius
+   * @param {number} scale
+   */
   #ghost(context, robot, radius, scale) {
     const i = robot.index;
     const [x, y] = [this.ghosts.x[i], this.ghosts.y[i]];
@@ -87,6 +129,11 @@ export class MapRobots {
     context.globalAlpha = 1;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {number} scale
+   */
   #chosen(context, robot, scale) {
     const radius = this.#radius(robot, scale);
     const [x, y] = [this.motion.x[robot.index], this.motion.y[robot.index]];
@@ -102,12 +149,22 @@ export class MapRobots {
     this.#robot(context, robot, grown, scale);
   }
 
-  /** Whether work or turning is drawn round a robot. */
+  /**
+   * Whether work or turning is drawn round a robot.
+   *
+   * @param {number} index
+   */
   #dialled(index) {
     const activity = this.motion.activity[index];
     return activity === WORK || activity === TURN;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {number} radius
+   * @param {number} scale
+   */
   #robot(context, robot, radius, scale) {
     const i = robot.index;
     const [x, y, activity] = [this.motion.x[i], this.motion.y[i], this.motion.activity[i]];
@@ -130,6 +187,13 @@ export class MapRobots {
     return this.choice.heat || this.plan.robots.length <= FEW;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} x
+   * @param {number} y
+   * @param {number} radius
+   * @param {number} scale
+   */
   #outline(context, x, y, radius, scale) {
     const alpha = context.globalAlpha;
     context.globalAlpha = 1;
@@ -138,6 +202,14 @@ export class MapRobots {
     context.globalAlpha = alpha;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {number} x
+   * @param {number} y
+   * @param {number} radius
+   * @param {number} scale
+   */
   #waiting(context, robot, x, y, radius, scale) {
     if (this.plan.robots.length <= FEW && this.choice.robotIndex < 0)
       this.#wish(context, robot, x, y, scale);
@@ -149,7 +221,16 @@ export class MapRobots {
     ring(context, x, y, radius - width / 2);
   }
 
-  /** Held up: a ring, half of it filled. Broken down: a ring with a cross. */
+  /**
+   * Held up: a ring, half of it filled. Broken down: a ring with a cross.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {number} x
+   * @param {number} y
+   * @param {number} radius
+   * @param {number} scale
+   */
   #trouble(context, robot, x, y, radius, scale) {
     const broken = this.motion.activity[robot.index] === BROKEN;
     const width = Math.max(radius * 0.2, 1 / scale);
@@ -172,10 +253,19 @@ export class MapRobots {
     context.stroke();
   }
 
-  /** A dotted line to the vertex that a waiting robot is kept from. */
+  /**
+   * A dotted line to the vertex that a waiting robot is kept from.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {number} x
+   * @param {number} y
+   * @param {number} scale
+   */
   #wish(context, robot, x, y, scale) {
     const visit = robot.phases.visit[this.motion.phase[robot.index]];
-    const next = robot.vertices[visit + 1] ?? robot.planned?.vertices[visit + 1];
+    const planned = robot instanceof FloorRobot ? robot.planned : robot;
+    const next = robot.vertices[visit + 1] ?? planned.vertices[visit + 1];
     if (next === undefined) return;
     const { x: xs, y: ys } = this.plan.roadmap;
     context.strokeStyle = robot.colour;
@@ -189,7 +279,16 @@ export class MapRobots {
     context.lineCap = "butt";
   }
 
-  /** Work fills a circle; turning sweeps two arcs round half of it. A true size has it inside. */
+  /**
+   * Work fills a circle; turning sweeps two arcs round half of it. A true size has it inside.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {number} x
+   * @param {number} y
+   * @param {number} robotRadius
+   * @param {number} scale
+   */
   #dial(context, robot, x, y, robotRadius, scale) {
     const i = robot.index;
     const share = this.motion.share[i];

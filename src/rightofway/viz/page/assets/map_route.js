@@ -1,4 +1,19 @@
-/** Where two lanes beside a route meet, seen from its vertex; two points where it turns back. */
+/** @import { Choice } from "./choice.js" */
+/** @import { MapSizes } from "./map_sizes.js" */
+/** @import { Motion } from "./motion.js" */
+/** @import { DecisionData, FaultData } from "./payload.d.ts" */
+/** @import { Site } from "./site.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Theme } from "./theme.js" */
+
+/** @typedef {{ x: number, y: number }} Vector */
+
+/**
+ * Where two lanes beside a route meet, seen from its vertex; two points where it turns back.
+ *
+ * @param {Vector} before
+ * @param {Vector} after
+ */
 function corner(before, after) {
   const square = after.x ** 2 + after.y ** 2 || 1;
   const along = (before.x * after.x + before.y * after.y) / square;
@@ -8,10 +23,25 @@ function corner(before, after) {
 
 /** The routes of the robots chosen, and the place of the chosen decision. */
 export class MapRoute {
+  /**
+   * @param {Site} plan
+   * @param {Motion} motion
+   * @param {MapSizes} sizes
+   * @param {Theme} theme
+   * @param {Choice} choice
+   */
   constructor(plan, motion, sizes, theme, choice) {
-    Object.assign(this, { plan, motion, sizes, theme, choice });
+    this.plan = plan;
+    this.motion = motion;
+    this.sizes = sizes;
+    this.theme = theme;
+    this.choice = choice;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} scale
+   */
   paint(context, scale) {
     const { decision, routed } = this.choice;
     if (decision) this.#place(context, decision, scale);
@@ -23,12 +53,21 @@ export class MapRoute {
   /**
    * How far a route runs to the right of the middle [pixels]: each further one is further out, so
    * that routes on one way, and the way back, are lines side by side.
+   *
+   * @param {number} place
    */
   aside(place) {
     return (place + 0.5) * this.sizes.route.apart;
   }
 
-  /** What lies behind is faint, what lies ahead is strong. */
+  /**
+   * What lies behind is faint, what lies ahead is strong.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {number} aside
+   * @param {number} scale
+   */
   #route(context, robot, aside, scale) {
     const now = robot.phases.visit[this.motion.phase[robot.index]];
     context.strokeStyle = robot.colour;
@@ -41,6 +80,13 @@ export class MapRoute {
     context.lineCap = "butt";
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {number} from
+   * @param {number} to
+   * @param {number} aside
+   */
   #lane(context, robot, from, to, aside) {
     if (from === to) return;
     const { x, y } = this.plan.roadmap;
@@ -57,7 +103,13 @@ export class MapRoute {
     context.stroke();
   }
 
-  /** To the right of the way from a visit to the next: a vector of the length `aside`. */
+  /**
+   * To the right of the way from a visit to the next: a vector of the length `aside`.
+   *
+   * @param {Robot} robot
+   * @param {number} visit
+   * @param {number} aside
+   */
   #side(robot, visit, aside) {
     const { x, y } = this.plan.roadmap;
     const [tail, head] = [robot.vertices[visit], robot.vertices[visit + 1]];
@@ -66,6 +118,11 @@ export class MapRoute {
     return { x: (-down / length) * aside, y: (across / length) * aside };
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {DecisionData | FaultData} decision
+   * @param {number} scale
+   */
   #place(context, decision, scale) {
     const { x, y } = this.plan.roadmap;
     const vertices = [decision.vertices[0], ...decision.vertices]; // a line of one point is drawn, too

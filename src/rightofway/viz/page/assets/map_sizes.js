@@ -1,3 +1,7 @@
+/** @import { Site } from "./site.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Viewport } from "./viewport.js" */
+
 const READABLE_RADIUS = 10; // pixels; a robot need not be larger to be seen from afar
 const SMALLEST_CAP = { many: 4.5, few: 7 }; // pixels; robots may be as large where cells are smaller
 const SMALLEST_RADIUS = 2; // pixels, of a robot that is drawn at its true size
@@ -10,11 +14,20 @@ const LARGEST_RADIUS = { grid: 44, network: 20 }; // pixels
  * there is room.
  */
 export class MapSizes {
+  /**
+   * @param {Site} plan
+   * @param {Viewport} viewport
+   */
   constructor(plan, viewport) {
-    Object.assign(this, { plan, viewport });
+    this.plan = plan;
+    this.viewport = viewport;
   }
 
-  /** Radius of a robot: its own, if it has one, as long as that can be seen. */
+  /**
+   * Radius of a robot: its own, if it has one, as long as that can be seen.
+   *
+   * @param {{ radius: number }} robot
+   */
   of(robot) {
     return robot.radius
       ? Math.max((robot.radius / this.plan.roadmap.unit) * this.viewport.scale, SMALLEST_RADIUS)
@@ -39,7 +52,11 @@ export class MapSizes {
     return Math.min(Math.max(scale * 0.31, least, 1.8), most);
   }
 
-  /** Half the side of a robot's home. */
+  /**
+   * Half the side of a robot's home.
+   *
+   * @param {Robot} robot
+   */
   homeOf(robot) {
     const inCell = this.plan.roadmap.rows ? this.viewport.scale * 0.345 : 0;
     return this.plan.roadmap.rows && robot.radius ? inCell : Math.max(inCell, this.of(robot) + 1.5);

@@ -1,5 +1,20 @@
+import { lastOf } from "./arrays.js";
 import { footOn } from "./map_marks.js";
 import { disc, dot, haloed, line, ring } from "./shapes.js";
+
+/** @import { Choice } from "./choice.js" */
+/** @import { Moments } from "./clock.js" */
+/** @import { MapMarks } from "./map_marks.js" */
+/** @import { MapSizes } from "./map_sizes.js" */
+/** @import { Motion } from "./motion.js" */
+/** @import { Site } from "./site.js" */
+/** @import { Lane, Roadmap } from "./roadmap.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Closure } from "./site.js" */
+/** @import { Encounter, Space } from "./space.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Viewport } from "./viewport.js" */
+/** @import { Words } from "./words.js" */
 
 const LEAST_GAP = 2; // pixels between a robot and the ring of the room that it needs, for both to be seen
 
@@ -9,11 +24,35 @@ const LEAST_GAP = 2; // pixels between a robot and the ring of the room that it 
  * holder; and for the robot chosen what it excludes, and how near the next robot is.
  */
 export class MapSpace {
+  /**
+   * @param {Site} plan
+   * @param {Motion} motion
+   * @param {Moments} clock
+   * @param {Space} space
+   * @param {Viewport} viewport
+   * @param {MapSizes} sizes
+   * @param {Theme} theme
+   * @param {Choice} choice
+   * @param {MapMarks} marks
+   */
   constructor(plan, motion, clock, space, viewport, sizes, theme, choice, marks) {
-    Object.assign(this, { plan, motion, clock, space, viewport, sizes, theme, choice, marks });
+    this.plan = plan;
+    this.motion = motion;
+    this.clock = clock;
+    this.space = space;
+    this.viewport = viewport;
+    this.sizes = sizes;
+    this.theme = theme;
+    this.choice = choice;
+    this.marks = marks;
   }
 
-  /** Paint in map units, below the robots. */
+  /**
+   * Paint in map units, below the robots.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} scale
+   */
   paint(context, scale) {
     this.#zones(context, scale);
     if (this.choice.space) {
@@ -23,7 +62,12 @@ export class MapSpace {
     for (const closure of this.plan.closures) this.#closure(context, closure, scale);
   }
 
-  /** Paint in map units, over the robots: the room that each needs, and the line to the nearest. */
+  /**
+   * Paint in map units, over the robots: the room that each needs, and the line to the nearest.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} scale
+   */
   paintOver(context, scale) {
     if (!this.choice.space) return;
     const { x, y } = this.motion;
@@ -38,9 +82,9 @@ export class MapSpace {
     this.#encounter = this.#findEncounter();
     if (!this.#encounter) return;
     const [one, other] = [this.choice.robotIndex, this.#encounter.other.index];
-    for (const [colour, width] of [
-      [this.theme.paper, 5],
-      [this.theme.ink, 2],
+    for (const { colour, width } of [
+      { colour: this.theme.paper, width: 5 },
+      { colour: this.theme.ink, width: 2 },
     ]) {
       context.strokeStyle = colour;
       context.lineWidth = width / scale;
@@ -50,9 +94,15 @@ export class MapSpace {
     }
   }
 
+  /** @type {Omit<Encounter, "tick"> | null} */
   #encounter = null;
 
-  /** Write the distance above both robots, or below, in pixels of the canvas. */
+  /**
+   * Write the distance above both robots, or below, in pixels of the canvas.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Words} words
+   */
   write(context, words) {
     if (!this.choice.space || !this.#encounter) return;
     const { left, top, scale } = this.viewport;
@@ -92,13 +142,21 @@ export class MapSpace {
     return { other, distance, room: this.plan.room(robot, other) };
   }
 
-  /** Half the width of what a robot books, in map units. */
+  /**
+   * Half the width of what a robot books, in map units.
+   *
+   * @param {Robot} robot
+   */
   #half(robot) {
     return robot.radius
       ? (robot.radius + this.plan.clearance / 2) / this.plan.roadmap.unit
       : this.sizes.of(robot) / this.viewport.scale;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} scale
+   */
   #zones(context, scale) {
     context.lineCap = context.lineJoin = "round";
     context.lineWidth = this.sizes.zone / scale;
@@ -111,7 +169,13 @@ export class MapSpace {
     context.lineCap = "butt";
   }
 
-  /** A closed vertex or lane has a sign; while it is not closed, the sign is an outline. */
+  /**
+   * A closed vertex or lane has a sign; while it is not closed, the sign is an outline.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Closure} options
+   * @param {number} scale
+   */
   #closure(context, { vertices, from, until, radius }, scale) {
     const { x, y, unit } = this.plan.roadmap;
     const isNow = from <= this.clock.tick && this.clock.tick < until;
@@ -119,7 +183,7 @@ export class MapSpace {
     context.lineCap = context.lineJoin = "round";
     context.beginPath();
     for (const vertex of vertices) context.lineTo(x[vertex], y[vertex]);
-    dot(context, x[vertices.at(-1)], y[vertices.at(-1)]);
+    dot(context, x[lastOf(vertices)], y[lastOf(vertices)]);
     if (isNow && radius) {
       context.globalAlpha = 0.14;
       context.lineWidth = (2 * radius) / unit;
@@ -141,6 +205,11 @@ export class MapSpace {
     context.globalAlpha = 1;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {number} scale
+   */
   #band(context, robot, scale) {
     const { x, y } = this.plan.roadmap;
     const { vertices, edges } = this.space.heldBy(robot);
@@ -156,7 +225,13 @@ export class MapSpace {
     context.lineCap = "butt";
   }
 
-  /** Vertices and lanes that the smallest other robot may not book now because of this one. */
+  /**
+   * Vertices and lanes that the smallest other robot may not book now because of this one.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {number} scale
+   */
   #excluded(context, robot, scale) {
     const { roadmap } = this.plan;
     const others = this.plan.robots.filter((other) => other !== robot);
@@ -166,7 +241,8 @@ export class MapSpace {
     );
     const limit = this.plan.room(robot, least) / roadmap.unit - 1e-9;
     const { vertices, edges } = this.space.heldBy(robot);
-    const shapes = [...vertices.map((vertex) => [vertex, vertex]), ...edges];
+    const points = vertices.map((vertex) => /** @type {Lane} */ ([vertex, vertex]));
+    const shapes = [...points, ...edges];
     const { x: xs, y: ys } = roadmap;
     const corners = shapes.flat();
     const [left, right] = [
@@ -177,23 +253,33 @@ export class MapSpace {
       Math.min(...corners.map((at) => ys[at])) - limit,
       Math.max(...corners.map((at) => ys[at])) + limit,
     ];
+    /**
+     * @param {number} tail
+     * @param {number} head
+     */
     const isAround = (tail, head) =>
       Math.max(xs[tail], xs[head]) > left &&
       Math.min(xs[tail], xs[head]) < right &&
       Math.max(ys[tail], ys[head]) > top &&
       Math.min(ys[tail], ys[head]) < bottom;
+    /**
+     * @param {number} tail
+     * @param {number} head
+     */
     const isNear = (tail, head) =>
       isAround(tail, head) &&
       shapes.some((shape) => lanesApart(roadmap, shape, [tail, head]) < limit);
+    /**
+     * @param {number} tail
+     * @param {number} head
+     */
     const isOwn = (tail, head) =>
       edges.some(([from, to]) => (from === tail && to === head) || (from === head && to === tail));
     context.strokeStyle = this.theme.held;
     context.lineWidth = 2 / scale;
     context.setLineDash([5 / scale, 4 / scale]);
     context.beginPath();
-    for (const [tail, head] of roadmap.lanes
-      ? [...roadmap.lanes.bothWays, ...roadmap.lanes.oneWay]
-      : []) {
+    for (const [tail, head] of [...roadmap.lanes.bothWays, ...roadmap.lanes.oneWay]) {
       if (!isOwn(tail, head) && isNear(tail, head))
         line(context, xs[tail], ys[tail], xs[head], ys[head]);
     }
@@ -211,11 +297,27 @@ export class MapSpace {
   }
 }
 
-/** How far apart two lanes or vertices are, each given by its ends, in map units. */
+/**
+ * How far apart two lanes or vertices are, each given by its ends, in map units.
+ *
+ * @param {Roadmap} roadmap
+ * @param {Lane} options
+ * @param {Lane} other
+ */
 function lanesApart(roadmap, [a, b], [c, d]) {
   const { x, y } = roadmap;
+  /**
+   * @param {number} p
+   * @param {number} q
+   * @param {number} r
+   */
   const turn = (p, q, r) => (x[q] - x[p]) * (y[r] - y[p]) - (y[q] - y[p]) * (x[r] - x[p]);
   if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0) return 0;
+  /**
+   * @param {number} vertex
+   * @param {number} tail
+   * @param {number} head
+   */
   const gap = (vertex, tail, head) => {
     const [footX, footY] = footOn(roadmap, vertex, tail, head);
     return Math.hypot(x[vertex] - footX, y[vertex] - footY);

@@ -1,19 +1,55 @@
 import { nearest } from "./arrays.js";
-import { element, swatch } from "./dom.js";
+import { all, element, swatch } from "./dom.js";
 import { texts } from "./language.js";
 import { DRIVE } from "./phases.js";
 import { several } from "./words.js";
+
+/** @import { Choice } from "./choice.js" */
+/** @import { Moments } from "./clock.js" */
+/** @import { MapSizes } from "./map_sizes.js" */
+/** @import { Motion } from "./motion.js" */
+/** @import { Site } from "./site.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Space } from "./space.js" */
+/** @import { Use } from "./use.js" */
+/** @import { Viewport } from "./viewport.js" */
+/** @import { Words } from "./words.js" */
+
+/** @typedef {{ text: string, kind?: string, robot?: Robot }} Line */
 
 const TIP_GAP = 16; // pixels from the pointer
 
 /** What is under the pointer, beside it: a robot and what it does, a place and the robot there, coordinates. */
 export class MapTip {
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {Site} plan
+   * @param {Motion} motion
+   * @param {Moments} clock
+   * @param {Choice} choice
+   * @param {Words} words
+   * @param {Use} use
+   * @param {Space} space
+   */
   constructor(canvas, plan, motion, clock, choice, words, use, space) {
-    Object.assign(this, { canvas, plan, motion, clock, choice, words, use, space });
-    this.box = canvas.parentElement.querySelector(".hover");
+    this.canvas = canvas;
+    this.plan = plan;
+    this.motion = motion;
+    this.clock = clock;
+    this.choice = choice;
+    this.words = words;
+    this.use = use;
+    this.space = space;
+    this.box = all(".hover", HTMLElement, canvas.parentElement ?? document)[0];
+    this.text = "";
   }
 
-  /** The pointer is elsewhere. */
+  /**
+   * The pointer is elsewhere.
+   *
+   * @param {Viewport} viewport
+   * @param {MapSizes} sizes
+   */
   show(viewport, sizes) {
     this.refresh(viewport, sizes);
     if (this.box.hidden) return;
@@ -28,7 +64,12 @@ export class MapTip {
     this.box.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
   }
 
-  /** Time goes on below a pointer that rests. */
+  /**
+   * Time goes on below a pointer that rests.
+   *
+   * @param {Viewport} viewport
+   * @param {MapSizes} sizes
+   */
   refresh(viewport, sizes) {
     const { x, y } = viewport.pointer;
     const lines = Number.isNaN(x) ? [] : this.#about(x, y, sizes.robot / viewport.scale);
@@ -43,6 +84,12 @@ export class MapTip {
     );
   }
 
+  /**
+   * @param {number} x
+   * @param {number} y
+   * @param {number} radius
+   * @returns {Line[]}
+   */
   #about(x, y, radius) {
     const index = nearest(this.motion.x, this.motion.y, x, y, Math.max(radius * 1.2, 0.3));
     const vertex = this.plan.roadmap.near(x, y);
@@ -59,7 +106,12 @@ export class MapTip {
     ];
   }
 
-  /** Its name, what it does, since when and until when. */
+  /**
+   * Its name, what it does, since when and until when.
+   *
+   * @param {Robot} robot
+   * @returns {Line[]}
+   */
   #aboutRobot(robot) {
     const { words } = this;
     if (this.plan.isStill) return [{ text: robot.name, robot, kind: "title" }];
@@ -79,10 +131,15 @@ export class MapTip {
     return [{ text: robot.name, robot, kind: "title" }, { text: `${does}, ${times}` }];
   }
 
-  /** The zones of a place, and the robot that holds each. */
+  /**
+   * The zones of a place, and the robot that holds each.
+   *
+   * @param {number} vertex
+   * @returns {Line[]}
+   */
   #aboutZones(vertex) {
     const zones = this.space.zonesOf.get(String(vertex)) ?? [];
-    const holders = zones.length ? this.space.zoneHolders : null;
+    const holders = zones.length ? this.space.zoneHolders : new Map();
     return zones.map((zone) => {
       const { name } = this.plan.roadmap.zones[zone];
       const robot = holders.get(zone);
@@ -90,7 +147,12 @@ export class MapTip {
     });
   }
 
-  /** Its name, the robot there if it was not named yet, and the next robot. */
+  /**
+   * Its name, the robot there if it was not named yet, and the next robot.
+   *
+   * @param {number} vertex
+   * @param {number} named
+   */
   #aboutPlace(vertex, named) {
     const now = this.clock.tick;
     const { words } = this;
@@ -101,6 +163,7 @@ export class MapTip {
       ([robot, visit]) => robot.enter[visit] <= now && now < robot.leave(visit),
     );
     const next = visits.find(([robot, visit]) => robot.enter[visit] > now);
+    /** @type {Line[]} */
     const lines = [{ text: this.#placeName(vertex), kind: "title" }];
     if (this.plan.isStill) return lines;
     if (here && here[0].index !== named) {
@@ -119,7 +182,11 @@ export class MapTip {
     return lines;
   }
 
-  /** Where a place is, its name, and whose home or stop it is. */
+  /**
+   * Where a place is, its name, and whose home or stop it is.
+   *
+   * @param {number} vertex
+   */
   #placeName(vertex) {
     const homes = this.plan.robots.filter((robot) => robot.home === vertex).map(({ name }) => name);
     const stops = (this.plan.stops.get(vertex) ?? []).map(({ name }) => name);
@@ -132,7 +199,12 @@ export class MapTip {
     return [roadmap.where(vertex), name, roadmap.uses(vertex), ...uses].filter(Boolean).join(", ");
   }
 
-  /** Coordinates in the site's frame, to a hundredth of a cell or so. */
+  /**
+   * Coordinates in the site's frame, to a hundredth of a cell or so.
+   *
+   * @param {number} x
+   * @param {number} y
+   */
   #position(x, y) {
     const { roadmap, quantities } = this.plan;
     const digits = Math.max(0, Math.ceil(-Math.log10(roadmap.unit / 50)));

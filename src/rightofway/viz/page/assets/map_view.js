@@ -1,7 +1,7 @@
-import { nearest } from "./arrays.js";
-import { Layer, fitCanvas } from "./canvas.js";
+import { lastOf, nearest } from "./arrays.js";
+import { Layer, contextOf, fitCanvas } from "./canvas.js";
 import { Choice } from "./choice.js";
-import { element, link } from "./dom.js";
+import { byId, element, link } from "./dom.js";
 import { texts } from "./language.js";
 import { MapBase } from "./map_base.js";
 import { MapNames } from "./map_names.js";
@@ -17,8 +17,27 @@ import { Use } from "./use.js";
 import { Viewport } from "./viewport.js";
 import { Words } from "./words.js";
 
+/** @import { Site } from "./site.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Moments } from "./clock.js" */
+/** @import { Bottleneck } from "./bottleneck.js" */
+
+/**
+ * What a map shares with other views of the same plan.
+ *
+ * @typedef {object} MapParts
+ * @property {Motion} [motion]
+ * @property {Motion} [ghosts] where robots are by plan
+ * @property {Moments} [clock]
+ * @property {Choice} [choice]
+ * @property {Words} [words]
+ * @property {Use} [use]
+ * @property {Bottleneck | null} [bottleneck]
+ * @property {boolean} [tools] whether buttons of the page act on it
+ */
+
 /** The moment of a map on which nothing moves. */
-const STILL = Object.freeze({ tick: 0, playing: false });
+const STILL = Object.freeze({ tick: 0, playing: false, loop: null, pause() {}, seek() {} });
 
 /**
  * The map: what does not move is painted once, robots at each frame. Of a `Site` alone it needs canvas,
@@ -26,6 +45,12 @@ const STILL = Object.freeze({ tick: 0, playing: false });
  * an element with room for a tip (class `hover`); without `tools`, no button of the page acts on it.
  */
 export class MapView {
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {Site} plan
+   * @param {Theme} theme
+   * @param {MapParts} [options]
+   */
   constructor(
     canvas,
     plan,
@@ -41,8 +66,14 @@ export class MapView {
       tools = false,
     } = {},
   ) {
-    Object.assign(this, { canvas, motion, clock, choice, words, use, bottleneck });
-    this.context = canvas.getContext("2d");
+    this.canvas = canvas;
+    this.motion = motion;
+    this.clock = clock;
+    this.choice = choice;
+    this.words = words;
+    this.use = use;
+    this.bottleneck = bottleneck;
+    this.context = contextOf(canvas);
     this.roadmap = plan.roadmap;
     this.viewport = new Viewport(canvas, plan.roadmap, plan.largestRadius / plan.roadmap.unit);
     this.sizes = new MapSizes(plan, this.viewport);
@@ -68,7 +99,10 @@ export class MapView {
     this.route = new MapRoute(plan, motion, this.sizes, theme, choice);
     this.names = new MapNames(plan, motion, this.viewport, this.sizes, clock, theme, choice, use);
     this.tip = new MapTip(canvas, plan, motion, clock, choice, words, use, this.space);
-    canvas.parentElement.style.setProperty("--ratio", plan.roadmap.width / plan.roadmap.height);
+    canvas.parentElement?.style.setProperty(
+      "--ratio",
+      String(plan.roadmap.width / plan.roadmap.height),
+    );
     const { length } = plan.robots;
     canvas.setAttribute(
       "aria-label",
@@ -124,23 +158,28 @@ export class MapView {
     if (robotIndex >= 0) this.viewport.show(this.motion.x[robotIndex], this.motion.y[robotIndex]);
   }
 
+  /** @param {Site} plan */
   #listenToTools(plan) {
-    const press = (id, action) => document.getElementById(id).addEventListener("click", action);
+    /**
+     * @param {string} id
+     * @param {() => void} action
+     */
+    const press = (id, action) => byId(id).addEventListener("click", action);
     press("zoom-in", () => this.viewport.zoom(1.5));
     press("zoom-out", () => this.viewport.zoom(1 / 1.5));
     press("fit", () => this.viewport.fit());
     press("heat", () => this.choice.toggleHeat());
     press("corridor", () => this.choice.toggleCorridor());
     press("space", () => this.choice.toggleSpace());
-    document.getElementById("space").hidden = !plan.hasSpace;
+    byId("space").hidden = !plan.hasSpace;
     this.choice.on("space", () =>
-      document.getElementById("space").setAttribute("aria-pressed", this.choice.space),
+      byId("space").setAttribute("aria-pressed", String(this.choice.space)),
     );
     for (const event of ["space", "choice", "mode"])
       this.choice.on(event, () => this.#showClosest());
     this.choice.on("corridor", () => {
       const { picked, corridor } = this.choice;
-      document.getElementById("corridor").setAttribute("aria-pressed", Boolean(picked || corridor));
+      byId("corridor").setAttribute("aria-pressed", String(Boolean(picked || corridor)));
     });
     this.choice.on("heat", () => this.#showHeat());
     this.choice.on("mode", () => this.#showHeat());
@@ -148,7 +187,7 @@ export class MapView {
 
   /** The closest approach of the fleet, which one can go to, while no robot is chosen. */
   #showClosest() {
-    const legend = document.getElementById("space-legend");
+    const legend = byId("space-legend");
     const closest = this.choice.space && !this.choice.robot ? this.space.closest : null;
     legend.hidden = !closest;
     if (!closest) return;
@@ -168,14 +207,14 @@ export class MapView {
 
   /** The scale of the heat map is linear, with its unit. */
   #showHeat() {
-    document.getElementById("heat").setAttribute("aria-pressed", this.choice.heat);
-    document.getElementById("heat-legend").hidden = !this.choice.heat;
+    byId("heat").setAttribute("aria-pressed", String(this.choice.heat));
+    byId("heat-legend").hidden = !this.choice.heat;
     const marks = [0, this.use.most / 2, this.use.most];
     const times = [
       ...marks.slice(0, -1).map((ticks) => this.words.time(ticks)),
-      this.words.duration(marks.at(-1)),
+      this.words.duration(lastOf(marks)),
     ];
     const labels = times.map((text) => element("span", {}, text));
-    document.getElementById("heat-scale").replaceChildren(...labels);
+    byId("heat-scale").replaceChildren(...labels);
   }
 }

@@ -1,12 +1,24 @@
+import { all, byId } from "./dom.js";
+
+/** @import { Choice, Mode } from "./choice.js" */
+/** @import { Plan } from "./plan.js" */
+
+/** @type {Mode[]} */
 export const MODES = ["plan", "floor", "both"];
 
 /** What to show: the plan, what happened on the floor, or both. */
 export class ModeSwitch {
+  /**
+   * @param {Plan} plan
+   * @param {Choice} choice
+   */
   constructor(plan, choice) {
-    Object.assign(this, { plan, choice });
-    this.box = document.getElementById("mode");
+    this.plan = plan;
+    this.choice = choice;
+    this.box = byId("mode");
     this.box.hidden = !plan.happened;
-    this.box.addEventListener("change", (event) => choice.show(event.target.value));
+    for (const radio of all("input", HTMLInputElement, this.box))
+      radio.addEventListener("change", () => choice.show(modeOf(radio)));
     choice.on("mode", () => this.#show());
     this.#show();
   }
@@ -18,7 +30,12 @@ export class ModeSwitch {
   }
 
   #show() {
-    for (const radio of this.box.querySelectorAll("input"))
-      radio.checked = radio.value === this.choice.mode;
+    for (const radio of all("input", HTMLInputElement, this.box))
+      radio.checked = modeOf(radio) === this.choice.mode;
   }
+}
+
+/** @param {HTMLInputElement} radio */
+function modeOf({ value }) {
+  return MODES.find((mode) => mode === value) ?? "plan";
 }

@@ -2,8 +2,14 @@ import { lastAtMost } from "./arrays.js";
 import { DRIVE } from "./phases.js";
 import { pointAlong } from "./roadmap.js";
 
+/** @import { Robot } from "./robot.js" */
+/** @import { Roadmap } from "./roadmap.js" */
+
+/** @typedef {{ robots: readonly Robot[], roadmap: Roadmap }} Fleet The robots that are shown, which may change. */
+
 /** Where all robots are and what they do, at one instant. */
 export class Motion {
+  /** @param {Fleet} plan */
   constructor(plan) {
     const count = plan.robots.length;
     this.plan = plan;
@@ -17,17 +23,29 @@ export class Motion {
     this.moveTo(0);
   }
 
+  /** @type {readonly Robot[] | null} */
   #robots = null;
 
-  /** Go to a tick; `tickOf` may give robots ticks of their own. */
+  /**
+   * Go to a tick; `tickOf` may give robots ticks of their own.
+   *
+   * @param {number} tick
+   * @param {((robot: number) => number) | null} [tickOf]
+   */
   moveTo(tick, tickOf = null) {
     if (this.#robots !== this.plan.robots) this.phase.fill(0);
-    this.#robots = this.plan.robots;
+    const { robots } = this.plan;
+    this.#robots = robots;
     this.counts.fill(0);
-    for (const robot of this.#robots) this.#move(robot, tickOf ? tickOf(robot.index) : tick);
+    for (const robot of robots) this.#move(robot, tickOf ? tickOf(robot.index) : tick);
   }
 
-  /** While time runs on, a robot's next phase is this one or the next; else search. */
+  /**
+   * While time runs on, a robot's next phase is this one or the next; else search.
+   *
+   * @param {Robot} robot
+   * @param {number} tick
+   */
   #find(robot, tick) {
     const { begin } = robot.phases;
     const last = begin.length - 1;
@@ -40,6 +58,10 @@ export class Motion {
     return phase;
   }
 
+  /**
+   * @param {Robot} robot
+   * @param {number} tick
+   */
   #move(robot, tick) {
     const i = robot.index;
     this.ticks[i] = tick;

@@ -1,35 +1,60 @@
-import { element } from "./dom.js";
+import { byId, element } from "./dom.js";
 import { texts } from "./language.js";
+
+/** @import { Clock } from "./clock.js" */
+/** @import { Comparison } from "./comparison.js" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Words } from "./words.js" */
 
 const ROWS_ON_PAPER = 50;
 
 /** The page on paper: the head, the moment, and a table of the robots, in light colours. */
 export class Paper {
+  /**
+   * @param {Plan} plan
+   * @param {Clock} clock
+   * @param {Theme} theme
+   * @param {Words} words
+   * @param {Comparison | null} comparison
+   * @param {() => void} repaint
+   */
   constructor(plan, clock, theme, words, comparison, repaint) {
-    Object.assign(this, { plan, clock, theme, words, comparison, repaint });
+    this.plan = plan;
+    this.clock = clock;
+    this.theme = theme;
+    this.words = words;
+    this.comparison = comparison;
+    this.repaint = repaint;
     window.addEventListener("beforeprint", () => this.lay(true));
     window.addEventListener("afterprint", () => this.lay(false));
   }
 
-  /** Get ready for paper, or for the screen again. */
+  /**
+   * Get ready for paper, or for the screen again.
+   *
+   * @param {boolean} onPaper
+   */
   lay(onPaper) {
     document.documentElement.classList.toggle("on-paper", onPaper);
     this.theme.refresh();
     this.repaint();
     if (!onPaper) return;
-    document.getElementById("paper-moment").textContent = texts.mapAt(
+    byId("paper-moment").textContent = texts.mapAt(
       this.words.moment(this.clock.tick),
       this.words.time(this.clock.end),
     );
-    document
-      .getElementById("paper-robots")
-      .replaceChildren(...(this.comparison ? this.#comparedTable() : this.#table()));
+    byId("paper-robots").replaceChildren(
+      ...(this.comparison ? this.#comparedTable(this.comparison) : this.#table()),
+    );
   }
 
   get #end() {
     return texts.doneAt(this.plan.endsAtHome);
   }
 
+  /** @param {number} ticks */
   #time(ticks) {
     return ticks ? this.words.time(ticks) : "";
   }
@@ -59,8 +84,9 @@ export class Paper {
     );
   }
 
-  #comparedTable() {
-    const { words, comparison } = this;
+  /** @param {Comparison} comparison */
+  #comparedTable(comparison) {
+    const { words } = this;
     const { compared, plans } = comparison;
     const head = [
       texts.robot,
@@ -70,22 +96,35 @@ export class Paper {
     const found = new Map(compared.robots.map((robot) => [robot.name, robot]));
     return this.#rows(
       head,
-      ({ name }) => compared.largest(found.get(name)),
+      ({ name }) => {
+        const robot = found.get(name);
+        return robot ? compared.largest(robot) : 0;
+      },
       texts.differLess,
       (robot) => [
         robot.name,
         words.time(robot.completion),
-        ...found
-          .get(robot.name)
-          .completion.slice(1)
+        ...(found.get(robot.name)?.completion ?? [])
+          .slice(1)
           .map((ticks) => (ticks === null ? "" : compared.time(ticks))),
         ...comparison.changesOf(robot).map(([, change]) => change),
       ],
     );
   }
 
-  /** A row for each robot; of many, those with the largest values. */
+  /**
+   * A row for each robot; of many, those with the largest values.
+   *
+   * @param {string[]} head
+   * @param {(robot: Robot) => number} valueOf
+   * @param {string} less
+   * @param {(robot: Robot) => string[]} cellsOf
+   */
   #rows(head, valueOf, less, cellsOf) {
+    /**
+     * @param {"th" | "td"} tag
+     * @param {string[]} cells
+     */
     const row = (tag, cells) => element("tr", {}, ...cells.map((cell) => element(tag, {}, cell)));
     const most = this.plan.planned
       .toSorted((one, other) => valueOf(other) - valueOf(one))

@@ -1,3 +1,8 @@
+/** @import { Robot } from "./robot.js" */
+
+/** @typedef {{ begin: number[], activity: number[], visit: number[] }} Pushed */
+/** @typedef {ReturnType<typeof phasesOf>} Phases */
+
 /** What a robot does. */
 export const DRIVE = 0;
 export const WAIT = 1;
@@ -13,8 +18,11 @@ export const BROKEN = 6;
  * A robot stays at u for the edge's ticks and then, at one instant, is at w. For the eye it drives
  * along the edge during those ticks: a visit is work, turning, waiting, and at last the drive. On the
  * floor a robot may stand still by itself; one that does so while it drives is shown to do so before.
+ *
+ * @param {Robot} robot
  */
 export function phasesOf(robot) {
+  /** @type {Pushed} */
   const phases = { begin: [], activity: [], visit: [] };
   const last = robot.vertices.length - 1;
   let stage = 0;
@@ -23,6 +31,10 @@ export function phasesOf(robot) {
     const go =
       visit < last ? Math.max(leave - robot.drive[visit + 1], robot.enter[visit]) : robot.broken;
     let now = robot.enter[visit];
+    /**
+     * @param {number} ticks
+     * @param {number} activity
+     */
     const add = (ticks, activity) => {
       const end = Math.min(now + ticks + robot.stillIn(now, ticks), go);
       if (end > now) pushStill(phases, now, end, activity, visit, robot);
@@ -44,13 +56,23 @@ export function phasesOf(robot) {
     begin: Float64Array.from(phases.begin),
     activity: Uint8Array.from(phases.activity),
     visit: Int32Array.from(phases.visit),
+    /** @param {number} i */
     end(i) {
       return i + 1 < this.begin.length ? this.begin[i + 1] : Infinity;
     },
   };
 }
 
-/** An activity, but where the robot stands still by itself. */
+/**
+ * An activity, but where the robot stands still by itself.
+ *
+ * @param {Pushed} phases
+ * @param {number} begin
+ * @param {number} end
+ * @param {number} activity
+ * @param {number} visit
+ * @param {Robot} options
+ */
 function pushStill(phases, begin, end, activity, visit, { still }) {
   let now = begin;
   for (const [from, to] of still) {
@@ -62,7 +84,13 @@ function pushStill(phases, begin, end, activity, visit, { still }) {
   if (now < end) push(phases, now, activity, visit);
 }
 
-/** How it ends: with everything done, broken down, or waiting for ever behind a robot that is. */
+/**
+ * How it ends: with everything done, broken down, or waiting for ever behind a robot that is.
+ *
+ * @param {Pushed} phases
+ * @param {number} now
+ * @param {Robot} options
+ */
 function pushEnd(phases, now, { ending, broken, vertices }) {
   const visit = vertices.length - 1;
   if (ending !== BROKEN) push(phases, now, ending, visit);
@@ -72,6 +100,12 @@ function pushEnd(phases, now, { ending, broken, vertices }) {
   }
 }
 
+/**
+ * @param {Pushed} phases
+ * @param {number} begin
+ * @param {number} activity
+ * @param {number} visit
+ */
 function push(phases, begin, activity, visit) {
   phases.begin.push(begin);
   phases.activity.push(activity);

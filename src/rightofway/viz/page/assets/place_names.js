@@ -5,6 +5,16 @@ import { LONGEST_BAR } from "./scale_bar.js";
 import { disc, haloed, ring } from "./shapes.js";
 import { inkOn } from "./theme.js";
 
+/** @import { Choice } from "./choice.js" */
+/** @import { Box } from "./label_board.js" */
+/** @import { MapSizes } from "./map_sizes.js" */
+/** @import { Site } from "./site.js" */
+/** @import { Lane } from "./roadmap.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Use } from "./use.js" */
+/** @import { Viewport } from "./viewport.js" */
+/** @import { Robot } from "./robot.js" */
+
 const MOST_PLACES = 300; // names of places in sight
 const MOST_VERTICES = 1500; // in sight; of more, only homes and stops have names
 const NAMED_CELL = 40; // vertices of a grid have their names from this size on [pixels]
@@ -13,6 +23,10 @@ const FEW_MARKS = 24; // robots up to which homes and stops with a name on a gri
 const PLACE_TYPE = 12; // pixels
 const MOST_ANCHORS = 24; // vertices of a zone that its name may stand beside
 const LONGEST_MARK = 34; // characters of the name of a home, a stop or a station
+
+/** @typedef {{ robots: number[], homeOf: Robot | null, isStop: boolean }} Mark A home, a stop, or another place with a use. */
+/** @typedef {Map<number, Mark>} Marks By vertex. */
+/** @typedef {{ name: string, box: Box, font: string, ink: string, halo: string, isUpright?: boolean, isRinged?: boolean }} Spot Where a name stands. */
 
 /**
  * Names of vertices, obstacles and zones, and signs of speed limits, none over another: homes and
@@ -24,11 +38,26 @@ export class PlaceNames {
   routes = new LabelBoard(); // of the robots chosen
   #lanes = new LabelBoard();
   #widths = new TextWidths();
+  /** @type {FleetMemo<Marks>} */
   #marksOf;
+  /** @type {Spot[] | null} */
   #spots = null;
 
+  /**
+   * @param {Site} plan
+   * @param {Viewport} viewport
+   * @param {MapSizes} sizes
+   * @param {Theme} theme
+   * @param {Choice} choice
+   * @param {Use} use
+   */
   constructor(plan, viewport, sizes, theme, choice, use) {
-    Object.assign(this, { plan, viewport, sizes, theme, choice, use });
+    this.plan = plan;
+    this.viewport = viewport;
+    this.sizes = sizes;
+    this.theme = theme;
+    this.choice = choice;
+    this.use = use;
     this.#marksOf = new FleetMemo(plan, () => this.#usedPlaces());
   }
 
@@ -36,17 +65,29 @@ export class PlaceNames {
     this.#spots = null;
   }
 
-  /** Find the spots on a canvas of a given size; return how many there are. */
+  /**
+   * Find the spots on a canvas of a given size; return how many there are.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} width
+   * @param {number} height
+   */
   find(context, width, height) {
     this.#spots ??= this.#findSpots(context, width, height);
     return this.#spots.length;
   }
 
-  /** Write the names that no robot covers; return them with their boxes. */
+  /**
+   * Write the names that no robot covers; return them with their boxes.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {LabelBoard} robots
+   */
   write(context, robots) {
+    /** @type {{ name: string, box: Box }[]} */
     const written = [];
     context.textBaseline = "middle";
-    for (const { name, box, ink, font, halo, isUpright, isRinged } of this.#spots) {
+    for (const { name, box, ink, font, halo, isUpright, isRinged } of this.#spots ?? []) {
       if (!robots.isFree(...box)) continue;
       context.font = font;
       context.textAlign = "left";
@@ -63,6 +104,11 @@ export class PlaceNames {
     return written;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {string} text
+   * @param {Box} options
+   */
   #writeInRing(context, text, [left, top, right, bottom]) {
     const [x, y] = [(left + right) / 2, (top + bottom) / 2];
     context.fillStyle = this.theme.paper;
@@ -75,23 +121,31 @@ export class PlaceNames {
     context.fillText(text, x, y + 0.5);
   }
 
-  /** The names of places in sight and where they stand, the important ones first. */
+  /**
+   * The names of places in sight and where they stand, the important ones first.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} width
+   * @param {number} height
+   */
   #findSpots(context, width, height) {
     const { roadmap } = this.plan;
     const marks = this.#marksOf.value;
     this.#keepFree(marks, width, height);
+    /** @param {number} vertex */
     const isInSight = (vertex) => {
       const [x, y] = this.#pointOf(vertex);
       return x >= 0 && x <= width && y >= 0 && y <= height;
     };
     const inSight = [...this.#named(marks)].filter(isInSight);
+    /** @type {Spot[]} */
     const spots = [];
     for (const vertex of inSight.length > MOST_VERTICES
       ? inSight.filter((it) => marks.has(it) || this.choice.lit.includes(it))
       : inSight) {
       const mark = marks.get(vertex);
       const font = this.theme.font(PLACE_TYPE, mark ? 600 : 400);
-      const name = cut(roadmap.label(vertex), ...(mark ? [LONGEST_MARK] : []));
+      const name = cut(roadmap.label(vertex), mark && LONGEST_MARK);
       const box = this.#spot(vertex, this.#widths.of(context, name, font), mark);
       if (!box) continue;
       this.names.take(...box);
@@ -104,20 +158,24 @@ export class PlaceNames {
     return spots;
   }
 
-  /** Beside one of its vertices, or of the ends of its lanes. */
+  /**
+   * Beside one of its vertices, or of the ends of its lanes.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Spot[]} spots
+   */
   #nameZones(context, spots) {
     const font = this.theme.font(PLACE_TYPE, 600);
     for (const { name: whole, vertices, edges } of this.plan.roadmap.zones) {
       const name = cut(whole);
       const wide = this.#widths.of(context, name, font);
       const anchors = new Set([...vertices, ...edges.flat()]);
-      const boxes = [...anchors]
-        .slice(0, MOST_ANCHORS)
-        .flatMap((vertex) =>
-          SIDES.map((side) =>
-            boxBeside(...this.#pointOf(vertex), this.sizes.zone / 2, wide, PLACE_TYPE + 2, side),
-          ),
+      const boxes = [...anchors].slice(0, MOST_ANCHORS).flatMap((vertex) => {
+        const [x, y] = this.#pointOf(vertex);
+        return SIDES.map((side) =>
+          boxBeside(x, y, this.sizes.zone / 2, wide, PLACE_TYPE + 2, side),
         );
+      });
       const free = boxes.filter((box) => this.names.isFree(...box) && this.marks.isFree(...box));
       const box = free.find((each) => this.#lanes.isFree(...each)) ?? free[0];
       if (!box) continue;
@@ -126,7 +184,12 @@ export class PlaceNames {
     }
   }
 
-  /** The speed limit of a lane, in a ring on its middle or beside it. */
+  /**
+   * The speed limit of a lane, in a ring on its middle or beside it.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Spot[]} spots
+   */
   #signLimits(context, spots) {
     const { limits, usualLimit, x: xs, y: ys } = this.plan.roadmap;
     const font = this.theme.font(11, 600);
@@ -137,6 +200,7 @@ export class PlaceNames {
       const name = decimal(fraction(limit));
       const radius = Math.max(this.#widths.of(context, name, font) / 2 + 4, 9);
       const [one, other] = [this.#pointOf(tail), this.#pointOf(head)];
+      /** @type {Box[]} */
       const boxes = [0.5, 0.3, 0.7].map((share) => {
         const [x, y] = [one[0] + (other[0] - one[0]) * share, one[1] + (other[1] - one[1]) * share];
         return [x - radius, y - radius, x + radius, y + radius];
@@ -153,7 +217,12 @@ export class PlaceNames {
     return this.plan.roadmap.hasCells ? this.theme.floor : this.theme.paper;
   }
 
-  /** Along an obstacle or upwards in it, where there is room. */
+  /**
+   * Along an obstacle or upwards in it, where there is room.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Spot[]} spots
+   */
   #nameObstacles(context, spots) {
     const { left, top, scale } = this.viewport;
     const font = this.theme.font(PLACE_TYPE);
@@ -164,6 +233,7 @@ export class PlaceNames {
       const [across, down] = isUpright ? [PLACE_TYPE / 2 + 1, wide] : [wide, PLACE_TYPE / 2 + 1];
       if (2 * across > it.width * scale || 2 * down > it.height * scale) continue;
       const x = left + (it.left + it.width / 2) * scale;
+      /** @type {Box[]} */
       const boxes = [0.5, 1, 0].map((share) => {
         const y =
           top +
@@ -178,6 +248,10 @@ export class PlaceNames {
     }
   }
 
+  /**
+   * @param {number} vertex
+   * @param {boolean} isMark
+   */
   #colours(vertex, isMark) {
     const {
       theme,
@@ -188,12 +262,22 @@ export class PlaceNames {
     return { ink: isMark ? theme.ink : theme.muted, halo: this.#halo };
   }
 
+  /**
+   * @param {number} vertex
+   * @returns {[number, number]}
+   */
   #pointOf(vertex) {
     const { left, top, scale } = this.viewport;
     return [left + this.plan.roadmap.x[vertex] * scale, top + this.plan.roadmap.y[vertex] * scale];
   }
 
-  /** Marks, routes that are drawn, and on a roadmap lanes, that names rather do not cover. */
+  /**
+   * Marks, routes that are drawn, and on a roadmap lanes, that names rather do not cover.
+   *
+   * @param {Marks} marks
+   * @param {number} width
+   * @param {number} height
+   */
   #keepFree(marks, width, height) {
     for (const board of [this.names, this.marks, this.routes, this.#lanes])
       board.clear(width, height);
@@ -203,8 +287,10 @@ export class PlaceNames {
       width,
       height,
     ); // scale bar
-    for (const [vertex, mark] of marks)
-      this.marks.takeDisc(...this.#pointOf(vertex), this.#reach(mark));
+    for (const [vertex, mark] of marks) {
+      const [x, y] = this.#pointOf(vertex);
+      this.marks.takeDisc(x, y, this.#reach(mark));
+    }
     this.#keepRoutesFree(width, height);
     if (this.plan.roadmap.hasCells) return;
     const { bothWays, oneWay } = this.plan.roadmap.lanes;
@@ -212,11 +298,17 @@ export class PlaceNames {
       this.#takeLane(this.#lanes, lane, this.sizes.lane / 2, width, height);
   }
 
-  /** The routes that are drawn, each way once: as wide as their lines side by side. */
+  /**
+   * The routes that are drawn, each way once: as wide as their lines side by side.
+   *
+   * @param {number} width
+   * @param {number} height
+   */
   #keepRoutesFree(width, height) {
     const { routed } = this.choice;
     const half = routed.length * this.sizes.route.apart;
     const { size } = this.plan.roadmap;
+    /** @type {Map<number, Lane>} */
     const ways = new Map();
     for (const { vertices } of routed.map((index) => this.plan.robots[index])) {
       for (let visit = 1; visit < vertices.length; visit++) {
@@ -227,7 +319,15 @@ export class PlaceNames {
     for (const way of ways.values()) this.#takeLane(this.routes, way, half, width, height);
   }
 
-  /** Take a straight way on a board, in discs of a radius, where it may be in sight. */
+  /**
+   * Take a straight way on a board, in discs of a radius, where it may be in sight.
+   *
+   * @param {LabelBoard} board
+   * @param {Lane} options
+   * @param {number} radius
+   * @param {number} width
+   * @param {number} height
+   */
   #takeLane(board, [tail, head], radius, width, height) {
     const [[x, y], [toX, toY]] = [this.#pointOf(tail), this.#pointOf(head)];
     if (Math.max(x, toX) < 0 || Math.min(x, toX) > width) return;
@@ -239,13 +339,24 @@ export class PlaceNames {
     }
   }
 
-  /** How far a mark reaches from its vertex. */
+  /**
+   * How far a mark reaches from its vertex.
+   *
+   * @param {Mark} options
+   */
   #reach({ homeOf, isStop }) {
     if (homeOf) return this.sizes.homeOf(homeOf);
     return isStop ? this.sizes.stop : this.sizes.sign;
   }
 
-  /** A box for the name of a place, or null without room; names of homes and stops may cover a lane. */
+  /**
+   * A box for the name of a place, or null without room; names of homes and stops may cover a lane.
+   *
+   * @param {number} vertex
+   * @param {number} wide
+   * @param {Mark | undefined} mark
+   * @returns {Box | null}
+   */
   #spot(vertex, wide, mark) {
     const [x, y] = this.#pointOf(vertex);
     const high = PLACE_TYPE + 2;
@@ -261,34 +372,50 @@ export class PlaceNames {
     const boxes = SIDES.map((side) => boxBeside(x, y, radius, wide, high, side));
     const free = boxes.filter((box) => this.names.isFree(...box) && this.marks.isFree(...box));
     const apart = free.filter((box) => this.#lanes.isFree(...box));
+    /** @param {Box[]} some */
     const beside = (some) => some.find((box) => this.routes.isFree(...box));
     return beside(apart) ?? apart[0] ?? (mayCover ? (beside(free) ?? free[0] ?? null) : null);
   }
 
-  /** The vertices that may have a name, in the order of their importance. */
+  /**
+   * The vertices that may have a name, in the order of their importance.
+   *
+   * @param {Marks} marks
+   * @returns {Set<number>}
+   */
   #named(marks) {
     const { roadmap } = this.plan;
+    /** @param {number} vertex */
     const isChosen = (vertex) =>
-      marks
-        .get(vertex)
-        .robots.some((index) => this.choice.robotIndex >= 0 && this.choice.standsOut(index));
+      (marks.get(vertex)?.robots ?? []).some(
+        (index) => this.choice.robotIndex >= 0 && this.choice.standsOut(index),
+      );
     if (roadmap.hasCells && this.viewport.scale < NAMED_CELL) {
+      /** @param {number} vertex */
       const hasName = (vertex) => !roadmap.isMeasured || roadmap.stations.has(vertex);
       const shown = [...marks.keys()].filter(
         (vertex) => (this.plan.robots.length <= FEW_MARKS && hasName(vertex)) || isChosen(vertex),
       );
       return new Set([...this.choice.lit, ...(this.choice.decision?.vertices ?? []), ...shown]);
     }
-    const chosenFirst = [...marks.keys()].sort((one, other) => isChosen(other) - isChosen(one));
+    const chosenFirst = [...marks.keys()].sort(
+      (one, other) => Number(isChosen(other)) - Number(isChosen(one)),
+    );
     return new Set([...chosenFirst, ...Array(roadmap.size).keys()]);
   }
 
   /** The homes and stops, each with its robots, then stations, parking places and chargers. */
   #usedPlaces() {
+    /** @type {Marks} */
     const places = new Map();
+    /**
+     * @param {number} vertex
+     * @returns {Mark}
+     */
     const at = (vertex) => {
-      if (!places.has(vertex)) places.set(vertex, { robots: [], homeOf: null, isStop: false });
-      return places.get(vertex);
+      const known = places.get(vertex) ?? { robots: [], homeOf: null, isStop: false };
+      places.set(vertex, known);
+      return known;
     };
     for (const robot of this.plan.robots) {
       for (const vertex of [robot.home, ...robot.stages.map((stage) => stage.vertex)]) {

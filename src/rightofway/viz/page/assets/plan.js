@@ -3,8 +3,12 @@ import { giveLosses } from "./robot.js";
 import { Site } from "./site.js";
 import { Steady } from "./steady.js";
 
+/** @import { ComparisonData, Payload } from "./payload.d.ts" */
+/** @import { Robot } from "./robot.js" */
+
 /** All that the page knows of a plan, as payload.py wrote it. */
 export class Plan extends Site {
+  /** @param {Payload} raw */
   constructor(raw) {
     super(raw);
     this.end = Math.max(raw.end, raw.floor?.end ?? 0);
@@ -12,13 +16,14 @@ export class Plan extends Site {
     this.booksAhead = raw.booksAhead;
     this.line = raw.line.map(([vertex, at]) => ({ vertex, at })); // of a small fleet: its places in one line
     giveLosses(this.planned, raw.losses);
-    this.happened = raw.floor ? onTheFloor(raw, this.planned) : null;
+    this.happened = raw.floor ? onTheFloor(raw, raw.floor, this.planned) : null;
     this.robots = this.happened ?? this.planned;
-    this.steady = raw.steady ? new Steady(raw, this.planned) : null;
+    this.steady = raw.steady && raw.laps ? new Steady(raw.steady, raw.laps, this.planned) : null;
     this.faults = raw.faults.listed;
     this.faultCount = raw.faults.count;
     this.faultKinds = raw.faults.kinds; // how many of each kind
     this.noPlan = raw.noPlan ?? false; // all robots stay at home, and the faults say why
+    /** @type {Plan[]} */
     this.others = (raw.others ?? []).map((other) => new Plan({ map: raw.map, ...other })); // to compare with
     this.comparison = raw.comparison ?? null;
     if (this.comparison) this.#shareEnd();
@@ -28,20 +33,20 @@ export class Plan extends Site {
     this.metrics = raw.metrics;
   }
 
-  /** Whether there is more to see of bookings than places that one robot each stays at. */
-  get hasSpace() {
-    return this.largestRadius > 0 || this.roadmap.zones.length > 0;
-  }
-
   /** All plans that are compared end together, each in its own ticks. */
   #shareEnd() {
-    const { scales } = this.comparison;
+    const { scales } = /** @type {ComparisonData} */ (this.comparison);
     const plans = [this, ...this.others];
     const last = Math.max(...plans.map(({ end }, i) => end * scales[i]));
     plans.forEach((plan, i) => (plan.end = last / scales[i]));
   }
 
-  /** When a visit begins to book its vertex, and when it stops. */
+  /**
+   * When a visit begins to book its vertex, and when it stops.
+   *
+   * @param {Robot} robot
+   * @param {number} visit
+   */
   booking(robot, visit) {
     const approach = this.booksAhead && visit > 0 ? robot.drive[visit] : 0;
     return [robot.enter[visit] - approach, robot.leave(visit) + this.headway];

@@ -1,9 +1,22 @@
 import { texts } from "./language.js";
 
-/** Length of each unit of time [s]. */
+/** @import { UnitsData } from "./payload.d.ts" */
+
+/** @typedef {readonly [bigint, bigint]} Fraction Numerator and denominator. */
+
+/**
+ * Length of each unit of time [s].
+ *
+ * @type {Record<string, Fraction>}
+ */
 const SECONDS = { ms: [1n, 1000n], s: [1n, 1n], min: [60n, 1n], h: [3600n, 1n] };
 
-/** A number ("30313/700", 0.5, 1e-7) as an exact fraction: numerator and denominator. */
+/**
+ * A number ("30313/700", 0.5, 1e-7) as an exact fraction: numerator and denominator.
+ *
+ * @param {string | number} value
+ * @returns {Fraction}
+ */
 export function fraction(value) {
   const [top, bottom] = String(value).split("/");
   if (bottom) return [BigInt(top), BigInt(bottom)];
@@ -14,20 +27,34 @@ export function fraction(value) {
   return power < 0n ? [number, 10n ** -power] : [number * 10n ** power, 1n];
 }
 
-/** The whole number nearest to a fraction; a half is rounded away from zero. */
+/**
+ * The whole number nearest to a fraction; a half is rounded away from zero.
+ *
+ * @param {Fraction} options
+ */
 function halfUp([top, bottom]) {
   const magnitude = (2n * (top < 0n ? -top : top) + bottom) / (2n * bottom);
   return top < 0n ? -magnitude : magnitude;
 }
 
-/** A whole number of units of the last decimal, as text with `digits` decimals. */
+/**
+ * A whole number of units of the last decimal, as text with `digits` decimals.
+ *
+ * @param {bigint} number
+ * @param {number} digits
+ */
 function withPoint(number, digits) {
   const text = String(number < 0n ? -number : number).padStart(digits + 1, "0");
   const cut = text.length - digits;
   return `${number < 0n ? "-" : ""}${text.slice(0, cut)}${digits ? "." : ""}${text.slice(cut)}`;
 }
 
-/** A fraction with exactly `digits` decimals. */
+/**
+ * A fraction with exactly `digits` decimals.
+ *
+ * @param {Fraction} options
+ * @param {number} [digits]
+ */
 function fixed([top, bottom], digits = 2) {
   return withPoint(halfUp([top * 10n ** BigInt(digits), bottom]), digits);
 }
@@ -35,6 +62,9 @@ function fixed([top, bottom], digits = 2) {
 /**
  * A fraction as a person writes it: all decimals if `digits` are enough, else exactly `digits`, so
  * that a rounded number looks rounded; two significant digits for what would be 0.00.
+ *
+ * @param {Fraction} options
+ * @param {number} [digits]
  */
 export function decimal([top, bottom], digits = 2) {
   const scaled = top * 10n ** BigInt(digits);
@@ -47,37 +77,64 @@ export function decimal([top, bottom], digits = 2) {
 
 /** Times, lengths and speeds as people read them; the twin of model/quantities.py, case for case. */
 export class Quantities {
+  /** @type {Fraction} */
   #perTick;
 
-  /** `units` has `length` and `time`, each a name or null; `tick` is a numerator and a denominator. */
+  /**
+   * `units` has `length` and `time`, each a name or null; `tick` is a numerator and a denominator.
+   *
+   * @param {UnitsData} units
+   * @param {[number, number]} tick
+   */
   constructor(units, tick) {
     this.units = units;
-    this.#perTick = tick.map(BigInt);
-    this.seconds = SECONDS[units.time] ?? null;
+    this.#perTick = [BigInt(tick[0]), BigInt(tick[1])];
+    this.seconds = SECONDS[units.time ?? ""] ?? null;
   }
 
-  /** How long a number of ticks lasts: "6 min 23 s", "2 time units". */
+  /**
+   * How long a number of ticks lasts: "6 min 23 s", "2 time units".
+   *
+   * @param {number} ticks
+   */
   duration(ticks) {
     const time = this.#time(ticks);
     return this.seconds ? this.#clock(times(time, this.seconds)) : texts.timeUnits(decimal(time));
   }
 
-  /** A point in time: "6 min 23 s" after the start, "time 2". */
+  /**
+   * A point in time: "6 min 23 s" after the start, "time 2".
+   *
+   * @param {number} ticks
+   */
   moment(ticks) {
     return this.seconds ? this.duration(ticks) : texts.moment(this.cell(ticks));
   }
 
-  /** A time as the bare number of a table's cell. */
+  /**
+   * A time as the bare number of a table's cell.
+   *
+   * @param {number} ticks
+   */
   cell(ticks) {
     return decimal(this.#time(ticks));
   }
 
-  /** A time where there is little room: a duration, or a bare number where no unit is known. */
+  /**
+   * A time where there is little room: a duration, or a bare number where no unit is known.
+   *
+   * @param {number} ticks
+   */
   short(ticks) {
     return this.seconds ? this.duration(ticks) : this.cell(ticks);
   }
 
-  /** The same while time runs: always with `digits` decimals, so that the text does not jump. */
+  /**
+   * The same while time runs: always with `digits` decimals, so that the text does not jump.
+   *
+   * @param {number} ticks
+   * @param {number} [digits]
+   */
   running(ticks, digits = 1) {
     const time = this.#time(ticks);
     return this.seconds
@@ -85,7 +142,11 @@ export class Quantities {
       : fixed(time, digits);
   }
 
-  /** A length: "0.45 m", "0.45 length units". */
+  /**
+   * A length: "0.45 m", "0.45 length units".
+   *
+   * @param {string | number} value
+   */
   length(value) {
     const { length } = this.units;
     return length
@@ -93,7 +154,11 @@ export class Quantities {
       : texts.lengthUnits(decimal(fraction(value)));
   }
 
-  /** A speed: "1.2 m/s"; a bare number where the scenario names no units. */
+  /**
+   * A speed: "1.2 m/s"; a bare number where the scenario names no units.
+   *
+   * @param {string | number} value
+   */
   speed(value) {
     const { length, time } = this.units;
     return length && time
@@ -101,11 +166,18 @@ export class Quantities {
       : decimal(fraction(value));
   }
 
+  /** @param {number} ticks */
   #time(ticks) {
     return times(fraction(ticks), this.#perTick);
   }
 
-  /** A duration [s] in the parts that a person would say; `write` writes its seconds. */
+  /**
+   * A duration [s] in the parts that a person would say; `write` writes its seconds.
+   *
+   * @param {Fraction} options
+   * @param {(part: Fraction, digits?: number) => string} [write]
+   * @returns {string}
+   */
   #clock([top, bottom], write = decimal) {
     if (top < 0n) return `-${this.#clock([-top, bottom], write)}`;
     if (this.units.time === "ms" && top < bottom) return `${write([top * 1000n, bottom])} ms`;
@@ -116,6 +188,7 @@ export class Quantities {
       return `${tenths / 600n} min${rest || write !== decimal ? ` ${write([rest, 10n], 1)} s` : ""}`;
     }
     const seconds = halfUp([top, bottom]);
+    /** @type {[bigint, string][]} */
     const parts = [
       [seconds / 3600n, "h"],
       [(seconds / 60n) % 60n, "min"],
@@ -128,6 +201,11 @@ export class Quantities {
   }
 }
 
+/**
+ * @param {Fraction} options
+ * @param {Fraction} other
+ * @returns {Fraction}
+ */
 function times([top, bottom], [otherTop, otherBottom]) {
   return [top * otherTop, bottom * otherBottom];
 }

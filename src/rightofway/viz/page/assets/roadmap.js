@@ -2,35 +2,79 @@ import { fromDifferences, lastAtMost, nearest } from "./arrays.js";
 import { texts } from "./language.js";
 import { decimal, fraction } from "./quantities.js";
 
+/** @import { BackgroundData, CloseData, MapData, NetworkData } from "./payload.d.ts" */
+
 const PLACES = 3; // decimals of the middle of a cell
+
+/** @typedef {readonly [number, number]} Lane Tail and head. */
+/** @typedef {{ points: [number, number][], shares: number[] }} Curve A line, and the share of its length at which each point is. */
+/** @typedef {{ name: string, vertices: number[], edges: [number, number][] }} Zone */
 
 /**
  * The graph that robots drive on and what is marked on it, as map_data.py wrote it. It is laid out for
  * drawing: x to the right, y down, one unit a cell. `lengthUnit` is the unit of its lengths, or null.
  */
 export class Roadmap {
+  x = new Float64Array(0);
+  y = new Float64Array(0);
+
+  // of a grid
+  cells = new Int32Array(0); // the cell of each vertex, row by row
+  vertexAt = new Int32Array(0); // the vertex of each cell, or -1
+
+  // of vertices and lanes
+  /** @type {string[] | null} */
+  names = null;
+  tails = new Int32Array(0);
+  heads = new Int32Array(0);
+  /** @type {number[]} */
+  lengths = [];
+  /** @type {number[] | null} */
+  sides = null; // of the square cell round each vertex, where the map is cut into squares
+  /** @type {{ oneWay: Lane[], bothWays: Lane[] }} */
+  lanes = { oneWay: [], bothWays: [] };
+  /** @type {Map<number, Curve>} */
+  curves = new Map();
+  /** @type {{ tail: number, head: number, limit: string }[]} */
+  limits = [];
+  /** @type {string | null} */
+  usualLimit = null; // of most lanes
+  /** @type {Required<CloseData> | null} */
+  close = null; // nearer than robots need
+  /** @type {number[]} */
+  lonely = []; // vertices without a lane
+
+  /**
+   * @param {MapData} raw
+   * @param {string | null} [lengthUnit]
+   */
   constructor(raw, lengthUnit = null) {
     this.lengthUnit = lengthUnit;
     this.width = raw.width;
     this.height = raw.height;
-    this.rows = raw.rows ?? null;
+    this.rows = "rows" in raw ? raw.rows : null;
     this.frame = raw.frame; // where (0, 0) of the drawing is on the site, and whether y grows upwards there
     this.unit = raw.frame.unit; // length units in a unit of the drawing
+    /** @type {(BackgroundData & { image?: HTMLImageElement }) | null} */
     this.background = raw.background ?? null;
-    this.obstacles = (raw.obstacles ?? []).map(([name, left, top, width, height]) => ({
-      name,
-      left,
-      top,
-      width,
-      height,
-    }));
+    this.obstacles = (("rows" in raw && raw.obstacles) || []).map(
+      ([name, left, top, width, height]) => ({
+        name,
+        left,
+        top,
+        width,
+        height,
+      }),
+    );
+    /** @type {Map<number, string[]>} */
     this.stations = new Map(); // names of the stations at a vertex
     for (const [name, at] of raw.stations ?? [])
       this.stations.set(at, [...(this.stations.get(at) ?? []), name]);
     this.parking = new Set(raw.parking);
     this.charging = new Set(raw.charging);
+    /** @type {Zone[]} */
     this.zones = (raw.zones ?? []).map(([name, vertices, edges]) => ({ name, vertices, edges }));
-    if (this.rows) this.#readGrid();
+    if ("rows" in raw) this.#readGrid(raw.rows);
     else this.#readNetwork(raw);
     this.size = this.x.length;
   }
@@ -45,12 +89,20 @@ export class Roadmap {
     return this.hasCells && Boolean(this.lengthUnit);
   }
 
-  /** The name of a vertex in files, commands and addresses. */
+  /**
+   * The name of a vertex in files, commands and addresses.
+   *
+   * @param {number} vertex
+   */
   name(vertex) {
     return this.names ? this.names[vertex] : `N${this.cells[vertex]}`;
   }
 
-  /** Where a vertex is, as `Site.name` of the library writes it: the middle of a cell, or a name. */
+  /**
+   * Where a vertex is, as `Site.name` of the library writes it: the middle of a cell, or a name.
+   *
+   * @param {number} vertex
+   */
   where(vertex) {
     if (!this.isMeasured) return this.name(vertex);
     const middle = this.toSite(this.x[vertex], this.y[vertex]);
@@ -58,7 +110,11 @@ export class Roadmap {
     return `(${x},\u00a0${y})`; // in one line
   }
 
-  /** What a vertex is called on the map: where it is, and the stations there; these alone for a cell. */
+  /**
+   * What a vertex is called on the map: where it is, and the stations there; these alone for a cell.
+   *
+   * @param {number} vertex
+   */
   label(vertex) {
     const stations = this.stations.get(vertex) ?? [];
     const name = this.where(vertex);
@@ -66,7 +122,11 @@ export class Roadmap {
     return [name, ...stations.filter((station) => station !== name)].join(" · ");
   }
 
-  /** What a vertex is for: "station Press, parking"; empty for a vertex to pass. */
+  /**
+   * What a vertex is for: "station Press, parking"; empty for a vertex to pass.
+   *
+   * @param {number} vertex
+   */
   uses(vertex) {
     return [
       ...(this.stations.get(vertex) ?? []).map((name) =>
@@ -77,13 +137,23 @@ export class Roadmap {
     ].join(", ");
   }
 
-  /** The vertex of a name, or -1. */
+  /**
+   * The vertex of a name, or -1.
+   *
+   * @param {string | null} name
+   */
   vertexNamed(name) {
+    if (name === null) return -1;
     if (this.names) return this.names.indexOf(name);
     return /^N\d+$/.test(name) ? this.cells.indexOf(Number(name.slice(1))) : -1;
   }
 
-  /** Where a point of the drawing is in the site's frame [length unit]. */
+  /**
+   * Where a point of the drawing is in the site's frame [length unit].
+   *
+   * @param {number} x
+   * @param {number} y
+   */
   toSite(x, y) {
     const { frame, unit } = this;
     const [u, v, yaw] = [x * unit, (frame.yUp ? -y : y) * unit, frame.yaw ?? 0];
@@ -91,7 +161,12 @@ export class Roadmap {
     return [frame.x + cos * u - sin * v, frame.y + sin * u + cos * v];
   }
 
-  /** Where a point of the site [length unit] is in the drawing. */
+  /**
+   * Where a point of the site [length unit] is in the drawing.
+   *
+   * @param {number} siteX
+   * @param {number} siteY
+   */
   toDrawing(siteX, siteY) {
     const { frame, unit } = this;
     const [right, up, yaw] = [siteX - frame.x, siteY - frame.y, frame.yaw ?? 0];
@@ -100,7 +175,12 @@ export class Roadmap {
     return [u / unit, (frame.yUp ? -v : v) / unit];
   }
 
-  /** The named obstacle at a point of the drawing, or undefined. */
+  /**
+   * The named obstacle at a point of the drawing, or undefined.
+   *
+   * @param {number} x
+   * @param {number} y
+   */
   obstacleAt(x, y) {
     return this.obstacles.find(
       ({ left, top, width, height }) =>
@@ -108,7 +188,12 @@ export class Roadmap {
     );
   }
 
-  /** The vertex within half a unit of a point, or whose cell holds it, or -1. */
+  /**
+   * The vertex within half a unit of a point, or whose cell holds it, or -1.
+   *
+   * @param {number} x
+   * @param {number} y
+   */
   near(x, y) {
     if (this.sides)
       return this.sides.findIndex(
@@ -121,22 +206,40 @@ export class Roadmap {
     return this.vertexAt[row * this.width + column];
   }
 
+  /**
+   * @param {number} vertex
+   * @returns {[number, number]}
+   */
   #point(vertex) {
     return [this.x[vertex], this.y[vertex]];
   }
 
-  /** The curve of a lane, from tail to head or the other way round; undefined for a straight lane. */
+  /**
+   * The curve of a lane, from tail to head or the other way round; undefined for a straight lane.
+   *
+   * @param {number} tail
+   * @param {number} head
+   */
   curve(tail, head) {
-    return this.curves?.get(tail * this.size + head);
+    return this.curves.get(tail * this.size + head);
   }
 
-  /** The vertices that can be driven to from a vertex. */
+  /**
+   * The vertices that can be driven to from a vertex.
+   *
+   * @param {number} vertex
+   */
   next(vertex) {
     this.#next ??= this.rows ? this.#besideEach() : this.#headsOfEach();
     return this.#next[vertex];
   }
 
-  /** How long the way between two neighbours is [length unit]. */
+  /**
+   * How long the way between two neighbours is [length unit].
+   *
+   * @param {number} tail
+   * @param {number} head
+   */
   distance(tail, head) {
     if (this.rows) return this.unit;
     this.#lengths ??= new Map(
@@ -145,10 +248,13 @@ export class Roadmap {
         this.lengths[edge],
       ]),
     );
-    return this.#lengths.get(tail * this.size + head) ?? this.#lengths.get(head * this.size + tail);
+    const found = this.#lengths.get(tail * this.size + head);
+    return found ?? this.#lengths.get(head * this.size + tail) ?? NaN;
   }
 
+  /** @type {number[][] | null} */
   #next = null;
+  /** @type {Map<number, number> | null} */
   #lengths = null;
 
   #besideEach() {
@@ -160,20 +266,23 @@ export class Roadmap {
         [x - 1, y],
         [x, y - 1],
       ]
-        .map((cell) => this.near(...cell))
+        .map(([atX, atY]) => this.near(atX, atY))
         .filter((it) => it >= 0);
     });
   }
 
   #headsOfEach() {
+    /** @type {number[][]} */
     const heads = Array.from({ length: this.size }, () => []);
     this.tails.forEach((tail, edge) => heads[tail].push(this.heads[edge]));
     return heads;
   }
 
-  #readGrid() {
-    const text = this.rows.join("");
+  /** @param {string[]} rows */
+  #readGrid(rows) {
+    const text = rows.join("");
     this.vertexAt = new Int32Array(text.length).fill(-1);
+    /** @type {number[]} */
     const cells = [];
     for (let cell = 0; cell < text.length; cell++) {
       if (text[cell] === ".") this.vertexAt[cell] = cells.push(cell) - 1;
@@ -183,6 +292,7 @@ export class Roadmap {
     this.y = Float64Array.from(cells, (cell) => Math.floor(cell / this.width));
   }
 
+  /** @param {NetworkData} raw */
   #readNetwork(raw) {
     this.names = raw.names;
     this.x = Float64Array.from(raw.names, (_, vertex) => raw.points[2 * vertex]);
@@ -190,10 +300,11 @@ export class Roadmap {
     this.tails = fromDifferences(raw.tails, Int32Array);
     this.heads = fromDifferences(raw.heads, Int32Array);
     this.lengths = raw.lengths;
-    this.sides = raw.sides ?? null; // of the square cell round each vertex, where the map is cut into squares
+    this.sides = raw.sides ?? null;
     this.lanes = this.#sortLanes();
     this.curves = new Map(
       (raw.curves ?? []).map(([tail, head, ...flat]) => {
+        /** @type {[number, number][]} */
         const between = Array.from({ length: flat.length / 2 }, (_, i) => [
           flat[2 * i],
           flat[2 * i + 1],
@@ -206,13 +317,17 @@ export class Roadmap {
     );
     this.limits = this.#limitedLanes(raw.limits ?? []);
     this.usualLimit =
-      (raw.limits ?? []).find(([, edges]) => 2 * edges.length > this.tails.length)?.[0] ?? null; // of most lanes
-    this.close = { crossings: [], beside: [], vertices: [], ...raw.close }; // nearer than robots need
+      (raw.limits ?? []).find(([, edges]) => 2 * edges.length > this.tails.length)?.[0] ?? null;
+    this.close = { crossings: [], beside: [], vertices: [], ...raw.close };
     const joined = new Set([...this.tails, ...this.heads]);
-    this.lonely = Array.from(raw.names.keys()).filter((vertex) => !joined.has(vertex)); // vertices without a lane
+    this.lonely = Array.from(raw.names.keys()).filter((vertex) => !joined.has(vertex));
   }
 
-  /** Lanes with a speed limit, both directions as one where they have the same: { tail, head, limit }. */
+  /**
+   * Lanes with a speed limit, both directions as one where they have the same: { tail, head, limit }.
+   *
+   * @param {[string, number[]][]} groups
+   */
   #limitedLanes(groups) {
     const lanes = new Map();
     for (const [limit, edges] of groups) {
@@ -227,9 +342,10 @@ export class Roadmap {
 
   /** Pairs of vertices with a lane between them: for one way, and for both. */
   #sortLanes() {
-    const { tails, heads, names } = this;
-    const size = names.length;
+    const { tails, heads } = this;
+    const size = this.x.length;
     const edges = new Set(Array.from(tails, (tail, edge) => tail * size + heads[edge]));
+    /** @type {{ oneWay: Lane[], bothWays: Lane[] }} */
     const lanes = { oneWay: [], bothWays: [] };
     tails.forEach((tail, edge) => {
       const head = heads[edge];
@@ -240,7 +356,11 @@ export class Roadmap {
   }
 }
 
-/** Points of a line with the share of its length at which each is. */
+/**
+ * Points of a line with the share of its length at which each is.
+ *
+ * @param {[number, number][]} points
+ */
 function measured(points) {
   const along = [0];
   for (let i = 1; i < points.length; i++) {
@@ -248,10 +368,15 @@ function measured(points) {
       along[i - 1] + Math.hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]),
     );
   }
-  return { points, shares: along.map((length) => length / along.at(-1)) };
+  return { points, shares: along.map((length) => length / along[along.length - 1]) };
 }
 
-/** Where a share of a measured line is over: x, y and the direction there [rad]. */
+/**
+ * Where a share of a measured line is over: x, y and the direction there [rad].
+ *
+ * @param {Curve} options
+ * @param {number} share
+ */
 export function pointAlong({ points, shares }, share) {
   const piece = Math.min(lastAtMost(shares, share), points.length - 2);
   const [[x, y], [toX, toY]] = [points[piece], points[piece + 1]];

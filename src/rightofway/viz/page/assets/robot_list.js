@@ -1,16 +1,38 @@
-import { element, swatch } from "./dom.js";
+import { byId, element, swatch } from "./dom.js";
 import { connectFind, matches } from "./find.js";
+import { FloorRobot } from "./floor.js";
 import { texts } from "./language.js";
 import { BROKEN, WAIT } from "./phases.js";
 import { VirtualList } from "./virtual_list.js";
 
+/** @import { Choice } from "./choice.js" */
+/** @import { Clock } from "./clock.js" */
+/** @import { Motion } from "./motion.js" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Words } from "./words.js" */
+/** @import { ListRow } from "./virtual_list.js" */
+
+/** @typedef {ListRow<Robot> & { state?: HTMLElement, late?: HTMLElement }} RobotRow */
+
 /** All robots: what they do now, when they are done, how much the others cost them. */
 export class RobotList {
+  /**
+   * @param {Plan} plan
+   * @param {Motion} motion
+   * @param {Clock} clock
+   * @param {Choice} choice
+   * @param {Words} words
+   */
   constructor(plan, motion, clock, choice, words) {
-    Object.assign(this, { plan, motion, clock, choice, words });
-    this.find = document.getElementById("find-robot");
-    this.sort = document.getElementById("sort");
-    this.list = new VirtualList(document.getElementById("robot-list"), {
+    this.plan = plan;
+    this.motion = motion;
+    this.clock = clock;
+    this.choice = choice;
+    this.words = words;
+    this.find = byId("find-robot", HTMLInputElement);
+    this.sort = byId("sort");
+    this.list = new VirtualList(byId("robot-list"), {
       rowHeight: 34,
       none: texts.noRobotNamed,
       fill: (row, robot) => this.#fill(row, robot),
@@ -20,7 +42,7 @@ export class RobotList {
     this.sort.addEventListener("click", () => this.#toggleSort());
     choice.on("choice", () => this.list.setChosen(choice.robot));
     choice.on("mode", () => this.#select());
-    this.sort.hidden = plan.steady && !plan.happened; // robots make different numbers of laps
+    this.sort.hidden = Boolean(plan.steady && !plan.happened); // robots make different numbers of laps
     this.#select();
   }
 
@@ -37,30 +59,46 @@ export class RobotList {
   }
 
   #toggleSort() {
-    this.sort.setAttribute("aria-pressed", this.sort.getAttribute("aria-pressed") !== "true");
+    this.sort.setAttribute(
+      "aria-pressed",
+      String(this.sort.getAttribute("aria-pressed") !== "true"),
+    );
     this.#select();
     this.list.box.scrollTop = 0;
   }
 
+  /**
+   * @param {RobotRow} row
+   * @param {Robot} robot
+   */
   #fill(row, robot) {
     const state = this.#state(robot);
     if (row.filled !== robot) this.#make(row, robot);
-    if (row.state.textContent !== state) row.state.textContent = state;
+    if (row.state && row.state.textContent !== state) row.state.textContent = state;
     const now = this.#now(robot);
-    if (now !== null && row.late.textContent !== now) row.late.textContent = now;
+    if (row.late && now !== null && row.late.textContent !== now) row.late.textContent = now;
   }
 
+  /** @param {Robot} robot */
   #state(robot) {
     return this.#isStuck(robot) ? texts.stuck : texts.activities[this.motion.activity[robot.index]];
   }
 
-  /** Whether it waits for ever, and already longer than planned. */
+  /**
+   * Whether it waits for ever, and already longer than planned.
+   *
+   * @param {Robot} robot
+   */
   #isStuck(robot) {
     const phase = this.motion.phase[robot.index];
     if (robot.ending !== WAIT || phase < robot.phases.begin.length - 1) return false;
-    return !robot.planned || this.clock.tick >= robot.unplannedFrom(phase);
+    return !(robot instanceof FloorRobot) || this.clock.tick >= robot.unplannedFrom(phase);
   }
 
+  /**
+   * @param {RobotRow} row
+   * @param {Robot} robot
+   */
   #make(row, robot) {
     row.filled = robot;
     row.state = element("span", { className: "state" });
@@ -74,7 +112,12 @@ export class RobotList {
     );
   }
 
-  /** When it is done, and what of that it owes to the others. */
+  /**
+   * When it is done, and what of that it owes to the others.
+   *
+   * @param {HTMLElement} late
+   * @param {Robot} robot
+   */
   #times(late, robot) {
     late.append(element("span", {}, this.words.time(robot.completion)), " ");
     if (robot.delay > 0) late.append(element("small", {}, `+${this.words.time(robot.delay)}`));
@@ -82,10 +125,14 @@ export class RobotList {
     late.title = texts.doneAloneAt(this.plan.endsAtHome, done, alone);
   }
 
-  /** How late it is at this moment, or which lap it is on; null where there is no such thing. */
+  /**
+   * How late it is at this moment, or which lap it is on; null where there is no such thing.
+   *
+   * @param {Robot} robot
+   */
   #now(robot) {
     const { index } = robot;
-    if (robot.planned) {
+    if (robot instanceof FloorRobot) {
       if (this.motion.activity[index] === BROKEN || this.#isStuck(robot)) return "";
       return this.words.lateness(
         robot.lateness(this.clock.wholeTick, robot.phases.visit[this.motion.phase[index]]),
@@ -99,7 +146,11 @@ export class RobotList {
   }
 }
 
-/** What a robot loses: to the others in a plan, against the plan on the floor. */
+/**
+ * What a robot loses: to the others in a plan, against the plan on the floor.
+ *
+ * @param {Robot} robot
+ */
 function lost(robot) {
-  return robot.planned ? robot.delayInAll : robot.delay;
+  return robot instanceof FloorRobot ? robot.delayInAll : robot.delay;
 }

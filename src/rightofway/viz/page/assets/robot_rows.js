@@ -1,7 +1,14 @@
-import { paintRowNames } from "./axis.js";
+import { Area, paintRowNames } from "./axis.js";
+import { FloorRobot } from "./floor.js";
 import { texts } from "./language.js";
 import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "./phases.js";
 import { crossedOut, stripes } from "./shapes.js";
+
+/** @import { Bottleneck } from "./bottleneck.js" */
+/** @import { Choice } from "./choice.js" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Theme } from "./theme.js" */
 
 export const MOST_ROWS = 60;
 const HIGHEST_ROW = 52; // pixels
@@ -10,8 +17,19 @@ const ROW_WITH_GHOST = 9; // pixels; in lower rows only the end of the plan is m
 
 /** A row for each robot: a line while it drives, a frame while it waits, a block while it works. */
 export class RobotRows {
+  /**
+   * @param {Plan} plan
+   * @param {Theme} theme
+   * @param {Choice} choice
+   * @param {Bottleneck} bottleneck
+   */
   constructor(plan, theme, choice, bottleneck) {
-    Object.assign(this, { plan, theme, choice, bottleneck });
+    this.plan = plan;
+    this.theme = theme;
+    this.choice = choice;
+    this.bottleneck = bottleneck;
+    this.area = new Area(0, 0, plan.end); // until the first frame
+    this.rowHeight = HIGHEST_ROW;
   }
 
   get title() {
@@ -20,6 +38,10 @@ export class RobotRows {
     return mode === "plan" ? texts.rows.title : texts.rows.floor + planned;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   */
   paint(context, area) {
     this.area = area;
     this.rowHeight = Math.min(area.height / this.plan.robots.length, HIGHEST_ROW);
@@ -30,7 +52,11 @@ export class RobotRows {
     for (const robot of this.choice.beside ?? []) this.#ghost(context, robot);
   }
 
-  /** The row of a robot. */
+  /**
+   * The row of a robot.
+   *
+   * @param {Robot} robot
+   */
   #lane(robot) {
     return { top: this.#middle(robot.index) - this.rowHeight / 2, height: this.rowHeight };
   }
@@ -39,7 +65,12 @@ export class RobotRows {
     return this.choice.beside && this.rowHeight >= ROW_WITH_GHOST;
   }
 
-  /** The plan beside it as a thin row at the upper edge: a line, with blocks where the robot works or turns. */
+  /**
+   * The plan beside it as a thin row at the upper edge: a line, with blocks where the robot works or turns.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   */
   #ghost(context, robot) {
     const { phases } = robot;
     const thick = Math.max(this.rowHeight * 0.16, 1);
@@ -49,6 +80,11 @@ export class RobotRows {
       context.fillRect(this.area.x(robot.completion) - 1, top, 2, this.rowHeight * 0.92);
       return;
     }
+    /**
+     * @param {number} from
+     * @param {number} to
+     * @param {number} height
+     */
     const bar = (from, to, height) =>
       context.fillRect(
         this.area.x(from),
@@ -62,16 +98,25 @@ export class RobotRows {
     });
   }
 
-  /** The robot whose row is there, or -1. */
+  /**
+   * The robot whose row is there, or -1.
+   *
+   * @param {number} y
+   */
   robotAt(y) {
     const row = Math.floor((y - this.area.top) / this.rowHeight);
     return this.plan.robots[row] ? row : -1;
   }
 
+  /** @param {number} row */
   #middle(row) {
     return this.area.top + (row + 0.5) * this.rowHeight;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   */
   #row(context, robot) {
     const { phases } = robot;
     const middle = this.#middle(robot.index) + (this.#hasGhosts ? this.rowHeight * 0.12 : 0);
@@ -84,19 +129,28 @@ export class RobotRows {
     context.fillRect(
       begin,
       middle - full * 0.16,
-      this.area.x(robot.completion ?? Infinity) - begin,
+      this.area.x(robot.completion) - begin,
       full * 0.32,
     );
     for (let i = 0; i < phases.begin.length; i++) {
       const left = this.area.x(phases.begin[i]);
       const right = this.area.x(phases.end(i));
       this.#bar(context, phases.activity[i], left, right - left, middle, full);
-      if (robot.plannedWait && phases.activity[i] === WAIT)
+      if (robot instanceof FloorRobot && phases.activity[i] === WAIT)
         this.#late(context, robot, i, right, middle, full);
     }
   }
 
-  /** The part of a wait that the plan did not have. */
+  /**
+   * The part of a wait that the plan did not have.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {FloorRobot} robot
+   * @param {number} phase
+   * @param {number} right
+   * @param {number} middle
+   * @param {number} full
+   */
   #late(context, robot, phase, right, middle, full) {
     const from = this.area.x(robot.unplannedFrom(phase));
     if (from >= right) return;
@@ -107,6 +161,14 @@ export class RobotRows {
     context.fillStyle = colour;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} activity
+   * @param {number} left
+   * @param {number} width
+   * @param {number} middle
+   * @param {number} full
+   */
   #bar(context, activity, left, width, middle, full) {
     if (activity === DONE || activity === DRIVE) return;
     const colour = context.fillStyle;
@@ -124,6 +186,13 @@ export class RobotRows {
     context.globalAlpha = 1;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} left
+   * @param {number} width
+   * @param {number} middle
+   * @param {number} full
+   */
   #frame(context, left, width, middle, full) {
     context.lineWidth = 1.25;
     context.strokeRect(left + 0.6, middle - full / 2 + 0.6, Math.max(width - 1.2, 0.5), full - 1.2);

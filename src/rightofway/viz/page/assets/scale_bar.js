@@ -1,17 +1,34 @@
 import { texts } from "./language.js";
 import { haloed } from "./shapes.js";
 
+/** @import { Site } from "./site.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Viewport } from "./viewport.js" */
+
 export const LONGEST_BAR = 130; // pixels
 const LIMIT_NOTED = 480; // pixels; a narrower map has no room for the usual speed limit
 
-/** The longest round length that the longest bar has room for [length unit]. */
+/**
+ * The longest round length that the longest bar has room for [length unit].
+ *
+ * @param {number} perPixel
+ */
 function roundLength(perPixel) {
   const most = LONGEST_BAR * perPixel;
   const power = 10 ** Math.floor(Math.log10(most));
-  return [5, 2, 1].find((digit) => digit * power <= most) * power;
+  return ([5, 2].find((digit) => digit * power <= most) ?? 1) * power;
 }
 
-/** How long a length is on the map, at its lower right corner, and the speed limit where no sign says another. */
+/**
+ * How long a length is on the map, at its lower right corner, and the speed limit where no sign says another.
+ *
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} width
+ * @param {number} height
+ * @param {Site} plan
+ * @param {Viewport} options
+ * @param {Theme} theme
+ */
 export function paintScaleBar(context, width, height, plan, { scale }, theme) {
   const length = roundLength(plan.roadmap.unit / scale);
   const wide = (length / plan.roadmap.unit) * scale;

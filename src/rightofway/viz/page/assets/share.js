@@ -1,21 +1,45 @@
-import { EMBEDDED, element } from "./dom.js";
+import { contextOf } from "./canvas.js";
+import { byId, element, isEmbedded } from "./dom.js";
 import { texts } from "./language.js";
+
+/** @import { Clock } from "./clock.js" */
+/** @import { DeepLink } from "./deep_link.js" */
+/** @import { Diagram } from "./diagram.js" */
+/** @import { MapView } from "./map_view.js" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Words } from "./words.js" */
 
 const SAID_FOR = 2000; // how long a button says what it did [ms]
 
 /** Takes the moment elsewhere: as a link, as a picture. */
 export class Share {
+  /**
+   * @param {Plan} plan
+   * @param {Clock} clock
+   * @param {MapView[]} maps
+   * @param {Diagram[]} diagrams
+   * @param {Theme} theme
+   * @param {Words} words
+   * @param {DeepLink} deepLink
+   */
   constructor(plan, clock, maps, diagrams, theme, words, deepLink) {
-    Object.assign(this, { plan, clock, maps, diagrams, theme, words, deepLink });
+    this.plan = plan;
+    this.clock = clock;
+    this.maps = maps;
+    this.diagrams = diagrams;
+    this.theme = theme;
+    this.words = words;
+    this.deepLink = deepLink;
     const buttons = {
       "copy-link": () => this.copyLink(),
       "save-picture": () => this.savePicture(),
       print: () => window.print(),
     };
     for (const [id, action] of Object.entries(buttons)) {
-      this[id] = document.getElementById(id);
-      this[id].addEventListener("click", action);
-      this[id].hidden = EMBEDDED; // a frame of another page may do none of these
+      const button = byId(id);
+      button.addEventListener("click", action);
+      button.hidden = isEmbedded(); // a frame of another page may do none of these
     }
   }
 
@@ -23,7 +47,7 @@ export class Share {
     const address = this.deepLink.address;
     try {
       await navigator.clipboard.writeText(address);
-      this.#say(this["copy-link"], texts.copied);
+      this.#say(byId("copy-link"), texts.copied);
     } catch {
       window.prompt(texts.copyThis, address); // where the browser keeps the clipboard to itself
     }
@@ -32,6 +56,7 @@ export class Share {
   /** Download maps and diagrams of the moment. */
   savePicture() {
     this.picture().toBlob((blob) => {
+      if (!blob) return; // a picture larger than the browser can make
       const address = URL.createObjectURL(blob);
       const title = this.#titles.map((each) => each.replace(/\.[^.]*$/, "")).join(", ");
       element("a", {
@@ -53,6 +78,7 @@ export class Share {
     const maps = this.maps.map(({ canvas }) => canvas);
     const [map] = maps;
     const ratio = map.width / map.clientWidth;
+    /** @param {HTMLCanvasElement} canvas */
     const leftOf = (canvas) => Math.round(canvas.getBoundingClientRect().left);
     const columns = new Set(maps.map(leftOf)).size;
     const [head, caption] = [48, maps.length > 1 ? 24 : 0].map((pixels) =>
@@ -65,10 +91,16 @@ export class Share {
     const high = diagrams.reduce((sum, { height }) => sum + height + caption, 0);
     const width = isBeside ? across + diagrams[0].width : across;
     const made = element("canvas", { width, height: Math.max(head + down, top + high) });
-    const context = made.getContext("2d");
+    const context = contextOf(made);
     context.fillStyle = theme.paper;
     context.fillRect(0, 0, made.width, made.height);
     context.fillStyle = theme.ink;
+    /**
+     * @param {string} text
+     * @param {number} x
+     * @param {number} y
+     * @param {number} size
+     */
     const write = (text, x, y, size) => {
       context.font = theme.font(size * ratio, 600);
       context.fillText(text, x, y);
@@ -76,6 +108,12 @@ export class Share {
     const titles = this.#titles;
     const moment = [maps.length > 2 ? "" : titles.join(", "), words.moment(clock.tick)];
     write(moment.filter(Boolean).join(": "), 28 * ratio, 31 * ratio, 16);
+    /**
+     * @param {HTMLCanvasElement} canvas
+     * @param {number} index
+     * @param {number} x
+     * @param {number} y
+     */
     const place = (canvas, index, x, y) => {
       context.drawImage(canvas, x, y + caption);
       if (caption) write(titles[index] ?? "", x + 28 * ratio, y + 16 * ratio, 12);
@@ -99,8 +137,12 @@ export class Share {
     return made;
   }
 
+  /**
+   * @param {HTMLElement} button
+   * @param {string} text
+   */
   #say(button, text) {
-    const before = (button.words ??= button.textContent);
+    const before = (button.dataset.words ??= button.textContent ?? "");
     button.textContent = text;
     setTimeout(() => (button.textContent = before), SAID_FOR);
   }

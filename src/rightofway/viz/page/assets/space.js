@@ -1,17 +1,35 @@
 import { FleetMemo } from "./fleet_memo.js";
 import { DRIVE } from "./phases.js";
 
+/** @import { Motion } from "./motion.js" */
+/** @import { Site } from "./site.js" */
+/** @import { Roadmap } from "./roadmap.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Phases } from "./phases.js" */
+
 const MOST_ENCOUNTERS = 5; // of a robot, in its card
 const MOST_COMPARED = 60; // robots; comparing all of more takes too long
 
+/** @typedef {{ distance: number, tick: number }} Approach How near two robots come [length unit], and when. */
+/** @typedef {Approach & { other: Robot, room: number }} Encounter */
+/** @typedef {{ phases: Phases, vertices: Int32Array, at: number }} Run */
+/** @typedef {{ vertices: number[], edges: [number, number][], zones: Set<number> }} Held */
+
 /** What robots book at the moment shown, which zones they hold, and how near they come to each other. */
 export class Space {
+  /** @type {FleetMemo<Map<number, Encounter[]>>} */
   #encounters;
 
+  /**
+   * @param {Site} plan
+   * @param {Motion} motion
+   */
   constructor(plan, motion) {
-    Object.assign(this, { plan, motion });
+    this.plan = plan;
+    this.motion = motion;
     this.#encounters = new FleetMemo(plan, () => new Map());
     const { zones, size } = plan.roadmap;
+    /** @type {Map<string | number, number[]>} */
     this.zonesOf = new Map(); // numbers of the zones of a vertex, and of a lane by tail * size + head
     zones.forEach(({ vertices, edges }, zone) => {
       for (const key of [
@@ -23,12 +41,18 @@ export class Space {
     });
   }
 
-  /** The vertices, lanes and zones that a robot books now. */
+  /**
+   * The vertices, lanes and zones that a robot books now.
+   *
+   * @param {Robot} robot
+   */
   heldBy(robot) {
     const { plan, motion } = this;
     const tick = motion.ticks[robot.index];
     let visit = robot.phases.visit[motion.phase[robot.index]];
+    /** @type {Held} */
     const held = { vertices: [robot.vertices[visit]], edges: [], zones: new Set() };
+    /** @param {number} to */
     const drive = (to) => held.edges.push([robot.vertices[to - 1], robot.vertices[to]]);
     this.#passZones(robot, visit, held.zones);
     if (tick >= robot.leave(visit) - (robot.drive[visit + 1] ?? 0)) {
@@ -48,7 +72,13 @@ export class Space {
     return held;
   }
 
-  /** A vertex is in its zones, and in those that the visit enters and leaves along lanes of. */
+  /**
+   * A vertex is in its zones, and in those that the visit enters and leaves along lanes of.
+   *
+   * @param {Robot} options
+   * @param {number} visit
+   * @param {Set<number>} zones
+   */
   #passZones({ vertices }, visit, zones) {
     this.#addZones(String(vertices[visit]), zones);
     if (!this.zonesOf.size || visit === 0 || visit + 1 >= vertices.length) return;
@@ -58,12 +88,17 @@ export class Space {
       if (out.includes(zone)) zones.add(zone);
   }
 
+  /**
+   * @param {string | number} key
+   * @param {Set<number>} zones
+   */
   #addZones(key, zones) {
     for (const zone of this.zonesOf.get(key) ?? []) zones.add(zone);
   }
 
   /** The robot that holds each zone now, by its number. */
   get zoneHolders() {
+    /** @type {Map<number, Robot>} */
     const holders = new Map();
     if (!this.zonesOf.size) return holders;
     for (const robot of this.plan.robots)
@@ -71,8 +106,13 @@ export class Space {
     return holders;
   }
 
-  /** The robot that is nearest to another now, as an encounter; null where none needs room. */
+  /**
+   * The robot that is nearest to another now, as an encounter; null where none needs room.
+   *
+   * @param {Robot} robot
+   */
   nearestTo(robot) {
+    /** @type {Omit<Encounter, "tick"> | null} */
     let best = null;
     for (const other of this.plan.robots) {
       const room = this.plan.room(robot, other);
@@ -83,6 +123,10 @@ export class Space {
     return best;
   }
 
+  /**
+   * @param {number} one
+   * @param {number} other
+   */
   #distance(one, other) {
     const { x, y } = this.motion;
     return Math.hypot(x[one] - x[other], y[one] - y[other]) * this.plan.roadmap.unit;
@@ -102,13 +146,19 @@ export class Space {
     return first ?? null;
   }
 
-  /** The closest approaches of a robot in the whole plan, the one with least room to spare first. */
+  /**
+   * The closest approaches of a robot in the whole plan, the one with least room to spare first.
+   *
+   * @param {Robot} robot
+   */
   encounters(robot) {
     const known = this.#encounters.value;
-    if (!known.has(robot.index)) known.set(robot.index, this.#findEncounters(robot));
-    return known.get(robot.index);
+    const found = known.get(robot.index) ?? this.#findEncounters(robot);
+    known.set(robot.index, found);
+    return found;
   }
 
+  /** @param {Robot} robot */
   #findEncounters(robot) {
     const { roadmap, robots } = this.plan;
     return robots
@@ -123,7 +173,13 @@ export class Space {
   }
 }
 
-/** The least distance of two robots [length unit], and the first tick at which they are that near. */
+/**
+ * The least distance of two robots [length unit], and the first tick at which they are that near.
+ *
+ * @param {Robot} one
+ * @param {Robot} other
+ * @param {Roadmap} roadmap
+ */
 function closestApproach(one, other, roadmap) {
   const runs = [one, other].map(({ phases, vertices }) => ({ phases, vertices, at: 0 }));
   let best = { distance: Infinity, tick: 0 };
@@ -148,11 +204,22 @@ function closestApproach(one, other, roadmap) {
   return { distance: best.distance * roadmap.unit, tick: best.tick };
 }
 
+/**
+ * @param {Approach} best
+ * @param {number} distance
+ * @param {number} tick
+ */
 function nearer(best, distance, tick) {
   return distance < best.distance - 1e-9 ? { distance, tick } : best;
 }
 
-/** Where a robot is at a tick of one of its phases. */
+/**
+ * Where a robot is at a tick of one of its phases.
+ *
+ * @param {Run} options
+ * @param {number} tick
+ * @param {Roadmap} other
+ */
 function whereAt({ phases, vertices, at }, tick, { x, y }) {
   const here = vertices[phases.visit[at]];
   if (phases.activity[at] !== DRIVE) return [x[here], y[here]];

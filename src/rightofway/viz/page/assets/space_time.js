@@ -1,9 +1,22 @@
+import { lastOf } from "./arrays.js";
+import { Area } from "./axis.js";
 import { Corridor } from "./corridor.js";
+import { FloorRobot } from "./floor.js";
 import { texts } from "./language.js";
 import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "./phases.js";
 import { crossedOut, line, shortened, stripes } from "./shapes.js";
 import { CorridorAxis, LineAxis } from "./space_axis.js";
 import { several } from "./words.js";
+
+/** @import { Bottleneck } from "./bottleneck.js" */
+/** @import { Choice } from "./choice.js" */
+/** @import { DecisionData, FaultData } from "./payload.d.ts" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Row } from "./space_axis.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Use } from "./use.js" */
+/** @import { Words } from "./words.js" */
 
 /**
  * Space and time, as in a railway's graphic timetable: places upwards, time to the right. Fields are
@@ -11,8 +24,26 @@ import { several } from "./words.js";
  * Along a corridor or the route of the chosen robot distances are true, and so slopes are speeds.
  */
 export class SpaceTime {
+  /**
+   * @param {Plan} plan
+   * @param {Theme} theme
+   * @param {Words} words
+   * @param {Use} use
+   * @param {Choice} choice
+   * @param {Bottleneck} bottleneck
+   */
   constructor(plan, theme, words, use, choice, bottleneck) {
-    Object.assign(this, { plan, theme, words, use, choice, bottleneck });
+    this.plan = plan;
+    this.theme = theme;
+    this.words = words;
+    this.use = use;
+    this.choice = choice;
+    this.bottleneck = bottleneck;
+    this.area = new Area(0, 0, plan.end); // until the first frame
+    /** @type {CorridorAxis | LineAxis} */
+    this.axis = new LineAxis([], this.area, () => 0);
+    /** @type {Row[]} */
+    this.named = []; // the rows that have names
   }
 
   get title() {
@@ -35,9 +66,10 @@ export class SpaceTime {
     const vertices = this.#route;
     if (!vertices) return texts.placeOverTime;
     const { roadmap, quantities } = this.plan;
-    if (!corridor) return texts.routeOf(robot.name, quantities.length(this.#rounded(this.#driven)));
+    if (!corridor)
+      return texts.routeOf(robot?.name ?? "", quantities.length(this.#rounded(this.#driven)));
     const length = quantities.length(this.#rounded(new Corridor(roadmap, vertices).length));
-    const [from, to] = [corridor[0], corridor.at(-1)].map((end) => this.words.vertex(end));
+    const [from, to] = [corridor[0], lastOf(corridor)].map((end) => this.words.vertex(end));
     return texts.wayBetween(from, to, length);
   }
 
@@ -50,6 +82,7 @@ export class SpaceTime {
     }, 0);
   }
 
+  /** @param {number} length */
   #rounded(length) {
     return Number(length.toPrecision(4));
   }
@@ -65,6 +98,10 @@ export class SpaceTime {
     return this.choice.ghosts ? `${floor}, ${thin}` : floor;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   */
   paint(context, area) {
     this.area = area;
     this.axis = this.#axis(area);
@@ -80,6 +117,7 @@ export class SpaceTime {
     if (this.choice.decision) this.#mark(context, this.choice.decision);
   }
 
+  /** @param {Area} area */
   #axis(area) {
     const { roadmap } = this.plan;
     if (this.#route) return new CorridorAxis(new Corridor(roadmap, this.#route), area);
@@ -93,12 +131,20 @@ export class SpaceTime {
     return robot ? [robot] : this.plan.robots;
   }
 
-  /** Whether a robot has a strong line. */
+  /**
+   * Whether a robot has a strong line.
+   *
+   * @param {Robot} robot
+   */
   #isDrawn(robot) {
     return !this.choice.robot || this.choice.standsOut(robot.index);
   }
 
-  /** The row of a vertex, or null. */
+  /**
+   * The row of a vertex, or null.
+   *
+   * @param {number} vertex
+   */
   #lane(vertex) {
     const [row] = this.axis.spots(vertex);
     if (!row) return null;
@@ -106,10 +152,18 @@ export class SpaceTime {
     return { top: row.y - half, height: 2 * half };
   }
 
-  /** Names of rows, and lines from them through the diagram. */
+  /**
+   * Names of rows, and lines from them through the diagram.
+   *
+   * @param {CanvasRenderingContext2D} context
+   */
   #rowLines(context) {
     const { robot } = this.choice;
     const ends = new Set(robot ? [robot.home, ...robot.stages.map(({ vertex }) => vertex)] : []);
+    /**
+     * @param {Row} row
+     * @param {number} i
+     */
     const isEnd = (row, i) => i === 0 || i === this.axis.rows.length - 1 || ends.has(row.vertex);
     const named = this.axis.named(isEnd);
     context.strokeStyle = this.theme.line;
@@ -131,6 +185,10 @@ export class SpaceTime {
     this.named = named;
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} vertex
+   */
   #bookings(context, vertex) {
     const { area } = this;
     for (const [robot, visit] of this.use.visitsAt(vertex)) {
@@ -148,13 +206,22 @@ export class SpaceTime {
     context.globalAlpha = 1;
   }
 
-  /** Where one robot is chosen, the others are what stands in its way. */
+  /**
+   * Where one robot is chosen, the others are what stands in its way.
+   *
+   * @param {Robot} robot
+   */
   #strength(robot) {
     if (!this.choice.robot) return 0.2;
     return robot === this.choice.robot ? 0.2 : this.choice.standsOut(robot.index) ? 0.5 : 0.3;
   }
 
-  /** The ways of another robot in the corridor, thin. */
+  /**
+   * The ways of another robot in the corridor, thin.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   */
   #passing(context, robot) {
     const { phases, vertices } = robot;
     context.strokeStyle = robot.colour;
@@ -176,6 +243,11 @@ export class SpaceTime {
     context.stroke();
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot} robot
+   * @param {boolean} [ghost]
+   */
   #line(context, robot, ghost = false) {
     const { phases, vertices } = robot;
     context.strokeStyle = robot.colour;
@@ -192,7 +264,7 @@ export class SpaceTime {
         if (ghost || !isTrue)
           this.#thin(context, phases.begin[i], phases.end(i), from.y, to.y, isTrue);
         else {
-          if (robot.plannedWait && activity === WAIT) this.#late(context, robot, i, from);
+          if (robot instanceof FloorRobot && activity === WAIT) this.#late(context, robot, i, from);
           this.#stroke(context, activity, phases.begin[i], phases.end(i), from, to);
         }
       }
@@ -202,7 +274,16 @@ export class SpaceTime {
     context.globalAlpha = 1;
   }
 
-  /** The plan beside what happened; dotted, a way that the rows have at another length. */
+  /**
+   * The plan beside what happened; dotted, a way that the rows have at another length.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} begin
+   * @param {number} end
+   * @param {number} from
+   * @param {number} to
+   * @param {boolean} isTrue
+   */
   #thin(context, begin, end, from, to, isTrue) {
     context.setLineDash(isTrue ? [] : [2, 4]);
     context.lineWidth = 1.5;
@@ -212,7 +293,14 @@ export class SpaceTime {
     context.stroke();
   }
 
-  /** Underlay the part of a wait that the plan did not have. */
+  /**
+   * Underlay the part of a wait that the plan did not have.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {FloorRobot} robot
+   * @param {number} phase
+   * @param {Row} row
+   */
   #late(context, robot, phase, row) {
     const [from, to] = [robot.unplannedFrom(phase), robot.phases.end(phase)];
     if (from >= to) return;
@@ -222,6 +310,14 @@ export class SpaceTime {
     context.fillRect(left, row.y - height / 2, Math.max(this.area.x(to) - left, 1.5), height);
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} activity
+   * @param {number} begin
+   * @param {number} end
+   * @param {Row} from
+   * @param {Row} to
+   */
   #stroke(context, activity, begin, end, from, to) {
     if (activity === HELD || activity === BROKEN) {
       this.#trouble(context, activity, begin, end, from);
@@ -238,6 +334,13 @@ export class SpaceTime {
     context.stroke();
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} activity
+   * @param {number} begin
+   * @param {number} end
+   * @param {Row} row
+   */
   #trouble(context, activity, begin, end, row) {
     const height = Math.max(row.half, 5);
     const left = this.area.x(begin);
@@ -247,6 +350,10 @@ export class SpaceTime {
     else crossedOut(context, left, row.y, width, height);
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {DecisionData | FaultData} decision
+   */
   #mark(context, decision) {
     const rows = decision.vertices.flatMap((vertex) => this.axis.spots(vertex));
     if (!rows.length) return;

@@ -1,6 +1,9 @@
-import { element } from "./dom.js";
+import { byId, element } from "./dom.js";
 import { texts } from "./language.js";
 import { BROKEN, HELD } from "./phases.js";
+
+/** @import { Choice } from "./choice.js" */
+/** @import { Motion } from "./motion.js" */
 
 const DISC = '<circle cx="8" cy="8" r="4" fill="currentColor" stroke="none"/>';
 const SIGNS = [
@@ -18,8 +21,13 @@ const GHOST_SIGN = '<circle cx="8" cy="8" r="5" stroke-dasharray="2.6 2.63" stro
 export class States {
   #counts;
 
+  /**
+   * @param {Motion} motion
+   * @param {Choice} choice
+   */
   constructor(motion, choice) {
-    Object.assign(this, { motion, choice });
+    this.motion = motion;
+    this.choice = choice;
     this.#counts = texts.activities.map(() => element("b"));
     const digits = String(motion.plan.robots.length).length;
     for (const count of this.#counts) count.style.minWidth = `${digits}ch`; // or the layout would move with the count
@@ -27,7 +35,7 @@ export class States {
       element("li", {}, sign(SIGNS[activity]), word, this.#counts[activity]),
     );
     this.ghost = element("li", {}, sign(GHOST_SIGN), texts.byPlan);
-    document.getElementById("states").replaceChildren(...this.rows, this.ghost);
+    byId("states").replaceChildren(...this.rows, this.ghost);
     choice.on("mode", () => this.#suit());
     this.#suit();
   }
@@ -44,12 +52,16 @@ export class States {
 
   refresh() {
     this.#counts.forEach((count, activity) => {
-      count.textContent = this.motion.counts[activity];
+      count.textContent = String(this.motion.counts[activity]);
     });
   }
 }
 
-/** A sign of the legend, from one of the constants above. */
+/**
+ * A sign of the legend, from one of the constants above.
+ *
+ * @param {string} markup
+ */
 function sign(markup) {
   const made = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   made.setAttribute("viewBox", "0 0 16 16");

@@ -1,13 +1,32 @@
 import { texts } from "./language.js";
 import { line } from "./shapes.js";
 
+/** @import { Area } from "./axis.js" */
+/** @import { Choice } from "./choice.js" */
+/** @import { Moments } from "./clock.js" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Words } from "./words.js" */
+/** @import { Group } from "./steady.js" */
+
 const BAND_HEIGHT = 17;
 export const NARROWEST_PERIOD = 5; // pixels; narrower ones are not drawn one by one
 
 /** Above the diagram: the transient, and each period of the group that is looked at. */
 export class SteadyBand {
+  /**
+   * @param {Plan} plan
+   * @param {Moments} clock
+   * @param {Choice} choice
+   * @param {Theme} theme
+   * @param {Words} words
+   */
   constructor(plan, clock, choice, theme, words) {
-    Object.assign(this, { plan, clock, choice, theme, words });
+    this.plan = plan;
+    this.clock = clock;
+    this.choice = choice;
+    this.theme = theme;
+    this.words = words;
   }
 
   /** Pixels it needs above the diagram. */
@@ -16,13 +35,19 @@ export class SteadyBand {
   }
 
   get group() {
-    return this.plan.steady.group(this.choice.robot);
+    return this.plan.steady?.group(this.choice.robot) ?? null;
   }
 
-  /** Paint what lies behind the diagram. */
+  /**
+   * Paint what lies behind the diagram.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   */
   paint(context, area) {
-    if (!this.plan.steady) return;
-    const { start, period, until, borders } = this.group;
+    const { group } = this;
+    if (!group) return;
+    const { start, period, until, borders } = group;
     const top = area.top - BAND_HEIGHT - 4;
     const apart = area.x(start + period) - area.x(start);
     context.fillStyle = this.theme.ink;
@@ -31,16 +56,19 @@ export class SteadyBand {
     context.globalAlpha = 1;
     this.#part(context, area, top, 0, start, [texts.transient], 0);
     if (apart < NARROWEST_PERIOD)
-      this.#part(context, area, top, start, until, [this.#everyTime()], 0.12);
-    else borders.forEach((tick, index) => this.#period(context, area, top, tick, index));
+      this.#part(context, area, top, start, until, [texts.every(this.words.time(period))], 0.12);
+    else borders.forEach((tick, index) => this.#period(context, area, group, top, tick, index));
   }
 
-  #everyTime() {
-    return texts.every(this.words.time(this.group.period));
-  }
-
-  #period(context, area, top, tick, index) {
-    const { period, until } = this.group;
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   * @param {Group} group
+   * @param {number} top
+   * @param {number} tick
+   * @param {number} index
+   */
+  #period(context, area, { period, until }, top, tick, index) {
     const end = Math.min(tick + period, until);
     const looped = this.clock.loop?.from === tick;
     const every = 10 ** Math.max(Math.ceil(Math.log10(26 / (area.x(period) - area.x(0)))), 0);
@@ -56,7 +84,17 @@ export class SteadyBand {
     context.setLineDash([]);
   }
 
-  /** A stretch of time with the longest of its labels that has room. */
+  /**
+   * A stretch of time with the longest of its labels that has room.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} area
+   * @param {number} top
+   * @param {number} from
+   * @param {number} to
+   * @param {string[]} labels
+   * @param {number} strength
+   */
   #part(context, area, top, from, to, labels, strength) {
     const [left, right] = [area.x(from), area.x(to)];
     if (right - left < 1) return;

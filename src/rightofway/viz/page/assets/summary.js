@@ -1,42 +1,63 @@
-import { element, english, facts, link } from "./dom.js";
+import { all, byId, element, english, facts, link } from "./dom.js";
 import { texts } from "./language.js";
 import { DONE, WAIT } from "./phases.js";
 import { several, upperFirst } from "./words.js";
 
+/** @import { Choice } from "./choice.js" */
+/** @import { Compared, ComparedFigures } from "./compared.js" */
+/** @import { Comparison } from "./comparison.js" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Robot } from "./robot.js" */
+/** @import { Words } from "./words.js" */
+/** @import { Steady } from "./steady.js" */
+
+/** @typedef {[string, string | Node | (string | Node)[], string]} Figure */
+
 /** The head of the page: what the plan achieves, in plain words and few figures; how it was made, on request. */
 export class Summary {
+  /**
+   * @param {Plan} plan
+   * @param {Choice} choice
+   * @param {Words} words
+   * @param {Comparison | null} comparison
+   */
   constructor(plan, choice, words, comparison) {
-    Object.assign(this, { plan, choice, words, comparison });
+    this.plan = plan;
+    this.choice = choice;
+    this.words = words;
+    this.comparison = comparison;
     const robots = texts.robots(plan.robots.length);
     const outcome = this.#outcome();
     const titles = [plan, ...plan.others].map(({ title }) => title);
     if (comparison) document.title = titles.join(", ");
     else if (plan.title) document.title = `${plan.title}: ${robots}`;
     const rest = plan.title ? [robots, outcome] : [outcome];
-    document
-      .getElementById("headline")
-      .replaceChildren(
-        ...this.#names(titles, robots),
-        ...rest.filter(Boolean).map((part) => element("span", {}, part)),
-      );
+    byId("headline").replaceChildren(
+      ...this.#names(titles, robots),
+      ...rest.filter(Boolean).map((part) => element("span", {}, part)),
+    );
     document.body.classList.toggle("faulty", this.#faulty.length > 0);
-    document
-      .getElementById("figures")
-      .replaceChildren(
-        ...this.figures.map(([term, value, title]) =>
-          element("div", { title }, element("dt", {}, term), element("dd", {}, ...[value].flat())),
-        ),
-      );
-    const header = document.querySelector(".summary");
+    byId("figures").replaceChildren(
+      ...this.figures.map(([term, value, title]) =>
+        element("div", { title }, element("dt", {}, term), element("dd", {}, ...[value].flat())),
+      ),
+    );
+    const [header] = all(".summary", HTMLElement);
     new ResizeObserver(
       () => (header.tabIndex = header.scrollWidth > header.clientWidth ? 0 : -1),
     ).observe(header); // scrolls by keys
-    document.getElementById("about-open").hidden = plan.noPlan;
-    document.getElementById("made").replaceChildren(facts(this.#made()), ...this.#explanation());
+    byId("about-open").hidden = plan.noPlan;
+    byId("made").replaceChildren(facts(this.#made()), ...this.#explanation());
   }
 
-  /** The title; "A → B" for two plans, how many there are for more. */
+  /**
+   * The title; "A → B" for two plans, how many there are for more.
+   *
+   * @param {string[]} titles
+   * @param {string} robots
+   */
   #names(titles, robots) {
+    /** @param {string} text */
     const name = (text) => element("b", { className: "name" }, text);
     if (titles.length > 2) return [name(texts.compared.plans(titles.length))];
     const [first, other] = titles;
@@ -69,19 +90,25 @@ export class Summary {
       .join(", ");
   }
 
+  /** @param {Steady} options */
   #repetition({ groups, groupOf }) {
     const robots = groupOf.filter(Boolean).length;
     if (robots < groupOf.length) return texts.someRepeat(robots);
     return groups.length > 1 ? texts.groupsRepeat(groups.length) : "";
   }
 
-  /** Terms, values and explanations. */
+  /**
+   * Terms, values and explanations.
+   *
+   * @returns {Figure[]}
+   */
   get figures() {
     const { noPlan, faultCount, happened, steady } = this.plan;
     if (noPlan) return [];
-    if (this.comparison) return this.#faulty.length ? [] : this.#comparedFigures();
+    if (this.comparison)
+      return this.#faulty.length ? [] : this.#comparedFigures(this.comparison.compared);
     if (faultCount)
-      return Object.entries(this.plan.faultKinds).map(([kind, count]) => [
+      return Object.entries(this.plan.faultKinds ?? {}).map(([kind, count]) => [
         texts.faultKinds[kind]?.name ?? kind,
         String(count),
         this.words.remedy({ kind }),
@@ -94,50 +121,68 @@ export class Summary {
     return figures.filter(([, value]) => value);
   }
 
+  /** @returns {Figure[]} */
   #planFigures() {
     const { robots, metrics, endsAtHome } = this.plan;
     const latest = mostOf(robots, ({ completion }) => completion);
     const loser = mostOf(robots, ({ delay }) => delay);
     return [
       [texts.allAt(endsAtHome), this.words.time(metrics.makespan), texts.allAtLength(endsAtHome)],
-      [texts.latest, this.#robot(latest), texts.latestAtLength(endsAtHome)],
+      [texts.latest, latest ? this.#robot(latest) : "", texts.latestAtLength(endsAtHome)],
       [texts.timeLost, this.#timeLost(robots), texts.timeLostAtLength],
       [
         texts.losesMost,
-        loser.delay > 0 ? [this.#robot(loser), `, ${this.words.time(loser.delay)}`] : "",
+        loser && loser.delay > 0 ? [this.#robot(loser), `, ${this.words.time(loser.delay)}`] : "",
         texts.losesMostAtLength,
       ],
     ];
   }
 
-  /** The sum of all lost time, and its parts. */
+  /**
+   * The sum of all lost time, and its parts.
+   *
+   * @param {readonly Robot[]} robots
+   */
   #timeLost(robots) {
-    const all = robots.reduce((sum, { delay }) => sum + delay, 0);
-    return all
-      ? [this.words.time(all), element("small", {}, ` ${this.#lostParts(robots)}`)]
+    const lost = robots.reduce((sum, { delay }) => sum + delay, 0);
+    return lost
+      ? [this.words.time(lost), element("small", {}, ` ${this.#lostParts(robots)}`)]
       : texts.none;
   }
 
-  /** "(waiting 35 s, detours 6 s)"; the only part without its time. */
+  /**
+   * "(waiting 35 s, detours 6 s)"; the only part without its time.
+   *
+   * @param {readonly Robot[]} robots
+   */
   #lostParts(robots) {
-    const sum = (part) => robots.reduce((all, robot) => all + part(robot), 0);
-    const parts = [
+    /** @param {(robot: Robot) => number} part */
+    const sum = (part) => robots.reduce((before, robot) => before + part(robot), 0);
+    /** @type {[string, number][]} */
+    const causes = [
       [texts.lost.waiting, sum(({ lost }) => lost.waiting)],
       [texts.lost.detours, sum(({ lost }) => lost.detours)],
       [texts.lost.makingRoom, sum(({ lost }) => lost.makingRoom)],
-    ].filter(([, ticks]) => ticks);
+    ];
+    const parts = causes.filter(([, ticks]) => ticks);
     return `(${parts.length > 1 ? parts.map(([what, ticks]) => `${what} ${this.words.time(ticks)}`).join(", ") : parts[0][0]})`;
   }
 
-  /** What the plans cost, and how many robots gain and lose by the other one; of many, the best. */
-  #comparedFigures() {
-    const { compared } = this.comparison;
+  /**
+   * What the plans cost, and how many robots gain and lose by the other one; of many, the best.
+   *
+   * @param {Compared} compared
+   * @returns {Figure[]}
+   */
+  #comparedFigures(compared) {
     const { endsAtHome } = this.plan;
     if (compared.plans.length > 2) {
-      return [
+      /** @type {["makespan" | "flowtime", string, string][]} */
+      const rows = [
         ["makespan", texts.allAt(endsAtHome), texts.compared.firstAllAtLength],
         ["flowtime", texts.compared.least, texts.compared.leastAtLength],
-      ]
+      ];
+      return rows
         .filter(([key]) => compared.best[key].length)
         .map(([key, term, title]) => {
           const names = compared.best[key].map((place) => compared.plans[place].title);
@@ -148,6 +193,7 @@ export class Summary {
           ];
         });
     }
+    /** @param {(plan: ComparedFigures) => number} value */
     const both = (value) => compared.plans.map((plan) => compared.time(value(plan))).join(" → ");
     const [earlier, later] = compared.counts(1);
     const { title } = compared.plans[1];
@@ -167,8 +213,10 @@ export class Summary {
     ];
   }
 
+  /** @returns {Figure[]} */
   #steadyFigures() {
     const { steady } = this.plan;
+    if (!steady) return [];
     const { largest, groups } = steady;
     const laps = largest.robots.reduce((sum, index) => sum + steady.lapsInPeriod(index), 0);
     return [
@@ -182,8 +230,10 @@ export class Summary {
     ];
   }
 
+  /** @returns {Figure[]} */
   #floorFigures() {
-    const { happened, metrics, endsAtHome } = this.plan;
+    const { metrics, endsAtHome } = this.plan;
+    const happened = this.plan.happened ?? [];
     const late = happened.filter(({ delayInAll }) => delayInAll > 0);
     const done = happened.filter(({ ending }) => ending === DONE);
     const latest = mostOf(done, ({ delayInAll }) => delayInAll);
@@ -196,7 +246,7 @@ export class Summary {
       [texts.late, texts.lateOf(late.length, happened.length), texts.lateAtLength],
       [
         texts.latestBy,
-        latest?.delayInAll > 0
+        latest && latest.delayInAll > 0
           ? [`${this.words.time(latest.delayInAll)}, `, this.#robot(latest)]
           : "",
         texts.latestByAtLength,
@@ -204,15 +254,20 @@ export class Summary {
     ];
   }
 
-  /** When the last robot was there, and when it was to be. */
+  /**
+   * When the last robot was there, and when it was to be.
+   *
+   * @param {number} makespan
+   */
   #insteadOf(makespan) {
     const planned = this.words.time(makespan);
-    const last = Math.max(...this.plan.happened.map(({ completion }) => completion));
+    const last = Math.max(...(this.plan.happened ?? []).map(({ completion }) => completion));
     return last === makespan
       ? texts.asPlanned(planned)
       : texts.insteadOf(this.words.time(last), planned);
   }
 
+  /** @param {Robot} robot */
   #robot(robot) {
     return link(robot.name, () => this.choice.chooseRobot(robot.index));
   }
@@ -222,9 +277,10 @@ export class Summary {
     const { status, saved, tries } = this.plan.planner;
     if (saved === undefined) return english(status);
     const gain = saved > 0 ? texts.saved(this.words.duration(saved)) : texts.savedNothing;
-    return texts.improvement(tries, gain);
+    return texts.improvement(tries ?? null, gain);
   }
 
+  /** @returns {[string, string | Node | null][]} */
   #made() {
     const {
       planner,
@@ -233,6 +289,7 @@ export class Summary {
     } = this.plan;
     const gap = lowerBound ? this.words.percent(flowtime / lowerBound - 1) : "";
     const isUnit = tick.numerator === tick.denominator;
+    /** @type {[string, string | Node][]} */
     const origin = [
       [texts.planner, english(planner.name)],
       [texts.method, this.#method()],
@@ -248,7 +305,7 @@ export class Summary {
         texts.timeLost,
         [this.#timeLost(this.plan.planned)]
           .flat()
-          .map((part) => part.textContent ?? part)
+          .map((part) => (typeof part === "string" ? part : part.textContent))
           .join(""),
       ],
       [texts.tick, isUnit ? "" : texts.tickAtLength(this.words.duration(1))],
@@ -261,10 +318,17 @@ export class Summary {
   }
 }
 
-/** The item with the largest value; the first one of several. */
+/**
+ * The item with the largest value; the first one of several.
+ *
+ * @template I
+ * @param {readonly I[]} items
+ * @param {(item: I) => number} valueOf
+ * @returns {I | null}
+ */
 function mostOf(items, valueOf) {
-  return items.reduce(
-    (most, item) => (most === null || valueOf(item) > valueOf(most) ? item : most),
-    null,
-  );
+  /** @type {I | null} */
+  let most = null;
+  for (const item of items) if (most === null || valueOf(item) > valueOf(most)) most = item;
+  return most;
 }

@@ -1,28 +1,38 @@
+import { all, byId } from "./dom.js";
+
 /** Several lists in one place; those without items may be left out. */
 export class Tabs {
+  /**
+   * @param {(number | string | null)[]} counts
+   * @param {() => void} shown
+   */
   constructor(counts, shown) {
-    this.tabs = [...document.querySelectorAll("[role=tab]")];
+    this.tabs = all("[role=tab]", HTMLElement);
     this.shown = shown;
     this.tabs.forEach((tab, index) => {
-      tab.querySelector("b").textContent = counts[index];
+      for (const count of all("b", HTMLElement, tab))
+        count.textContent = String(counts[index] ?? "");
       tab.hidden = counts[index] === null;
       tab.addEventListener("click", () => this.show(index));
       tab.addEventListener("keydown", (event) => this.#key(event, index));
     });
   }
 
+  /** @param {number} chosen */
   show(chosen) {
     this.tabs.forEach((tab, index) => {
-      tab.setAttribute("aria-selected", index === chosen);
+      tab.setAttribute("aria-selected", String(index === chosen));
       tab.tabIndex = index === chosen ? 0 : -1;
-      if (index === chosen)
-        tab.parentElement.scrollLeft =
-          tab.offsetLeft + tab.offsetWidth - tab.parentElement.clientWidth;
-      document.getElementById(tab.getAttribute("aria-controls")).hidden = index !== chosen;
+      if (index === chosen) scrollToEnd(tab);
+      byId(tab.getAttribute("aria-controls") ?? "").hidden = index !== chosen;
     });
     this.shown();
   }
 
+  /**
+   * @param {KeyboardEvent} event
+   * @param {number} index
+   */
   #key(event, index) {
     if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
     event.preventDefault();
@@ -33,4 +43,14 @@ export class Tabs {
     this.show(this.tabs.indexOf(other));
     other.focus();
   }
+}
+
+/**
+ * Bring a tab into sight in the row of all tabs.
+ *
+ * @param {HTMLElement} tab
+ */
+function scrollToEnd(tab) {
+  const row = tab.parentElement;
+  if (row) row.scrollLeft = tab.offsetLeft + tab.offsetWidth - row.clientWidth;
 }

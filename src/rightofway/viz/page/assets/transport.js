@@ -1,21 +1,35 @@
 import { RATES } from "./clock.js";
-import { element } from "./dom.js";
+import { byId, element } from "./dom.js";
 import { texts } from "./language.js";
+
+/** @import { Clock } from "./clock.js" */
+/** @import { Plan } from "./plan.js" */
+/** @import { Words } from "./words.js" */
 
 /** Play, step, slider, speed, and the moment in figures. */
 export class Transport {
   #written = "";
 
+  /**
+   * @param {Plan} plan
+   * @param {Clock} clock
+   * @param {Words} words
+   */
   constructor(plan, clock, words) {
-    Object.assign(this, { plan, clock, words });
-    this.slider = document.getElementById("slider");
-    this.play = document.getElementById("play");
-    this.speed = document.getElementById("speed");
-    this.readout = document.getElementById("readout");
-    this.slider.max = plan.end;
+    this.plan = plan;
+    this.clock = clock;
+    this.words = words;
+    this.slider = byId("slider", HTMLInputElement);
+    this.play = byId("play");
+    this.speed = byId("speed", HTMLSelectElement);
+    this.readout = byId("readout");
+    this.slider.max = String(plan.end);
     this.digits = plan.end / clock.ticksPerUnit < 10 ? 2 : 1;
+    /** @param {number} rate */
     const label = (rate) => (rate < 1 ? `1/${1 / rate} ×` : `${rate} ×`);
-    this.speed.append(...RATES.map((rate) => element("option", { value: rate }, label(rate))));
+    this.speed.append(
+      ...RATES.map((rate) => element("option", { value: String(rate) }, label(rate))),
+    );
     this.speed.title = texts.rate(plan.quantities.units.time ?? texts.timeUnit);
     this.#listen();
     this.#showPlaying();
@@ -24,7 +38,7 @@ export class Transport {
   /** Write the moment: exactly while time stands still, with as many decimals all the time while it runs. */
   refresh() {
     const { tick, playing, end } = this.clock;
-    this.slider.value = tick;
+    this.slider.value = String(tick);
     this.slider.style.setProperty("--over", `${(100 * tick) / end}%`);
     const now = playing ? this.plan.quantities.running(tick, this.digits) : this.words.time(tick);
     if (now === this.#written) return;
@@ -36,7 +50,11 @@ export class Transport {
 
   #listen() {
     const { clock } = this;
-    const press = (id, action) => document.getElementById(id).addEventListener("click", action);
+    /**
+     * @param {string} id
+     * @param {() => void} action
+     */
+    const press = (id, action) => byId(id).addEventListener("click", action);
     press("play", () => clock.toggle());
     press("back", () => clock.step(-1));
     press("forth", () => clock.step(1));
@@ -52,6 +70,6 @@ export class Transport {
     const { playing, rate } = this.clock;
     this.play.classList.toggle("playing", playing);
     this.play.setAttribute("aria-label", playing ? texts.pause : texts.markup.play);
-    this.speed.value = rate;
+    this.speed.value = String(rate);
   }
 }

@@ -1,11 +1,17 @@
+import { lastOf } from "./arrays.js";
 import { FleetMemo } from "./fleet_memo.js";
 import { blend } from "./theme.js";
+
+/** @import { Site } from "./site.js" */
+/** @import { Theme } from "./theme.js" */
+/** @import { Robot } from "./robot.js" */
 
 /** How much each vertex is used, and by whom when. */
 export class Use {
   #held;
   #byVertex;
 
+  /** @param {Site} plan */
   constructor(plan) {
     this.plan = plan;
     this.#held = new FleetMemo(plan, () => this.#sum());
@@ -22,14 +28,24 @@ export class Use {
     return this.#held.value.most;
   }
 
-  /** The colour of a vertex on the heat map: the scale is linear from nothing to `most`. */
+  /**
+   * The colour of a vertex on the heat map: the scale is linear from nothing to `most`.
+   *
+   * @param {number} vertex
+   * @param {Theme} options
+   */
   heat(vertex, { heatLow, heatHigh }) {
     return this.held[vertex] ? blend(heatLow, heatHigh, this.held[vertex] / this.most) : null;
   }
 
-  /** The visits at a vertex, as pairs of robot and visit. */
+  /**
+   * The visits at a vertex, as pairs of robot and visit.
+   *
+   * @param {number} vertex
+   */
   visitsAt(vertex) {
     const { first, robots, visits } = this.#byVertex.value;
+    /** @type {[Robot, number][]} */
     const pairs = [];
     for (let i = first[vertex]; i < first[vertex + 1]; i++)
       pairs.push([this.plan.robots[robots[i]], visits[i]]);
@@ -53,7 +69,7 @@ export class Use {
     for (let vertex = 0; vertex < this.plan.roadmap.size; vertex++)
       first[vertex + 1] += first[vertex];
     const next = first.slice();
-    const [robots, visits] = [new Int32Array(first.at(-1)), new Int32Array(first.at(-1))];
+    const [robots, visits] = [new Int32Array(lastOf(first)), new Int32Array(lastOf(first))];
     for (const robot of this.plan.robots) {
       robot.vertices.forEach((vertex, visit) => {
         robots[next[vertex]] = robot.index;

@@ -1,5 +1,7 @@
-import { EMBEDDED } from "./dom.js";
+import { all, isEmbedded } from "./dom.js";
 import { Observable } from "./observable.js";
+
+/** @import { Roadmap } from "./roadmap.js" */
 
 const LARGEST_CELL = 400; // pixels
 const LARGEST_FITTED = { cell: 190, edge: 320 }; // pixels; an edge that is as long as a unit
@@ -10,6 +12,11 @@ const LEGEND_HEIGHT = 34; // pixels below the map: scale bar, legends
  * Events: `view` when it changes, `click` and `hover` with `pointer` in map units.
  */
 export class Viewport extends Observable {
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {Roadmap} roadmap
+   * @param {number} [reach]
+   */
   constructor(canvas, roadmap, reach = 0) {
     super();
     this.canvas = canvas;
@@ -25,13 +32,16 @@ export class Viewport extends Observable {
     this.#listen();
   }
 
+  /** @type {Map<number, { x: number, y: number }>} */
   #touches;
   #dragged = 0;
 
+  /** @param {number} pixels */
   toX(pixels) {
     return (pixels - this.left) / this.scale;
   }
 
+  /** @param {number} pixels */
   toY(pixels) {
     return (pixels - this.top) / this.scale;
   }
@@ -43,7 +53,9 @@ export class Viewport extends Observable {
     const beyond = 2 * Math.max(this.reach, rows ? 0.5 : 0);
     const [across, down] = [columns - 1 + beyond, lines - 1 + beyond];
     const margin = (rows ? 16 : 26) + this.border;
-    const title = this.canvas.parentElement.querySelector(".map-title");
+    const [title] = this.canvas.parentElement
+      ? all(".map-title", HTMLElement, this.canvas.parentElement)
+      : [];
     const above = Math.max(
       1.25 * margin,
       title?.textContent ? title.offsetTop + title.offsetHeight + 4 : 0,
@@ -65,7 +77,13 @@ export class Viewport extends Observable {
     else this.#changed(false);
   }
 
-  /** Zoom by a factor round a point of the canvas, or its middle. */
+  /**
+   * Zoom by a factor round a point of the canvas, or its middle.
+   *
+   * @param {number} factor
+   * @param {number} [x]
+   * @param {number} [y]
+   */
   zoom(factor, x = this.canvas.clientWidth / 2, y = this.canvas.clientHeight / 2) {
     const scale = Math.min(Math.max(this.scale * factor, 0.5), LARGEST_CELL);
     this.left = x - ((x - this.left) * scale) / this.scale;
@@ -74,13 +92,22 @@ export class Viewport extends Observable {
     this.#changed(false);
   }
 
+  /**
+   * @param {number} right
+   * @param {number} down
+   */
   pan(right, down) {
     this.left += right;
     this.top += down;
     this.#changed(false);
   }
 
-  /** Bring a point into the middle unless it is in sight. */
+  /**
+   * Bring a point into the middle unless it is in sight.
+   *
+   * @param {number} x
+   * @param {number} y
+   */
   show(x, y) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const [right, down] = [this.left + x * this.scale, this.top + y * this.scale];
@@ -88,7 +115,11 @@ export class Viewport extends Observable {
       this.pan(width / 2 - right, height / 2 - down);
   }
 
-  /** Bring several points into sight: as they are if they all are, else their middle, smaller if need be. */
+  /**
+   * Bring several points into sight: as they are if they all are, else their middle, smaller if need be.
+   *
+   * @param {[number, number][]} points
+   */
   showAll(points) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
@@ -114,6 +145,7 @@ export class Viewport extends Observable {
     this.#changed(false);
   }
 
+  /** @param {boolean} fitted */
   #changed(fitted) {
     this.fitted = fitted;
     this.canvas.classList.toggle("zoomed", !fitted);
@@ -132,28 +164,39 @@ export class Viewport extends Observable {
     canvas.addEventListener("pointerleave", () => this.#point(NaN, NaN));
   }
 
-  /** Inside another page the wheel scrolls that page, unless Ctrl is held. */
+  /**
+   * Inside another page the wheel scrolls that page, unless Ctrl is held.
+   *
+   * @param {WheelEvent} event
+   */
   #wheel(event) {
-    if (EMBEDDED && !event.ctrlKey) return;
+    if (isEmbedded() && !event.ctrlKey) return;
     event.preventDefault();
     const pace = event.deltaMode ? 0.05 : event.ctrlKey ? 0.01 : 0.0016; // by lines, by two fingers, by pixels
     this.zoom(Math.exp(-event.deltaY * pace), event.offsetX, event.offsetY);
   }
 
-  /** Arrow keys pan while the map has the focus. */
+  /**
+   * Arrow keys pan while the map has the focus.
+   *
+   * @param {KeyboardEvent} event
+   */
   #key(event) {
-    const step = {
+    /** @type {Record<string, [number, number]>} */
+    const steps = {
       ArrowLeft: [60, 0],
       ArrowRight: [-60, 0],
       ArrowUp: [0, 60],
       ArrowDown: [0, -60],
-    }[event.key];
+    };
+    const step = steps[event.key];
     if (!step || event.shiftKey) return;
     event.preventDefault();
     event.stopPropagation();
     this.pan(...step);
   }
 
+  /** @param {PointerEvent} event */
   #down(event) {
     this.canvas.setPointerCapture(event.pointerId);
     this.#touches.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
@@ -161,6 +204,7 @@ export class Viewport extends Observable {
     this.#point(event.offsetX, event.offsetY); // a finger that presses has not moved there
   }
 
+  /** @param {PointerEvent} event */
   #move(event) {
     const touch = this.#touches.get(event.pointerId);
     this.#point(event.offsetX, event.offsetY);
@@ -177,6 +221,7 @@ export class Viewport extends Observable {
     if (before.length && after.length) this.zoom(after.length / before.length, after.x, after.y);
   }
 
+  /** @param {PointerEvent} event */
   #up(event) {
     this.#touches.delete(event.pointerId);
     this.canvas.classList.remove("panning");
@@ -194,6 +239,10 @@ export class Viewport extends Observable {
     };
   }
 
+  /**
+   * @param {number} x
+   * @param {number} y
+   */
   #point(x, y) {
     this.pointer = { x: this.toX(x), y: this.toY(y) };
     this.tell("hover");

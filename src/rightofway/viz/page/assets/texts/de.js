@@ -1,10 +1,18 @@
 import { counted } from "./plural.js";
 
+/** @import { Texts } from "./en.js" */
+
+/** @param {number} count */
 const faultsOf = (count) => `${count} Fehler`;
+/** @param {boolean} isHome */
 const arrivedIn = (isHome) => (isHome ? "zurück" : "fertig");
 const equalIn = "bei beiden Möglichkeiten bleiben im ganzen System gleich viele Konflikte";
 
-/** The texts of the viewer in German. */
+/**
+ * The texts of the viewer in German.
+ *
+ * @type {Texts}
+ */
 export const GERMAN = {
   markup: {
     details: "Details",

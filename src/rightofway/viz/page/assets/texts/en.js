@@ -1,9 +1,15 @@
 import { counted } from "./plural.js";
 
+/** @param {number} count */
 const robots = (count) => counted(count, "robot", "robots");
+/** @param {number} count */
 const faults = (count) => counted(count, "fault", "faults");
+/** @param {boolean} isHome */
 const arrived = (isHome) => (isHome ? "home" : "done");
 const equal = "either choice leaves as many conflicts in the whole system";
+
+/** @typedef {typeof ENGLISH} Texts */
+/** @typedef {{ name: string, says: (who: string, where: string, from: string, to: string) => string, remedy?: string }} FaultText */
 
 /** The texts of the viewer in English; where a text has values, it is a function of them. */
 export const ENGLISH = {
@@ -91,18 +97,26 @@ export const ENGLISH = {
   },
 
   /** Quantities without a unit. */
+
+  /** @param {number | string} number */
   timeUnits: (number) => counted(number, "time unit", "time units"),
+  /** @param {number | string} number */
   lengthUnits: (number) => counted(number, "length unit", "length units"),
   timeUnit: "time unit",
+  /** @param {string} number */
   moment: (number) => `time ${number}`,
 
   /** Lists and small words. */
   and: "and",
+  /** @param {number} count */
   more: (count) => `${count} more`,
+  /** @param {number} count */
   andMore: (count) => `and ${count} more`,
   never: "never",
   none: "none",
+  /** @param {string} moment */
   at: (moment) => `at ${moment}`,
+  /** @param {string} from @param {string} to */
   fromTo: (from, to) => `${from} to ${to}`,
   robots,
   faults,
@@ -113,19 +127,32 @@ export const ENGLISH = {
   byPlan: "by plan",
 
   /** The head of the page. */
+
+  /** @param {string} one @param {string} other */
   twoTitles: (one, other) => `${one} and ${other}`,
   noPlan: "no plan exists",
+  /** @param {number} count */
   doNotRun: (count) => `${faults(count)}: do not run this plan`,
+  /** @param {string} title @param {number} count */
   doNotRunOther: (title, count) => `${title} has ${faults(count)}: do not run it`,
+  /** @param {number} count @param {boolean} isHome */
   neverArrived: (count, isHome) => `${count} of them never ${arrived(isHome)}`,
+  /** @param {number} count */
   stuckForEver: (count) => `${count} of them stuck for ever`,
+  /** @param {number} count */
   someRepeat: (count) => `${count} of them known to repeat themselves`,
+  /** @param {number} count */
   groupsRepeat: (count) => `in ${count} groups that repeat themselves`,
+  /** @param {boolean} isHome */
   allAt: (isHome) => `All ${arrived(isHome)} at`,
+  /** @param {boolean} isHome */
   allAtLength: (isHome) => `When the last robot is ${arrived(isHome)}`,
+  /** @param {boolean} isHome */
   allWasAtLength: (isHome) => `When the last robot was ${arrived(isHome)}`,
+  /** @param {boolean} isHome */
   allBothAtLength: (isHome) => `When the last robot is ${arrived(isHome)}, in both plans`,
   latest: "Latest",
+  /** @param {boolean} isHome */
   latestAtLength: (isHome) => `The robot that is ${arrived(isHome)} last`,
   timeLost: "Time lost",
   timeLostAtLength: "How much later the robots arrive, all together, than if each drove alone",
@@ -133,9 +160,12 @@ export const ENGLISH = {
   losesMostAtLength: "The robot that loses most time to others",
   lost: { waiting: "waiting", detours: "detours", makingRoom: "making room" },
   earlier: "Earlier",
+  /** @param {string} title */
   earlierAtLength: (title) => `Robots that arrive earlier in ${title}`,
   later: "Later",
+  /** @param {string} title */
   laterAtLength: (title) => `Robots that arrive later in ${title}`,
+  /** @param {boolean} isLargest */
   repeatsEvery: (isLargest) => `Repeats every${isLargest ? " (largest group)" : ""}`,
   repeatsEveryAtLength: "The period: the time after which all visits repeat",
   from: "From",
@@ -143,16 +173,22 @@ export const ENGLISH = {
   lapsInThat: "Laps in that time",
   lapsInThatAtLength: "Laps that all robots together make in a period",
   late: "Late",
+  /** @param {number} count @param {number} all */
   lateOf: (count, all) => `${count} of ${all}`,
   lateAtLength: "Robots that arrived later than planned, or never",
   latestBy: "Latest by",
   latestByAtLength: "The largest delay of a robot that arrived",
+  /** @param {string} time */
   asPlanned: (time) => `${time}, as planned`,
+  /** @param {string} time @param {string} planned */
   insteadOf: (time, planned) => `${time} instead of ${planned}`,
 
   /** How the plan was made. */
+
+  /** @param {number | null} attempts @param {string} gain */
   improvement: (attempts, gain) =>
     `${attempts === null ? "attempts" : counted(attempts, "attempt", "attempts")} to improve the first plan ${gain}`,
+  /** @param {string} time */
   saved: (time) => `saved ${time}`,
   savedNothing: "found no better plan",
   planner: "Planner",
@@ -162,6 +198,7 @@ export const ENGLISH = {
   gap: "Gap",
   makespan: "makespan",
   tick: "Tick",
+  /** @param {string} time */
   tickAtLength: (time) => `${time}, the step in which times are counted`,
   explanation: [
     "The flowtime is the sum of the times at which the robots are done. The lower bound is the same sum if each robot " +
@@ -171,6 +208,7 @@ export const ENGLISH = {
 
   /** The card of a robot, a decision or a fault. */
   chooseNothing: "Choose nothing",
+  /** @param {string} title */
   inPlan: (title) => `In ${title}`,
   speed: "Speed",
   radius: "Radius",
@@ -179,26 +217,33 @@ export const ENGLISH = {
   trip: "Trip",
   closest: "Closest approaches",
   closestOfAll: "Closest approach:",
+  /** @param {string} distance @param {string} needed */
   apart: (distance, needed) => `${distance} apart, ${needed} needed`,
   detours: "Detours",
   makingRoom: "Making room",
   waiting: "Waiting",
   alone: "Alone",
+  /** @type {(isHome: boolean) => string} */
   doneAt: (isHome) => (isHome ? "Home at" : "Done at"),
   losesNothing: "It loses no time.",
   planned: "Planned",
   heldUp: "Held up",
   waits: "Waits",
+  /** @param {string} time */
   inAll: (time) => `${time} in all`,
   breaksDown: "Breaks down",
   done: "Done",
   repeats: "Repeats",
   notShown: "not within what is shown",
+  /** @param {number} laps @param {string} period @param {string} start */
   lapsEvery: (laps, period, start) =>
     `${counted(laps, "lap", "laps")} every ${period}, from ${start} on`,
+  /** @param {string} time */
   works: (time) => `works ${time}`,
+  /** @param {string} time */
   turns: (time) => `turns ${time}`,
   losesTime: "Loses time",
+  /** @param {string} kind */
   theFault: (kind) => `the fault (${kind})`,
   ifItWaits: "If it waits",
   conflictsLeft: "Conflicts left",
@@ -208,29 +253,41 @@ export const ENGLISH = {
 
   /** How a robot loses time. */
   loss: {
+    /** @param {string} here @param {string} other @param {string} lost */
     makesRoom: (here, other, lost) =>
       `leaves ${here}${other ? ` to make room for ${other}` : ""} and comes back, loses ${lost}`,
+    /** @param {string} other @param {string} from @param {string} to @param {string} lost */
     follows: (other, from, to, lost) => `follows ${other} from ${from} to ${to}, loses ${lost}`,
+    /** @param {string} lost @param {string} here */
     waitsAlone: (lost, here) => `waits ${lost} in ${here}, though no robot is in its way`,
+    /** @param {string} lost @param {string} here @param {string} place @param {string} until */
     waitsClosed: (lost, here, place, until) =>
       `waits ${lost} in ${here}: ${place} is closed until ${until}`,
+    /** @param {string} lost @param {string} here @param {string} other @param {string} freed @param {boolean} isNext */
     waits: (lost, here, other, freed, isNext) =>
       `waits ${lost} in ${here} for ${other} to leave ${freed}${isNext ? "" : ", further on its way"}`,
+    /** @param {string} loss @param {string} time */
     more: (loss, time) => `${loss}, ${time} more than planned`,
   },
+  /** @param {string} name @param {boolean} isBroken */
   stuckBehind: (name, isBroken) =>
     `never: stuck behind ${name}${isBroken ? ", which breaks down" : ""}`,
   lateness: {
     elsewhere: "another way",
     onTime: "on time",
+    /** @param {string} time */
     late: (time) => `${time} late`,
+    /** @param {string} time */
     early: (time) => `${time} early`,
   },
 
   /** Between plans. */
   compared: {
+    /** @param {number} count */
     plans: (count) => counted(count, "plan", "plans"),
+    /** @param {string} title */
     mapOf: (title) => `Map of ${title}`,
+    /** @param {string} title */
     compareWith: (title) => `Compare the others with ${title}`,
     figures: {
       faults: "Faults",
@@ -251,6 +308,7 @@ export const ENGLISH = {
       gap: "Gap: how far the sum of arrivals is above that of robots that drive alone",
     },
     isBest: "the best",
+    /** @param {string} title @param {string} base */
     changes: (title, base) => `${title} beside ${base}`,
     isMissing: "not there",
     whats: { map: "map", rules: "rules" },
@@ -272,15 +330,19 @@ export const ENGLISH = {
       headway: "headway",
       clearance: "clearance",
     },
+    /** @param {string} title */
     sortBy: (title) => `Sort by ${title}: largest change first`,
     sortByName: "Sort by name",
     firstAllAtLength: "The plan whose last robot arrives first",
     least: "Least sum of arrivals",
     leastAtLength: "The plan with the smallest sum of the times of all robots",
   },
+  /** @param {string} time */
   isEarlier: (time) => `${time} earlier`,
+  /** @param {string} time */
   isLater: (time) => `${time} later`,
   same: "the same",
+  /** @param {boolean} isHome @param {string} time */
   allArrived: (isHome, time) => `all ${arrived(isHome)} at ${time}`,
 
   /** Which robot goes first, and why. */
@@ -288,22 +350,33 @@ export const ENGLISH = {
   noDecisions:
     "This plan keeps no decisions: a search makes none. Choose a robot: its card lists its waits. The studio shows what follows if the other robot goes first.",
   noneNeeded: "No decision was needed: no robot loses time to another.",
+  /** @param {string} name */
   rerouted: (name) => `${name} was sent another way`,
   decision: {
+    /** @param {string} waits @param {string} first @param {string} place */
     headOn: (waits, first, place) => `${waits} waits for ${first}, head-on, ${place}`,
+    /** @param {string} waits @param {string} first @param {string} place */
     follows: (waits, first, place) => `${waits} follows ${first}, ${place}`,
+    /** @param {string} waits @param {string} first @param {string} place */
     waits: (waits, first, place) => `${waits} waits for ${first}, ${place}`,
+    /** @param {string} one @param {string} other @param {string} place */
     metHeadOn: (one, other, place) =>
       `${one} and ${other} would have met head-on on the way from ${place}.`,
+    /** @param {string} one @param {string} other @param {string} place */
     sameWay: (one, other, place) =>
       `${one} and ${other} go the same way from ${place} and cannot overtake.`,
+    /** @param {string} one @param {string} other @param {string} first @param {string} place */
     tooNear: (one, other, first, place) =>
       `${one} and ${other} would have come too near to each other: ${first} drives from ${place}.`,
+    /** @param {string} one @param {string} other @param {string} place */
     bothIn: (one, other, place) => `${one} and ${other} would both have been in ${place}.`,
+    /** @param {string} waits @param {string} time @param {string} here @param {string} first */
     waitsIn: (waits, time, here, first) =>
       `${waits} waits ${time} in ${here} and lets ${first} go first.`,
+    /** @param {string} waits @param {string} here @param {string} first */
     givesWay: (waits, here, first) =>
       `${waits} gives way in ${here}, at no loss and lets ${first} go first.`,
+    /** @param {string} time */
     cost: (time) => `${time} later`,
     free: "no time lost",
     tie: "a tie: either choice costs the same",
@@ -315,10 +388,14 @@ export const ENGLISH = {
       only: "the only way",
     },
     reason: {
+      /** @param {string} waits */
       node: (waits) => `${waits} waits because that leaves fewer conflicts in the whole system.`,
+      /** @param {string} waits @param {string} first */
       settled: (waits, first) =>
         `${first} cannot wait: it would then meet robots that are settled already.`,
+      /** @param {string} waits @param {string} first */
       priority: (waits, first) => `${waits} waits because ${first} has the higher priority.`,
+      /** @param {string} waits @param {string} first */
       only: (waits, first) => `${first} cannot wait: that was impossible.`,
       tie: () =>
         `A tie: ${equal}, and the completion times add up to the same. Then the first of the two waits.`,
@@ -329,147 +406,204 @@ export const ENGLISH = {
   /** What is wrong with a plan, by kind of fault: its name, a sentence, what would be right. */
   offTheMap: "a place that is not on the map",
   nowhere: "nowhere",
+  /** @param {string} who @param {string} kind @param {string} where */
   anyFault: (who, kind, where) => `${who}: ${kind}, ${where}`,
+  /** @type {Record<string, FaultText>} */
   faultKinds: {
     "vertex conflict": {
       name: "vertex conflict",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} are both in ${where}`,
       remedy: "A place holds one robot: let one come when the other has left.",
     },
     "too close": {
       name: "too close",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} come nearer than their sizes allow, ${where}`,
     },
     "space conflict": {
       name: "space conflict",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} book places that are too near to each other, ${where}`,
     },
     "zone conflict": {
       name: "zone conflict",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} are both in one zone, ${where}`,
     },
     headway: {
       name: "headway",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} come to ${where} too soon after each other`,
       remedy: "Let the second robot come later: the rules ask for a headway.",
     },
     "swap conflict": {
       name: "swap conflict",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} drive through each other between ${where}`,
       remedy: "Two robots cannot exchange their places: let one wait aside until the other is by.",
     },
     rotation: {
       name: "rotation",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} move round ${where} all at once`,
       remedy: "The rules forbid rotations: let one wait until its place is empty.",
     },
     jump: {
       name: "jump",
+      /** @param {string} who @param {string} where @param {string} from @param {string} to */
       says: (who, where, from, to) => `${who} jumps from ${from} to ${to}`,
       remedy: "No way joins these two places.",
     },
     "too fast": {
       name: "too fast",
+      /** @param {string} who @param {string} where @param {string} from @param {string} to */
       says: (who, where, from, to) => `${who} drives from ${from} to ${to} faster than it can`,
       remedy: "Let the drive take as long as the robot needs.",
     },
     "turn cut short": {
       name: "turn cut short",
+      /** @param {string} who @param {string} where @param {string} from */
       says: (who, where, from) => `${who} turns at ${from} faster than it can`,
       remedy: "Let it stay until it has turned.",
     },
     "work cut short": {
       name: "work cut short",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} leaves ${where} before its work there is done`,
       remedy: "Let it stay until its work and turning are done.",
     },
     "stop missed": {
       name: "stop missed",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} does not come to its stop ${where}`,
       remedy: "Let it visit its stops in their order.",
     },
     "wrong home": {
       name: "wrong home",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} does not start at its home: it starts in ${where}`,
       remedy: "Let it start at its home at time 0.",
     },
     "wrong end": {
       name: "wrong end",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} does not end where its trip ends: it ends in ${where}`,
       remedy: "Let it end where its trip ends.",
     },
     backwards: {
       name: "backwards",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who} leaves ${where} before it comes there`,
     },
     "no plan": {
       name: "no plan",
+      /** @param {string} who @param {string} where */
       says: (who, where) => `${who}: no plan, ${where}`,
     },
   },
   noFaultFits: "No fault fits that.",
   noFaults: "The plan keeps every rule.",
+  /** @param {number} count */
   findAmong: (count) => `Find among the first ${count}`,
   noRobotNamed: "No robot has that name.",
 
   /** The list of robots. */
+
+  /** @param {boolean} isHome @param {string} moment @param {string} alone */
   doneAloneAt: (isHome, moment, alone) =>
     `${isHome ? "Home" : "Done"} at ${moment}, alone at ${alone}`,
+  /** @param {number} number */
   lap: (number) => `lap ${number}`,
 
   /** Below the pointer. */
+
+  /** @param {string} activity @param {string} place */
   doesTo: (activity, place) => `${activity} to ${place}`,
+  /** @param {string} activity @param {string} place */
   doesIn: (activity, place) => `${activity} in ${place}`,
+  /** @param {string} moment */
   since: (moment) => `since ${moment}`,
+  /** @param {string} name */
   zone: (name) => `zone ${name}`,
+  /** @param {string} name @param {string} robot */
   zoneHeldBy: (name, robot) => `zone ${name}, held by ${robot}`,
+  /** @param {string} name */
   stays: (name) => `${name} stays`,
+  /** @param {string} name @param {string} moment */
   until: (name, moment) => `${name} until ${moment}`,
+  /** @param {string} name @param {string} moment */
   next: (name, moment) => `next ${name}, at ${moment}`,
+  /** @param {string} time */
   heldFor: (time) => `held for ${time} in all`,
+  /** @param {string} names */
   homeOf: (names) => `home of ${names}`,
+  /** @param {string} names */
   stopOf: (names) => `stop of ${names}`,
+  /** @param {string} name */
   theHome: (name) => `the home of ${name}`,
+  /** @param {string} name */
   theStop: (name) => `the stop of ${name}`,
   station: "station",
+  /** @param {string} name */
   stationNamed: (name) => `station ${name}`,
   parking: "parking",
   charging: "charging",
   closed: "closed",
+  /** @param {string} from @param {string} to */
   closedWay: (from, to) => `${from} to ${to} closed`,
+  /** @param {string} what @param {string} from */
   closedFrom: (what, from) => `${what} from ${from} on`,
+  /** @param {string} what @param {string} from @param {string} until */
   closedFromUntil: (what, from, until) => `${what} from ${from} until ${until}`,
 
   /** Around the map. */
+
+  /** @param {number} count */
   vertices: (count) => `${count} vertices`,
+  /** @param {string} what */
   mapOf: (what) => `Map with ${what}`,
+  /** @param {string} speed */
   usualLimit: (speed) => `speed limit ${speed} without a sign`,
+  /** @param {string} names @param {boolean} isAlone @param {string} period */
   bottleneck: (names, isAlone, period) =>
     `Bottleneck: ${names}${isAlone ? " alone, which waits for no robot" : ""}, ${period} a period`,
+  /** @param {string} bottleneck @param {string} steps */
   bottleneckSteps: (bottleneck, steps) =>
     `${bottleneck}. Each of these visits begins as soon as the one before allows, the first again a period later: ${steps}`,
+  /** @param {string} name @param {string} place */
   isIn: (name, place) => `${name} in ${place}`,
 
   /** Time and its diagram. */
   pause: "Pause",
+  /** @param {string} time @param {string} all */
   of: (time, all) => [time, ` of ${all}`],
+  /** @param {string} unit */
   rate: (unit) => `1 × plays 1 ${unit} of the plan in a second`,
   loopAtLength: "Play one period for ever",
   noLoop: "The plan ends before a whole period does",
   transient: "transient",
+  /** @param {string} time */
   every: (time) => `every ${time}`,
+  /** @param {string} time */
   period: (time) => [`period 1: ${time}`, "period 1", "1"],
   rows: {
     title: "Robots over time: lines drive, frames wait, blocks work or turn",
     floor: "Robots over time; red: held up, orange: waits for a late robot",
+    /** @param {boolean} isEndOnly */
     grey: (isEndOnly) => `, grey: ${isEndOnly ? "done in " : ""}the plan`,
   },
+  /** @param {number} count */
   census: (count) => `What the ${count} robots do over time`,
+  /** @param {string} title */
   censusBeside: (title) => `${title}; the line: how many are out in the plan`,
   placeOverTime: "Place over time",
+  /** @param {string} name @param {string} length */
   routeOf: (name, length) => `Route of ${name}, ${length}`,
+  /** @param {string} from @param {string} to @param {string} length */
   wayBetween: (from, to, length) => `${from} to ${to}, ${length}`,
   signs: {
+    /** @param {string} names */
     decision: (names) => `${names}, fields are bookings`,
     route: "slopes are speeds, fields bookings",
     fleet: "lines are robots, fields their bookings",
@@ -477,22 +611,28 @@ export const ENGLISH = {
     thin: "thin lines: the plan",
   },
   corridorBegins: "Corridor: press the place on the map where it begins",
+  /** @param {string} place */
   corridorEnds: (place) => `Corridor from ${place}: press the place where it ends`,
 
   /** To take along: links, pictures, paper. */
   copied: "Copied",
   copyThis: "Copy this link",
+  /** @param {string} title @param {string} time */
   pictureName: (title, time) => `${title || "plan"} at ${time}`,
+  /** @param {string} moment @param {string} end */
   mapAt: (moment, end) => `The map at ${moment} of ${end}.`,
   robot: "Robot",
+  /** @param {number} count @param {string} what */
   andMoreThat: (count, what) => `and ${count} more, ${what}`,
   loseLess: "which lose less",
   differLess: "which differ less",
+  /** @param {string} term @param {string} title */
   headOf: (term, title) => `${term}, ${title}`,
 
   /** An inspection. */
   noFindingFits: "No finding fits that.",
   noFindings: "Nothing was found that will hurt.",
+  /** @param {number} count */
   readerNotes: (count) =>
     `${counted(count, "note", "notes")} of the reader: what was mended or left out`,
   severities: { error: "error", warning: "warning", note: "note" },
