@@ -58,6 +58,8 @@ export class RunStore extends Observable {
   /** @type {GetAnswer<`/runs/${number}/report`> | null} */
   report = null; // of laps or a simulation that is shown
   command = ""; // that gives the same as the run that is shown; empty where none does
+  /** @type {number | null} */
+  replayed = null; // the run of a simulation that was played last
   /** @type {number[]} */
   selected = []; // numbers of the runs that are compared, where there are two or more
   /** @type {Compared | null} */
@@ -266,6 +268,7 @@ export class RunStore extends Observable {
     const payload = await get(`/runs/${number}/payload?replay=${replayed}`);
     if (turn !== this.#wanted) return;
     this.payload = payload;
+    this.replayed = replayed;
     this.tell("payload");
   }
 
