@@ -28,11 +28,7 @@ SLOW = (
     "conformance/test_samples.py",  # plans on 36 real layouts
     "laws/test_best_timetable.py",
     "laws/test_io_fuzz.py",
-    "laws/test_lacam_plans.py",
-    "laws/test_optimum_with_sizes.py",
-    "laws/test_space.py",
     "laws/test_time_limits.py",
-    "laws/test_turning.py",  # every planner
     "planners/test_limits.py",  # limits of time, and interrupts
     "studio/test_accessibility.py",  # a browser
     "studio/test_attacks.py",  # thousands of requests

@@ -5,13 +5,12 @@ from __future__ import annotations
 import random
 from dataclasses import replace
 from fractions import Fraction
-from math import ceil
 
-from rightofway.model import Closure, Robot, Rules, Scenario, Stop, VertexId
+from rightofway.model import Closure, Rules, Scenario, VertexId
 from tests.builders.fleets import random_fleet
-from tests.builders.sizes import crowded_roadmap, has_room, sized, sized_on_lanes
+from tests.builders.sizes import sized, sized_on_lanes
 
-__all__ = ["closed_fleet", "tiny_closed", "with_closures"]
+__all__ = ["closed_fleet"]
 
 
 def with_closures(scenario: Scenario, seed: int, *, most: int = 4) -> Scenario:
@@ -51,28 +50,3 @@ def closed_fleet(seed: int) -> Scenario:
     else:
         fleet = (sized, sized_on_lanes)[seed % 3 - 1](seed)
     return with_closures(fleet, seed)
-
-
-def tiny_closed(seed: int) -> Scenario:
-    """Return two points or robots with sizes, one way trips and no work, and closures."""
-    fleets = (_tiny_closed(seed + 1000 * k) for k in range(1000))
-    return next(fleet for fleet in fleets if has_room(fleet))
-
-
-def _tiny_closed(seed: int) -> Scenario:
-    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
-    drawn = crowded_roadmap(draw, vertices=5, edges=6)
-    roadmap = replace(drawn, lengths=tuple(Fraction(ceil(length)) for length in drawn.lengths))
-    homes, targets = (draw.sample(range(roadmap.n_vertices), 2) for _ in range(2))
-    radius, occupancy = draw.choice([(0, "one"), (0, "both"), (3, None), (6, None)])
-    robots = tuple(
-        Robot(
-            name=f"R{k + 1}",
-            home=VertexId(home),
-            stops=(Stop(at=VertexId(target)),),
-            radius=Fraction(radius, 10),
-        )
-        for k, (home, target) in enumerate(zip(homes, targets, strict=True))
-    )
-    rules = Rules(ends="none", occupancy=occupancy)  # type: ignore[arg-type]
-    return with_closures(Scenario(roadmap=roadmap, robots=robots, rules=rules), seed, most=3)

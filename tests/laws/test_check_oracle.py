@@ -7,12 +7,12 @@ from fractions import Fraction
 from itertools import combinations, pairwise, permutations
 
 import numpy as np
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.check import check
 from rightofway.model import Occupancy, Plan, PlannerRun, Rules, Track
 from tests.builders.fleets import grid_fleet
+from tests.builders.laws import law
 
 Told = tuple[int, tuple[int, ...], str, tuple[int, ...]]
 """Tick, robots, kind and vertices of a fault: the order that faults come in."""
@@ -109,8 +109,7 @@ def circles(plan: Plan) -> Iterator[Told]:
                 yield tick, tuple(sorted(order)), kind, vertices
 
 
-@settings(max_examples=150, deadline=None)
-@given(plans() | merry_go_rounds())
+@law(plans() | merry_go_rounds())
 def test_the_judge_finds_what_every_tick_shows(plan: Plan) -> None:
     expected = sorted([*meetings(plan), *circles(plan)])
     if any(kind == "vertex conflict" for _, _, kind, _ in expected):
@@ -133,8 +132,7 @@ visits = st.tuples(
 )
 
 
-@settings(max_examples=100, deadline=None)
-@given(
+@law(
     st.lists(st.lists(visits, min_size=1, max_size=6), min_size=3, max_size=3),
     st.sampled_from(["one", "both"]),
 )

@@ -7,13 +7,13 @@ import tempfile
 from fractions import Fraction
 from pathlib import Path
 
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.io import FOREIGN_FORMATS, foreign_text, load_plan, write_map
 from rightofway.io.foreign import planviz
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track, VertexId
 from rightofway.model.grid import roadmap_of_grid
+from tests.builders.laws import law
 from tests.oracles.planviz import visits_step_by_step
 
 HALL = roadmap_of_grid([".....", ".@...", "....."])
@@ -48,8 +48,7 @@ def plans(draw: st.DrawFn) -> Plan:
     return Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun())
 
 
-@settings(max_examples=60, deadline=None)
-@given(plan=plans(), name=st.sampled_from(sorted(FOREIGN_FORMATS)))
+@law(plan=plans(), name=st.sampled_from(sorted(FOREIGN_FORMATS)))
 def test_what_is_written_for_another_program_is_read_back(plan: Plan, name: str) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path, map_file = Path(folder, "plan"), Path(folder, "hall.map")
@@ -70,8 +69,7 @@ def runs_of_actions(draw: st.DrawFn) -> tuple[int, list[tuple[str, int]]]:
     return steps_per_move, [(action, steps) for action, steps in runs if steps]
 
 
-@settings(max_examples=100, deadline=None)
-@given(drawn=runs_of_actions(), heading=st.sampled_from("ENWS"))
+@law(drawn=runs_of_actions(), heading=st.sampled_from("ENWS"))
 def test_counted_actions_lead_where_single_steps_lead(
     drawn: tuple[int, list[tuple[str, int]]], heading: str
 ) -> None:

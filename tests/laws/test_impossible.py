@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.errors import NoPlanExists
@@ -10,6 +9,7 @@ from rightofway.model import Rules, Scenario
 from rightofway.planners.impossible import blocking_set
 from rightofway.planners.task import Deadline
 from tests.builders.fleets import grid_fleet
+from tests.builders.laws import law, leave
 from tests.oracles.untimed_lacam import can_get_through
 
 GRIDS = (["...", "@.@"], [".....", "@@.@@"], ["....", "@@@@", "...."], ["......"])
@@ -35,12 +35,11 @@ def has_plan(scenario: Scenario, names: tuple[str, ...]) -> bool:
     return can_get_through(replace(scenario, robots=kept), may_rotate=True)
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
-@given(fleets())
+@law(fleets())
 def test_a_blocking_set_is_blocked_and_minimal(scenario: Scenario) -> None:
     everybody = tuple(robot.name for robot in scenario.robots)
     if has_plan(scenario, everybody):
-        return
+        leave("a plan exists")
     blockage = blocking_set(scenario, range(len(everybody)), seed=0, deadline=Deadline())
     assert not has_plan(scenario, blockage.robots)
     for name in blockage.robots:

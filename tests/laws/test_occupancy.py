@@ -4,11 +4,11 @@ from fractions import Fraction
 from math import ceil, floor
 
 import numpy as np
-from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from rightofway.model.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy, grown
+from tests.builders.laws import law, leave
 
 maps = st.integers(1, 7).flatmap(
     lambda width: st.lists(
@@ -25,8 +25,7 @@ def gap(one: int, other: int) -> int:
     return max(abs(one - other) - 1, 0)
 
 
-@settings(deadline=None)
-@given(drawn=maps, by=distances, outside=st.booleans())
+@law(drawn=maps, by=distances, outside=st.booleans())
 def test_pixels_nearer_than_the_distance_are_blocked(
     drawn: list[list[int]], by: Fraction, outside: bool
 ) -> None:
@@ -49,8 +48,7 @@ def test_pixels_nearer_than_the_distance_are_blocked(
             assert found[row, column] == (blocked[row, column] or is_near)
 
 
-@settings(deadline=None)
-@given(drawn=maps, size=st.fractions(1, 3, max_denominator=4))
+@law(drawn=maps, size=st.fractions(1, 3, max_denominator=4))
 def test_a_cell_is_free_if_all_pixels_that_it_touches_are(
     drawn: list[list[int]], size: Fraction
 ) -> None:
@@ -58,7 +56,7 @@ def test_a_cell_is_free_if_all_pixels_that_it_touches_are(
     height, width = pixels.shape
     rows, columns = floor(height / size), floor(width / size)
     if not rows or not columns:
-        return
+        leave("no cell has room")
     lines = Occupancy(pixels=pixels, resolution=Fraction(1)).cells(size)
     for up in range(rows):
         for right in range(columns):

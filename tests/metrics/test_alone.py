@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rightofway import search
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import alone_completions
 from rightofway.model import (
@@ -21,7 +21,11 @@ from rightofway.model import (
     VertexId,
     roadmap_of_edges,
     roadmap_of_grid,
+    route_of,
 )
+from rightofway.search import Bookings, Distances, earliest_track
+from tests.builders.any_fleet import any_fleet
+from tests.builders.laws import law, leave
 
 GRID = ["....", "@@@.", "...."]
 """From N0 to N8 it is 3 cells east, 2 south and 3 west: 8 edges."""
@@ -153,8 +157,7 @@ def fleets(draw: st.DrawFn) -> tuple[Scenario, Scenario]:
     )
 
 
-@settings(max_examples=60, deadline=None)
-@given(fleets())
+@law(fleets())
 def test_counting_edges_for_all_at_once_agrees_with_dijkstra(
     pair: tuple[Scenario, Scenario],
 ) -> None:
@@ -172,3 +175,18 @@ def test_more_robots_than_bits_of_a_block_are_counted_right() -> None:
     )
     scenario = Scenario(roadmap=roadmap, robots=robots, rules=Rules(ends="none"))
     assert alone_completions(scenario) == tuple(2 * k + 2 for k in range(280))
+
+
+@law(any_fleet(without={"closures"}))
+def test_the_bound_of_a_robot_alone_is_what_it_reaches_alone(scenario: Scenario) -> None:
+    """By tables of the native core, by the metrics, and by the search; alone heeds no closures."""
+    native = search.alone_completions(scenario)
+    assert native is not None
+    if (native < 0).any():
+        leave("a robot has no way")
+    assert native.tolist() == list(alone_completions(scenario))
+    for robot, least in enumerate(native.tolist()):
+        track = earliest_track(robot, Bookings(scenario.problem), Distances(scenario.roadmap))
+        assert track is not None
+        work = route_of(scenario.roadmap, scenario.problem.itineraries[robot], track).dwell[-1]
+        assert int(track.enter[-1]) + work == least

@@ -5,18 +5,17 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+from hypothesis import strategies as st
 
 import rightofway
 from rightofway.check import check
-from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Plan, Rules, Tick, completions_of
-from rightofway.planners import registered
+from rightofway.errors import GaveUp
+from rightofway.model import Plan, Rules, Scenario, Tick, completions_of
 from rightofway.planners.flip import Flipped, flipped
-from tests.builders.fleets import grid_fleet, random_fleet
-from tests.builders.mixed import mixed
-from tests.builders.seeds import seeds
-from tests.builders.sizes import sized, sized_on_lanes, zoned
-from tests.oracles.judge import faults
+from tests.builders.any_fleet import any_fleet
+from tests.builders.any_plan import STRICT, by_both_judges, planned
+from tests.builders.fleets import grid_fleet
+from tests.builders.laws import law
 
 
 def longest_wait(plan: Plan) -> tuple[int, int, Tick]:
@@ -71,15 +70,9 @@ def test_a_plan_with_swaps_is_refused() -> None:
         flipped(plan, 0, 1, Tick(1))
 
 
-@pytest.mark.parametrize("planner", sorted(registered()))
-@pytest.mark.parametrize("seed", seeds(60, 5))
-def test_answers_are_plans_that_keep_all_rules(planner: str, seed: int) -> None:
-    makers = (lambda seed: random_fleet(seed, robots=8), mixed, sized, sized_on_lanes, zoned)
-    few = {"iterations": 10} if planner in {"auto", "lns"} else {}
-    try:
-        plan = rightofway.solve(makers[seed % 5](seed), planner, options=few)
-    except (NoPlanExists, GaveUp, InputError) as reason:
-        pytest.skip(f"no plan: {reason}")
+@law(any_fleet(robots=(2, 4)), st.sampled_from(STRICT))
+def test_answers_are_plans_that_keep_all_rules(fleet: Scenario, planner: str) -> None:
+    plan = planned(fleet, planner)
     for one in plan.lost_time:
         for loss in one.losses:
             if loss.for_robot is None:
@@ -88,8 +81,7 @@ def test_answers_are_plans_that_keep_all_rules(planner: str, seed: int) -> None:
             if answer is None:
                 continue
             found = Plan(scenario=plan.scenario, tracks=answer.tracks, run=plan.run)
-            assert check(found).ok
-            assert faults(found) == set()
+            assert by_both_judges(found) == (set(), set())
             is_same = all(
                 len(new) == len(old) and (new.vertices == old.vertices).all()
                 for new, old in zip(answer.tracks, plan.tracks, strict=True)
