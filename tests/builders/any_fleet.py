@@ -117,6 +117,8 @@ def fleet_documents(
     may = [feature for feature in FEATURES if feature not in {*without, *always}]
     has = {*always, *draw(st.sets(st.sampled_from(may), max_size=7) if may else st.just(set()))}
     site, places = _site(draw, has - {"layouts"} if tiny else has, 3 if tiny else 6)
+    if len(places) // 2 < robots[0]:
+        reject()
     count = draw(st.sampled_from(range(robots[0], min(robots[1], len(places) // 2) + 1)))
     homes = draw(st.lists(st.sampled_from(places), min_size=count, max_size=count, unique=True))
     left = [place for place in places if not apart or place not in homes]

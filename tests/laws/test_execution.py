@@ -66,7 +66,7 @@ def test_the_kernel_equals_robots_that_look(fleet: Scenario, planner: str, chanc
     assert adg.deadlocked() == []
 
 
-@law(any_fleet(robots=(2, 4), without=ONE_CHAIN, tiny=True), planners, seeds)
+@law(any_fleet(robots=(3, 4), without=ONE_CHAIN), planners, seeds)
 def test_robots_in_a_wrong_order_deadlock_just_where_the_kernel_says(
     fleet: Scenario, planner: str, chance: int
 ) -> None:
