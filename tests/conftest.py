@@ -50,6 +50,7 @@ SLOW = (
     "studio/test_survival.py",  # starts the command as a process, and kills it
     "studio/test_what_if.py",  # a browser
     "studio/test_worker.py",  # starts processes
+    "test_reruns.py",  # pytest within pytest
     "viewer/",  # a browser
     "viz/test_spreadsheet.py",  # LibreOffice
 )

@@ -10,7 +10,7 @@ from rightofway.model import Closure, Rules, Scenario, VertexId
 from tests.builders.fleets import random_fleet
 from tests.builders.sizes import sized, sized_on_lanes
 
-__all__ = ["closed_fleet"]
+__all__ = ["closed_fleet", "with_closures"]
 
 
 def with_closures(scenario: Scenario, seed: int, *, most: int = 4) -> Scenario:

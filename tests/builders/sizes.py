@@ -25,6 +25,7 @@ __all__ = [
     "crossing",
     "crowded_roadmap",
     "dense",
+    "has_room",
     "sized",
     "sized_on_lanes",
     "tiny",

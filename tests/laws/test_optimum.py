@@ -1,0 +1,65 @@
+"""Tiny fleets against a search over all joint states: what is proven is true."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import strategies as st
+
+from rightofway import check, solve
+from rightofway.errors import GaveUp, NoPlanExists
+from tests.builders.any_plan import QUICK, STRICT, knows
+from tests.builders.laws import law, leave
+from tests.builders.tiny import KINDS, least_flowtime
+
+kinds, seeds = st.sampled_from(sorted(KINDS)), st.integers(0, 10**6)
+
+PROVEN = ("optimal", "best order of moves", "no robot can be sooner")
+"""Parts of a planner's status that claim the optimum."""
+
+
+@law(kinds, seeds, st.sampled_from(STRICT))
+def test_no_plan_is_below_the_optimum_and_what_a_planner_proves_is_true(
+    kind: str, seed: int, planner: str
+) -> None:
+    scenario = KINDS[kind](seed)
+    if not knows(planner, scenario):
+        leave("the planner does not know such fleets")
+    least = least_flowtime(kind, scenario)
+    try:
+        plan = solve(scenario, planner, options=QUICK.get(planner), time_limit=None)
+    except NoPlanExists:
+        assert least is None
+        return
+    except GaveUp:
+        leave("the planner gave up")
+    assert check(plan).ok
+    assert least is not None
+    assert plan.lower_bound <= least <= plan.flowtime
+    if any(claim in plan.run.status for claim in PROVEN):
+        assert plan.flowtime == least
+
+
+@law(st.integers(0, 10**6))
+def test_without_its_closures_a_fleet_is_at_least_as_quick(seed: int) -> None:
+    scenario = KINDS["closures"](seed)
+    free = least_flowtime("closures", replace(scenario, closures=()))
+    among = least_flowtime("closures", scenario)
+    assert among is None or (free is not None and free <= among)
+
+
+@pytest.mark.parametrize("kind", sorted(KINDS))
+def test_auto_finds_the_optimum_of_tiny_fleets_or_proves_that_there_is_no_plan(kind: str) -> None:
+    """Nineteen of twenty, because auto stops its search by steps; seeds 0 to 19 of each kind."""
+    right = 0
+    for seed in range(20):
+        scenario = KINDS[kind](seed)
+        least = least_flowtime(kind, scenario)
+        try:
+            right += solve(scenario, options={"iterations": 50}).flowtime == least
+        except NoPlanExists:
+            right += least is None
+        except GaveUp:
+            continue
+    assert right >= 19
