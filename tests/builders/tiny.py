@@ -73,5 +73,6 @@ KINDS: dict[str, Callable[[int], Scenario]] = {
 
 def least_flowtime(kind: str, scenario: Scenario) -> int | None:
     """Return the least sum of completions [ticks] by search over joint states, None for no plan."""
-    oracle = turning if kind == "turning" else joint_space
-    return oracle.least_flowtime(scenario)
+    if kind == "turning":
+        return turning.least_flowtime(scenario)
+    return joint_space.least_flowtime(scenario)

@@ -50,7 +50,7 @@ def fleets(draw: st.DrawFn) -> Scenario:
     )
 
 
-@law(fleets(), st.integers(0, 2**64 - 1))
+@law(fleets(), st.integers(0, 2**32 - 1))
 def test_the_kernel_finds_the_plan_of_the_oracle(scenario: Scenario, seed: int) -> None:
     """Both tell one robot more where to go where robots that choose alone get stuck."""
     problem = planning_problem(scenario)

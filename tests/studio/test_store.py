@@ -11,7 +11,7 @@ from rightofway.errors import InputError
 from rightofway.studio.errors import Refused
 from rightofway.studio.store import FILE, Store
 from rightofway.studio.workspace import Workspace
-from tests.builders.studios import planned, running
+from tests.builders.studios import DOOR, planned, running
 
 
 def test_what_is_kept_is_there_when_the_file_is_opened_again(tmp_path: Path) -> None:
@@ -29,6 +29,18 @@ def test_what_is_kept_is_there_when_the_file_is_opened_again(tmp_path: Path) -> 
     assert found
     assert found["document"] == {"map": {}}
     again.close()
+
+
+def test_a_run_is_added_with_its_blobs_in_one_piece(tmp_path: Path) -> None:
+    """A studio that was killed in between had a run in its list that could not be planned."""
+    with running(tmp_path) as client:
+        said: list[str] = []
+        client.studio.store._database.set_trace_callback(said.append)
+        client.post("/runs", json={"document": DOOR}).raise_for_status()
+        client.studio.store._database.set_trace_callback(None)
+    [added] = [k for k, line in enumerate(said) if line.startswith("INSERT INTO runs")]
+    kept = next(k for k, line in enumerate(said) if line.startswith("INSERT OR REPLACE INTO blobs"))
+    assert "COMMIT" not in said[added:kept]
 
 
 def test_a_deleted_run_takes_its_blobs_along_and_is_not_put_back(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ export interface About {
   limits: Limits;
 }
 
-/** The decision that a wait follows from. */
+/** A decision that a wait follows from. */
 export interface Because {
   index: number;
   decision: string;
@@ -381,7 +381,7 @@ export interface LossData {
   end: number;
   ticks: number;
   sentence: string;
-  because: Because | null;
+  because: Array<Because>;
 }
 
 /** Why robots lose time. */

@@ -420,7 +420,7 @@ class Choices(TypedDict):
 
 
 class Because(TypedDict):
-    """The decision that a wait follows from."""
+    """A decision that a wait follows from."""
 
     index: int
     decision: str
@@ -440,7 +440,7 @@ LossData = TypedDict(
         "end": int,
         "ticks": int,
         "sentence": str,
-        "because": Because | None,
+        "because": list[Because],
     },
 )
 """A wait, or another cause of lost time [ticks]."""

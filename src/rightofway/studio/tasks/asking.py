@@ -10,7 +10,7 @@ from rightofway.cli.plan_report import Words, decision_in_words, reason_in_words
 from rightofway.errors import InputError, InvalidPlan, nearest
 from rightofway.io import plan_text
 from rightofway.metrics import lost_time
-from rightofway.model import Decision, Loss, Plan, Tick
+from rightofway.model import Loss, Plan, Tick
 from rightofway.planners.flip import flipped
 from rightofway.studio.messages import Blobs, Emit, zipped
 from rightofway.studio.tasks.documents import figures
@@ -21,7 +21,7 @@ Result = tuple[Any, ...]
 
 
 def losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
-    """Return each cause of lost time in a sentence, with the decision that it follows from."""
+    """Return each cause of lost time in a sentence, with the decisions that it follows from."""
     plan = read(blobs[0])
     words = Words(plan=plan, quantities=plan.scenario.quantities)
     wanted = None if robot is None else _index(plan, "robot", robot)
@@ -36,14 +36,14 @@ def losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
 
 def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
     name = words.plan.scenario.roadmap.name
-    decision = _decision_behind(words.plan, loss)
-    because = None
-    if decision is not None:
-        because = {
-            "index": words.plan.run.decisions.index(decision),
-            "decision": decision_in_words(words, decision),
-            "reason": reason_in_words(words, decision),
+    because = [
+        {
+            "index": index,
+            "decision": decision_in_words(words, words.plan.run.decisions[index]),
+            "reason": reason_in_words(words, words.plan.run.decisions[index]),
         }
+        for index in _decisions_behind(words.plan, loss)
+    ]
     return {
         "kind": loss.kind,
         "robot": words.robot(loss.robot),
@@ -59,16 +59,36 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
     }
 
 
-def _decision_behind(plan: Plan, loss: Loss) -> Decision | None:
-    """Return the last decision on both robots at a place of the loss; None where none is kept."""
+def _decisions_behind(plan: Plan, loss: Loss) -> list[int]:
+    """Return by index the decisions that a loss follows from, in order; none where none is kept.
+
+    That is the last decision on both robots at a place of the loss, and decisions of the same wait
+    (also for other robots) whose ticks are the rest of the loss.
+    """
     places = {loss.vertex, loss.towards, loss.freed}
     pair = {loss.robot, loss.for_robot}
-    decisions = (
-        each
-        for each in reversed(plan.run.decisions)
-        if set(each.robots) == pair and each.waits == loss.robot
+    own = [
+        (index, each)
+        for index, each in reversed([*enumerate(plan.run.decisions)])
+        if each.waits == loss.robot
+    ]
+    last = next(
+        (
+            (index, each)
+            for index, each in own
+            if set(each.robots) == pair and places.intersection(each.vertices)
+        ),
+        None,
     )
-    return next((each for each in decisions if places.intersection(each.vertices)), None)
+    if last is None:
+        return []
+    found, rest = [last[0]], loss.ticks - last[1].ticks
+    for index, each in own:
+        of_same_wait = index != last[0] and each.waits_at == last[1].waits_at
+        if of_same_wait and 0 < each.ticks <= rest:
+            found.append(index)
+            rest -= each.ticks
+    return sorted(found)
 
 
 def flip(

@@ -1,4 +1,4 @@
-/** Why robots wait: each wait in a sentence, the decision behind it, and what if the other went first. */
+/** Why robots wait: each wait in a sentence, the decisions behind it, and what if the other went first. */
 
 import { html } from "../vendor/htm-preact.js";
 import { texts } from "../../../viz/page/assets/language.js";
@@ -23,7 +23,7 @@ export function Waits({ studio }) {
           ? html`<ol class="waits">${found.slice(0, MOST).map(
               (loss) => html`<li>
         <button type="button" class="watch" onClick=${() => studio.watchLoss(loss)}>${sentenceOn(stage, loss)}</button>
-        ${loss.because && html`<p><small>${reasonOf(stage, loss)}</small></p>`}
+        ${loss.because.map(({ index }) => html`<p><small>${stage.words.explained(stage.plan.decisions[index])}</small></p>`)}
         ${loss.for && !isOnlyChoice(stage, loss) && html`<button type="button" class="framed" onClick=${() => studio.flip(loss)}>${words.letGoFirst(loss.robot)}</button>`}
       </li>`,
             )}</ol>`
@@ -64,16 +64,8 @@ export function lossOn({ plan }, { robot, tick, vertex }) {
  * @param {LossData} loss
  * @returns {boolean}
  */
-const isOnlyChoice = ({ plan }, { because }) =>
-  plan.decisions[because?.index ?? -1]?.level === "only";
-
-/**
- * The decision behind it, and why it was taken.
- * @param {Stage} stage
- * @param {LossData} loss
- * @returns {string}
- */
-function reasonOf({ plan, words: said }, { because }) {
-  const decision = plan.decisions[because?.index ?? -1];
-  return decision ? `${said.decisionAtLength(decision)} ${said.reason(decision)}` : "";
-}
+const isOnlyChoice = ({ plan }, { because, for: first }) =>
+  because.some(({ index }) => {
+    const { level, robots } = plan.decisions[index];
+    return level === "only" && robots.some((robot) => plan.robots[robot].name === first);
+  });

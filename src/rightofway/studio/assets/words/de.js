@@ -185,7 +185,7 @@ export const GERMAN = {
   size: "Größe",
   units: "Längeneinheit",
   spacing: "Strecken teilen ab",
-  findings: "Mögliche Probleme",
+  findings: "Fehler und Befunde",
   moreFindings: (count) => `${count} weitere`,
   notes: "Über diese Karte",
   noUnit: "keine",

@@ -185,7 +185,7 @@ export const ENGLISH = {
   size: "Size",
   units: "Unit of length",
   spacing: "Split lanes at",
-  findings: "What will hurt",
+  findings: "Faults and findings",
   moreFindings: (/** @type {number} */ count) => `${count} more`,
   notes: "About this map",
   noUnit: "none",

@@ -177,7 +177,7 @@ export class SpaceTime {
     context.textBaseline = "middle";
     for (const { vertex, y } of named) {
       context.fillText(
-        shortened(context, this.words.where(vertex), this.area.left - 34),
+        shortened(context, this.words.short(vertex), this.area.left - 34),
         this.area.left - 12,
         y + 0.5,
       );

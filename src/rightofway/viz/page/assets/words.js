@@ -78,13 +78,35 @@ export class Words {
   }
 
   /**
-   * Where a place is, in a list or beside a row: "Press", "(7.25, 4.75)", "N5".
+   * Where a place is, where there is little room: "Press", "(7.25, 4.75)", "N5".
+   *
+   * @param {number} vertex
+   */
+  short(vertex) {
+    const { roadmap } = this.plan;
+    return roadmap.isMeasured ? roadmap.label(vertex) : roadmap.name(vertex);
+  }
+
+  /**
+   * Where a place is, in a list, with the number of a cell as in tables and on the command line:
+   * "Press (N24)", "N24 (7.25, 4.75)", "N5".
    *
    * @param {number} vertex
    */
   where(vertex) {
     const { roadmap } = this.plan;
-    return roadmap.isMeasured ? roadmap.label(vertex) : roadmap.name(vertex);
+    if (!roadmap.isMeasured) return roadmap.name(vertex);
+    return roadmap.stations.has(vertex)
+      ? this.#numbered(roadmap.label(vertex), vertex)
+      : `${roadmap.name(vertex)} ${roadmap.where(vertex)}`;
+  }
+
+  /**
+   * @param {string} name
+   * @param {number} vertex
+   */
+  #numbered(name, vertex) {
+    return `${name} (${this.plan.roadmap.name(vertex)})`;
   }
 
   /**
@@ -96,7 +118,8 @@ export class Words {
     const { roadmap } = this.plan;
     if (!roadmap.isMeasured || roadmap.stations.has(vertex)) return this.where(vertex);
     this.#known ??= this.#knownPlaces();
-    return this.#known.get(vertex) ?? this.where(vertex);
+    const known = this.#known.get(vertex);
+    return known ? this.#numbered(known, vertex) : this.where(vertex);
   }
 
   /** @type {Map<number, string> | null} */
@@ -403,5 +426,18 @@ export class Words {
       rows.push([texts.completionSums, ...sums]);
     }
     return rows;
+  }
+
+  /**
+   * A decision, why it was taken, and its figures: "Conflicts left: 2 if R1 waits, 5 if R2 waits."
+   *
+   * @param {DecisionData} decision
+   */
+  explained(decision) {
+    const [one, other] = decision.robots.map((robot) => this.robot(robot));
+    const figures = this.figures(decision).map(([label, ifOne, ifOther]) =>
+      texts.ifEitherWaits(String(label), one, ifOne, other, ifOther),
+    );
+    return [this.decisionAtLength(decision), this.reason(decision), ...figures].join(" ");
   }
 }

@@ -204,6 +204,8 @@ export const GERMAN = {
   losesTime: "Verliert Zeit",
   theFault: (kind) => `der Fehler (${kind})`,
   ifItWaits: "Wenn er wartet",
+  ifEitherWaits: (label, one, ifOne, other, ifOther) =>
+    `${label}: ${ifOne}, wenn ${one} wartet, ${ifOther}, wenn ${other} wartet.`,
   conflictsLeft: "Übrige Konflikte",
   impossible: "unmöglich",
   completionSums: "Summe der Fertigzeiten",
@@ -304,7 +306,7 @@ export const GERMAN = {
       `${waits} wartet ${time} in ${here} und lässt ${first} zuerst fahren.`,
     givesWay: (waits, here, first) =>
       `${waits} gibt in ${here} ohne Zeitverlust nach und lässt ${first} zuerst fahren.`,
-    cost: (time) => `${time} später`,
+    cost: (time) => `verliert ${time}`,
     free: "kein Zeitverlust",
     tie: "gleichwertig: beide Möglichkeiten kosten dasselbe",
     why: {
@@ -319,7 +321,8 @@ export const GERMAN = {
       settled: (waits, first) =>
         `${first} kann nicht warten: Er träfe sonst auf Roboter, die schon festgelegt sind.`,
       priority: (waits, first) => `${waits} wartet, weil ${first} den höheren Rang hat.`,
-      only: (waits, first) => `${first} kann nicht warten: Das war unmöglich.`,
+      only: (waits, first) =>
+        `${first} kann hier nicht warten: Mit den früheren Entscheidungen ist dann kein Plan möglich.`,
       tie: () =>
         `Gleichwertig: ${equalIn}, und die Summe der Fertigzeiten ist gleich. Dann wartet der erste der beiden.`,
       robot: () => `B${equalIn.slice(1)}; daher entscheidet die kleinere Summe der Fertigzeiten.`,

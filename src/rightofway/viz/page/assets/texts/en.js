@@ -246,6 +246,9 @@ export const ENGLISH = {
   /** @param {string} kind */
   theFault: (kind) => `the fault (${kind})`,
   ifItWaits: "If it waits",
+  /** @param {string} label @param {string} one @param {number | string} ifOne @param {string} other @param {number | string} ifOther */
+  ifEitherWaits: (label, one, ifOne, other, ifOther) =>
+    `${label}: ${ifOne} if ${one} waits, ${ifOther} if ${other} waits.`,
   conflictsLeft: "Conflicts left",
   impossible: "impossible",
   completionSums: "Sum of completion times",
@@ -377,7 +380,7 @@ export const ENGLISH = {
     givesWay: (waits, here, first) =>
       `${waits} gives way in ${here}, at no loss and lets ${first} go first.`,
     /** @param {string} time */
-    cost: (time) => `${time} later`,
+    cost: (time) => `loses ${time}`,
     free: "no time lost",
     tie: "a tie: either choice costs the same",
     why: {
@@ -396,7 +399,8 @@ export const ENGLISH = {
       /** @param {string} waits @param {string} first */
       priority: (waits, first) => `${waits} waits because ${first} has the higher priority.`,
       /** @param {string} waits @param {string} first */
-      only: (waits, first) => `${first} cannot wait: that was impossible.`,
+      only: (waits, first) =>
+        `${first} cannot wait here: with the decisions taken before, no plan is possible then.`,
       tie: () =>
         `A tie: ${equal}, and the completion times add up to the same. Then the first of the two waits.`,
       robot: () => `E${equal.slice(1)}, so the smaller sum of completion times decides.`,
