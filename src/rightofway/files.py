@@ -10,9 +10,9 @@ from io import BytesIO
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, shown
 
-__all__ = ["archive_of", "write_whole"]
+__all__ = ["archive_of", "path_of", "write_whole"]
 
 NO_DATE = (1980, 1, 1, 0, 0, 0)
 """The first date that a zip archive can hold."""
@@ -38,6 +38,27 @@ def archive_of(save: Callable[[BytesIO], object]) -> bytes:
     return undated.getvalue()
 
 
+def path_of(given: str | os.PathLike[str], place: str = "path") -> Path:
+    """Return what a caller gave as the path of a file.
+
+    Parameters
+    ----------
+    given
+        Anything.
+    place
+        The name of the argument.
+
+    Raises
+    ------
+    InputError
+        If it is neither text nor a path.
+    """
+    try:
+        return Path(given)
+    except TypeError:
+        raise InputError.at(place, f"{shown(given)} is no path (give text or a Path)") from None
+
+
 def write_whole(path: str | os.PathLike[str], content: bytes | str) -> None:
     """Write a file so that at every moment it holds what it held before, or all that is new.
 
@@ -53,7 +74,7 @@ def write_whole(path: str | os.PathLike[str], content: bytes | str) -> None:
     InputError
         If it cannot be written; a file that was there before is untouched.
     """
-    target = Path(path)
+    target = path_of(path)
     try:
         data = content.encode() if isinstance(content, str) else content
         if target.exists() and not target.is_file():

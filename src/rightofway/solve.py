@@ -12,9 +12,16 @@ import numpy as np
 from rightofway.check import check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits
 from rightofway.model import Plan, PlannerRun, Problem, Scenario, Track, checked_time_limit
-from rightofway.model.given import checked_plan, checked_scenario, checked_seed
+from rightofway.model.given import (
+    checked_functions,
+    checked_plan,
+    checked_scenario,
+    checked_seed,
+    checked_truths,
+)
 from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
+from rightofway.model.values import at, between
 from rightofway.model.zones import listed_only
 from rightofway.planners import (
     DEFAULT,
@@ -103,6 +110,8 @@ def solve(
     if start is not None:
         _refuse_start(spec, start, "start")
     settled = _settled(spec, options, named, seed)
+    checked_functions(report=report, on_plan=on_plan)
+    checked_truths(keep_best=keep_best)
     task = Task(scenario=scenario, **settled, report=report or _silent, keep_best=keep_best)
     return _run(spec, task, limit, seconds_per_visit, on_plan, old=start)
 
@@ -150,6 +159,8 @@ def improve(
         message = f"the plan has {judged.summary}; improving starts from a plan without faults"
         raise InputError.at("", f"{message} ({remedy})")
     settled = _settled(spec, options, named, seed)
+    checked_functions(report=report, on_plan=on_plan)
+    checked_truths(keep_best=keep_best)
     task = Task(scenario=plan.scenario, **settled, report=report or _silent, keep_best=keep_best)
     return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit, on_plan)
 
@@ -195,6 +206,7 @@ def _run(
     from rightofway.planners.warm_start import kept_of
     from rightofway.search import alone_completions
 
+    seconds_per_visit = at("seconds_per_visit", between(0, 3600), seconds_per_visit)
     _refuse_unknown(spec, task.scenario.problem)
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rightofway
+from rightofway.errors import InputError
 from rightofway.execution import Outcome, replay
 from rightofway.model import Plan, PlannerRun, Rules, Track
 from rightofway.model.units import Clock
@@ -69,7 +70,7 @@ def test_a_run_shown_is_the_run_counted() -> None:
         for run in range(5):
             ends = [int(track.enter[-1]) for track in outcome.trace(run).tracks]
             assert ends == outcome.completion[run].tolist()
-    with pytest.raises(IndexError, match="run 5 is not among the 5 runs"):
+    with pytest.raises(InputError, match="run 5 is not among the 5 runs"):
         outcome.trace(5)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rightofway import solve
+from rightofway import InputError, solve
 from rightofway.execution import simulate
 from tests.builders.fleets import random_fleet
 from tests.builders.plans import door
@@ -37,7 +37,7 @@ def test_the_typical_run_is_in_the_middle() -> None:
 
 
 def test_there_is_no_run_beyond_the_last() -> None:
-    with pytest.raises(IndexError, match="run 3 is not among the 3 runs"):
+    with pytest.raises(InputError, match="run 3 is not among the 3 runs"):
         simulate(door(), runs=3).trace(3)
 
 

@@ -13,7 +13,8 @@ from rightofway.check.tracks import judge_drives, judge_trips, judge_turns
 from rightofway.check.visits import visits_of
 from rightofway.check.zones import judge_zones
 from rightofway.model import Plan, Quantities
-from rightofway.model.given import checked_plan
+from rightofway.model.given import checked_number, checked_plan
+from rightofway.model.values import at, one_of
 
 __all__ = ["Fault", "FaultKind", "Report", "check"]
 
@@ -54,6 +55,10 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
     A closure is a booking of nobody without headway; a robot's booking has its own.
     """
     visits = visits_of(checked_plan(plan))
+    limit = checked_number("limit", limit, 0, 2**31 - 1)
+    if quantities is not None:
+        read = one_of(Quantities, "no quantities", "give Quantities, or None")
+        at("quantities", read, quantities)
     names = Names(plan.scenario, quantities or plan.scenario.quantities)
     collector = FaultCollector(limit, names)
     judge_drives(visits, names, collector)

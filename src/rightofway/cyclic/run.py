@@ -12,7 +12,7 @@ from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
 from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, checked_time_limit
-from rightofway.model.given import checked_scenario
+from rightofway.model.given import checked_functions, checked_scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.planners import Deadline
 
@@ -67,6 +67,7 @@ def run_laps(
     group without a recurrence within the limit is open. Deterministic below the limit.
     """
     checked_scenario(scenario)
+    checked_functions(report=report)
     for key, given, known in (("rule", rule, tuple(RULES)), ("routes", routes, ROUTES)):
         if given not in known:
             raise InputError.at(key, f"{given!r} is unknown (choose {', '.join(known)})")

@@ -30,7 +30,8 @@ from rightofway.cyclic.run import advance, simulation_of
 from rightofway.cyclic.startup import start
 from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, Tick, checked_time_limit
-from rightofway.model.given import checked_scenario, checked_seed
+from rightofway.model.given import checked_functions, checked_number, checked_scenario, checked_seed
+from rightofway.model.values import at, list_of, number
 from rightofway.planners import Deadline
 from rightofway.precedence import unrolled
 from rightofway.search import Distances, RoundTrip
@@ -112,13 +113,13 @@ def best_timetable(
     share of the time. Deterministic for a seed if the rounds end before the limit. Not optimal.
     """
     n_robots, seed = len(checked_scenario(scenario).robots), checked_seed(seed)
-    if weights is not None and len(weights) != n_robots:
-        raise InputError.at("weights", f"{len(weights)} for {n_robots} robots (give one for each)")
-    for index, weight in enumerate(weights or ()):
-        if weight <= 0:
-            raise InputError.at(f"weights[{index}]", f"{weight} is not above 0")
+    checked_functions(report=report)
+    weights = _checked_weights(weights, n_robots)
+    least_fairness = at("least_fairness", number, least_fairness)
     if not 0 <= least_fairness <= 1:
         raise InputError.at("least_fairness", f"{least_fairness} is not from 0 to 1")
+    if rounds is not None:
+        rounds = checked_number("rounds", rounds, 0, 2**31 - 1)
     time_limit = checked_time_limit(time_limit)
     if time_limit is None and rounds is None:
         raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
@@ -132,7 +133,7 @@ def best_timetable(
         ways=tuple((one.lap, other.lap) for one, other in zip(usual, others, strict=True)),
         round_trips=(),
         forbidden=frozenset(),
-        weights=tuple(weights or [Fraction(1)] * n_robots),
+        weights=weights,
         least_fairness=least_fairness,
         deadline=deadline,
         draw=random.Random(),  # noqa: S311 (each group has its own)
@@ -147,6 +148,19 @@ def best_timetable(
             if len(partition) == 1:
                 raise
     return CyclicResult(scenario=scenario, rule=TIMETABLE, routes="chosen", groups=tuple(found))
+
+
+def _checked_weights(weights: Sequence[Fraction] | None, n_robots: int) -> tuple[Fraction, ...]:
+    """Return the weight of each robot; 1 by default."""
+    if weights is None:
+        return (Fraction(1),) * n_robots
+    weights = at("weights", list_of(number), weights)
+    if len(weights) != n_robots:
+        raise InputError.at("weights", f"{len(weights)} for {n_robots} robots (give one for each)")
+    for index, weight in enumerate(weights):
+        if weight <= 0:
+            raise InputError.at(f"weights[{index}]", f"{weight} is not above 0")
+    return weights
 
 
 def _by_groups(
@@ -341,8 +355,8 @@ def _built(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> 
     building = problem.sooner(params.building_share if is_small else params.filling_share)
     first = problem.sooner(params.placing_share)
     built: list[Candidate] = []
-    for number in islice(count(), rounds):
-        times = problem.draw.uniform(1, params.longest_period) if number else params.first_period
+    for drawn in islice(count(), rounds):
+        times = problem.draw.uniform(1, params.longest_period) if drawn else params.first_period
         period = int(max(problem.alone) * times)
         try:
             built.append(insert_all(building if built else first, period, filling=building))

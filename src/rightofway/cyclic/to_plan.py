@@ -14,7 +14,11 @@ from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.errors import GaveUp, InputError, shown
 from rightofway.model import Plan, PlannerRun, SteadyState, Track
+from rightofway.model.given import checked_number
 from rightofway.precedence import TimedEventGraph
+
+MOST_LAPS = 10**6
+"""Laps of each robot that a plan may be asked for."""
 
 
 def plan_of(result: CyclicResult, laps: int | None = None) -> Plan:
@@ -42,7 +46,7 @@ def plan_of(result: CyclicResult, laps: int | None = None) -> Plan:
     if not isinstance(result, CyclicResult):
         remedy = "simulate laps with rightofway.run_laps"
         raise InputError.at("result", f"{shown(result)} is no result of laps ({remedy})")
-    plan = whole_laps(result, laps)
+    plan = whole_laps(result, None if laps is None else checked_number("laps", laps, 1, MOST_LAPS))
     report = check(plan)
     if not report.ok:
         raise GaveUp(

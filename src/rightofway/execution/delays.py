@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from rightofway.errors import InputError
 from rightofway.model import NEVER, Scenario
-from rightofway.model.values import exact
+from rightofway.model.values import at, exact, list_of, text
 from rightofway.precedence import DelayModel, Stoppage
 
 DEFAULT = "exponential:0.2"
@@ -108,9 +108,9 @@ def read_delays(given: str | Iterable[str], scenario: Scenario) -> tuple[Delay, 
     InputError
         If a cause cannot be read; names the cause and the remedy.
     """
-    several = [given] if isinstance(given, str) else given
-    texts = chain.from_iterable(map(_BETWEEN.split, several))
-    return tuple(_delay(text.strip(), scenario) for text in texts)
+    several = [given] if isinstance(given, str) else at("delays", list_of(text), given)
+    causes = chain.from_iterable(map(_BETWEEN.split, several))
+    return tuple(_delay(cause.strip(), scenario) for cause in causes)
 
 
 def _delay(text: str, scenario: Scenario) -> Delay:

@@ -15,8 +15,9 @@ from rightofway.execution.delays import DEFAULT, Delay, delay_model_of, read_del
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import Collisions, Lateness, Outcome, PolicyGain, joined
 from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
-from rightofway.model.given import checked_number, checked_seed
+from rightofway.model.given import checked_number, checked_seed, checked_truths
 from rightofway.model.problem import refuse_closures
+from rightofway.model.values import at, function
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 
@@ -86,6 +87,8 @@ def simulate(
     has no deadlock. Collisions and deadlocks are counted nevertheless.
     """
     time_limit = checked_time_limit(time_limit)
+    at("report", function, report)
+    checked_truths(switch=switch, replan=replan, keep_runs=keep_runs)
     judged = check(plan)
     if not judged.ok:
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be run)")

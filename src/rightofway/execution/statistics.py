@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
+from numbers import Integral
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.errors import InputError, shown
 from rightofway.model import NEVER, ExecutionTrace, Plan, VertexId
 from rightofway.model.values import written
 from rightofway.precedence import ActionDependencyGraph, RunBatch
@@ -288,7 +290,7 @@ class Outcome:
 
         Raises
         ------
-        IndexError
+        InputError
             If ``run`` is out of range.
 
         Notes
@@ -296,9 +298,10 @@ class Outcome:
         The judge uses planned durations: it reports early robots as too fast, and with booking
         ahead it assumes different bookings. Otherwise the tracks have no faults.
         """
-        if not 0 <= run < self.runs:
-            raise IndexError(f"run {run} is not among the {self.runs} runs (0 is the first)")
-        return self._trace(run)
+        if not isinstance(run, Integral) or not 0 <= run < self.runs:
+            message = f"run {shown(run)} is not among the {self.runs} runs (0 is the first)"
+            raise InputError.at("run", message)
+        return self._trace(int(run))
 
     def typical(self) -> int:
         """Return the median run, ordered by the number of robots that complete, then flowtime."""

@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any, Literal, Self
 
 from rightofway.errors import InputError, shown
+from rightofway.files import path_of
 from rightofway.fleet_builder.lanes import DrawnLanes, lanes_of_graph
 from rightofway.fleet_builder.values import (
+    ends_of,
     pair_of,
     place_and_work,
     point_of,
@@ -32,7 +34,7 @@ from rightofway.model import (
 from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.layout import Layout, LevelRoadmap, roadmap_of_level
 from rightofway.model.places import as_place, vertex_at
-from rightofway.model.values import Number
+from rightofway.model.values import Number, at, list_of, text
 from rightofway.model.values import length as exact_length
 from rightofway.model.zones import NamedZone
 
@@ -116,7 +118,7 @@ class FleetBuilder:
         maps = [name for name, value in given.items() if value is not None]
         if len(maps) > 1:
             raise InputError.at("", f"{' and '.join(maps)} are given (give one map)")
-        if y not in {"down", "up"}:
+        if y not in ("down", "up"):
             raise InputError.at("y", f"{shown(y)} is unknown (give down or up)")
         if origin is not None and not (grid or map_file):
             raise InputError.at("origin", "is for a grid or a map file (take it out)")
@@ -145,7 +147,7 @@ class FleetBuilder:
         elif map_file is not None:
             from rightofway.io import load_map
 
-            self._roadmap = roadmap_of_grid(load_map(Path(map_file)), **frame)
+            self._roadmap = roadmap_of_grid(load_map(path_of(map_file, "map_file")), **frame)
         elif graph is not None:
             self._drawn, self._has_positions = lanes_of_graph(graph)
             self.roadmap()
@@ -256,8 +258,14 @@ class FleetBuilder:
             Where the map is a grid or robots were added already.
         """
         self._refuse_fixed_map(f"zone {shown(name)}")
-        pairs = tuple((tail, head) for tail, head in edges)
-        self._drawn.zones.append(NamedZone(name=name, vertices=tuple(vertices), edges=pairs))
+        place = f"zone {shown(name)}"
+        within(place, at, "name", text, name)
+        named = within(place, at, "vertices", list_of(text), vertices)
+        listed = within(place, at, "edges", list_of(lambda ends: ends), edges)
+        pairs = tuple(ends_of(f"{place}: edges[{k}]", ends) for k, ends in enumerate(listed))
+        for k, ends in enumerate(pairs):
+            within(place, at, f"edges[{k}]", list_of(text), ends)
+        self._drawn.zones.append(NamedZone(name=name, vertices=named, edges=pairs))
         return self
 
     def add_robot(
@@ -318,7 +326,8 @@ class FleetBuilder:
         if stops is None:
             trip = [("target", target, work)]
         else:
-            trip = [(f"stops[{k}]", *place_and_work(stop)) for k, stop in enumerate(stops)]
+            given = within(source, at, "stops", list_of(lambda stop: stop), stops)
+            trip = [(f"stops[{k}]", *place_and_work(stop)) for k, stop in enumerate(given)]
         from rightofway.io.scenario.homes import HOMELESS
 
         try:
@@ -375,11 +384,10 @@ class FleetBuilder:
         """
         source = f"closure {len(self._closures)}"
         try:
+            ends = None if edge is None else ends_of("edge", edge)
             closure = Closure(
                 at=None if at is None else self._vertex("at", at),
-                edge=None
-                if edge is None
-                else (self._vertex("edge", edge[0]), self._vertex("edge", edge[1])),
+                edge=ends and (self._vertex("edge", ends[0]), self._vertex("edge", ends[1])),
                 from_=from_,  # type: ignore[arg-type]
                 until=until,  # type: ignore[arg-type]
                 radius=radius,  # type: ignore[arg-type]
@@ -462,7 +470,7 @@ class FleetBuilder:
         if not isinstance(layout, Layout):
             from rightofway.io import read_layout
 
-            found = read_layout(layout)
+            found = read_layout(path_of(layout, "layout"))
             if not isinstance(found, Layout):
                 remedy = "write a scenario with map: {layout: …} and load it"
                 raise InputError.at("layout", f"is a map in pixels or cells ({remedy})")

@@ -75,7 +75,7 @@ class DrawnLanes:
         """Add an edge, as `FleetBuilder.add_edge`."""
         place = f"edge {shown(tail)} to {shown(head)}"
         for name in (tail, head):
-            if name not in self.positions:
+            if not isinstance(name, str) or name not in self.positions:
                 near = nearest(name, self.positions)
                 hint = f"did you mean {near!r}?" if near else "add it first"
                 raise InputError.at(place, f"no vertex is named {shown(name)} ({hint})")

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Sized
 from fractions import Fraction
 from typing import Any
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.fleet_builder.values import within
 from rightofway.model import Plan, PlannerRun, Scenario, Track
+from rightofway.model.given import checked_scenario
 from rightofway.model.places import as_place, vertex_at
+from rightofway.model.values import at, list_of
 
 __all__ = ["plan_of_paths"]
 
@@ -45,16 +47,20 @@ def plan_of_paths(scenario: Scenario, paths: Mapping[str, Sequence[Any]]) -> Pla
     >>> plan == plan_of_paths(scenario, {"R1": [("N0", 0), ("N1", 2), ("N2", 3)]})
     True
     """
-    names = [robot.name for robot in scenario.robots]
+    names = [robot.name for robot in checked_scenario(scenario).robots]
+    if not isinstance(paths, Mapping):
+        remedy = 'give each robot its path by its name, like {"R1": ["N0", "N1"]}'
+        raise InputError.at("paths", f"{shown(paths)} are no paths ({remedy})")
     for name in paths:
         if name not in names:
             near = nearest(name, names)
             hint = f"did you mean {near!r}?" if near else f"robots are {', '.join(names)}"
             raise InputError.at("paths", f"no robot is named {shown(name)} ({hint})")
-    missing = [name for name in names if not paths.get(name)]
+    missing = [name for name in names if _is_missing(paths.get(name))]
     if missing:
         raise InputError.at("paths", f"{missing[0]} has no path (give at least its home)")
-    tracks = [_track(scenario, name, paths[name]) for name in names]
+    read = {name: at(f"paths[{name!r}]", list_of(lambda item: item), paths[name]) for name in names}
+    tracks = [_track(scenario, name, read[name]) for name in names]
     return Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun())
 
 
@@ -87,6 +93,11 @@ def _timed(scenario: Scenario, name: str, path: Sequence[Any]) -> Iterator[tuple
             raise InputError.at(f"paths[{name!r}]", message)
         else:
             yield item, int(index * per_unit)
+
+
+def _is_missing(path: Any) -> bool:
+    """Return whether a path is none, or has no item."""
+    return path is None or (isinstance(path, Sized) and not len(path))
 
 
 def _is_pair(item: Any) -> bool:

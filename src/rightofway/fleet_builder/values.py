@@ -77,6 +77,13 @@ def pair_of(place: str, given: Any) -> tuple[Any, Any]:
     return given[0], given[1]
 
 
+def ends_of(place: str, given: Any) -> tuple[Any, Any]:
+    """Return both ends of an edge."""
+    if not isinstance(given, list | tuple) or len(given) != 2:  # noqa: PLR2004 (tail and head)
+        raise InputError.at(place, f"{shown(given)} is no edge (give (tail, head))")
+    return given[0], given[1]
+
+
 def point_of(place: str, x: Number, y: Number) -> Point:
     """Return a point, exactly [length unit]."""
     try:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from rightofway.errors import InputError, InputFault, shown
+from rightofway.files import path_of
 from rightofway.io.faults import blaming
 from rightofway.io.foreign import read_foreign, recognized
 from rightofway.io.formats import SCENARIO_FORMAT
@@ -53,7 +54,7 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
     count
         As for `load`.
     """
-    path = Path(path)
+    path = path_of(path)
     if path.suffix.lower() == ".scen":
         with blaming(str(path)):
             return _classic(path, count)
@@ -91,7 +92,7 @@ def load_plan(
         With every independent fault, its place, value and remedy. A plan that breaks rules is not
         at fault here: `rightofway.check` judges it.
     """
-    path = Path(path)
+    path = path_of(path)
     kinds = {".scen": "a .scen file", **dict.fromkeys(WORKBOOKS, "a workbook")}
     kind = kinds.get(path.suffix.lower())
     if kind:
@@ -125,7 +126,7 @@ def load_either(
     InputError
         As `load_plan` and `load` do.
     """
-    path = Path(path)
+    path = path_of(path)
     if path.suffix.lower() in {".scen", *WORKBOOKS}:
         return load_with_notes(path, count)
     with blaming(str(path)):
@@ -186,7 +187,10 @@ def _foreign(
     with blaming(str(path)):
         refuse_layout(path)
         text = read_text(path)
-        files = [None if given is None else Path(given) for given in (map_file, scen)]
+        places = {"map_file": map_file, "scen": scen}
+        files = [
+            None if given is None else path_of(given, place) for place, given in places.items()
+        ]
         found = read_foreign(text, path, *files)
         if found is None and any(files):
             message = "the file has its own map and robots in it (leave out --map and --scen)"

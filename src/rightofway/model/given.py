@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from numbers import Integral
+from typing import Any
 
 from rightofway.errors import InputError, shown
 from rightofway.model.plan import Plan
 from rightofway.model.scenario import Scenario
+from rightofway.model.values import at, function, one_of, optional, truth
 
 LARGEST_SEED = 2**32 - 1
 """Planners draw from this many streams."""
@@ -27,18 +30,25 @@ def checked_scenario(scenario: Scenario, place: str = "scenario") -> Scenario:
     InputError
         If it is none.
     """
-    if not isinstance(scenario, Scenario):
-        remedy = "load a file with rightofway.load, or build a fleet with FleetBuilder"
-        raise InputError.at(place, f"{shown(scenario)} is no scenario ({remedy})")
-    return scenario
+    remedy = "load a file with rightofway.load, or build a fleet with FleetBuilder"
+    return at(place, one_of(Scenario, "no scenario", remedy), scenario)
 
 
 def checked_plan(plan: Plan, place: str = "plan") -> Plan:
     """Return what a caller gave as a plan; parameters and errors as for `checked_scenario`."""
-    if not isinstance(plan, Plan):
-        remedy = "load a file with rightofway.load_plan"
-        raise InputError.at(place, f"{shown(plan)} is no plan ({remedy})")
-    return plan
+    return at(place, one_of(Plan, "no plan", "load a file with rightofway.load_plan"), plan)
+
+
+def checked_functions(**functions: Callable[..., Any] | None) -> None:
+    """Refuse what callers gave as functions by the names of the arguments; None is no fault."""
+    for place, given in functions.items():
+        at(place, optional(function), given)
+
+
+def checked_truths(**truths: bool) -> None:
+    """Refuse what callers gave as true or false by the names of the arguments."""
+    for place, given in truths.items():
+        at(place, truth, given)
 
 
 def checked_seed(seed: int) -> int:
@@ -71,7 +81,8 @@ def checked_number(place: str, value: int, least: int, most: int, what: str = ""
     InputError
         If it is none.
     """
-    if not isinstance(value, Integral) or not least <= value <= most:
+    is_whole = isinstance(value, Integral) and not isinstance(value, bool)
+    if not is_whole or not least <= value <= most:
         remedy = f"give a whole number from {least} to {most}"
         raise InputError.at(place, f"{shown(value)} {what or 'is out of range'} ({remedy})")
     return int(value)

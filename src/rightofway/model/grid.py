@@ -89,7 +89,8 @@ def _frame_of_grid(
 
 
 def _check_lines(lines: Sequence[str]) -> None:
-    if isinstance(lines, str) or not all(isinstance(line, str) for line in lines):
+    is_list = isinstance(lines, Sequence) and not isinstance(lines, str)
+    if not is_list or not all(isinstance(line, str) for line in lines):
         raise InputError.at("", f"{shown(lines)} is no list of rows (give a list of text)")
     if not lines or not lines[0]:
         raise InputError.at("", "the grid is empty (give at least one row of one cell)")

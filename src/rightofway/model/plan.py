@@ -16,6 +16,7 @@ from rightofway.model.scenario import Scenario
 from rightofway.model.stays import completions_of
 from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick, VertexId
+from rightofway.model.values import coerced, list_of, one_of
 
 T = TypeVar("T")
 
@@ -255,7 +256,13 @@ class Plan:
     _figures: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "tracks", tuple(self.tracks))
+        read = {
+            "scenario": one_of(Scenario, "no scenario", "load one with rightofway.load"),
+            "tracks": list_of(one_of(Track, "no track", "make it with Track.of(vertices, enter)")),
+            "run": one_of(PlannerRun, "no run of a planner", "give PlannerRun()"),
+            "steady": list_of(one_of(SteadyState, "no steady state", "give SteadyState")),
+        }
+        coerced(self, "", **read)
         robots, tracks = len(self.scenario.robots), len(self.tracks)
         if robots != tracks:
             raise InputError.at(

@@ -151,6 +151,16 @@ class Quantities:
     tick: Fraction
     in_ticks: bool = False
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.units, Units):
+            raise InputError.at("units", f"{shown(self.units)} are no units (give Units)")
+        if not isinstance(self.tick, Fraction) or self.tick <= 0:
+            message = f"{shown(self.tick)} is no length of a tick (give a Fraction above 0)"
+            raise InputError.at("tick", message)
+        if not isinstance(self.in_ticks, bool):
+            message = f"{shown(self.in_ticks)} is neither true nor false (give True or False)"
+            raise InputError.at("in_ticks", message)
+
     def duration(self, ticks: Value) -> str:
         """Return how long a number of ticks lasts: ``6 min 23 s``, ``2 time units``."""
         if self.in_ticks:

@@ -8,16 +8,18 @@ share a visit. The last visit of a track never ends, so it is long enough for an
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, shown
 from rightofway.model.problem import Itinerary, Stage, least_dwell
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.units import NEVER, Tick, VertexId
+from rightofway.model.values import at, coerced
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -37,6 +39,7 @@ class Track:
     enter: NDArray[np.int64]
 
     def __post_init__(self) -> None:
+        coerced(self, "", vertices=_whole_numbers, enter=_whole_numbers)
         if len(self.vertices) != len(self.enter) or not len(self.vertices):
             counts = f"{len(self.vertices)} vertices and {len(self.enter)} times"
             raise InputError.at("", f"{counts} (give as many of both, at least one)")
@@ -63,7 +66,35 @@ class Track:
     @classmethod
     def of(cls, vertices: Sequence[int], enter: Sequence[int]) -> Track:
         """Make a track from any sequences."""
-        return cls(vertices=np.array(vertices, np.int32), enter=np.array(enter, np.int64))
+        return cls(
+            vertices=at("vertices", _array_of(np.int32), vertices),
+            enter=at("enter", _array_of(np.int64), enter),
+        )
+
+
+def _whole_numbers(value: object) -> object:
+    """Return an array of whole numbers."""
+    if isinstance(value, np.ndarray) and value.ndim == 1 and value.dtype.kind == "i":
+        return value
+    raise ValueError(f"{shown(value)} is no array of whole numbers (make it with Track.of)")
+
+
+def _array_of(kind: type[np.signedinteger[Any]]) -> Callable[[object], NDArray[Any]]:
+    """Return a reader of a list of whole numbers that ``kind`` can hold, as an array."""
+    least, most = np.iinfo(kind).min, np.iinfo(kind).max
+
+    def read(values: object) -> NDArray[Any]:
+        try:
+            array = np.array(values)
+        except ValueError:  # rows of several lengths
+            array = np.array(None)
+        if array.ndim != 1 or (len(array) and array.dtype.kind not in "iu"):
+            raise ValueError(f"{shown(values)} is no list of whole numbers (give one)")
+        if len(array) and not least <= array.min() <= array.max() <= most:
+            raise ValueError(f"{shown(values)} is out of range (give {least} to {most})")
+        return array.astype(kind)
+
+    return read
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -121,6 +121,13 @@ def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
             if not isinstance(closure, Closure):
                 message = f"{shown(closure)} is no closure (give a Closure)"
                 yield InputFault(f"closures[{index}]", message)
+    yield from _measure_faults(scenario)
+
+
+def _measure_faults(scenario: Scenario) -> Iterator[InputFault]:
+    """Yield a clock and units that are not of the right kind."""
+    if not isinstance(scenario.clock, Clock | None):
+        yield InputFault("clock", f"{shown(scenario.clock)} is no clock (leave it out)")
     if not isinstance(scenario.units, Units):
         yield InputFault("units", f"{shown(scenario.units)} are no units (give Units)")
 

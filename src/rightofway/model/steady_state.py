@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, shown
 from rightofway.model.units import Tick
+from rightofway.model.values import coerced, list_of, whole_number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,6 +39,8 @@ class SteadyState:
     critical: tuple[tuple[int, int], ...] = ()
 
     def __post_init__(self) -> None:
+        whole = {"start": whole_number, "period": whole_number}
+        coerced(self, "", robots=list_of(whole_number), critical=list_of(_visit), **whole)
         if self.period < 1:
             raise InputError.at("period", f"{self.period} is not positive (give 1 tick or more)")
         if self.start < 0:
@@ -46,6 +49,14 @@ class SteadyState:
             if robot not in self.robots:
                 message = f"robot {robot} is not of this group (name one of its robots)"
                 raise InputError.at(f"critical[{index}]", message)
+
+
+def _visit(value: object) -> tuple[int, int]:
+    """Return a visit: a robot and an index in its track."""
+    if not isinstance(value, list | tuple) or len(value) != 2:  # noqa: PLR2004 (robot and visit)
+        raise ValueError(f"{shown(value)} is no visit (give a robot and the index of its visit)")
+    robot, visit = map(whole_number, value)
+    return robot, visit
 
 
 def refuse_unknown_robots(

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
-from numbers import Integral, Rational
+from numbers import Integral, Rational, Real
 from typing import Any, Literal, TypeVar, get_args
 
 from rightofway.errors import InputError, InputFault, shown
@@ -185,6 +185,63 @@ def truth(value: object) -> bool:
     if isinstance(value, bool):
         return value
     raise ValueError(f"{shown(value)} is neither true nor false (give True or False)")
+
+
+def one_of(kind: type[T], what: str, remedy: str) -> Callable[[object], T]:
+    """Return a reader of values of a class; ``what`` another value is not, as in "no plan"."""
+
+    def read(value: object) -> T:
+        if isinstance(value, kind):
+            return value
+        raise ValueError(f"{shown(value)} is {what} ({remedy})")
+
+    return read
+
+
+def list_of(read: Callable[[object], T]) -> Callable[[object], tuple[T, ...]]:
+    """Return a reader of a list, by the reader of its items; text and mappings are no lists."""
+
+    def read_each(values: object) -> tuple[T, ...]:
+        if not isinstance(values, Iterable) or isinstance(values, str | bytes | Mapping):
+            raise ValueError(f"{shown(values)} is no list (give a list)")  # noqa: TRY004 (readers raise it)
+        return tuple(at(f"[{index}]", read, value) for index, value in enumerate(values))
+
+    return read_each
+
+
+def at(place: str, read: Callable[[object], T], value: object) -> T:
+    """Return what a reader makes of a value.
+
+    Raises
+    ------
+    InputError
+        At the place, if the reader refuses the value.
+    """
+    try:
+        return read(value)
+    except InputError as error:
+        raise InputError(fault.within(place) for fault in error.faults) from None
+    except ValueError as error:
+        raise InputError.at(place, str(error)) from None
+
+
+def function(value: object) -> Callable[..., Any]:
+    """Return a function."""
+    if callable(value):
+        return value
+    raise ValueError(f"{shown(value)} is no function (give one that takes one argument, or None)")
+
+
+def between(least: float, most: float) -> Callable[[object], float]:
+    """Return a reader of a number from ``least`` to ``most``, both included."""
+
+    def read(value: object) -> float:
+        is_number = isinstance(value, Real) and not isinstance(value, bool)
+        if is_number and least <= value <= most:  # type: ignore[operator]
+            return float(value)  # type: ignore[arg-type]
+        raise ValueError(f"{shown(value)} is no number from {least:g} to {most:g} (give one)")
+
+    return read
 
 
 def length(value: object, place: str) -> Fraction:

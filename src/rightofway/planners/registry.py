@@ -219,7 +219,7 @@ def find(name: str) -> PlannerSpec:
     if ours is not None:
         return ours
     specs = registered()
-    if name not in specs:
+    if not isinstance(name, str) or name not in specs:
         message = options.unknown(str(name), "rightofway", list(specs))
         raise InputError.at("planner", message)
     return specs[name]

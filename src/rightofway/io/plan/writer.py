@@ -12,6 +12,7 @@ from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.scenario.writer import dump_scenario
 from rightofway.io.text import json_text
 from rightofway.model import Decision, Plan, PlannerRun, Scenario, SteadyState
+from rightofway.model.given import checked_plan, checked_truths
 from rightofway.model.values import written
 
 
@@ -30,7 +31,8 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     InputError
         If a track leads through a vertex that the roadmap does not have.
     """
-    scenario = plan.scenario
+    checked_truths(seconds=seconds)
+    scenario = checked_plan(plan).scenario
     n_vertices = scenario.roadmap.n_vertices
     for index, track in enumerate(plan.tracks):
         if not 0 <= track.vertices.min() <= track.vertices.max() < n_vertices:

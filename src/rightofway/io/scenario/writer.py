@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.files import write_whole
+from rightofway.files import path_of, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.text import json_text
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Turn, Units, VertexId
 from rightofway.model.drawing import Picture
+from rightofway.model.given import checked_scenario
 from rightofway.model.values import written
 
 
@@ -28,7 +29,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     Reading the document gives an equal scenario, where robots and vertices have printable names,
     numbers have at most 18 digits, and a roadmap without a grid has labels.
     """
-    roadmap = scenario.roadmap
+    roadmap = checked_scenario(scenario).roadmap
     return {
         "format": SCENARIO_FORMAT,
         "map": _map(roadmap),
@@ -54,7 +55,7 @@ def write_scenario(scenario: Scenario, path: Path | str) -> None:
     InputError
         For another suffix, or if the file cannot be written.
     """
-    path = Path(path)
+    path = path_of(path)
     document = dump_scenario(scenario)
     if path.suffix.lower() == ".json":
         write_whole(path, json_text(document))

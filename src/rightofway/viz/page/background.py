@@ -11,9 +11,10 @@ from math import cos, sin
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, shown
 from rightofway.model import Roadmap
 from rightofway.model.drawing import Picture
+from rightofway.model.values import at, coordinate, list_of, one_of, optional
 from rightofway.viz.page.schema import BackgroundData, PlaceData
 from rightofway.viz.placement import plane_of
 
@@ -58,6 +59,17 @@ class Background:
     opacity: float = OPACITY
 
     def __post_init__(self) -> None:
+        if not isinstance(self.picture, str | os.PathLike):
+            fault = f"{shown(self.picture)} is no file (give text or a Path)"
+            raise InputError.at("background.picture", fault)
+        at("background.scale", optional(coordinate), self.scale)
+        for place, number in (("yaw", self.yaw), ("opacity", self.opacity)):
+            at(f"background.{place}", coordinate, number)
+        for place, point in (("origin", self.origin), ("corner", self.corner)):
+            read = at(f"background.{place}", optional(list_of(coordinate)), point)
+            if read is not None and len(read) != 2:  # noqa: PLR2004 (x and y)
+                fault = f"{shown(point)} is no point (give (x, y))"
+                raise InputError.at(f"background.{place}", fault)
         if self.scale is not None and not self.scale > 0:
             raise InputError.at("background.scale", f"{self.scale} is not positive (give a length)")
         if not 0 <= self.opacity <= 1:
@@ -69,6 +81,11 @@ class Background:
     @classmethod
     def of(cls, picture: Picture) -> Background:
         """Return the picture of a map where its scenario or layout says that it lies."""
+        at(
+            "picture",
+            one_of(Picture, "no picture of a map", "give Background(picture=file)"),
+            picture,
+        )
         origin, corner = picture.origin, picture.corner
         return cls(
             picture=picture.file,

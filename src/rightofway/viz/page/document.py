@@ -17,6 +17,8 @@ from functools import cache
 from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
+from rightofway.model.given import checked_plan
+from rightofway.model.values import at, text
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.page.scripts import asset, classic_script, scripts_of
@@ -71,7 +73,8 @@ def page_of(
         If ``steady`` or ``actual`` are not of this plan, the background cannot be read, or the
         plans cannot be compared: too many, or times in a unit and in none.
     """
-    count = len(plan.scenario.robots)
+    count = len(checked_plan(plan).scenario.robots)
+    title = at("title", text, title)
     robots = f"{count} robot{'s' * (count != 1)}"
     about = f"{title}: {robots}" if title else f"{robots}, planned by {plan.run.name}"
     payload = payload_of(

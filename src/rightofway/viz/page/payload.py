@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.check import Report
-from rightofway.errors import InputError, NoPlanExists
+from rightofway.errors import InputError, NoPlanExists, shown
 from rightofway.metrics import Metrics, compare, joined_waits, lost_time, measure
 from rightofway.model import (
     Decision,
@@ -32,7 +32,9 @@ from rightofway.model import (
     Track,
 )
 from rightofway.model.closures import Closure, ways_along
+from rightofway.model.given import checked_plan
 from rightofway.model.steady_state import refuse_unknown_robots
+from rightofway.model.values import at, list_of, one_of, optional, text
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.map_data import differences, map_data
@@ -88,6 +90,7 @@ def payload_of(
     InputError
         If ``steady`` or ``actual`` are not of this plan, or the plans cannot be compared.
     """
+    _refuse_other_kinds(steady, actual, no_plan, background, others)
     trips, steady = trips_of(plan), steady or plan.steady
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
     tick, lost = scenario.problem.clock.tick, lost_time(plan)
@@ -155,6 +158,26 @@ def room_of(scenario: Scenario) -> Fraction:
     """Return the distance that the two largest robots need [length unit]; 0 for points."""
     radii = sorted((robot.radius for robot in scenario.robots), reverse=True)[:2]
     return sum(radii) + scenario.rules.clearance if any(radii) else Fraction(0)
+
+
+def _refuse_other_kinds(
+    steady: object, actual: object, no_plan: object, background: object, others: object
+) -> None:
+    """Refuse what is shown beside a plan and is of another kind."""
+    groups = one_of(SteadyState, "no steady state", "give SteadyState")
+    trace = one_of(ExecutionTrace, "no execution", "give a trace of rightofway.simulate")
+    reasons = one_of(NoPlanExists, "no such error", "give the NoPlanExists that was raised")
+    picture = one_of(Background, "no background", "give a rightofway.Background")
+    at("steady", list_of(groups), steady)
+    at("actual", optional(trace), actual)
+    at("no_plan", optional(reasons), no_plan)
+    at("background", optional(picture), background)
+    for index, other in enumerate(at("others", list_of(lambda pair: pair), others)):
+        if not isinstance(other, list | tuple) or len(other) != 2:  # noqa: PLR2004 (plan, title)
+            message = f"{shown(other)} is no plan with a title (give (plan, title))"
+            raise InputError.at(f"others[{index}]", message)
+        checked_plan(other[0], f"others[{index}][0]")
+        at(f"others[{index}][1]", text, other[1])
 
 
 def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> FaultsData:

@@ -10,7 +10,9 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from rightofway.model import Plan, Roadmap
+from rightofway.model.given import checked_plan
 from rightofway.model.place_names import PlaceNames
+from rightofway.model.values import at, one_of
 from rightofway.viz.motion import end_of, trips_of
 from rightofway.viz.page.schema import PlaceData
 from rightofway.viz.palette import Theme, mix, robot_colours
@@ -49,7 +51,8 @@ class Scene(Ground):
     """A plan prepared for drawing; from its tick `end` on nothing happens any more."""
 
     def __init__(self, plan: Plan, theme: Theme) -> None:
-        super().__init__(plan.scenario.roadmap, theme)
+        at("theme", one_of(Theme, "no theme", "give a rightofway.Theme"), theme)
+        super().__init__(checked_plan(plan).scenario.roadmap, theme)
         self.plan = plan
         self.where = PlaceNames(plan.scenario).where
         self.trips = trips_of(plan)

@@ -14,6 +14,8 @@ from PIL import Image
 from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.model import Plan
+from rightofway.model.given import checked_truths
+from rightofway.model.values import at, between, optional, whole_number
 from rightofway.viz.palette import LIGHT, Theme
 from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.diagram import Diagram
@@ -64,8 +66,11 @@ def png_of(
     InputError
         For a tick below 0, or a scale that makes the picture empty or too large to draw.
     """
+    checked_truths(diagram=diagram)
+    tick = at("tick", optional(whole_number), tick)
     if tick is not None and tick < 0:
         raise InputError.at("tick", f"{tick} is negative (give 0 or more)")
+    _refuse_scale(scale)
     scene, fineness = Scene(plan, theme), PICTURE_FINENESS
     if scale is None:
         scale = _fitting_scale(scene, PICTURE_WIDTH, LARGEST_CELL)
@@ -168,8 +173,10 @@ def write_gif(
         For fewer than two frames, a scale that makes pictures empty or too large to draw, or a file
         that cannot be written.
     """
+    max_frames = at("max_frames", whole_number, max_frames)
     if max_frames <= 1:
         raise InputError.at("max_frames", f"{max_frames} is less than a film (give 2 or more)")
+    _refuse_scale(scale)
     scene = Scene(plan, theme)
     frames = min(FRAMES_PER_TICK * scene.end + 1, max_frames)
     step = Fraction(scene.end, frames - 1)
@@ -210,6 +217,11 @@ def _pictures(scene: Scene, scale: float, ticks: Sequence[float]) -> Iterator[Im
     palette = picture(ticks[len(ticks) // 2]).quantize(255, Image.Quantize.MEDIANCUT)
     for tick in ticks:
         yield picture(tick).quantize(palette=palette, dither=Image.Dither.NONE)
+
+
+def _refuse_scale(scale: float | None) -> None:
+    if scale is not None:
+        at("scale", between(0, MOST_PIXELS), scale)
 
 
 def _fitting_scale(scene: Scene, width: int, largest: float) -> float:

@@ -1,0 +1,139 @@
+"""What the package exports, called with what does not belong there."""
+
+from __future__ import annotations
+
+import inspect
+import os
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rightofway as rw
+
+DOOR = rw.load(Path(__file__).parents[1] / "examples/door.yaml")
+PLAN = rw.solve(DOOR, seed=1, time_limit=0.1)
+
+STRANGE: list[Any] = [
+    None,
+    -1,
+    True,
+    float("nan"),
+    10**30,
+    "",
+    "a\0b",
+    b"x",
+    [None],
+    (None, None),
+    {"a": 1},
+    {"x"},
+    object(),
+    np.array([1.5]),
+    os.sep,
+    Path(os.sep),
+]
+"""None, numbers out of range, words, lists, a mapping, an object and paths that are folders."""
+
+
+def fields_of(value: Any) -> dict[str, Any]:
+    names = inspect.signature(type(value)).parameters
+    return {name: getattr(value, name) for name in names}
+
+
+def fleet() -> rw.FleetBuilder:
+    return rw.FleetBuilder(grid=["..."])
+
+
+def lanes() -> rw.FleetBuilder:
+    return rw.FleetBuilder().add_vertex("a", 0, 0).add_vertex("b", 1, 0).add_edge("a", "b")
+
+
+GOOD: dict[str, tuple[Callable[[], Callable[..., Any]], dict[str, Any]]] = {
+    "AutoOptions": (lambda: rw.AutoOptions, {}),
+    "Background": (lambda: rw.Background, {"picture": "a.png"}),
+    "Background.of": (lambda: rw.Background.of, {}),
+    "FleetBuilder": (lambda: rw.FleetBuilder, {}),
+    "FleetBuilder.add_vertex": (lambda: lanes().add_vertex, {"name": "c", "x": 2, "y": 0}),
+    "FleetBuilder.add_edge": (lambda: lanes().add_edge, {"tail": "b", "head": "a"}),
+    "FleetBuilder.add_zone": (lambda: lanes().add_zone, {"name": "z", "vertices": ["a"]}),
+    "FleetBuilder.add_robot": (lambda: fleet().add_robot, {"name": "R", "home": (0, 0)}),
+    "FleetBuilder.add_closure": (lambda: fleet().add_closure, {"at": (0, 1)}),
+    "LacamOptions": (lambda: rw.LacamOptions, {}),
+    "LnsOptions": (lambda: rw.LnsOptions, {}),
+    "LocalSearchOptions": (lambda: rw.LocalSearchOptions, {}),
+    "Outcome.trace": (lambda: rw.simulate(PLAN, runs=1).trace, {}),
+    "Plan": (lambda: rw.Plan, fields_of(PLAN)),
+    "PrioritizedOptions": (lambda: rw.PrioritizedOptions, {}),
+    "PriorityOptions": (lambda: rw.PriorityOptions, {}),
+    "PrioritySearchOptions": (lambda: rw.PrioritySearchOptions, {}),
+    "Quantities": (lambda: rw.Quantities, {"units": DOOR.units, "tick": Fraction(1)}),
+    "RandomPriorityOptions": (lambda: rw.RandomPriorityOptions, {}),
+    "Robot": (lambda: rw.Robot, fields_of(DOOR.robots[0])),
+    "Rules": (lambda: rw.Rules, {}),
+    "Scenario": (lambda: rw.Scenario, fields_of(DOOR)),
+    "SteadyState": (lambda: rw.SteadyState, {"robots": (0,), "start": 0, "period": 1}),
+    "Stop": (lambda: rw.Stop, {"at": 0}),
+    "Track": (lambda: rw.Track, fields_of(PLAN.tracks[0])),
+    "Track.of": (lambda: rw.Track.of, {"vertices": [0, 1], "enter": [0, 1]}),
+    "TwoLevelOptions": (lambda: rw.TwoLevelOptions, {}),
+    "best_timetable": (lambda: rw.best_timetable, {"scenario": DOOR, "rounds": 0}),
+    "check": (lambda: rw.check, {"plan": PLAN}),
+    "improve": (lambda: rw.improve, {"plan": PLAN, "time_limit": 0.01}),
+    "layout_of_graph": (lambda: rw.layout_of_graph, {}),
+    "load": (lambda: rw.load, {"path": "fleet.yaml"}),
+    "load_plan": (lambda: rw.load_plan, {"path": "plan.json"}),
+    "lost_time": (lambda: rw.lost_time, {}),
+    "measure": (lambda: rw.measure, {}),
+    "plan_of": (lambda: rw.plan_of, {"result": rw.run_laps(DOOR)}),
+    "plan_of_paths": (lambda: rw.plan_of_paths, {"scenario": DOOR, "paths": {}}),
+    "run_laps": (lambda: rw.run_laps, {"scenario": DOOR}),
+    "simulate": (lambda: rw.simulate, {"plan": PLAN, "runs": 1}),
+    "solve": (lambda: rw.solve, {"scenario": DOOR, "time_limit": 0.01}),
+    "waits": (lambda: rw.waits, {}),
+    "write_gif": (
+        lambda: rw.write_gif,
+        {"plan": PLAN, "path": os.sep, "max_frames": 2, "scale": 2},
+    ),
+    "write_page": (lambda: rw.write_page, {"plan": PLAN, "path": os.sep}),
+    "write_plan": (lambda: rw.write_plan, {"plan": PLAN, "path": os.sep}),
+    "write_png": (lambda: rw.write_png, {"plan": PLAN, "path": os.sep, "scale": 2}),
+    "write_scenario": (lambda: rw.write_scenario, {"scenario": DOOR, "path": os.sep}),
+}
+"""What callers call: how it is reached, and arguments that fit or are refused."""
+
+RESULTS = (
+    {"CyclicResult", "Decision", "ExecutionTrace", "Fault", "Film", "Layout", "Loss", "LostTime"}
+    | {"Metrics", "Outcome", "PlannerOptions", "PlannerRun", "Report", "Reroute", "Roadmap"}
+    | {"RobotPlan", "Theme", "Wait", "GaveUp", "InputError", "InvalidPlan", "NoPlanExists"}
+    | {"RightOfWayError"}
+)
+"""What the package makes and callers only read: its constructors check nothing."""
+
+
+def test_every_export_is_either_tried_or_made_by_the_package() -> None:
+    assert set(rw.__all__) == RESULTS | {name for name in GOOD if "." not in name}
+
+
+CALLS = [
+    (name, argument)
+    for name, (reach, _) in GOOD.items()
+    for argument, parameter in inspect.signature(reach()).parameters.items()
+    if parameter.kind is not parameter.VAR_KEYWORD
+]
+
+
+@pytest.mark.parametrize(("name", "argument"), CALLS)
+def test_an_argument_of_another_kind_is_accepted_or_refused_with_a_reason(
+    name: str, argument: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    reach, good = GOOD[name]
+    call = reach()
+    for strange in STRANGE:
+        try:
+            call(**good | {argument: strange})
+        except rw.RightOfWayError as refusal:
+            assert str(refusal).strip(), strange  # noqa: PT017 (what is accepted is no fault)
