@@ -235,9 +235,10 @@ class Runs:
     async def _add(self, run: Run, blobs: Mapping[str, bytes]) -> None:
         if len(self._runs) >= MAX_KEPT:
             raise Busy(f"{len(self._runs)} runs are kept already (delete some)")
-        run.number = await asyncio.to_thread(self._store.add_run, asdict(run))
+        # At once: a studio that goes down in between must not keep a run without its arguments.
+        run.revision += "plan" in blobs
+        run.number = await asyncio.to_thread(self._store.add_run, asdict(run), tuple(blobs.items()))
         self._runs[run.number] = run
-        await self._save(run, blobs)
         self._listeners.tell(run.number, "run", self.data(run))
 
     async def rename(self, number: int, name: str) -> Run:

@@ -143,25 +143,32 @@ class Store:
             self._is_still(database, name, revision)
             return bool(database.execute("DELETE FROM drafts WHERE name = ?", (name,)).rowcount)
 
-    def add_run(self, data: dict[str, Any]) -> int:
-        """Keep a new run, and return its number."""
+    def add_run(self, data: dict[str, Any], blobs: Sequence[tuple[str, bytes]] = ()) -> int:
+        """Keep a new run with its blobs by kind, at once, and return its number."""
         with self._work() as database:
             added = database.execute("INSERT INTO runs (data) VALUES (?)", (json.dumps(data),))
             number = added.lastrowid
-        assert number is not None, "a row was added"
+            assert number is not None, "a row was added"
+            self._put_blobs(database, number, blobs)
         return number
 
     def put_run(
         self, number: int, data: dict[str, Any], blobs: Sequence[tuple[str, bytes]] = ()
     ) -> None:
         """Keep what is known of a run, and blobs by kind, at once."""
-        packed = [(number, kind, zlib.compress(content, 1)) for kind, content in blobs]
         with self._work() as database:
             found = database.execute(
                 "UPDATE runs SET data = ? WHERE id = ?", (json.dumps(data), number)
             )
             if found.rowcount:
-                database.executemany("INSERT OR REPLACE INTO blobs VALUES (?, ?, ?)", packed)
+                self._put_blobs(database, number, blobs)
+
+    @staticmethod
+    def _put_blobs(
+        database: sqlite3.Connection, number: int, blobs: Sequence[tuple[str, bytes]]
+    ) -> None:
+        packed = [(number, kind, zlib.compress(content, 1)) for kind, content in blobs]
+        database.executemany("INSERT OR REPLACE INTO blobs VALUES (?, ?, ?)", packed)
 
     def runs(self) -> list[tuple[int, dict[str, Any]]]:
         """Return all runs, the earliest first."""
