@@ -237,7 +237,7 @@ def test_a_wait_is_explained_and_its_right_of_way_flipped(client: httpx.Client) 
     number = planned(client, planner="two-level")["number"]
     (loss, *_) = client.get(f"/runs/{number}/losses").json()["losses"]
     assert f"{loss['robot']} waits" in loss["sentence"]
-    assert loss["because"]["decision"]
+    assert loss["because"][0]["decision"]
     body = {"waits": loss["robot"], "goes_first": loss["for"], "tick": loss["end"]}
     flipped = client.post(f"/runs/{number}/flip", json=body).json()["run"]
     after = client.get(f"/runs/{flipped['number']}/losses").json()["losses"]
@@ -245,6 +245,26 @@ def test_a_wait_is_explained_and_its_right_of_way_flipped(client: httpx.Client) 
     compared = client.get("/compare", params={"run": [number, flipped["number"]]}).json()
     assert [each["flowtime"] for each in compared["plans"]][1] == flipped["figures"]["flowtime"]
     assert [robot["name"] for robot in compared["robots"]] == ["R1", "R2"]
+
+
+def test_the_decisions_behind_a_wait_add_up_to_it(client: httpx.Client) -> None:
+    """R1 waits 7 in N2: 5 for R2, by the first decision, and 2 more for R3, by the second."""
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"grid": [".......", "@@@.@@@", "......."]},
+        "robots": [
+            {"name": "R1", "home": "N1", "target": "N18"},
+            {"name": "R2", "home": "N4", "target": "N17"},
+            {"name": "R3", "home": "N14", "target": "N3"},
+        ],
+    }
+    number = planned(client, document, planner="two-level")["number"]
+    found = client.get(f"/runs/{number}/losses").json()["losses"]
+    (loss,) = [loss for loss in found if loss["ticks"] == 7]
+    assert [each["decision"].partition(": ")[2] for each in loss["because"]] == [
+        "R1 waits 5 time units in N2, R2 goes first.",
+        "R1 waits 2 time units in N2, R3 goes first.",
+    ]
 
 
 def test_a_flip_of_an_unknown_robot_is_refused(client: httpx.Client) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.builders.browsers import needs_browser
+from tests.builders.browsers import expect, needs_browser
 from tests.builders.drawing import Opener, StudioPage, begin, studio_page
 from tests.builders.studios import BAY
 
@@ -32,6 +32,28 @@ map: {grid: ["....."]}
 robots: [{name: R1, home: N0, target: N4}]
 closures: [{at: N2, until: 9}]
 """
+
+
+AISLE = """\
+format: rightofway-scenario/1
+map: {grid: [".......", "@@@.@@@", "......."]}
+robots:
+  - {name: R1, home: N1, target: N18}
+  - {name: R2, home: N4, target: N17}
+  - {name: R3, home: N14, target: N3}
+"""
+
+
+def test_a_wait_has_all_its_decisions_with_their_figures(opened: Opener) -> None:
+    """R1 waits 7 in N2: by the first decision 5 for R2, by the second one 2 more for R3."""
+    studio = opened(AISLE)
+    begin(studio, planner="two-level")
+    wait = studio.page.get_by_role("listitem").filter(has_text="R1 waits 7 time units in N2")
+    expect(wait).to_contain_text("R1 waits 5 time units in N2 and lets R2 go first")
+    expect(wait).to_contain_text("R1 waits 2 time units in N2 and lets R3 go first")
+    expect(wait.get_by_text("Conflicts left: ")).to_have_count(2)
+    studio.tab("Map")
+    expect(studio.page.get_by_role("heading", name="Faults and findings")).to_be_visible()
 
 
 def test_the_other_robot_goes_first_and_the_difference_is_shown(opened: Opener) -> None:

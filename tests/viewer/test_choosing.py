@@ -44,7 +44,7 @@ def test_a_decision_by_priority_needs_no_figures(show: Opener) -> None:
     )
     viewer = show(replace(plan, run=replace(plan.run, decisions=(decision,))))
     viewer.page.click("#tab-decisions")
-    assert "at time 1 · 1 time unit later · by priority" in viewer.text("#decision-list")
+    assert "at time 1 · loses 1 time unit · by priority" in viewer.text("#decision-list")
     viewer.page.click("#decision-list .row")
     assert "R1 waits because R2 has the higher priority." in viewer.text("#card")
     assert viewer.page.locator("#card table").count() == 0
@@ -239,5 +239,5 @@ def test_times_are_written_in_the_units_of_the_scenario(show: Opener) -> None:
     viewer = show(replace(plan, scenario=scenario), "#tick=0.5&robot=R1")
     assert viewer.text("#readout") == "30 s of 10 min"
     card = viewer.text("#card")
-    assert "waits 1 min in the home of R1 for R2 to leave (1.5,\u00a00.5)" in card
+    assert "waits 1 min in the home of R1 (N0) for R2 to leave N1 (1.5,\u00a00.5)" in card
     assert "1 m/min" in card

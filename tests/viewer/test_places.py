@@ -26,7 +26,7 @@ def measured(plan: Plan) -> Plan:
 
 def test_a_cell_of_a_measured_floor_is_called_by_where_it_is(show: Opener) -> None:
     viewer = show(measured(door()), "#decision=1")
-    assert "R1 and R2 would both have been in (1.5,\u00a00.5)." in viewer.text("#card")
+    assert "R1 and R2 would both have been in N1 (1.5,\u00a00.5)." in viewer.text("#card")
 
 
 def test_homes_and_stops_are_called_after_their_robots(show: Opener) -> None:
@@ -34,15 +34,15 @@ def test_homes_and_stops_are_called_after_their_robots(show: Opener) -> None:
     names = viewer.ask("[...plan.roadmap.x.keys()].map((vertex) => words.vertex(vertex))")
     # N0, N1, N2, N4, N6, N7 and N8
     assert names == [
-        "the home of R1", "(1.5,\u00a00.5)", "the home of R2", "(1.5,\u00a01.5)",
-        "the stop of R1", "(1.5,\u00a02.5)", "the stop of R2",
+        "the home of R1 (N0)", "N1 (1.5,\u00a00.5)", "the home of R2 (N2)", "N4 (1.5,\u00a01.5)",
+        "the stop of R1 (N6)", "N7 (1.5,\u00a02.5)", "the stop of R2 (N8)",
     ]  # fmt: skip
 
 
 def test_a_card_says_where_home_and_stops_are(show: Opener) -> None:
     card = show(measured(door()), "#robot=R1").text("#card")
-    assert "Home\n(0.5,\u00a00.5)" in card
-    assert "(0.5,\u00a02.5), turns 1 s" in card
+    assert "Home\nN0 (0.5,\u00a00.5)" in card
+    assert "N6 (0.5,\u00a02.5), turns 1 s" in card
 
 
 def test_the_tip_of_a_cell_names_it_as_files_do(show: Opener) -> None:
@@ -58,7 +58,8 @@ def test_the_tip_of_a_cell_names_it_as_files_do(show: Opener) -> None:
 
 def test_a_link_keeps_names(show: Opener) -> None:
     viewer = show(measured(door()), "#from=N0&to=N8")
-    assert viewer.text("#diagram-title").startswith("the home of R1 to the stop of R2, 4 m")
+    title = "the home of R1 (N0) to the stop of R2 (N8), 4 m"
+    assert viewer.text("#diagram-title").startswith(title)
     viewer.ask("clock.seek(1)")
     viewer.wait_for("location.hash.endsWith('from=N0&to=N8')")
 
