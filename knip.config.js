@@ -7,7 +7,4 @@ export default {
   ],
   project: ["src/rightofway/{viz/page,studio}/assets/**/*.js", "tests/js/**/*.js"],
   ignore: ["src/rightofway/studio/assets/vendor/**"],
-  // The studio's server has the modules of the page under `viewer/`.
-  paths: { "viewer/*": ["./src/rightofway/viz/page/assets/*"] },
-  compilers: { js: (text) => text.replaceAll(/"(\.{1,2}\/)+viewer\//g, '"viewer/') },
 };

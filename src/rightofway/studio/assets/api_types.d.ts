@@ -23,10 +23,19 @@ export interface ByClock {
   share_of_runs: number;
 }
 
+/** Something in which a scenario differs from another one. */
+export interface ChangeData {
+  what: string;
+  key: string;
+  before: string;
+  after: string;
+  text: string;
+}
+
 /** In what the scenario of a run differs from that of a run before it. */
 export interface Changes {
   before: number | null;
-  changes: Array<Record<string, string>>;
+  changes: Array<ChangeData>;
 }
 
 /** Rules of laps, notations of delays, formats of exports, each with a sentence. */

@@ -1,6 +1,7 @@
 /** Whether the page still works on what was done last: the map is `aria-busy` meanwhile. */
 
 let count = 0; // requests without an answer, and frames that are not painted yet
+/** @type {Element | null} */
 let shown = null; // the element that says so
 
 const write = () => shown?.setAttribute("aria-busy", String(count > 0));

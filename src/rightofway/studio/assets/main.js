@@ -36,7 +36,7 @@ function App() {
       card: card.current,
     });
     showBusyOn(holder.current);
-    made.on("change", refresh);
+    made.on("change", () => refresh(null));
     listenToKeys(made);
     listenToDrops(made);
     setStudio(made);

@@ -1,6 +1,7 @@
 /** Types that modules of the studio share: documents as they are written, and what is on their map. */
 
 import type { ComparisonData, Payload, RobotData as PlayedRobot } from "../../viz/page/assets/payload.js";
+import type { Fraction } from "../../viz/page/assets/quantities.js";
 import type { Roadmap } from "../../viz/page/assets/roadmap.js";
 import type { Theme } from "../../viz/page/assets/theme.js";
 import type { Events, Fault, NewPlan, RunData } from "./api_types.js";
@@ -191,14 +192,18 @@ export interface PointedAt extends DrawingPoint {
   screen: { x: number; y: number };
 }
 
-/** Something of the document on the map: a robot, obstacle or lane by its index, others by a name. */
-export type Item =
-  | { kind: "robot"; id: number }
-  | { kind: "obstacle"; id: number }
-  | { kind: "lane"; id: number }
-  | { kind: "stop"; id: string }
-  | { kind: "vertex"; id: string }
-  | { kind: "cell"; id: string };
+/** Identifiers by kind: a robot, obstacle or lane has its index, others have a name. */
+export interface Ids {
+  robot: number;
+  obstacle: number;
+  lane: number;
+  stop: string;
+  vertex: string;
+  cell: string;
+}
+
+/** Something of the document on the map. */
+export type Item = { [Kind in keyof Ids]: { kind: Kind; id: Ids[Kind] } }[keyof Ids];
 
 /** A robot of the document, with vertices of the map; -1 for none. */
 export interface RobotHit {
@@ -280,9 +285,6 @@ export interface Column {
   value?(robot: RobotData): number;
   set(robot: RobotData, text: string): RobotData;
 }
-
-/** An exact fraction: numerator and denominator. */
-export type Ratio = [bigint, bigint];
 
 /** A cause of delay: its kind, and what its fields hold. */
 export interface Cause {
@@ -375,10 +377,10 @@ export interface Axes {
 
 /** The period over some values of a parameter. */
 export interface ParameterPiece {
-  from: Ratio;
-  to: Ratio;
-  fixed: Ratio;
-  slope: Ratio;
+  from: Fraction;
+  to: Fraction;
+  fixed: Fraction;
+  slope: Fraction;
   circuit: number;
 }
 
@@ -387,14 +389,14 @@ export interface Step {
   kind: string;
   robot: string;
   vertices: string[];
-  time: Ratio;
+  time: Fraction;
   laps?: number;
 }
 
 /** Laps in a new order: asked for, reached, or why not. */
 export interface OtherOrder {
   isAsked?: boolean;
-  period?: Ratio;
+  period?: Fraction;
   laps?: number;
   why?: string;
 }

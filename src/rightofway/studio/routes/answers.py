@@ -458,11 +458,21 @@ class CommandLine(TypedDict):
     command: str
 
 
+class ChangeData(TypedDict):
+    """Something in which a scenario differs from another one."""
+
+    what: str
+    key: str
+    before: str
+    after: str
+    text: str
+
+
 class Changes(TypedDict):
     """In what the scenario of a run differs from that of a run before it."""
 
     before: int | None
-    changes: list[dict[str, str]]
+    changes: list[ChangeData]
 
 
 class ComparedFigures(Figures):

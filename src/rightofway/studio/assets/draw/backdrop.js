@@ -108,6 +108,7 @@ export class Backdrop extends Observable {
     const { viewport, roadmap } = this.stage.view;
     const { clientWidth, clientHeight } = this.stage.canvas;
     const pixels = Math.max(width / clientWidth, height / clientHeight) / FIRST_SHARE;
+    /** @type {Point} */
     const corner = [
       viewport.toX((clientWidth - width / pixels) / 2),
       viewport.toY((clientHeight + height / pixels) / 2),

@@ -145,12 +145,13 @@ class FloorGround {
    */
   #leftTop() {
     const { roadmap } = this;
+    const sides = present(roadmap.sides);
     /**
      * @param {number} vertex
      * @param {number} sign
      * @returns {number}
      */
-    const reach = (vertex, sign) => (sign * roadmap.sides[vertex]) / 2;
+    const reach = (vertex, sign) => (sign * sides[vertex]) / 2;
     const [left, top] = Array.from(roadmap.x.keys()).reduce(
       ([x, y], vertex) => [
         Math.min(x, roadmap.x[vertex] - reach(vertex, 1)),

@@ -222,6 +222,7 @@ function distanceTo(points, px, py) {
     const [right, down] = [toX - x, toY - y];
     const along = ((px - x) * right + (py - y) * down) / (right * right + down * down || 1);
     const share = Math.min(Math.max(along, 0), 1);
+    /** @type {Point} */
     const at = [x + right * share, y + down * share];
     const least = Math.hypot(px - at[0], py - at[1]);
     if (least < found.least) found = { least, share: (i - 1 + share) / (points.length - 1), at };

@@ -169,6 +169,7 @@ export class PlaceDrag {
     const { roadmap, document } = this.editor;
     const vertex = this.editor.vertexAt({ x, y });
     if (vertex >= 0) return placeOf(vertex, roadmap, document);
+    /** @type {Point} */
     const cell = roadmap.rows ? [Math.round(x), Math.round(y)] : [x, y];
     const [right, up] = roadmap.toSite(...cell).map(rounded);
     return { x: right, y: up };

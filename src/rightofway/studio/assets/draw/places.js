@@ -71,7 +71,7 @@ export function placeOf(vertex, roadmap, document) {
  */
 export function vertexOf(place, roadmap) {
   if (place === undefined || place === null) return -1;
-  if (Array.isArray(place)) return roadmap.near(place[1], place[0]);
+  if (Array.isArray(place)) return roadmap.near(numberOf(place[1]), numberOf(place[0]));
   if (typeof place === "object")
     return roadmap.near(...toDrawing(roadmap, numberOf(place.x), numberOf(place.y)));
   const named = roadmap.vertexNamed(String(place));

@@ -77,7 +77,7 @@ export function pressedPlace({ stage, store }, signal) {
  * The vertex at an event, or both ends of the lane there.
  * @param {Stage} stage
  * @param {{clientX: number, clientY: number}} at
- * @returns {number[]}
+ * @returns {readonly number[]}
  */
 function placesAt({ holder, view, plan: { roadmap } }, { clientX, clientY }) {
   const { left, top } = holder.getBoundingClientRect();
@@ -91,7 +91,7 @@ function placesAt({ holder, view, plan: { roadmap } }, { clientX, clientY }) {
 
 /**
  * @param {Roadmap} roadmap
- * @param {number[]} ends
+ * @param {readonly number[]} ends
  * @param {number} px
  * @param {number} py
  * @returns {number}

@@ -1,6 +1,6 @@
 /** What is selected on the map: robots, obstacles, vertices and lanes of the document. */
 
-/** @import { Item } from "../types.js" */
+/** @import { Ids, Item } from "../types.js" */
 
 export class Selection {
   /** @type {Map<string, Item>} */
@@ -18,15 +18,13 @@ export class Selection {
 
   /**
    * The ids of one kind.
-   * @template {Item["kind"]} Kind
+   * @template {keyof Ids} Kind
    * @param {Kind} kind
-   * @returns {Extract<Item, {kind: Kind}>["id"][]}
+   * @returns {Ids[Kind][]}
    */
   of(kind) {
-    const found = /** @type {Extract<Item, {kind: Kind}>[]} */ (
-      this.items.filter((item) => item.kind === kind)
-    );
-    return Array.from(found, ({ id }) => id);
+    const ids = this.items.filter((item) => item.kind === kind).map(({ id }) => id);
+    return /** @type {Ids[Kind][]} */ (ids);
   }
 
   get size() {

@@ -126,7 +126,9 @@ export function blockShift(editor, [x, y, width, height], shift, isFree, without
       .sort((one, other) => Math.abs(one - length) - Math.abs(other - length))[0];
     return Math.abs(near - length) < reach ? rounded(near) : whole;
   });
-  const own = sides[0].flatMap((right) => sides[1].map((up) => [right + moved[0], up + moved[1]]));
+  const own = sides[0].flatMap((right) =>
+    sides[1].map((up) => /** @type {Point} */ ([right + moved[0], up + moved[1]])),
+  );
   return { shift: moved, guides: own.flatMap((corner) => guidesOf(corner, corners)) };
 }
 

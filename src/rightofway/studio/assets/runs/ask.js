@@ -27,8 +27,8 @@ const ASKED = COLUMNS.filter(({ key }) => ["home", "stops", "work", "speed"].inc
 export function Ask({ studio, children }) {
   const { store, stage } = studio;
   const robots = robotsOf(store.document) ?? [];
-  const name = stage.isPlan ? stage.choice.robot?.name : undefined;
-  const index = robots.findIndex((robot) => robot.name === name);
+  const name = (stage.isPlan && stage.choice.robot?.name) || null;
+  const index = name === null ? -1 : robots.findIndex((robot) => robot.name === name);
   const faults = store.faultsAt(`robots[${index}]`);
   /**
    * @param {Column} column
@@ -47,7 +47,7 @@ export function Ask({ studio, children }) {
     );
   };
   return html`
-    <section class="ask" aria-labelledby="ask-title"><h2 id="ask-title">${index < 0 ? words.whatIf : words.whatIfOf(name)}</h2>
+    <section class="ask" aria-labelledby="ask-title"><h2 id="ask-title">${name === null || index < 0 ? words.whatIf : words.whatIfOf(name)}</h2>
       ${
         index < 0
           ? html`<p class="hint">${robotsOf(store.document) ? words.chooseRobot : words.robotsElsewhere}</p>`

@@ -4,9 +4,10 @@ import { html } from "../vendor/htm-preact.js";
 import { decimal, fraction } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { over } from "./parameter_curve.js";
-/** @import { Cause, Ratio } from "../types.js" */
+/** @import { Fraction } from "../../../viz/page/assets/quantities.js" */
+/** @import { Cause } from "../types.js" */
 
-/** @type {Ratio} */
+/** @type {Fraction} */
 const HUNDRED = [100n, 1n];
 
 /**

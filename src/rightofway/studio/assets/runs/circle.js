@@ -1,6 +1,7 @@
 /** A critical circle: what each robot on it does until the next one can go on, with its share of the period. */
 
 import { html, useState } from "../vendor/htm-preact.js";
+import { lastOf } from "../../../viz/page/assets/arrays.js";
 import { fraction } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { number, plus } from "./parameter_curve.js";
@@ -22,7 +23,10 @@ export function Circle({ studio, pieces, said, isNow }) {
    */
   const robotOf = (name) => stage.plan?.robots?.find((robot) => robot.name === name);
   /** @type {Step[]} */
-  const steps = counted(pieces, (name) => stage.plan?.roadmap.name(robotOf(name)?.home));
+  const steps = counted(pieces, (name) => {
+    const robot = robotOf(name);
+    return robot && stage.plan.roadmap.name(robot.home);
+  });
   const shown = isWhole ? steps : steps.slice(0, MOST);
   return html`
     ${
@@ -89,7 +93,7 @@ function counted(pieces, homeOf) {
  */
 function sentence({ kind, robot, vertices, laps }, before, drawn, stage) {
   if (kind === "laps") return words.steps.laps(robot, laps ?? 0);
-  const [from, to] = [vertices[0], vertices.at(-1)];
+  const [from, to] = [vertices[0], lastOf(vertices)];
   const [first, last] = [from, to].map((name) => placeOn(stage, name));
   const home = drawn && stage.plan.roadmap.name(drawn.home);
   if (kind === "way") return words.steps.way(robot, first, last, to === home);

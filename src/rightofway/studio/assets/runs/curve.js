@@ -41,7 +41,7 @@ export function Curve({ run, others = [], quantities = null }) {
     x: (at) => (at / last) * WIDTH,
     y: (flowtime) => HEIGHT - 2 - ((flowtime - floor) / (most - floor)) * (HEIGHT - 4),
   };
-  const time = quantities && ((ticks) => quantities.short(ticks));
+  const time = quantities && ((/** @type {number} */ ticks) => quantities.short(ticks));
   const isDrawn = drawn.length > 0 && (isLive || flowtimes.length > 1 || others.length > 0);
   /**
    * @param {number} i
@@ -199,8 +199,7 @@ function steps(points, { x, y }, end) {
  * @returns {Quantities | null}
  */
 export function quantitiesOf(run, { store, stage }) {
-  const { tick, units } = run.figures ?? {};
-  if (tick) return new Quantities(units, tick);
+  if (run.figures?.tick) return new Quantities(run.figures.units, run.figures.tick);
   return (
     (stage.isPlan ? stage.plan.quantities : null) ??
     (store.site && new Quantities(store.site.units, store.site.tick))

@@ -21,11 +21,12 @@ import {
 import { later, present } from "../given.js";
 /** @import { LapGroup, LapsAnswer, LapsReport, Units } from "../api_types.js" */
 /** @import { Studio } from "../studio.js" */
-/** @import { Moved, OtherOrder, Props, Ratio, RobotData } from "../types.js" */
+/** @import { Fraction } from "../../../viz/page/assets/quantities.js" */
+/** @import { Moved, OtherOrder, Props, RobotData } from "../types.js" */
 
-/** @type {Record<string, Ratio>} */
+/** @type {Record<string, Fraction>} */
 const SECONDS = { ms: [1n, 1000n], s: [1n, 1n], min: [60n, 1n], h: [3600n, 1n] };
-/** @type {Ratio} */
+/** @type {Fraction} */
 const HOUR = [3600n, 1n];
 const MOST_ROBOTS = 4; // of the critical circle that have sliders without being chosen
 const MOST_ROWS = 8; // robots in the table at first
@@ -48,7 +49,7 @@ export class Said {
     this.quantities = new Quantities(units, [1, 1]);
   }
   /**
-   * @param {Ratio} value
+   * @param {Fraction} value
    * @returns {string}
    */
   time(value) {
@@ -56,14 +57,14 @@ export class Said {
   }
   /**
    * Where there is little room: a bare number where no unit of time is known.
-   * @param {Ratio} value
+   * @param {Fraction} value
    * @returns {string}
    */
   short(value) {
     return this.quantities.short(asText(value));
   }
   /**
-   * @param {Ratio} value
+   * @param {Fraction} value
    * @returns {string}
    */
   speed(value) {
@@ -71,7 +72,7 @@ export class Said {
   }
   /**
    * @param {{kind: string}} curve
-   * @param {Ratio} value
+   * @param {Fraction} value
    * @returns {string}
    */
   value({ kind }, value) {
@@ -80,7 +81,7 @@ export class Said {
   /**
    * Laps in an hour, or in 3600 time units.
    * @param {number} laps
-   * @param {Ratio} period
+   * @param {Fraction} period
    * @returns {string}
    */
   throughput(laps, period) {
@@ -90,7 +91,7 @@ export class Said {
 }
 
 /**
- * @param {Ratio} value
+ * @param {Fraction} value
  * @returns {string}
  */
 const asText = ([top, bottom]) => `${top}/${bottom}`;
@@ -108,7 +109,7 @@ const lapsIn = ({ laps_per_period: laps }) =>
 export function Laps({ studio, report }) {
   const { groups } = report;
   const chosen = studio.stage.isPlan ? studio.stage.choice.robot?.name : undefined;
-  const own = groups.find(({ robots }) => robots.includes(chosen));
+  const own = groups.find(({ robots }) => chosen !== undefined && robots.includes(chosen));
   const group = own ?? largest(groups.filter(({ period }) => period !== null));
   const open = own?.period === null ? own : largest(groups.filter(({ period }) => period === null));
   const isAlone = groups.length === 1;
@@ -217,7 +218,7 @@ function Robots({ said, group, studio }) {
    * @returns {string}
    */
   const behind = (name) => {
-    /** @type {Map<string, Ratio>} */
+    /** @type {Map<string, Fraction>} */
     const sums = new Map();
     for (const { waits, robots, for: time } of group.conflicts ?? []) {
       const other = robots.find((each) => each !== waits);
@@ -285,16 +286,16 @@ function newOrder(said, other, isLong) {
 
 /**
  * Period and laps: as they are, with the value in the same order, and with it in a new order.
- * @param {{said: Said, group: LapGroup, at: Ratio, period: Ratio | null, other: OtherOrder | null}} props
+ * @param {{said: Said, group: LapGroup, at: Fraction, period: Fraction | null, other: OtherOrder | null}} props
  */
 function Table({ said, group, at, period, other }) {
   /**
    * @param {string} name
-   * @param {Ratio | string} found
+   * @param {Fraction | string} found
    * @param {number} laps
    */
   const row = (name, found, laps) => {
-    const isKnown = Array.isArray(found);
+    const isKnown = typeof found !== "string";
     return html`<tr data-known=${String(isKnown)}><th scope="row">${name}</th>
       <td>${isKnown ? said.short(found) : found}</td><td>${isKnown ? said.throughput(laps, found) : ""}</td></tr>`;
   };
@@ -307,7 +308,7 @@ function Table({ said, group, at, period, other }) {
  * Write a value into the scenario, and repeat the laps with it.
  * @param {Studio} studio
  * @param {ParameterCurve} curve
- * @param {Ratio} value
+ * @param {Fraction} value
  * @returns {void}
  */
 function take(studio, { kind, robot, stop }, value) {
@@ -349,7 +350,7 @@ function useMade(of, make) {
 
 /**
  * One parameter: its value, the period for every value, and what the next change costs, in words.
- * @param {Props & {curve: ParameterCurve, said: Said, now: Ratio, position: number, move: (curve: ParameterCurve, position: number) => void, release: (curve: ParameterCurve, position: number) => void}} props
+ * @param {Props & {curve: ParameterCurve, said: Said, now: Fraction, position: number, move: (curve: ParameterCurve, position: number) => void, release: (curve: ParameterCurve, position: number) => void}} props
  */
 function Slider({ curve, said, now, position, move, release, studio }) {
   const value = curve.at(position);
@@ -394,7 +395,7 @@ function nameOf(studio, { kind, robot, stop }) {
  * What a small change of a value does, and from where on that is otherwise.
  * @param {Said} said
  * @param {ParameterCurve} curve
- * @param {Ratio} value
+ * @param {Fraction} value
  * @returns {string}
  */
 function effectOf(said, curve, value) {
@@ -414,7 +415,7 @@ function effectOf(said, curve, value) {
   }
   const unit = words.timeUnit(said.units.time);
   /**
-   * @param {Ratio} slope
+   * @param {Fraction} slope
    * @returns {string}
    */
   const costs = (slope) => said.time(slope);
@@ -426,19 +427,19 @@ const [WIDTH, HEIGHT, SAMPLES] = [200, 30, 60];
 
 /**
  * The period over the values of a slider; where another circle takes over there is a line.
- * @param {{curve: ParameterCurve, value: Ratio, now: Ratio}} props
+ * @param {{curve: ParameterCurve, value: Fraction, now: Fraction}} props
  */
 function Picture({ curve, value, now }) {
   const [least, span] = [number(curve.least), number(minus(curve.most, curve.least))];
   /**
-   * @param {Ratio} at
+   * @param {Fraction} at
    * @returns {number}
    */
   const x = (at) => ((number(at) - least) / span) * WIDTH;
   const periods = [curve.least, curve.most].map((at) => number(curve.period(at)));
   const [low, high] = [Math.min(...periods), Math.min(Math.max(...periods), 2 * number(now))];
   /**
-   * @param {Ratio} period
+   * @param {Fraction} period
    * @returns {number}
    */
   const y = (period) => 2 + (HEIGHT - 4) * (1 - (number(period) - low) / (high - low || 1));

@@ -1,48 +1,49 @@
 /** The period as a function of a speed, a work time or the headway: exact, from the pieces of the report. */
 
 import { decimal, fraction } from "../../../viz/page/assets/quantities.js";
+/** @import { Fraction } from "../../../viz/page/assets/quantities.js" */
 /** @import { CurveData } from "../api_types.js" */
-/** @import { Numeral, ParameterPiece, Ratio } from "../types.js" */
+/** @import { Numeral, ParameterPiece } from "../types.js" */
 
 /**
- * @param {Ratio} one
- * @param {Ratio} other
- * @returns {Ratio}
+ * @param {Fraction} one
+ * @param {Fraction} other
+ * @returns {Fraction}
  */
 export const plus = ([a, b], [c, d]) => [a * d + c * b, b * d];
 /**
- * @param {Ratio} one
- * @param {Ratio} other
- * @returns {Ratio}
+ * @param {Fraction} one
+ * @param {Fraction} other
+ * @returns {Fraction}
  */
 export const minus = ([a, b], [c, d]) => [a * d - c * b, b * d];
 /**
- * @param {Ratio} one
- * @param {Ratio} other
- * @returns {Ratio}
+ * @param {Fraction} one
+ * @param {Fraction} other
+ * @returns {Fraction}
  */
 export const times = ([a, b], [c, d]) => reduced([a * c, b * d]);
 /**
- * @param {Ratio} one
- * @param {Ratio} other
- * @returns {Ratio}
+ * @param {Fraction} one
+ * @param {Fraction} other
+ * @returns {Fraction}
  */
 export const over = ([a, b], [c, d]) => reduced([a * d, b * c]);
 /**
- * @param {Ratio} value
+ * @param {Fraction} value
  * @returns {number}
  */
 export const number = ([top, bottom]) => Number(top) / Number(bottom);
 /**
- * @param {Ratio} one
- * @param {Ratio} other
+ * @param {Fraction} one
+ * @param {Fraction} other
  * @returns {number}
  */
 export const compared = ([a, b], [c, d]) => Number(a * d - c * b);
 
 /**
- * @param {Ratio} value
- * @returns {Ratio}
+ * @param {Fraction} value
+ * @returns {Fraction}
  */
 function reduced([top, bottom]) {
   let [a, b] = [top < 0n ? -top : top, bottom];
@@ -52,7 +53,7 @@ function reduced([top, bottom]) {
 
 /**
  * As a document has it: a number, or text where it has no end as a decimal.
- * @param {Ratio} value
+ * @param {Fraction} value
  * @returns {Numeral}
  */
 export function written([top, bottom]) {
@@ -67,11 +68,11 @@ const ROUND = [1n, 2n, 5n];
 /**
  * A length of steps that is easy to read: 1, 2 or 5, times a power of ten.
  * @param {number} span
- * @returns {Ratio}
+ * @returns {Fraction}
  */
 function roundStep(span) {
   const power = Math.floor(Math.log10(span / STEPS));
-  /** @type {Ratio} */
+  /** @type {Fraction} */
   const ten = power < 0 ? [1n, 10n ** BigInt(-power)] : [10n ** BigInt(power), 1n];
   const factor = ROUND.find((each) => (Number(each) * number(ten) * STEPS) / span >= 0.999) ?? 10n;
   return times([factor, 1n], ten);
@@ -84,7 +85,7 @@ export class ParameterCurve {
     this.robot = robot;
     this.stop = stop;
     this.key = `${kind} ${robot} ${stop}`;
-    /** @type {Ratio} */
+    /** @type {Fraction} */
     this.value = fraction(value);
     /** @type {ParameterPiece[]} */
     this.pieces = pieces.map(({ from, to, fixed, slope, circuit }) => ({
@@ -96,9 +97,10 @@ export class ParameterCurve {
     }));
     this.least = this.pieces[0].from;
     this.most = this.pieces[this.pieces.length - 1].to;
+    /** @type {Fraction} */
     this.step = this.isFixed ? [1n, 1n] : roundStep(number(minus(this.most, this.least)));
     /**
-     * @param {Ratio} span
+     * @param {Fraction} span
      * @returns {number}
      */
     const steps = (span) => Math.ceil(number(over(span, this.step)) - 1e-9);
@@ -114,7 +116,7 @@ export class ParameterCurve {
   /**
    * The value of a position of the slider; 0 is that of the scenario.
    * @param {number} position
-   * @returns {Ratio}
+   * @returns {Fraction}
    */
   at(position) {
     const value = plus(this.value, times([BigInt(position), 1n], this.step));
@@ -124,7 +126,7 @@ export class ParameterCurve {
 
   /**
    * The piece of a value; where two meet, the one of larger values.
-   * @param {Ratio} value
+   * @param {Fraction} value
    * @returns {ParameterPiece}
    */
   pieceAt(value) {
@@ -135,8 +137,8 @@ export class ParameterCurve {
 
   /**
    * The period for a value [time unit].
-   * @param {Ratio} value
-   * @returns {Ratio}
+   * @param {Fraction} value
+   * @returns {Fraction}
    */
   period(value) {
     const { fixed, slope } = this.pieceAt(value);

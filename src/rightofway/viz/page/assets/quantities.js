@@ -84,7 +84,7 @@ export class Quantities {
    * `units` has `length` and `time`, each a name or null; `tick` is a numerator and a denominator.
    *
    * @param {UnitsData} units
-   * @param {[number, number]} tick
+   * @param {readonly [number | bigint, number | bigint]} tick
    */
   constructor(units, tick) {
     this.units = units;
@@ -95,7 +95,7 @@ export class Quantities {
   /**
    * How long a number of ticks lasts: "6 min 23 s", "2 time units".
    *
-   * @param {number} ticks
+   * @param {number | string} ticks
    */
   duration(ticks) {
     const time = this.#time(ticks);
@@ -105,7 +105,7 @@ export class Quantities {
   /**
    * A point in time: "6 min 23 s" after the start, "time 2".
    *
-   * @param {number} ticks
+   * @param {number | string} ticks
    */
   moment(ticks) {
     return this.seconds ? this.duration(ticks) : texts.moment(this.cell(ticks));
@@ -114,7 +114,7 @@ export class Quantities {
   /**
    * A time as the bare number of a table's cell.
    *
-   * @param {number} ticks
+   * @param {number | string} ticks
    */
   cell(ticks) {
     return decimal(this.#time(ticks));
@@ -123,7 +123,7 @@ export class Quantities {
   /**
    * A time where there is little room: a duration, or a bare number where no unit is known.
    *
-   * @param {number} ticks
+   * @param {number | string} ticks
    */
   short(ticks) {
     return this.seconds ? this.duration(ticks) : this.cell(ticks);
@@ -132,7 +132,7 @@ export class Quantities {
   /**
    * The same while time runs: always with `digits` decimals, so that the text does not jump.
    *
-   * @param {number} ticks
+   * @param {number | string} ticks
    * @param {number} [digits]
    */
   running(ticks, digits = 1) {
@@ -166,7 +166,7 @@ export class Quantities {
       : decimal(fraction(value));
   }
 
-  /** @param {number} ticks */
+  /** @param {number | string} ticks */
   #time(ticks) {
     return times(fraction(ticks), this.#perTick);
   }

@@ -55,7 +55,7 @@ export class Roadmap {
     this.rows = "rows" in raw ? raw.rows : null;
     this.frame = raw.frame; // where (0, 0) of the drawing is on the site, and whether y grows upwards there
     this.unit = raw.frame.unit; // length units in a unit of the drawing
-    /** @type {(BackgroundData & { image?: HTMLImageElement }) | null} */
+    /** @type {(BackgroundData & { image?: HTMLImageElement | ImageBitmap | null }) | null} */
     this.background = raw.background ?? null;
     this.obstacles = (("rows" in raw && raw.obstacles) || []).map(
       ([name, left, top, width, height]) => ({
@@ -153,6 +153,7 @@ export class Roadmap {
    *
    * @param {number} x
    * @param {number} y
+   * @returns {[number, number]}
    */
   toSite(x, y) {
     const { frame, unit } = this;
@@ -166,6 +167,7 @@ export class Roadmap {
    *
    * @param {number} siteX
    * @param {number} siteY
+   * @returns {[number, number]}
    */
   toDrawing(siteX, siteY) {
     const { frame, unit } = this;
