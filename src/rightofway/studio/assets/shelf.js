@@ -235,14 +235,15 @@ export class Shelf {
 const pathOf = (file) => file.path ?? (file.webkitRelativePath || file.name);
 
 /**
- * The files of a drop, also those in folders that were dropped: `File`s with a `path`.
+ * The files of a drop, also those in folders that were dropped: `File`s with a `path`. Entries are told
+ * apart by their flags, for Chromium has no class `FileSystemEntry` to compare with.
  * @param {DataTransfer} dropped
  * @returns {Promise<DroppedFile[]>}
  */
 export async function droppedFiles({ items, files }) {
   const entries = [...items]
-    .map((item) => item.webkitGetAsEntry?.())
-    .filter((entry) => entry instanceof FileSystemEntry);
+    .map((item) => item.webkitGetAsEntry?.() ?? null)
+    .filter((entry) => entry !== null);
   if (!entries.some(({ isDirectory }) => isDirectory)) return [...files];
   /** @type {DroppedFile[]} */
   const found = [];
@@ -252,15 +253,15 @@ export async function droppedFiles({ items, files }) {
    */
   const visit = async (entry) => {
     if (found.length >= MOST_DROPPED || entry.name.startsWith(".")) return;
-    if (entry instanceof FileSystemFileEntry) {
+    if (entry.isFile) {
+      const leaf = /** @type {FileSystemFileEntry} */ (entry);
       /** @type {File} */
-      const file = await new Promise((done, fail) => entry.file(done, fail));
+      const file = await new Promise((done, fail) => leaf.file(done, fail));
       if (OPENED.test(file.name))
         found.push(Object.assign(file, { path: entry.fullPath.slice(1) }));
       return;
     }
-    if (!(entry instanceof FileSystemDirectoryEntry)) return;
-    const reader = entry.createReader();
+    const reader = /** @type {FileSystemDirectoryEntry} */ (entry).createReader();
     /** @returns {Promise<FileSystemEntry[]>} */
     const read = () => new Promise((done, fail) => reader.readEntries(done, fail));
     for (let part = await read(); part.length; part = await read())
