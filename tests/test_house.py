@@ -72,3 +72,20 @@ def test_no_test_sleeps_for_a_fixed_time() -> None:
         if path != Path(__file__) and sleeps.search(path.read_text(encoding="utf-8"))
     }
     assert found == set(SLEEPS)
+
+
+INSIDE = {"builders": 21, "studio": 245, "viewer": 285}
+"""How often files of a folder at most ask JavaScript; lower a number where fewer are left."""
+
+
+def test_tests_of_pages_ask_javascript_no_more_often_than_before() -> None:
+    """Roles, labels and texts are what a person has; names inside scripts may change."""
+    asks = re.compile(r"""\.ask\(|\.wait_for\(\s*f?["']""")
+    found = {
+        folder: sum(
+            len(asks.findall(path.read_text(encoding="utf-8")))
+            for path in (TESTS / folder).rglob("*.py")
+        )
+        for folder in INSIDE
+    }
+    assert {folder: n for folder, n in found.items() if n > INSIDE[folder]} == {}
