@@ -12,6 +12,7 @@ import numpy as np
 from rightofway.check import check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits
 from rightofway.model import Plan, PlannerRun, Problem, Scenario, Track, checked_time_limit
+from rightofway.model.deadline import Deadline, WorkLimit, limited_work
 from rightofway.model.given import (
     checked_functions,
     checked_plan,
@@ -26,7 +27,6 @@ from rightofway.model.zones import listed_only
 from rightofway.planners import (
     DEFAULT,
     IMPROVER,
-    Deadline,
     Draft,
     PlannerOptions,
     PlannerSpec,
@@ -214,7 +214,7 @@ def _run(
     def keep() -> None:
         with_plan.append(time.perf_counter() - began)
 
-    with kernel_limits():
+    with kernel_limits(), limited_work(WorkLimit(deadline=deadline)):
         alone = alone_completions(task.scenario, time_limit=deadline.seconds_left())
         if alone is None:
             raise GaveUp("time ran out while measuring distances (give a longer time limit)")

@@ -6,8 +6,8 @@ from hypothesis import strategies as st
 
 from rightofway.errors import NoPlanExists
 from rightofway.model import Rules, Scenario
+from rightofway.model.deadline import Deadline
 from rightofway.planners.impossible import blocking_set
-from rightofway.planners.task import Deadline
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
 from tests.oracles.untimed_lacam import can_get_through

@@ -98,6 +98,7 @@ def laps(
     """
     from rightofway.cli.laps_report import laps_data, laps_report
     from rightofway.cyclic import RULES, TIMETABLE, best_timetable, excerpt, plan_of, run_laps
+    from rightofway.model.deadline import WorkLimit, limited_work
     from rightofway.model.steady_state import within
 
     refuse_outputs(scenario, output, as_json=as_json)
@@ -106,7 +107,10 @@ def laps(
         raise click.BadParameter(f"{rule!r} is not one of {known}", param_hint="--rule")
     if rule == TIMETABLE and routes:
         raise click.UsageError("--rule timetable chooses routes itself (leave out --routes)")
-    problem = read_scenario(scenario)
+    derived = WorkLimit(time_limit)
+    with limited_work(derived):
+        problem = read_scenario(scenario)
+    time_limit = derived.begun().seconds_left()
     with progress(time_limit) as report:
         if rule == TIMETABLE:
             run = best_timetable(

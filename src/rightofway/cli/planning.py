@@ -213,6 +213,8 @@ def _run(
     start: str | None = None,
 ) -> int:
     """Read, plan, write and report; return the exit code."""
+    from rightofway.model.deadline import WorkLimit, limited_work
+
     began = time.monotonic()
     words = "--log" if log else "--table" if table else None
     if words and output == "-":
@@ -222,12 +224,14 @@ def _run(
     refuse_outputs(source, output, as_json=as_json)
     if start == source == "-":
         raise click.UsageError("SCENARIO and --start are both standard input: give one as a file")
-    problem = read(source)
-    if start is not None:
-        search = partial(search, start=read_plan(start))
-    left = time_limit  # for planning [s]
-    if time_limit is not None:
-        left = max(time_limit - (time.monotonic() - began), time_limit / 2)
+    derived = WorkLimit(time_limit)
+    with limited_work(derived):
+        problem = read(source)
+        if start is not None:
+            search = partial(search, start=read_plan(start))
+    left = derived.begun().seconds_left()  # for planning [s]
+    if time_limit is not None and left is not None:
+        left = min(left, max(time_limit - (time.monotonic() - began), time_limit / 2))
     blocked = no_plan_shown(problem, page, file_title(source), as_json=as_json)
     with blocked, progress(time_limit, began) as report:
         found = search(

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputFault
+from rightofway.model.deadline import check_work
 from rightofway.model.geometry import Point, squared_distance
 from rightofway.model.resources import exact_positions
 from rightofway.model.roadmap import Roadmap
@@ -230,6 +231,7 @@ def closures_of(
         start = Tick(closure.from_ // clock.tick)
         end = NEVER if closure.until is None else clock.ticks(closure.until)
         for size, radius in enumerate(sizes):
+            check_work("finding what closures close")
             reach = None if closure.radius is None else radius + closure.radius + clearance
             found += [
                 _Closed(size * n_rows + resource, start, end)
@@ -288,6 +290,7 @@ class _Plane:
             if place not in kept and _nearer((at[place], at[place]), segments, reach):
                 yield place
         for edge in _boxed(self.drawn[self.tails], self.drawn[heads], segments, reach):
+            check_work("finding what closures close")
             tail, head = int(self.tails[edge]), int(heads[edge])
             if not {tail, head} & set(kept) and _nearer((at[tail], at[head]), segments, reach):
                 yield self.roadmap.n_vertices + edge

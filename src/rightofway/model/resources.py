@@ -13,7 +13,7 @@ their ends do, and edges that cross.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError
+from rightofway.model.deadline import check_work
 from rightofway.model.geometry import Point, squared_distance
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.zones import Zone
@@ -39,10 +40,23 @@ other; exact arithmetic decides."""
 ROUNDING = Fraction(1, 10**9)
 """An edge may be shorter than the straight line by this part."""
 
+LANES_AT_ONCE = 256
+"""Vertices or lanes whose neighbours are looked up at once; then the time limit is checked."""
+
+KEYS_AT_ONCE = 1 << 20
+"""Pairs of rows that are sorted at once, about."""
+
+LARGEST_FAST = 2**30
+"""Below this number, products of two differences of coordinates fit 64 bits."""
+
+FINDING = "finding vertices and lanes that two robots may not book at once"
+
 Ints = NDArray[np.int64]
 Pairs = tuple[Ints, Ints]
+Candidates = tuple[Pairs, Pairs, Pairs]
+"""Pairs of vertices, vertices with lanes, pairs of lanes."""
 Exact = NDArray[Any]
-"""Python integers of any size."""
+"""Integers of 64 bits where they fit, else Python integers of any size."""
 
 
 def refuse_sizes(resources: Resources | None, what: str, remedy: str) -> None:
@@ -304,24 +318,50 @@ def _excluded(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the lists of all rows in compressed sparse rows."""
     n_vertices, n_rows = roadmap.n_vertices, roadmap.n_vertices + roadmap.n_edges
+    check_work(FINDING)
     drawing = _Drawing(roadmap, [*sizes, clearance])
     reach = 2 * sizes[-1] + clearance
     same = np.arange(n_vertices)
-    candidates = drawing.candidates(reach) if sizes[-1] > 0 else None
-    in_zones = list(_in_zones(roadmap))
-    rows, columns = list[Ints](), list[Ints]()
-    for one, other in combinations_with_replacement(range(len(sizes)), 2):
-        pairs = [(same, same), *in_zones]
-        if sizes[other] > 0 and candidates is not None:
-            pairs += drawing.nearer(sizes[one] + sizes[other] + clearance, candidates)
-        for left, right in pairs:
-            for a, b in {(one, other), (other, one)}:
-                rows += [a * n_rows + left, b * n_rows + right]
-                columns += [b * n_rows + right, a * n_rows + left]
-    found = np.unique(np.concatenate(rows) * (len(sizes) * n_rows) + np.concatenate(columns))
-    row, column = np.divmod(found, len(sizes) * n_rows)
-    first = np.searchsorted(row, np.arange(len(sizes) * n_rows + 1))
-    return first.astype(np.int32), column.astype(np.int32)
+    n_keys = len(sizes) * n_rows
+    keys = list[Ints]()  # of pairs of rows: row * n_keys + column
+
+    def exclude(one: int, other: int, pairs: Iterable[Pairs]) -> None:
+        found = [
+            (a * n_rows + left) * n_keys + b * n_rows + right
+            for x, y in pairs
+            for a, b in {(one, other), (other, one)}
+            for left, right in ((x, y), (y, x))
+        ]
+        keys.append(np.sort(np.concatenate(found)))
+
+    combinations = list(combinations_with_replacement(range(len(sizes)), 2))
+    for one, other in combinations:
+        exclude(one, other, [(same, same), *_in_zones(roadmap)])
+    for done, part in enumerate(drawing.candidates(reach) if sizes[-1] > 0 else ()):
+        crossing = list(drawing.crossing(part))
+        for one, other in combinations:
+            check_work(f"{FINDING}, {done} of {drawing.n_parts} parts of the roadmap done")
+            if sizes[other] > 0:
+                distance = sizes[one] + sizes[other] + clearance
+                exclude(one, other, [*drawing.nearer(distance, part), *crossing])
+    return _rows_of(keys, n_keys)
+
+
+def _rows_of(parts: list[Ints], n_rows: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return compressed sparse rows of sorted parts of keys ``row * n_rows + column``."""
+    sample = np.sort(np.concatenate([part[::1000] for part in parts]))
+    ends = [*sample[KEYS_AT_ONCE // 1000 :: KEYS_AT_ONCE // 1000].tolist(), n_rows * n_rows]
+    begins = np.zeros(len(parts), np.int64)
+    counts, columns = np.zeros(n_rows + 1, np.int64), list[NDArray[np.int32]]()
+    for end in ends:
+        check_work("sorting vertices and lanes that two robots may not book at once")
+        upto = np.array([np.searchsorted(part, end) for part in parts])
+        some = zip(parts, begins, upto, strict=True)
+        row, column = np.divmod(np.unique(np.concatenate([p[a:b] for p, a, b in some])), n_rows)
+        counts += np.bincount(row + 1, minlength=n_rows + 1)
+        columns.append(column.astype(np.int32))
+        begins = upto
+    return np.cumsum(counts).astype(np.int32), np.concatenate(columns)
 
 
 def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
@@ -363,20 +403,28 @@ class _Drawing:
         self.x, self.y = (self._from_least(whole[axis::2]) for axis in (0, 1))
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         heads = roadmap.heads.astype(np.int64)
-        ends = np.column_stack((np.minimum(tails, heads), np.maximum(tails, heads)))
-        lanes, lane_of = np.unique(ends, axis=0, return_inverse=True)
-        lane_of = lane_of.reshape(-1)  # NumPy 2.0 keeps an axis of length 1
-        self.a, self.b = lanes[:, 0], lanes[:, 1]
+        ends = np.minimum(tails, heads) * roadmap.n_vertices + np.maximum(tails, heads)
+        lanes, lane_of = np.unique(ends, return_inverse=True)
+        self.a, self.b = np.divmod(lanes, roadmap.n_vertices)
         self._edges_by_lane = np.argsort(lane_of, kind="stable") + roadmap.n_vertices
         self._first_edge = np.searchsorted(np.sort(lane_of), np.arange(len(lanes) + 1))
 
     @staticmethod
     def _from_least(values: list[int]) -> Exact:
-        least = min(values)
-        return np.array([value - least for value in values], object)
+        least, most = min(values), max(values)
+        kind = np.int64 if most - least < LARGEST_FAST else object
+        return np.array([value - least for value in values], kind)
 
-    def candidates(self, reach: Fraction) -> tuple[Pairs, Pairs, Pairs]:
-        """Return vertex pairs, vertices with lanes, lane pairs: all within reach, and few more."""
+    @property
+    def n_parts(self) -> int:
+        """How many parts `candidates` yields: some vertices at a time, then some lanes."""
+        return sum(-(-len(all_) // LANES_AT_ONCE) for all_ in (self.x, self.a))
+
+    def candidates(self, reach: Fraction) -> Iterator[Candidates]:
+        """Yield vertex pairs, vertices with lanes, lane pairs: all within reach, and few more.
+
+        They come in `n_parts` parts.
+        """
         import shapely
 
         points = np.array(
@@ -385,53 +433,58 @@ class _Drawing:
         slack = SLACK * float(np.abs(points).max() + reach)
         near = float(reach) + slack
         vertices = np.array(shapely.points(points), object)
+        check_work(FINDING)
         tree = shapely.STRtree(list(vertices))
-        left, right = tree.query(vertices, "dwithin", near)
-        upwards = left < right
+        none: Pairs = (np.zeros(0, np.int64), np.zeros(0, np.int64))
+        for begin in range(0, len(vertices), LANES_AT_ONCE):
+            left, right = tree.query(vertices[begin : begin + LANES_AT_ONCE], "dwithin", near)
+            upwards = left + begin < right
+            yield ((left + begin)[upwards], right[upwards]), none, none
         ends = np.stack((points[self.a], points[self.b]), axis=1)
         lanes = np.array(shapely.linestrings(ends), object)
-        lane, vertex = tree.query(lanes, "dwithin", near)
-        one, other = shapely.STRtree(list(lanes)).query(lanes, "dwithin", slack)
-        crossing = one < other
-        return (
-            (left[upwards], right[upwards]),
-            (vertex, lane),
-            (one[crossing], other[crossing]),
-        )
+        check_work(FINDING)
+        of_lanes = shapely.STRtree(list(lanes))
+        for begin in range(0, len(lanes), LANES_AT_ONCE):
+            some = lanes[begin : begin + LANES_AT_ONCE]
+            lane, vertex = tree.query(some, "dwithin", near)
+            one, other = of_lanes.query(some, "dwithin", slack)
+            upwards = one + begin < other
+            crossing = (one + begin)[upwards], other[upwards]
+            yield none, (vertex, lane + begin), crossing
 
-    def nearer(self, distance: Fraction, candidates: tuple[Pairs, Pairs, Pairs]) -> Iterator[Pairs]:
-        """Yield pairs of resources nearer than a distance, both directions of a lane."""
-        (left, right), (vertex, lane), (one, other) = candidates
+    def crossing(self, candidates: Candidates) -> Iterator[Pairs]:
+        """Yield pairs of edges that cross, both directions of a lane."""
+        one, other = candidates[2]
+        crossing = self._crosses(one, other)
+        lanes, edges = self._with_edges(one[crossing], other[crossing])
+        yield self._with_edges(edges, lanes)
+
+    def nearer(self, distance: Fraction, candidates: Candidates) -> Iterator[Pairs]:
+        """Yield vertices that are nearer than a distance to others and to edges."""
+        (left, right), (vertex, lane), _ = candidates
         limit = int(distance * self.scale) ** 2
         near = self._square(left, right) < limit
         yield left[near], right[near]
         near = self._passes(vertex, lane, limit)
         yield self._with_edges(vertex[near], lane[near])
-        crossing = self._crosses(one, other)
-        lanes, edges = self._with_edges(one[crossing], other[crossing])
-        yield self._with_edges(edges, lanes)
 
     def close_pairs(self, distance: Fraction) -> ClosePairs:
         """Return vertices and lanes nearer than a distance, and lanes that cross."""
-        (left, right), (vertex, lane), (one, other) = self.candidates(distance)
         limit = int(distance * self.scale) ** 2
-        near = self._square(left, right) < limit
-        beside = self._passes(vertex, lane, limit)
-        crossing = self._crosses(one, other)
         lanes = list(zip(self.a.tolist(), self.b.tolist(), strict=True))
-        return ClosePairs(
-            vertices=list(zip(left[near].tolist(), right[near].tolist(), strict=True)),
-            beside=[
-                (each, lanes[passed])
-                for each, passed in zip(vertex[beside].tolist(), lane[beside].tolist(), strict=True)
-            ],
-            crossings=[
-                (lanes[first], lanes[second])
-                for first, second in zip(
-                    one[crossing].tolist(), other[crossing].tolist(), strict=True
-                )
-            ],
-        )
+        found = ClosePairs(vertices=[], beside=[], crossings=[])
+        for done, part in enumerate(self.candidates(distance)):
+            (left, right), (vertex, lane), (one, other) = part
+            check_work(f"{FINDING}, {done} of {self.n_parts} parts of the roadmap done")
+            near = self._square(left, right) < limit
+            beside = self._passes(vertex, lane, limit)
+            crossing = self._crosses(one, other)
+            found.vertices.extend(zip(left[near].tolist(), right[near].tolist(), strict=True))
+            passed = zip(vertex[beside].tolist(), lane[beside].tolist(), strict=True)
+            found.beside.extend((each, lanes[passing]) for each, passing in passed)
+            crossed = zip(one[crossing].tolist(), other[crossing].tolist(), strict=True)
+            found.crossings.extend((lanes[first], lanes[second]) for first, second in crossed)
+        return found
 
     def _with_edges(self, left: Ints, lane: Ints) -> tuple[Ints, Ints]:
         """Repeat each left one for every edge of its lane."""
@@ -459,8 +512,9 @@ class _Drawing:
         along = (self.x[vertex] - self.x[a]) * dx + (self.y[vertex] - self.y[a]) * dy
         inside = (along > 0) & (along < square)
         ends_are_clear = (self._square(vertex, a) >= limit) & (self._square(vertex, b) >= limit)
-        near = self._side(vertex, lane) ** 2 < limit * square
-        found: NDArray[np.bool_] = (inside & ends_are_clear & near).astype(bool)
+        found: NDArray[np.bool_] = (inside & ends_are_clear).astype(bool)
+        side = self._side(vertex[found], lane[found]).astype(object)
+        found[found] = side**2 < limit * square[found].astype(object)
         return found
 
     def _crosses(self, one: Ints, other: Ints) -> NDArray[np.bool_]:
@@ -468,6 +522,8 @@ class _Drawing:
         ends_of_other = self._side(self.a[other], one), self._side(self.b[other], one)
         ends_of_one = self._side(self.a[one], other), self._side(self.b[one], other)
         found: NDArray[np.bool_] = np.array(
-            (ends_of_other[0] * ends_of_other[1] < 0) & (ends_of_one[0] * ends_of_one[1] < 0), bool
+            (np.sign(ends_of_other[0]) * np.sign(ends_of_other[1]) < 0)
+            & (np.sign(ends_of_one[0]) * np.sign(ends_of_one[1]) < 0),
+            bool,
         )
         return found

@@ -1,5 +1,6 @@
 """Ways to choose routes and right of way; each planner is one module and one registry line."""
 
+from rightofway.model.deadline import Deadline
 from rightofway.planners.options import (
     AutoOptions,
     LacamOptions,
@@ -16,7 +17,6 @@ from rightofway.planners.options import (
 )
 from rightofway.planners.registry import DEFAULT, IMPROVER, PlannerSpec, find, registered
 from rightofway.planners.task import (
-    Deadline,
     Draft,
     Planner,
     Task,

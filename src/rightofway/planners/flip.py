@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 from rightofway.check import check
 from rightofway.errors import GaveUp
 from rightofway.model import Plan, Tick, Track, completions_of
+from rightofway.model.deadline import Deadline
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.prioritized import fleet_search
-from rightofway.planners.task import Deadline, Task, planning_headway
+from rightofway.planners.task import Task, planning_headway
 from rightofway.precedence import PrecedenceGraph, graph_of
 
 SEARCHES = 100

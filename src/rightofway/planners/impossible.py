@@ -32,9 +32,9 @@ from rightofway.model import (
     VertexId,
 )
 from rightofway.model.closures import Closure
+from rightofway.model.deadline import Deadline
 from rightofway.model.place_names import PlaceNames
 from rightofway.model.resources import are_nearer, distance
-from rightofway.planners.task import Deadline
 from rightofway.search import (
     Bookings,
     Distances,

@@ -20,9 +20,10 @@ from fractions import Fraction
 import numpy as np
 
 from rightofway.model import Scenario, Stop, cost_of
+from rightofway.model.deadline import Deadline
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
-from rightofway.planners.task import Deadline, Draft, Task, planning_headway, planning_problem
+from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 

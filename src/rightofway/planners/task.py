@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,45 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import GaveUp
 from rightofway.model import Decision, Improvement, Problem, Reroute, Scenario, Tick, Track
-
-
-@dataclass(frozen=True, slots=True)
-class Deadline:
-    """A moment on the monotonic clock [s]; None never comes."""
-
-    at: float | None = None
-
-    @classmethod
-    def after(cls, seconds: float | None) -> Deadline:
-        """Return the deadline that many seconds from now."""
-        return cls(None if seconds is None else time.monotonic() + seconds)
-
-    def sooner(self, share: float) -> Deadline:
-        """Return the deadline of a part of the time that is left."""
-        left = self.seconds_left()
-        return self if left is None else Deadline.after(share * left)
-
-    def earlier(self, seconds: float) -> Deadline:
-        """Return the deadline that many seconds earlier; at most half of the time left is lost."""
-        left = self.seconds_left()
-        return self if left is None else Deadline.after(max(left - seconds, left / 2))
-
-    def seconds_left(self) -> float | None:
-        """Return how long it is until then [s], never negative; None for no limit."""
-        return None if self.at is None else max(self.at - time.monotonic(), 0.0)
-
-    def check(self, doing: str) -> None:
-        """Raise `GaveUp` if the moment has come.
-
-        Raises
-        ------
-        GaveUp
-            Saying what the planner was doing.
-        """
-        if self.at is not None and time.monotonic() >= self.at:
-            raise GaveUp(f"time ran out while {doing} (give a longer time limit)")
+from rightofway.model.deadline import NO_DEADLINE, Deadline
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,7 +47,7 @@ class Task:
     scenario: Scenario
     options: Mapping[str, Any] = field(default_factory=dict)
     seed: int = 0
-    deadline: Deadline = Deadline()
+    deadline: Deadline = NO_DEADLINE
     report: Callable[[str], None] = lambda _: None
     has_plan: Callable[[], None] = lambda: None
     better: Callable[[Callable[[], Sequence[Track]]], None] = lambda _: None

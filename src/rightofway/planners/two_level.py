@@ -30,6 +30,7 @@ from typing import Literal
 
 from rightofway.errors import InputError
 from rightofway.model import Decision, Plan, Tick, Track
+from rightofway.model.deadline import Deadline
 from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
 from rightofway.planners.conflict_resolution import (
@@ -41,7 +42,7 @@ from rightofway.planners.conflict_resolution import (
     rights_if_waits,
 )
 from rightofway.planners.routing import chosen_routes
-from rightofway.planners.task import Deadline, Draft, Task
+from rightofway.planners.task import Draft, Task
 from rightofway.precedence import Meeting, Segment, SegmentOfSizes
 from rightofway.search import Distances
 
