@@ -47,7 +47,9 @@ bool TaskCrew::ask(const StopCondition& is_over) {
     if (!is_stopped_ && std::chrono::steady_clock::now() - asked_ > between_questions) {
         asked_ = std::chrono::steady_clock::now();
         try {
-            is_stopped_ = is_over();
+            if (is_over()) {  // never back to false: a failing thread may have stopped the run
+                is_stopped_ = true;
+            }
         } catch (...) {
             thrown_ = std::current_exception();
             is_stopped_ = true;
