@@ -24,8 +24,11 @@ FOUND = os.environ.get("RIGHTOFWAY_CHROMIUM") or next(filter(None, map(shutil.wh
 CHROMIUM = FOUND if find_spec("playwright") else ""
 """Path of the browser; empty where there is none, or no Playwright."""
 
+expect: Any = None
+"""Playwright's `expect`; None where there is no browser, and its tests are skipped."""
+
 if CHROMIUM:
-    from playwright.sync_api import expect as expect  # noqa: PLC0414 (tests import it from here)
+    from playwright.sync_api import expect
 
     expect.set_options(timeout=30_000)
 

@@ -2,8 +2,9 @@ import { FleetMemo } from "./fleet_memo.js";
 import { LabelBoard, SIDES, TextWidths, boxBeside, cut } from "./label_board.js";
 import { decimal, fraction } from "./quantities.js";
 import { LONGEST_BAR } from "./scale_bar.js";
-import { disc, haloed, ring } from "./shapes.js";
+import { haloed, ringed } from "./shapes.js";
 import { inkOn } from "./theme.js";
+import { usedPlaces } from "./used_places.js";
 
 /** @import { Choice } from "./choice.js" */
 /** @import { Box } from "./label_board.js" */
@@ -13,7 +14,7 @@ import { inkOn } from "./theme.js";
 /** @import { Theme } from "./theme.js" */
 /** @import { Use } from "./use.js" */
 /** @import { Viewport } from "./viewport.js" */
-/** @import { Robot } from "./robot.js" */
+/** @import { Mark, Marks } from "./used_places.js" */
 
 const MOST_PLACES = 300; // names of places in sight
 const MOST_VERTICES = 1500; // in sight; of more, only homes and stops have names
@@ -24,8 +25,6 @@ const PLACE_TYPE = 12; // pixels
 const MOST_ANCHORS = 24; // vertices of a zone that its name may stand beside
 const LONGEST_MARK = 34; // characters of the name of a home, a stop or a station
 
-/** @typedef {{ robots: number[], homeOf: Robot | null, isStop: boolean }} Mark A home, a stop, or another place with a use. */
-/** @typedef {Map<number, Mark>} Marks By vertex. */
 /** @typedef {{ name: string, box: Box, font: string, ink: string, halo: string, isUpright?: boolean, isRinged?: boolean }} Spot Where a name stands. */
 
 /**
@@ -58,7 +57,7 @@ export class PlaceNames {
     this.theme = theme;
     this.choice = choice;
     this.use = use;
-    this.#marksOf = new FleetMemo(plan, () => this.#usedPlaces());
+    this.#marksOf = new FleetMemo(plan, () => usedPlaces(this.plan));
   }
 
   refresh() {
@@ -91,7 +90,7 @@ export class PlaceNames {
       if (!robots.isFree(...box)) continue;
       context.font = font;
       context.textAlign = "left";
-      if (isRinged) this.#writeInRing(context, name, box);
+      if (isRinged) ringed(context, name, box, this.theme);
       else if (isUpright) {
         context.save();
         context.translate((box[0] + box[2]) / 2 + 0.5, box[3]);
@@ -102,23 +101,6 @@ export class PlaceNames {
       written.push({ name, box });
     }
     return written;
-  }
-
-  /**
-   * @param {CanvasRenderingContext2D} context
-   * @param {string} text
-   * @param {Box} options
-   */
-  #writeInRing(context, text, [left, top, right, bottom]) {
-    const [x, y] = [(left + right) / 2, (top + bottom) / 2];
-    context.fillStyle = this.theme.paper;
-    disc(context, x, y, (right - left) / 2);
-    context.strokeStyle = this.theme.held;
-    context.lineWidth = 1.75;
-    ring(context, x, y, (right - left) / 2 - 1);
-    context.fillStyle = this.theme.ink;
-    context.textAlign = "center";
-    context.fillText(text, x, y + 0.5);
   }
 
   /**
@@ -402,31 +384,5 @@ export class PlaceNames {
       (one, other) => Number(isChosen(other)) - Number(isChosen(one)),
     );
     return new Set([...chosenFirst, ...Array(roadmap.size).keys()]);
-  }
-
-  /** The homes and stops, each with its robots, then stations, parking places and chargers. */
-  #usedPlaces() {
-    /** @type {Marks} */
-    const places = new Map();
-    /**
-     * @param {number} vertex
-     * @returns {Mark}
-     */
-    const at = (vertex) => {
-      const known = places.get(vertex) ?? { robots: [], homeOf: null, isStop: false };
-      places.set(vertex, known);
-      return known;
-    };
-    for (const robot of this.plan.robots) {
-      for (const vertex of [robot.home, ...robot.stages.map((stage) => stage.vertex)]) {
-        const place = at(vertex);
-        place.robots.push(robot.index);
-        if (vertex === robot.home) place.homeOf = robot;
-        else place.isStop = true;
-      }
-    }
-    const { stations, parking, charging } = this.plan.roadmap;
-    for (const vertex of [...stations.keys(), ...parking, ...charging]) at(vertex);
-    return places;
   }
 }

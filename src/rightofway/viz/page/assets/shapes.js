@@ -1,3 +1,6 @@
+/** @import { Box } from "./label_board.js" */
+/** @import { Theme } from "./theme.js" */
+
 /**
  * @param {CanvasPath} context
  * @param {number} fromX
@@ -196,4 +199,24 @@ export function shortened(context, text, width) {
   if (context.measureText(text).width <= width) return text;
   const share = width / context.measureText(text).width;
   return `${text.slice(0, Math.max(Math.floor(text.length * share) - 1, 1))}…`;
+}
+
+/**
+ * A text in a ring that fills a box, as the sign of a limit.
+ *
+ * @param {CanvasRenderingContext2D} context
+ * @param {string} text
+ * @param {Box} box
+ * @param {Theme} theme
+ */
+export function ringed(context, text, [left, top, right, bottom], theme) {
+  const [x, y] = [(left + right) / 2, (top + bottom) / 2];
+  context.fillStyle = theme.paper;
+  disc(context, x, y, (right - left) / 2);
+  context.strokeStyle = theme.held;
+  context.lineWidth = 1.75;
+  ring(context, x, y, (right - left) / 2 - 1);
+  context.fillStyle = theme.ink;
+  context.textAlign = "center";
+  context.fillText(text, x, y + 0.5);
 }
