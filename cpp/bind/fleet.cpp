@@ -166,7 +166,7 @@ class FleetSearch {
                         return nullptr;
                     }
                 }
-                alone[static_cast<std::size_t>(robot)] = distances_.alone(robot);
+                alone[index(robot)] = distances_.alone(robot);
             }
             alone_ = std::move(alone);
             bound_ = std::accumulate(alone_.begin(), alone_.end(), Tick{0});
@@ -232,7 +232,7 @@ class FleetSearch {
         require_tracks(given);
         clear();
         for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
-            if (given.first_visit[robot] == given.first_visit[robot + 1]) {
+            if (given.first_visit[index(robot)] == given.first_visit[index(robot + 1)]) {
                 continue;
             }
             TimedTrack track = track_of(robot, given);
@@ -255,7 +255,7 @@ class FleetSearch {
         std::vector<TimedTrack> old;
         FleetPlan together(problem_);
         for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
-            if (given.first_visit[robot] == given.first_visit[robot + 1]) {
+            if (given.first_visit[index(robot)] == given.first_visit[index(robot + 1)]) {
                 reject("robot", robot, "has an empty track");
             }
             old.push_back(track_of(robot, given));
@@ -271,20 +271,20 @@ class FleetSearch {
         for (bool has_changed = true; has_changed;) {
             has_changed = false;
             for (RobotId first = 0; first < problem_.n_robots(); ++first) {
-                if (is_restored[static_cast<std::size_t>(first)] != 0) {
+                if (is_restored[index(first)] != 0) {
                     continue;
                 }
                 const std::vector<RobotId> group = in_the_way_of_each_other(first, old, poll);
                 Tick gain = 0;
                 for (const RobotId robot : group) {
-                    gain += plan_.track(robot).cost - old[static_cast<std::size_t>(robot)].cost;
+                    gain += plan_.track(robot).cost - old[index(robot)].cost;
                 }
                 if (gain < 0) {
                     continue;
                 }
                 for (const RobotId robot : group) {
-                    plan_.exchange(robot, old[static_cast<std::size_t>(robot)]);
-                    is_restored[static_cast<std::size_t>(robot)] = 1;
+                    plan_.exchange(robot, old[index(robot)]);
+                    is_restored[index(robot)] = 1;
                 }
                 n_restored += static_cast<std::int64_t>(group.size());
                 has_changed = true;
@@ -342,7 +342,7 @@ class FleetSearch {
         require_ids("order", order, problem_.n_robots());
         std::vector<std::uint8_t> is_there(n_robots(), 0);
         for (std::size_t k = 0; k < order.size(); ++k) {
-            if (is_there[static_cast<std::size_t>(order[k])]++ != 0) {
+            if (is_there[index(order[k])]++ != 0) {
                 reject_entry("order", k, order[k], "is there twice");
             }
         }
@@ -372,7 +372,7 @@ class FleetSearch {
         std::vector<RobotId> met;
         for (std::size_t k = 0; k < group.size(); ++k) {
             poll();
-            plan_.in_the_way(group[k], old[static_cast<std::size_t>(group[k])], met);
+            plan_.in_the_way(group[k], old[index(group[k])], met);
             for (const RobotId other : met) {
                 if (std::find(group.begin(), group.end(), other) == group.end()) {
                     group.push_back(other);
@@ -388,8 +388,8 @@ class FleetSearch {
         const Turns turns = problem_.turns(robot);
         EdgeId before = -1;
         TimedTrack track;
-        const auto first = static_cast<std::size_t>(given.first_visit[robot]);
-        const auto end = static_cast<std::size_t>(given.first_visit[robot + 1]);
+        const auto first = index(given.first_visit[index(robot)]);
+        const auto end = index(given.first_visit[index(robot + 1)]);
         if (given.vertices[first] != problem_.home(robot)) {
             reject_entry("vertices", first, given.vertices[first],
                          "is not the home of robot " + std::to_string(robot) + ", " +

@@ -1,6 +1,7 @@
 #include "core/excluded_rows.hpp"
 
 #include "core/reject.hpp"
+#include "core/types.hpp"
 
 namespace rightofway {
 
@@ -9,8 +10,8 @@ void require_excluded_rows(const ExcludedRows& rows) {
     require_lists("first", first, excluded.size());
     const std::size_t n_rows = first.size() - 1;
     for (std::size_t row = 0; row < n_rows; ++row) {
-        const auto begin = static_cast<std::size_t>(first[row]);
-        const auto end = static_cast<std::size_t>(first[row + 1]);
+        const auto begin = index(first[row]);
+        const auto end = index(first[row + 1]);
         std::int64_t before = -1;
         for (std::size_t k = begin; k < end; ++k) {
             if (excluded[k] < 0 || static_cast<std::size_t>(excluded[k]) >= n_rows) {

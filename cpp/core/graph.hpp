@@ -15,13 +15,13 @@ struct Graph {
 
     VertexId n_vertices() const { return static_cast<VertexId>(indptr.size()) - 1; }
     std::span<const VertexId> heads(VertexId v) const {
-        const auto first = static_cast<std::size_t>(indptr[v]);
-        return indices.subspan(first, static_cast<std::size_t>(indptr[v + 1]) - first);
+        const auto first = index(indptr[index(v)]);
+        return indices.subspan(first, index(indptr[index(v + 1)]) - first);
     }
     // The edge from tail to head, -1 if the graph has none.
     EdgeId edge(VertexId tail, VertexId head) const {
-        for (EdgeId e = indptr[tail]; e < indptr[tail + 1]; ++e) {
-            if (indices[e] == head) {
+        for (EdgeId e = indptr[index(tail)]; e < indptr[index(tail + 1)]; ++e) {
+            if (indices[index(e)] == head) {
                 return e;
             }
         }

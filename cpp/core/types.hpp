@@ -4,6 +4,8 @@
 // alias names the numbering in a signature: vertices, edges, robots or visits.
 #pragma once
 
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 
 namespace rightofway {
@@ -16,6 +18,9 @@ using Tick = std::int64_t;     // integer unit of time
 
 inline constexpr std::int32_t none = -1;  // no index, in any numbering
 inline constexpr RobotId nobody = -1;
+
+// The place of an id in an array. Checks nothing: the id is not negative.
+constexpr std::size_t index(std::signed_integral auto id) { return static_cast<std::size_t>(id); }
 
 inline constexpr std::int32_t barred = -1;  // the pace of a robot that may not drive an edge
 

@@ -271,7 +271,7 @@ std::int64_t Backjumping::loss_if(const Choice& choice, bool i_waits) const {
         const Tick free = timetable_.enter(first.next()) + routes_.gap_before(second);
         delay = std::max(delay, free - enter_in_window(second));
     }
-    return delay * loss_[static_cast<std::size_t>(rights.front().second.robot)];
+    return delay * loss_[index(rights.front().second.robot)];
 }
 
 // The enter of a visit, at least the beginning of the window.

@@ -9,7 +9,10 @@
 namespace rightofway {
 
 ConflictSweep::ConflictSweep(const CyclicRoutes& routes, const RollingTimetable& timetable)
-    : routes_(routes), timetable_(timetable), at_(routes.n_lists()), sweeps_(routes.n_robots()) {
+    : routes_(routes),
+      timetable_(timetable),
+      at_(static_cast<std::size_t>(routes.n_lists())),
+      sweeps_(static_cast<std::size_t>(routes.n_robots())) {
     restart();
 }
 
@@ -20,13 +23,13 @@ void ConflictSweep::restart() {
     upcoming_.clear();
     conflicts_.clear();
     for (RobotId r = 0; r < routes_.n_robots(); ++r) {
-        sweeps_[r].number = timetable_.start(r);
+        sweeps_[index(r)].number = timetable_.start(r);
         find_next(r);
     }
 }
 
 void ConflictSweep::end_changed(RobotId robot, std::int32_t old_end) {
-    const std::int32_t swept = sweeps_[robot].number;
+    const std::int32_t swept = sweeps_[index(robot)].number;
     if (routes_.has_sizes()) {
         // The last visit in the window is swept without the edge driven out of it.
         const std::int32_t last = std::min(old_end, timetable_.end(robot)) - 1;
@@ -43,14 +46,14 @@ void ConflictSweep::end_changed(RobotId robot, std::int32_t old_end) {
 // A changed enter also changes the leave of the previous visit.
 void ConflictSweep::times_changed(std::span<const RollingTimetable::Changed> changed) {
     for (const auto& [robot, from] : changed) {
-        if (from <= sweeps_[robot].number) {
+        if (from <= sweeps_[index(robot)].number) {
             unsweep(robot, from - 1);
         }
     }
 }
 
 void ConflictSweep::unsweep(RobotId robot, std::int32_t from) {
-    std::int32_t& swept = sweeps_[robot].number;
+    std::int32_t& swept = sweeps_[index(robot)].number;
     for (; swept > from; --swept) {
         const CyclicVisit visit{robot, swept - 1};
         if (routes_.has_sizes()) {
@@ -58,7 +61,7 @@ void ConflictSweep::unsweep(RobotId robot, std::int32_t from) {
             take_out(routes_.edge_row(visit), visit);
             continue;
         }
-        auto& booked = at_[routes_.vertex(visit)].booked;
+        auto& booked = at_[index(routes_.vertex(visit))].booked;
         const auto is_it = [visit](const Booked& one) { return one.visit == visit; };
         booked.erase(std::find_if(booked.rbegin(), booked.rend(), is_it).base() - 1);
     }
@@ -66,7 +69,7 @@ void ConflictSweep::unsweep(RobotId robot, std::int32_t from) {
 }
 
 void ConflictSweep::find_next(RobotId robot) {
-    Sweep& sweep = sweeps_[robot];
+    Sweep& sweep = sweeps_[index(robot)];
     const CyclicVisit visit{robot, sweep.number};
     sweep.place = routes_.place_in_lap(visit);
     sweep.start = visit.number < timetable_.end(robot)
@@ -81,7 +84,7 @@ void ConflictSweep::find_next(RobotId robot) {
 // Replaces the top of the heap by the robot's next visit in one sift-down: the visit usually stays
 // near the top.
 void ConflictSweep::replace_first_upcoming(RobotId robot) {
-    const Upcoming own{sweeps_[robot].start, {robot, sweeps_[robot].number}};
+    const Upcoming own{sweeps_[index(robot)].start, {robot, sweeps_[index(robot)].number}};
     const std::size_t size = upcoming_.size();
     std::size_t at = 0;
     for (std::size_t child = 1; child < size; child = 2 * at + 1) {
@@ -157,7 +160,7 @@ std::optional<Conflict> ConflictSweep::next(Tick limit) {
             return std::nullopt;
         }
         const auto& [start, visit] = upcoming_.front();
-        const Sweep& own = sweeps_[visit.robot];
+        const Sweep& own = sweeps_[index(visit.robot)];
         if (start < never && start == own.start && visit.number == own.number) {
             routes_.has_sizes() ? sweep_with_sizes(visit.robot) : sweep(visit.robot);
         } else {
@@ -169,10 +172,10 @@ std::optional<Conflict> ConflictSweep::next(Tick limit) {
 
 // Sweeps the visit at the top of the heap.
 void ConflictSweep::sweep(RobotId robot) {
-    Sweep& sweep = sweeps_[robot];
+    Sweep& sweep = sweeps_[index(robot)];
     const Tick leave = timetable_.enter({robot, sweep.number + 1});
     const Booked own{{robot, sweep.number}, {sweep.start, leave + routes_.headway()}};
-    Place& place = at_[routes_.vertex_at(robot, sweep.place)];
+    Place& place = at_[index(routes_.vertex_at(robot, sweep.place))];
     auto& booked = place.booked;
     place.longest = std::max(place.longest, own.booking.end - own.booking.start);
     if (booked.size() == booked.capacity()) {
@@ -195,7 +198,7 @@ void ConflictSweep::sweep(RobotId robot) {
 }
 
 void ConflictSweep::take_out(std::int32_t list, CyclicVisit visit) {
-    auto& booked = at_[list].booked;
+    auto& booked = at_[index(list)].booked;
     const auto is_it = [visit](const Booked& one) { return one.visit == visit; };
     const auto found = std::find_if(booked.rbegin(), booked.rend(), is_it);
     if (found != booked.rend()) {  // no edge led out of the last visit in the window
@@ -204,7 +207,7 @@ void ConflictSweep::take_out(std::int32_t list, CyclicVisit visit) {
 }
 
 void ConflictSweep::put_in(std::int32_t list, const Booked& own) {
-    Place& place = at_[list];
+    Place& place = at_[index(list)];
     place.longest = std::max(place.longest, own.booking.end - own.booking.start);
     if (place.booked.size() == place.booked.capacity()) {
         drop_past(place.booked);
@@ -219,13 +222,13 @@ void ConflictSweep::put_in(std::int32_t list, const Booked& own) {
 // Sweeps the visit at the top of the heap, from its start on as a whole: a conflict begins at or
 // after the later start of its two visits.
 void ConflictSweep::sweep_with_sizes(RobotId robot) {
-    const Sweep& sweep = sweeps_[robot];
+    const Sweep& sweep = sweeps_[index(robot)];
     const CyclicVisit visit{robot, sweep.number};
     const Tick leave = timetable_.enter(visit.next());
     const Booked own{visit, {sweep.start, leave + routes_.headway()}};
     const auto meet = [&](std::int32_t row) {
         for (const std::int32_t list : routes_.excluded(row)) {
-            const Place& place = at_[list];
+            const Place& place = at_[index(list)];
             for (std::size_t k = place.booked.size(); k-- > 0;) {
                 const Booked& other = place.booked[k];
                 if (other.booking.start + place.longest < own.booking.start) {
@@ -254,7 +257,7 @@ void ConflictSweep::sweep_with_sizes(RobotId robot) {
 
 // Goes on to the robot's next visit.
 void ConflictSweep::advance(RobotId robot, Tick leave) {
-    Sweep& sweep = sweeps_[robot];
+    Sweep& sweep = sweeps_[index(robot)];
     ++sweep.number;
     sweep.place = sweep.place + 1 == routes_.length(robot) ? 0 : sweep.place + 1;
     sweep.start = sweep.number < timetable_.end(robot)
@@ -266,14 +269,14 @@ void ConflictSweep::advance(RobotId robot, Tick leave) {
 // Visits are scattered in memory. Other robots are swept before the robot's next visit; meanwhile,
 // the list and the leave of the next visit are loaded, and the head of the following list.
 void ConflictSweep::prefetch_next(RobotId robot) const {
-    const std::int32_t place = sweeps_[robot].place;
+    const std::int32_t place = sweeps_[index(robot)].place;
     const std::int32_t next = place + 1 == routes_.length(robot) ? 0 : place + 1;
-    const auto& booked = at_[routes_.vertex_at(robot, place)].booked;
+    const auto& booked = at_[index(routes_.vertex_at(robot, place))].booked;
     if (!booked.empty()) {
         prefetch(&booked.back());
     }
-    prefetch(&at_[routes_.vertex_at(robot, next)]);
-    timetable_.prefetch_enter({robot, sweeps_[robot].number + 1});
+    prefetch(&at_[index(routes_.vertex_at(robot, next))]);
+    timetable_.prefetch_enter({robot, sweeps_[index(robot)].number + 1});
 }
 
 // Removes bookings that ended before the window, mostly the first ones, before a list grows.

@@ -64,27 +64,27 @@ CyclicRoutes::CyclicRoutes(const LapArrays& arrays)
         }
         within_.push_back(sum);
         if (sum > longest_lap) {
-            reject_entry("least", static_cast<std::size_t>(first_place_[r]), sum,
+            reject_entry("least", index(first_place_[index(r)]), sum,
                          "ticks in all make a lap too long (use a larger tick)");
         }
     }
 }
 
 void CyclicRoutes::check(RobotId robot) const {
-    if (first_least_[robot] <= 0 || first_least_[robot] > longest_lap) {
-        reject_entry("first_least", static_cast<std::size_t>(robot), first_least_[robot],
+    if (first_least_[index(robot)] <= 0 || first_least_[index(robot)] > longest_lap) {
+        reject_entry("first_least", index(robot), first_least_[index(robot)],
                      "is not positive, or too long");
     }
-    for (std::int32_t k = first_place_[robot]; k < first_place_[robot + 1]; ++k) {
-        const auto index = static_cast<std::size_t>(k);
-        if (vertex_[k] < 0) {
-            reject_entry("vertex", index, vertex_[k], "is negative");
+    for (std::int32_t k = first_place_[index(robot)]; k < first_place_[index(robot + 1)]; ++k) {
+        const std::size_t at = index(k);
+        if (vertex_[at] < 0) {
+            reject_entry("vertex", at, vertex_[at], "is negative");
         }
-        if (least_[k] <= 0 || least_[k] > longest_lap) {
-            reject_entry("least", index, least_[k], "is not positive, or too long");
+        if (least_[at] <= 0 || least_[at] > longest_lap) {
+            reject_entry("least", at, least_[at], "is not positive, or too long");
         }
-        if (approach_[k] < 0 || approach_[k] > longest_lap) {
-            reject_entry("approach", index, approach_[k], "is negative, or too long");
+        if (approach_[at] < 0 || approach_[at] > longest_lap) {
+            reject_entry("approach", at, approach_[at], "is negative, or too long");
         }
     }
 }
@@ -131,14 +131,14 @@ Tick CyclicRoutes::unimpeded_enter(CyclicVisit visit) const {
         return 0;
     }
     const RobotId r = visit.robot;
-    const Tick* within = &within_[first_place_[r] + r];
+    const Tick* within = &within_[index(first_place_[index(r)] + r)];
     const Tick later = visit.number / length(r) * within[length(r)] + within[place_in_lap(visit)];
-    return later - within[1] + first_least_[r];
+    return later - within[1] + first_least_[index(r)];
 }
 
 std::int32_t CyclicRoutes::n_visits_in(CyclicVisit visit, Tick ticks) const {
     const RobotId r = visit.robot;
-    const Tick* within = &within_[first_place_[r] + r];
+    const Tick* within = &within_[index(first_place_[index(r)] + r)];
     const std::int32_t place = place_in_lap(visit);
     if (ticks > longest_window || ticks / within[length(r)] > most_visits / length(r)) {
         throw std::overflow_error("lag: the laps of robot " + std::to_string(r) + " in " +
@@ -151,21 +151,23 @@ std::int32_t CyclicRoutes::n_visits_in(CyclicVisit visit, Tick ticks) const {
     return static_cast<std::int32_t>(until / within[length(r)] * length(r) + rest) - place;
 }
 
-VisitTimes::VisitTimes(const CyclicRoutes& routes) : routes_(routes), lines_(routes.n_robots()) {
+VisitTimes::VisitTimes(const CyclicRoutes& routes)
+    : routes_(routes), lines_(static_cast<std::size_t>(routes.n_robots())) {
     for (RobotId r = 0; r < routes.n_robots(); ++r) {
         add(r, 0);
     }
 }
 
 Tick VisitTimes::enter(CyclicVisit visit) const {
-    const Line& line = lines_[visit.robot];
+    const Line& line = lines_[index(visit.robot)];
     const auto next = std::upper_bound(line.late.begin(), line.late.end(), visit.number);
-    const Tick waited = next == line.late.begin() ? 0 : line.waited[next - line.late.begin() - 1];
+    const Tick waited =
+        next == line.late.begin() ? 0 : line.waited[index(next - line.late.begin() - 1)];
     return routes_.unimpeded_enter(visit) + waited;
 }
 
 void VisitTimes::add(RobotId robot, Tick enter) {
-    Line& line = lines_[robot];
+    Line& line = lines_[index(robot)];
     const CyclicVisit visit{robot, line.n_started++};
     const Tick waited = enter - line.free;
     if (waited > (line.waited.empty() ? 0 : line.waited.back())) {
@@ -176,7 +178,7 @@ void VisitTimes::add(RobotId robot, Tick enter) {
 }
 
 void VisitTimes::truncate(RobotId robot, std::int32_t n_started) {
-    Line& line = lines_[robot];
+    Line& line = lines_[index(robot)];
     line.n_started = n_started;
     line.free = routes_.unimpeded_enter({robot, n_started});
     const auto kept = std::lower_bound(line.late.begin(), line.late.end(), n_started);

@@ -63,7 +63,7 @@ class CyclicRoutes {
     // The vertices that robots visit are numbered from 0, in the order of their ids.
     VertexId n_vertices() const { return static_cast<VertexId>(id_.size()); }
     std::int32_t length(RobotId robot) const {
-        return first_place_[robot + 1] - first_place_[robot];
+        return first_place_[index(robot + 1)] - first_place_[index(robot)];
     }
     Tick headway() const { return headway_; }
 
@@ -73,22 +73,24 @@ class CyclicRoutes {
         return has_sizes() ? static_cast<std::int32_t>(first_.size()) - 1 : n_vertices();
     }
     // Only where robots have sizes.
-    std::int32_t vertex_row(CyclicVisit visit) const { return vertex_row_[place(visit)]; }
-    std::int32_t edge_row(CyclicVisit visit) const { return edge_row_[place(visit)]; }
+    std::int32_t vertex_row(CyclicVisit visit) const { return vertex_row_[index(place(visit))]; }
+    std::int32_t edge_row(CyclicVisit visit) const { return edge_row_[index(place(visit))]; }
     std::span<const std::int32_t> excluded(std::int32_t row) const {
-        return std::span(excluded_).subspan(first_[row], first_[row + 1] - first_[row]);
+        return std::span(excluded_).subspan(
+            index(first_[index(row)]),
+            static_cast<std::size_t>(first_[index(row + 1)] - first_[index(row)]));
     }
     // No value if the visits are compatible. `i_leaves`, `j_leaves`: whether the edge driven out of
     // the visit counts.
     std::optional<IncompatiblePair> incompatible(CyclicVisit i, bool i_leaves, CyclicVisit j,
                                                  bool j_leaves) const;
 
-    VertexId vertex(CyclicVisit visit) const { return vertex_[place(visit)]; }
-    VertexId id_of(VertexId vertex) const { return id_[vertex]; }
-    Tick approach(CyclicVisit visit) const { return approach_[place(visit)]; }
+    VertexId vertex(CyclicVisit visit) const { return vertex_[index(place(visit))]; }
+    VertexId id_of(VertexId vertex) const { return id_[index(vertex)]; }
+    Tick approach(CyclicVisit visit) const { return approach_[index(place(visit))]; }
     Tick gap_before(CyclicVisit visit) const { return headway_ + approach(visit); }
     Tick least(CyclicVisit visit) const {
-        return visit.number == 0 ? first_least_[visit.robot] : least_[place(visit)];
+        return visit.number == 0 ? first_least_[index(visit.robot)] : least_[index(place(visit))];
     }
 
     // The enter of a visit of a robot that never waits.
@@ -99,13 +101,14 @@ class CyclicRoutes {
 
     // For loops along one route, by place in the lap.
     std::span<const Tick> leasts(RobotId robot) const {
-        return std::span(least_).subspan(first_place_[robot], length(robot));
+        return std::span(least_).subspan(index(first_place_[index(robot)]),
+                                         static_cast<std::size_t>(length(robot)));
     }
     VertexId vertex_at(RobotId robot, std::int32_t place) const {
-        return vertex_[first_place_[robot] + place];
+        return vertex_[index(first_place_[index(robot)] + place)];
     }
     Tick approach_at(RobotId robot, std::int32_t place) const {
-        return approach_[first_place_[robot] + place];
+        return approach_[index(first_place_[index(robot)] + place)];
     }
     std::int32_t place_in_lap(CyclicVisit visit) const {
         return visit.number % length(visit.robot);
@@ -113,7 +116,7 @@ class CyclicRoutes {
 
   private:
     std::int32_t place(CyclicVisit visit) const {
-        return first_place_[visit.robot] + place_in_lap(visit);
+        return first_place_[index(visit.robot)] + place_in_lap(visit);
     }
     void check(RobotId robot) const;
     void check_rows() const;
@@ -140,15 +143,15 @@ class VisitTimes {
   public:
     explicit VisitTimes(const CyclicRoutes& routes);
 
-    std::int32_t n_started(RobotId robot) const { return lines_[robot].n_started; }
+    std::int32_t n_started(RobotId robot) const { return lines_[index(robot)].n_started; }
     Tick enter(CyclicVisit visit) const;  // of a visit that has started
 
     void add(RobotId robot, Tick enter);  // of the next visit
     void truncate(RobotId robot, std::int32_t n_started);
 
     // The visits with a wait, and the total ticks of waiting of the robot up to each of them.
-    std::span<const std::int32_t> late(RobotId robot) const { return lines_[robot].late; }
-    std::span<const Tick> waited(RobotId robot) const { return lines_[robot].waited; }
+    std::span<const std::int32_t> late(RobotId robot) const { return lines_[index(robot)].late; }
+    std::span<const Tick> waited(RobotId robot) const { return lines_[index(robot)].waited; }
 
   private:
     struct Line {

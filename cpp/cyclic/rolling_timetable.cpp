@@ -8,8 +8,8 @@ namespace rightofway {
 RollingTimetable::RollingTimetable(const CyclicRoutes& routes)
     : RaiseSearch(CyclicVisit{nobody, 0}),
       routes_(routes),
-      lines_(routes.n_robots()),
-      before_(routes.n_robots()) {
+      lines_(static_cast<std::size_t>(routes.n_robots())),
+      before_(static_cast<std::size_t>(routes.n_robots())) {
     const Tick zero = 0;
     for (RobotId r = 0; r < routes.n_robots(); ++r) {
         restart(r, 0, std::span(&zero, 1));
@@ -17,7 +17,7 @@ RollingTimetable::RollingTimetable(const CyclicRoutes& routes)
 }
 
 void RollingTimetable::restart(RobotId robot, std::int32_t start, std::span<const Tick> enters) {
-    Line& line = lines_[robot];
+    Line& line = lines_[index(robot)];
     forget_rights(line, line.base + static_cast<std::int32_t>(line.nodes.size()));
     line.base = line.start = start;
     line.nodes.clear();
@@ -32,10 +32,10 @@ void RollingTimetable::restart(RobotId robot, std::int32_t start, std::span<cons
 }
 
 void RollingTimetable::set_end(RobotId robot, std::int32_t end) {
-    Line& line = lines_[robot];
+    Line& line = lines_[index(robot)];
     runs_.clear();
     given_.clear();
-    line.nodes.resize(end + 1 - line.base, {0, none});
+    line.nodes.resize(static_cast<std::size_t>(end + 1 - line.base), {0, none});
     line.trials.resize(line.nodes.size(), {0, {nobody, 0}});
     const std::int32_t old_end = std::exchange(line.end, end);
     run_freely(robot, old_end);
@@ -43,12 +43,12 @@ void RollingTimetable::set_end(RobotId robot, std::int32_t end) {
 
 // Resets a robot's times to those without waits, from a visit to the end of the window.
 void RollingTimetable::run_freely(RobotId robot, std::int32_t from) {
-    Line& line = lines_[robot];
+    Line& line = lines_[index(robot)];
     const auto least = routes_.leasts(robot);
     std::int32_t place = routes_.place_in_lap({robot, from});
     for (std::int32_t k = from; k < line.end; ++k) {
-        Node* const own = &line.nodes[k - line.base];
-        Tick lasts = k == 0 ? routes_.least({robot, 0}) : least[place];
+        Node* const own = &line.nodes[index(k - line.base)];
+        Tick lasts = k == 0 ? routes_.least({robot, 0}) : least[index(place)];
         if (k + 1 == line.frozen) {  // leaves after the cut
             lasts = std::max(lasts, cut_ + 1 - own->enter);
         }
@@ -58,8 +58,8 @@ void RollingTimetable::run_freely(RobotId robot, std::int32_t from) {
 }
 
 void RollingTimetable::freeze(RobotId robot, Tick tick) {
-    Line& line = lines_[robot];
-    while (line.frozen < line.end && line.nodes[line.frozen - line.base].enter <= tick) {
+    Line& line = lines_[index(robot)];
+    while (line.frozen < line.end && line.nodes[index(line.frozen - line.base)].enter <= tick) {
         ++line.frozen;
     }
 }
@@ -69,7 +69,7 @@ void RollingTimetable::start_window(Tick tick, Tick cut) {
     cut_ = cut;
     for (Line& line : lines_) {
         while (line.start + 1 < line.frozen &&
-               line.nodes[line.start + 1 - line.base].enter <= tick) {
+               line.nodes[index(line.start + 1 - line.base)].enter <= tick) {
             ++line.start;
         }
         const std::int32_t past = line.start - line.base;
@@ -84,8 +84,8 @@ void RollingTimetable::start_window(Tick tick, Tick cut) {
 
 void RollingTimetable::forget_rights(Line& line, std::int32_t below) {
     for (std::int32_t k = line.base; k < below; ++k) {
-        std::int32_t& arc = line.nodes[k - line.base].rights;
-        for (; arc != none; arc = arcs_[arc].next) {
+        std::int32_t& arc = line.nodes[index(k - line.base)].rights;
+        for (; arc != none; arc = arcs_[index(arc)].next) {
             free_arcs_.push_back(arc);
         }
     }
@@ -93,8 +93,8 @@ void RollingTimetable::forget_rights(Line& line, std::int32_t below) {
 
 std::int32_t RollingTimetable::find(CyclicVisit a, CyclicVisit b) const {
     std::int32_t arc = node(a).rights;
-    while (arc != none && arcs_[arc].second != b) {
-        arc = arcs_[arc].next;
+    while (arc != none && arcs_[index(arc)].second != b) {
+        arc = arcs_[index(arc)].next;
     }
     return arc;
 }
@@ -106,7 +106,7 @@ void RollingTimetable::link(CyclicVisit a, CyclicVisit b, DecisionId decision) {
     }
     const std::int32_t arc = free_arcs_.back();
     free_arcs_.pop_back();
-    arcs_[arc] = {b, node(a).rights, decision};
+    arcs_[index(arc)] = {b, node(a).rights, decision};
     node(a).rights = arc;
     given_.push_back(a);
 }
@@ -124,7 +124,7 @@ bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, DecisionId decision
     // A swap is a cycle of two robots and zero length; see Timetable.
     if (find(b.before(), source) != none) {
         cycle_ = {b, source};
-        cycle_decisions_ = {arcs_[find(b.before(), source)].decision};
+        cycle_decisions_ = {arcs_[index(find(b.before(), source))].decision};
         return false;
     }
     const Tick delta = enter(source) + routes_.gap_before(b) - enter(b);
@@ -132,7 +132,8 @@ bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, DecisionId decision
         explain(source);
         for (std::size_t k = 1; k < cycle_.size(); ++k) {
             if (cycle_[k - 1].robot != cycle_[k].robot) {
-                cycle_decisions_.push_back(arcs_[find(cycle_[k - 1].before(), cycle_[k])].decision);
+                cycle_decisions_.push_back(
+                    arcs_[index(find(cycle_[k - 1].before(), cycle_[k]))].decision);
             }
         }
         forget_raises();
@@ -182,18 +183,18 @@ void RollingTimetable::run_on() {
 // Raises a visit and its successors on the route while each needs the same delta.
 void RollingTimetable::run_from(CyclicVisit visit, Tick delta) {
     const RobotId robot = visit.robot;
-    Line& line = lines_[robot];
+    Line& line = lines_[index(robot)];
     const auto least = routes_.leasts(robot);
     const auto length = static_cast<std::int32_t>(least.size());
     std::int32_t place = routes_.place_in_lap(visit);
-    Node* own = &line.nodes[visit.number - line.base];
+    Node* own = &line.nodes[index(visit.number - line.base)];
     std::int32_t k = visit.number;
     CyclicVisit last{nobody, 0};  // the last pushed, and when its robot leaves
     Tick last_leave = 0;
     for (;; ++k, ++own) {
         own->enter += delta;
-        for (std::int32_t arc = (own - 1)->rights; arc != none; arc = arcs_[arc].next) {
-            const CyclicVisit second = arcs_[arc].second;
+        for (std::int32_t arc = (own - 1)->rights; arc != none; arc = arcs_[index(arc)].next) {
+            const CyclicVisit second = arcs_[index(arc)].second;
             const Tick least_enter = own->enter + routes_.gap_before(second);
             const Tick raise = least_enter - enter(second);
             const bool follows = last.next() == second && last_leave >= least_enter;
@@ -208,7 +209,7 @@ void RollingTimetable::run_from(CyclicVisit visit, Tick delta) {
         if (k == line.end) {
             break;
         }
-        const Tick raise = own->enter + least[place] - (own + 1)->enter;
+        const Tick raise = own->enter + least[index(place)] - (own + 1)->enter;
         if (raise != delta) {
             if (raise > 0) {
                 push(raise, {robot, k + 1});
@@ -225,15 +226,15 @@ void RollingTimetable::rollback(const Mark& mark) {
     while (given_.size() > mark.n_given) {
         std::int32_t& latest = node(given_.back()).rights;
         free_arcs_.push_back(latest);
-        latest = arcs_[latest].next;
+        latest = arcs_[index(latest)].next;
         given_.pop_back();
     }
     while (runs_.size() > mark.n_runs) {
         const Run run = runs_.back();
         runs_.pop_back();
-        Line& line = lines_[run.robot];
+        Line& line = lines_[index(run.robot)];
         for (std::int32_t k = run.from; k < run.to; ++k) {
-            line.nodes[k - line.base].enter -= run.delta;
+            line.nodes[index(k - line.base)].enter -= run.delta;
         }
         changed_.push_back({run.robot, run.from});
     }
@@ -241,12 +242,12 @@ void RollingTimetable::rollback(const Mark& mark) {
 
 void RollingTimetable::remove(const CyclicRight& right, DecisionId decision) {
     std::int32_t* link = &node(right.first).rights;
-    while (*link != none && arcs_[*link].second != right.second) {
-        link = &arcs_[*link].next;
+    while (*link != none && arcs_[index(*link)].second != right.second) {
+        link = &arcs_[index(*link)].next;
     }
-    if (*link != none && arcs_[*link].decision == decision) {
+    if (*link != none && arcs_[index(*link)].decision == decision) {
         const std::int32_t arc = *link;
-        *link = arcs_[arc].next;
+        *link = arcs_[index(arc)].next;
         free_arcs_.push_back(arc);
     }
 }
@@ -255,10 +256,10 @@ void RollingTimetable::recompute(std::span<const CyclicRight> rights) {
     runs_.clear();
     given_.clear();
     for (RobotId r = 0; r < routes_.n_robots(); ++r) {
-        Line& line = lines_[r];
-        before_[r].clear();
+        Line& line = lines_[index(r)];
+        before_[index(r)].clear();
         for (std::int32_t k = line.frozen; k <= line.end; ++k) {
-            before_[r].push_back(line.nodes[k - line.base].enter);
+            before_[index(r)].push_back(line.nodes[index(k - line.base)].enter);
         }
         run_freely(r, line.frozen - 1);
     }
@@ -273,9 +274,10 @@ void RollingTimetable::recompute(std::span<const CyclicRight> rights) {
     runs_.clear();
     changed_.resize(n_changed);
     for (RobotId r = 0; r < routes_.n_robots(); ++r) {
-        const Line& line = lines_[r];
+        const Line& line = lines_[index(r)];
         for (std::int32_t k = line.frozen; k <= line.end; ++k) {
-            if (line.nodes[k - line.base].enter != before_[r][k - line.frozen]) {
+            if (line.nodes[index(k - line.base)].enter !=
+                before_[index(r)][index(k - line.frozen)]) {
                 changed_.push_back({r, k});
                 break;
             }

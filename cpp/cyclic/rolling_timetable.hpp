@@ -45,9 +45,9 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     // Every robot enters visit 0, frozen, at tick 0. The routes must outlive this object.
     explicit RollingTimetable(const CyclicRoutes& routes);
 
-    std::int32_t start(RobotId robot) const { return lines_[robot].start; }
-    std::int32_t frozen(RobotId robot) const { return lines_[robot].frozen; }
-    std::int32_t end(RobotId robot) const { return lines_[robot].end; }
+    std::int32_t start(RobotId robot) const { return lines_[index(robot)].start; }
+    std::int32_t frozen(RobotId robot) const { return lines_[index(robot)].frozen; }
+    std::int32_t end(RobotId robot) const { return lines_[index(robot)].end; }
     bool is_in_window(CyclicVisit visit) const {
         return start(visit.robot) <= visit.number && visit.number < end(visit.robot);
     }
@@ -57,7 +57,9 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     void prefetch_enter(CyclicVisit visit) const {
         prefetch(&node({visit.robot, std::min(visit.number, end(visit.robot))}));
     }
-    bool is_frozen(CyclicVisit visit) const { return visit.number < lines_[visit.robot].frozen; }
+    bool is_frozen(CyclicVisit visit) const {
+        return visit.number < lines_[index(visit.robot)].frozen;
+    }
 
     // Sets the end of a robot's window, after all visits that are frozen or have a right of way.
     void set_end(RobotId robot, std::int32_t end);
@@ -131,13 +133,16 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     };
 
     Node& node(CyclicVisit visit) {
-        return lines_[visit.robot].nodes[visit.number - lines_[visit.robot].base];
+        return lines_[index(visit.robot)]
+            .nodes[index(visit.number - lines_[index(visit.robot)].base)];
     }
     const Node& node(CyclicVisit visit) const {
-        return lines_[visit.robot].nodes[visit.number - lines_[visit.robot].base];
+        return lines_[index(visit.robot)]
+            .nodes[index(visit.number - lines_[index(visit.robot)].base)];
     }
     Trial& trial(CyclicVisit visit) {
-        return lines_[visit.robot].trials[visit.number - lines_[visit.robot].base];
+        return lines_[index(visit.robot)]
+            .trials[index(visit.number - lines_[index(visit.robot)].base)];
     }
     std::int32_t find(CyclicVisit a, CyclicVisit b) const;
     void link(CyclicVisit a, CyclicVisit b, DecisionId decision);
@@ -150,8 +155,8 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
         if (visit.number < end(visit.robot)) {
             use(visit.next(), routes_.least(visit));
         }
-        for (std::int32_t k = node(visit.before()).rights; k != none; k = arcs_[k].next) {
-            use(arcs_[k].second, routes_.gap_before(arcs_[k].second));
+        for (std::int32_t k = node(visit.before()).rights; k != none; k = arcs_[index(k)].next) {
+            use(arcs_[index(k)].second, routes_.gap_before(arcs_[index(k)].second));
         }
     }
     void accept();

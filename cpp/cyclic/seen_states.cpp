@@ -13,18 +13,18 @@ std::size_t SeenStates::Hash::operator()(const State& state) const {
 }
 
 std::optional<Tick> SeenStates::find_or_add(const State& state, Tick tick) {
-    const std::int64_t index = n_asked_++;
+    const std::int64_t number = n_asked_++;
     if (const auto found = seen_.find(state); found != seen_.end()) {
         return found->second.tick;
     }
-    if (index % stride_ != 0) {
+    if (number % stride_ != 0) {
         return std::nullopt;
     }
     while (n_numbers_ + state.size() > most_ && seen_.size() > 1) {
         stride_ *= 2;
-        drop_if([this](const Seen& seen) { return seen.index % stride_ != 0; });
+        drop_if([this](const Seen& seen) { return seen.number % stride_ != 0; });
     }
-    seen_.emplace(state, Seen{index, tick});
+    seen_.emplace(state, Seen{number, tick});
     n_numbers_ += state.size();
     return std::nullopt;
 }

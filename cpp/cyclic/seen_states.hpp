@@ -35,7 +35,7 @@ class SeenStates {
         std::size_t operator()(const State& state) const;
     };
     struct Seen {
-        std::int64_t index;
+        std::int64_t number;
         Tick tick;
     };
 

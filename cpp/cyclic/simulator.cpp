@@ -37,8 +37,8 @@ CyclicSimulator::CyclicSimulator(const LapArrays& laps, const Horizon& horizon, 
       decisions_(routes_, timetable_, conflicts_, rule, loss_),
       past_(routes_),
       lag_(horizon.lag),
-      lookahead_(routes_.n_robots()),
-      ends_(routes_.n_robots()) {
+      lookahead_(static_cast<std::size_t>(routes_.n_robots())),
+      ends_(static_cast<std::size_t>(routes_.n_robots())) {
     set_rule(rule);
 }
 
@@ -123,10 +123,10 @@ bool CyclicSimulator::start_window() {
 void CyclicSimulator::extend_window() {
     for (RobotId r = 0; r < n_robots(); ++r) {
         const std::int32_t n_started = timetable_.frozen(r);
-        ends_[r] = n_started + routes_.n_visits_in({r, n_started}, lookahead_[r]);
+        ends_[index(r)] = n_started + routes_.n_visits_in({r, n_started}, lookahead_[index(r)]);
     }
     const auto include = [this](CyclicVisit visit) {
-        ends_[visit.robot] = std::max(ends_[visit.robot], visit.number + 1);
+        ends_[index(visit.robot)] = std::max(ends_[index(visit.robot)], visit.number + 1);
     };
     include({horizon_.pacemaker, next_home(horizon_.pacemaker)});
     decisions_.for_each_order([&](const std::vector<CyclicRight>& rights) {
@@ -137,7 +137,7 @@ void CyclicSimulator::extend_window() {
     });
     for (RobotId r = 0; r < n_robots(); ++r) {
         const std::int32_t old_end = timetable_.end(r);
-        timetable_.set_end(r, ends_[r]);
+        timetable_.set_end(r, ends_[index(r)]);
         conflicts_.end_changed(r, old_end);
     }
     window_end_ = window_end();
@@ -175,7 +175,7 @@ CyclicSimulator::Step CyclicSimulator::resolve_conflicts(const StopCondition& is
         if (!is_in_window(tick)) {
             for (RobotId r = 0; r < n_robots(); ++r) {
                 if (timetable_.enter({r, timetable_.end(r)}) <= tick) {
-                    lookahead_[r] *= 2;
+                    lookahead_[index(r)] *= 2;
                 }
             }
         } else if (!found) {
@@ -189,8 +189,8 @@ CyclicSimulator::Step CyclicSimulator::resolve_conflicts(const StopCondition& is
             if (outcome != Backjumping::Outcome::window_too_short) {
                 continue;
             }
-            lookahead_[conflict_.robot_a] *= 2;
-            lookahead_[conflict_.robot_b] *= 2;
+            lookahead_[index(conflict_.robot_a)] *= 2;
+            lookahead_[index(conflict_.robot_b)] *= 2;
         }
         decisions_.allow_all_turns();
         extend_window();
@@ -236,13 +236,13 @@ void CyclicSimulator::restore(const Snapshot& snapshot) {
     const Tick begins = std::max(cut_ - horizon_.reach, Tick{0});
     std::vector<Tick> enters;
     for (RobotId r = 0; r < n_robots(); ++r) {
-        past_.truncate(r, snapshot.n_started[r]);
-        std::int32_t start = snapshot.n_started[r] - 1;
+        past_.truncate(r, snapshot.n_started[index(r)]);
+        std::int32_t start = snapshot.n_started[index(r)] - 1;
         while (start > 0 && past_.enter({r, start}) > begins) {
             --start;
         }
         enters.clear();
-        for (std::int32_t k = start; k < snapshot.n_started[r]; ++k) {
+        for (std::int32_t k = start; k < snapshot.n_started[index(r)]; ++k) {
             enters.push_back(past_.enter({r, k}));
         }
         timetable_.restart(r, start, enters);

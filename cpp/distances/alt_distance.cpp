@@ -46,7 +46,7 @@ void AltDistance::choose_landmarks(const DistanceTables& tables) {
 
 // A lower bound of the distance from a vertex to the target.
 std::int32_t AltDistance::bound(VertexId vertex) const {
-    const Row& row = rows_[vertex];
+    const Row& row = rows_[index(vertex)];
     std::int32_t most = 0;
     for (std::size_t k = 0; k < n_landmarks; ++k) {
         if (target_row_[k] == unreachable) {
@@ -61,7 +61,7 @@ std::int32_t AltDistance::bound(VertexId vertex) const {
 }
 
 void AltDistance::reach(VertexId vertex, std::int32_t steps) {
-    Reached& reached = reached_[vertex];
+    Reached& reached = reached_[index(vertex)];
     if (reached.search == search_ && reached.steps <= steps) {
         return;
     }
@@ -70,7 +70,7 @@ void AltDistance::reach(VertexId vertex, std::int32_t steps) {
         return;
     }
     reached = {steps, search_};
-    const auto bucket = static_cast<std::size_t>(steps + ahead - first_bound_);
+    const auto bucket = index(steps + ahead - first_bound_);
     if (bucket >= open_.size()) {
         open_.resize(bucket + 1);
     }
@@ -79,7 +79,7 @@ void AltDistance::reach(VertexId vertex, std::int32_t steps) {
 
 std::int32_t AltDistance::between(VertexId from, VertexId target) {
     ++search_;
-    target_row_ = rows_[target];
+    target_row_ = rows_[index(target)];
     first_bound_ = bound(from);
     for (std::vector<VertexId>& bucket : open_) {
         bucket.clear();
@@ -92,7 +92,7 @@ std::int32_t AltDistance::between(VertexId from, VertexId target) {
         while (!open_[k].empty()) {
             const VertexId vertex = open_[k].back();
             open_[k].pop_back();
-            const std::int32_t steps = reached_[vertex].steps;
+            const std::int32_t steps = reached_[index(vertex)].steps;
             if (vertex == target) {
                 return steps;
             }

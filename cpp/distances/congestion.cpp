@@ -50,13 +50,13 @@ Congestion::Congestion(const Problem& problem, std::int64_t shares,
 }
 
 std::int64_t Congestion::cost_of(EdgeId edge, VertexId target, Tick ticks) const {
-    const VertexId head = problem_.graph().indices[edge];
+    const VertexId head = problem_.graph().indices[index(edge)];
     std::int64_t per_tick = shares_;
     if (head != target) {
-        per_tick += station_[head];
+        per_tick += station_[index(head)];
     }
-    if (opposite_[edge] != none) {
-        per_tick += oncoming_[opposite_[edge]];
+    if (opposite_[index(edge)] != none) {
+        per_tick += oncoming_[index(opposite_[index(edge)])];
     }
     return product(per_tick, ticks);
 }
@@ -68,7 +68,7 @@ std::vector<VertexId> Congestion::path(RobotId robot, VertexId start, VertexId t
     require_id("start", start, n_vertices());
     require_id("target", target, n_vertices());
     require_length("to_go", to_go.size(), station_.size());
-    if (to_go[start] < 0) {
+    if (to_go[index(start)] < 0) {
         reject("target", target, "cannot be reached from " + std::to_string(start));
     }
     Poll poll(interrupt);
@@ -78,7 +78,7 @@ std::vector<VertexId> Congestion::path(RobotId robot, VertexId start, VertexId t
         clear();
         throw;
     }
-    if (cost_[target] >= never) {
+    if (cost_[index(target)] >= never) {
         clear();
         reject("target", target,
                "cannot be reached from " + std::to_string(start) +
@@ -94,58 +94,60 @@ std::vector<VertexId> Congestion::path(RobotId robot, VertexId start, VertexId t
 void Congestion::search(RobotId robot, VertexId start, VertexId target,
                         std::span<const std::int32_t> to_go, Poll& poll) {
     const Graph& graph = problem_.graph();
-    cost_[start] = 0;
+    cost_[index(start)] = 0;
     reached_.push_back(start);
-    const std::int64_t at_least = product(shares_, to_go[start]);
+    const std::int64_t at_least = product(shares_, to_go[index(start)]);
     open_.push_back({at_least, at_least, 0, start});
-    while (!open_.empty() && open_.front().cost <= cost_[target]) {
+    while (!open_.empty() && open_.front().cost <= cost_[index(target)]) {
         poll();
         std::pop_heap(open_.begin(), open_.end(), std::greater<>());
         const Open top = open_.back();
         open_.pop_back();
-        if (top.cost - top.to_go > cost_[top.vertex] || top.vertex == target) {
+        if (top.cost - top.to_go > cost_[index(top.vertex)] || top.vertex == target) {
             continue;  // outdated: the vertex has a cheaper path
         }
-        for (EdgeId e = graph.indptr[top.vertex]; e < graph.indptr[top.vertex + 1]; ++e) {
-            const VertexId head = graph.indices[e];
+        for (EdgeId e = graph.indptr[index(top.vertex)]; e < graph.indptr[index(top.vertex + 1)];
+             ++e) {
+            const VertexId head = graph.indices[index(e)];
             const Tick drive = problem_.drive(robot, e);
-            if (to_go[head] >= 0 && drive != barred) {
+            if (to_go[index(head)] >= 0 && drive != barred) {
                 const std::int64_t cost =
-                    cost_[top.vertex] + cost_of(e, target, drive + problem_.surcharge(e));
-                reach(head, top.vertex, cost, product(shares_, to_go[head]));
+                    cost_[index(top.vertex)] + cost_of(e, target, drive + problem_.surcharge(e));
+                reach(head, top.vertex, cost, product(shares_, to_go[index(head)]));
             }
         }
     }
 }
 
 void Congestion::reach(VertexId vertex, VertexId from, std::int64_t cost, std::int64_t to_go) {
-    if (cost > cost_[vertex] || cost >= never) {
+    if (cost > cost_[index(vertex)] || cost >= never) {
         return;
     }
-    if (cost < cost_[vertex]) {
-        if (cost_[vertex] == never) {
+    if (cost < cost_[index(vertex)]) {
+        if (cost_[index(vertex)] == never) {
             reached_.push_back(vertex);
         }
-        cost_[vertex] = cost;
-        cheapest_way_[vertex] = none;
+        cost_[index(vertex)] = cost;
+        cheapest_way_[index(vertex)] = none;
         open_.push_back({cost + to_go, to_go, static_cast<std::int64_t>(ways_.size()), vertex});
         std::push_heap(open_.begin(), open_.end(), std::greater<>());
     }
-    ways_.push_back({from, cheapest_way_[vertex]});
-    cheapest_way_[vertex] = static_cast<std::int32_t>(ways_.size()) - 1;
+    ways_.push_back({from, cheapest_way_[index(vertex)]});
+    cheapest_way_[index(vertex)] = static_cast<std::int32_t>(ways_.size()) - 1;
 }
 
 // Marks the vertices of all cheapest paths.
 void Congestion::mark_cheapest(VertexId target) {
     std::vector<VertexId> to_mark{target};
-    is_marked_[target] = 1;
+    is_marked_[index(target)] = 1;
     while (!to_mark.empty()) {
         const VertexId vertex = to_mark.back();
         to_mark.pop_back();
-        for (std::int32_t way = cheapest_way_[vertex]; way != none; way = ways_[way].next) {
-            if (is_marked_[ways_[way].from] == 0) {
-                is_marked_[ways_[way].from] = 1;
-                to_mark.push_back(ways_[way].from);
+        for (std::int32_t way = cheapest_way_[index(vertex)]; way != none;
+             way = ways_[index(way)].next) {
+            if (is_marked_[index(ways_[index(way)].from)] == 0) {
+                is_marked_[index(ways_[index(way)].from)] = 1;
+                to_mark.push_back(ways_[index(way)].from);
             }
         }
     }
@@ -153,8 +155,9 @@ void Congestion::mark_cheapest(VertexId target) {
 
 std::vector<VertexId> Congestion::first_marked(VertexId start, VertexId target) const {
     const auto leads_from = [this](VertexId head, VertexId tail) {
-        for (std::int32_t way = cheapest_way_[head]; way != none; way = ways_[way].next) {
-            if (ways_[way].from == tail) {
+        for (std::int32_t way = cheapest_way_[index(head)]; way != none;
+             way = ways_[index(way)].next) {
+            if (ways_[index(way)].from == tail) {
                 return true;
             }
         }
@@ -164,7 +167,7 @@ std::vector<VertexId> Congestion::first_marked(VertexId start, VertexId target) 
     while (path.back() != target) {
         const auto heads = problem_.graph().heads(path.back());
         path.push_back(*std::find_if(heads.begin(), heads.end(), [&](VertexId head) {
-            return is_marked_[head] != 0 && leads_from(head, path.back());
+            return is_marked_[index(head)] != 0 && leads_from(head, path.back());
         }));
     }
     return path;
@@ -172,9 +175,9 @@ std::vector<VertexId> Congestion::first_marked(VertexId start, VertexId target) 
 
 void Congestion::clear() {
     for (const VertexId vertex : reached_) {
-        cost_[vertex] = never;
-        cheapest_way_[vertex] = none;
-        is_marked_[vertex] = 0;
+        cost_[index(vertex)] = never;
+        cheapest_way_[index(vertex)] = none;
+        is_marked_[index(vertex)] = 0;
     }
     reached_.clear();
     ways_.clear();
@@ -197,7 +200,7 @@ void Congestion::add(std::span<const VertexId> path, std::int64_t oncoming) {
         }
     }
     for (const EdgeId e : edges) {
-        oncoming_[e] = std::min(oncoming_[e] + oncoming, never);
+        oncoming_[index(e)] = std::min(oncoming_[index(e)] + oncoming, never);
     }
 }
 

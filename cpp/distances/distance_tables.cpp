@@ -40,17 +40,17 @@ void DistanceTables::reverse(std::span<const EdgeId> indptr, std::span<const Ver
     source_.resize(indices.size());
     edge_.resize(indices.size());
     for (const VertexId end : indices) {
-        ++arriving_[end + 1];
+        ++arriving_[index(end + 1)];
     }
     for (VertexId v = 0; v < n_vertices; ++v) {
-        arriving_[v + 1] += arriving_[v];
+        arriving_[index(v + 1)] += arriving_[index(v)];
     }
     std::vector<EdgeId> next(arriving_.begin(), arriving_.end() - 1);
     for (VertexId v = 0; v < n_vertices; ++v) {
-        for (EdgeId e = indptr[v]; e < indptr[v + 1]; ++e) {
-            const EdgeId place = next[indices[e]]++;
-            source_[place] = v;
-            edge_[place] = e;
+        for (EdgeId e = indptr[index(v)]; e < indptr[index(v + 1)]; ++e) {
+            const EdgeId place = next[index(indices[index(e)])]++;
+            source_[index(place)] = v;
+            edge_[index(place)] = e;
         }
     }
 }
@@ -79,8 +79,8 @@ std::vector<std::int32_t> DistanceTables::to(VertexId target,
     const Tick ticks = edge_ticks.empty() ? 1 : edge_ticks.front();
     std::vector<std::int32_t> distance(counts.size(), unreached);
     for (VertexId v = 0; v < n_vertices(); ++v) {
-        if (counts[v] != DistanceView::no_way) {
-            distance[v] = narrow(ticks * counts[v], v, target);
+        if (counts[index(v)] != DistanceView::no_way) {
+            distance[index(v)] = narrow(ticks * counts[index(v)], v, target);
         }
     }
     return distance;
@@ -93,16 +93,16 @@ bool DistanceTables::steps_to(VertexId target, std::vector<std::uint16_t>& count
     queue.resize(counts.size());
     VertexId* end = queue.data();
     *end++ = target;
-    counts[target] = 0;
+    counts[index(target)] = 0;
     for (const VertexId* next = queue.data(); next != end; ++next) {
-        const std::uint16_t farther = static_cast<std::uint16_t>(counts[*next] + 1);
+        const std::uint16_t farther = static_cast<std::uint16_t>(counts[index(*next)] + 1);
         if (farther == DistanceView::no_way) {
             return false;
         }
-        for (EdgeId k = arriving_[*next]; k < arriving_[*next + 1]; ++k) {
-            const VertexId from = source_[k];
-            if (counts[from] == DistanceView::no_way) {
-                counts[from] = farther;
+        for (EdgeId k = arriving_[index(*next)]; k < arriving_[index(*next + 1)]; ++k) {
+            const VertexId from = source_[index(k)];
+            if (counts[index(from)] == DistanceView::no_way) {
+                counts[index(from)] = farther;
                 *end++ = from;
             }
         }
@@ -114,26 +114,26 @@ std::vector<std::int32_t> DistanceTables::dijkstra(VertexId target,
                                                    std::span<const std::int32_t> edge_ticks) const {
     using Key = std::pair<Tick, VertexId>;  // total order: ties by vertex
     std::priority_queue<Key, std::vector<Key>, std::greater<>> open;
-    std::vector<Tick> best(n_vertices(), never);
-    std::vector<std::int32_t> distance(n_vertices(), unreached);
-    best[target] = 0;
+    std::vector<Tick> best(static_cast<std::size_t>(n_vertices()), never);
+    std::vector<std::int32_t> distance(static_cast<std::size_t>(n_vertices()), unreached);
+    best[index(target)] = 0;
     open.emplace(0, target);
     while (!open.empty()) {
         const auto [ticks, v] = open.top();
         open.pop();
-        if (distance[v] != unreached) {
+        if (distance[index(v)] != unreached) {
             continue;
         }
         // Overflow is checked for least distances only; longer paths may exceed int32.
-        distance[v] = narrow(ticks, v, target);
-        for (EdgeId k = arriving_[v]; k < arriving_[v + 1]; ++k) {
-            if (edge_ticks[edge_[k]] == barred) {
+        distance[index(v)] = narrow(ticks, v, target);
+        for (EdgeId k = arriving_[index(v)]; k < arriving_[index(v + 1)]; ++k) {
+            if (edge_ticks[index(edge_[index(k)])] == barred) {
                 continue;
             }
-            const Tick through = ticks + edge_ticks[edge_[k]];
-            if (through < best[source_[k]]) {
-                best[source_[k]] = through;
-                open.emplace(through, source_[k]);
+            const Tick through = ticks + edge_ticks[index(edge_[index(k)])];
+            if (through < best[index(source_[index(k)])]) {
+                best[index(source_[index(k)])] = through;
+                open.emplace(through, source_[index(k)]);
             }
         }
     }

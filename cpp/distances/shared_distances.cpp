@@ -72,7 +72,7 @@ Tick SharedDistances::between(VertexId from, VertexId target, RobotId robot) {
 }
 
 Tick SharedDistances::alone(RobotId robot) {
-    std::atomic<Tick>& known = alone_[static_cast<std::size_t>(robot)];
+    std::atomic<Tick>& known = alone_[index(robot)];
     if (known == 0) {
         known = least_completion(robot) + alone_offset;
     }

@@ -43,10 +43,11 @@ SpaceUtilization::SpaceUtilization(const Problem& problem, StepTables& tables)
 void SpaceUtilization::pair_edges() {
     const Graph& graph = problem_.graph();
     for (VertexId v = 0; v < graph.n_vertices(); ++v) {
-        std::fill(tail_.begin() + graph.indptr[v], tail_.begin() + graph.indptr[v + 1], v);
+        std::fill(tail_.begin() + graph.indptr[index(v)],
+                  tail_.begin() + graph.indptr[index(v + 1)], v);
     }
     for (EdgeId e = 0; e < static_cast<EdgeId>(tail_.size()); ++e) {
-        back_[e] = graph.edge(graph.indices[e], tail_[e]);
+        back_[index(e)] = graph.edge(graph.indices[index(e)], tail_[index(e)]);
     }
 }
 
@@ -59,7 +60,7 @@ void SpaceUtilization::find_ends() {
             const VertexId target = problem_.stage_vertex(s);
             when += problem_.quickest_edge(r) * tables_.steps(tables_.table_of(target), place);
             if (problem_.is_last(r, s)) {
-                ended_from_[target] = when;
+                ended_from_[index(target)] = when;
             }
             when += problem_.stage_dwell(s);
             place = target;
@@ -95,8 +96,8 @@ bool SpaceUtilization::choose(const StopCondition& is_over) {
 }
 
 VertexId SpaceUtilization::next(std::int32_t stage, VertexId at) const {
-    const auto first = hops_.begin() + static_cast<std::ptrdiff_t>(first_hop_[stage]);
-    const auto end = hops_.begin() + static_cast<std::ptrdiff_t>(end_hop_[stage]);
+    const auto first = hops_.begin() + static_cast<std::ptrdiff_t>(first_hop_[index(stage)]);
+    const auto end = hops_.begin() + static_cast<std::ptrdiff_t>(end_hop_[index(stage)]);
     const auto hop = std::lower_bound(
         first, end, at, [](const Hop& left, VertexId from) { return left.from < from; });
     return hop != end && hop->from == at ? hop->to : nowhere;
@@ -110,7 +111,7 @@ Tick SpaceUtilization::choose_leg(const Leg& leg, Tick when, Poll& poll) {
     }
     if (search(leg, when, poll)) {
         keep(leg);
-        return best_[target].when;
+        return best_[index(target)].when;
     }
     return when +
            problem_.quickest_edge(leg.robot) * tables_.steps(tables_.table_of(target), leg.start);
@@ -134,17 +135,19 @@ bool SpaceUtilization::search(const Leg& leg, Tick when, Poll& poll) {
         if (top.vertex == target) {
             return true;
         }
-        const Best best = best_[top.vertex];
+        const Best best = best_[index(top.vertex)];
         if (top.cost > best.cost) {
             continue;  // outdated: the vertex has a cheaper path
         }
-        for (EdgeId e = graph.indptr[top.vertex]; e < graph.indptr[top.vertex + 1]; ++e) {
-            const VertexId head = graph.indices[e];
+        for (EdgeId e = graph.indptr[index(top.vertex)]; e < graph.indptr[index(top.vertex + 1)];
+             ++e) {
+            const VertexId head = graph.indices[index(e)];
             const Tick then = best.when + problem_.drive(leg.robot, e);
-            const bool has_ended = head != target && ended_from_[head] <= then;
+            const bool has_ended = head != target && ended_from_[index(head)] <= then;
             open(head,
-                 {best.cost + edge_cost_[e] + into_cost_[head] + (has_ended ? cost_ended : 0), then,
-                  e, round_},
+                 {best.cost + edge_cost_[index(e)] + into_cost_[index(head)] +
+                      (has_ended ? cost_ended : 0),
+                  then, e, round_},
                  table);
         }
     }
@@ -152,7 +155,7 @@ bool SpaceUtilization::search(const Leg& leg, Tick when, Poll& poll) {
 }
 
 void SpaceUtilization::open(VertexId vertex, const Best& reached, StepTables::TableId table) {
-    Best& best = best_[vertex];
+    Best& best = best_[index(vertex)];
     if (best.round == round_ && best.cost <= reached.cost) {
         return;
     }
@@ -162,7 +165,7 @@ void SpaceUtilization::open(VertexId vertex, const Best& reached, StepTables::Ta
     }
     best = reached;
     const std::int64_t estimate = reached.cost + estimate_per_step * steps;
-    const auto list = static_cast<std::size_t>((estimate - least_) / list_width);
+    const auto list = index((estimate - least_) / list_width);
     if (list >= first_open_.size()) {
         first_open_.resize(list + 1, none);
     }
@@ -179,7 +182,7 @@ bool SpaceUtilization::take_next(Open& next) {
     if (list_ == first_open_.size()) {
         return false;
     }
-    next = open_[first_open_[list_]];
+    next = open_[index(first_open_[list_])];
     first_open_[list_] = next.next;
     return true;
 }
@@ -188,19 +191,19 @@ bool SpaceUtilization::take_next(Open& next) {
 void SpaceUtilization::keep(const Leg& leg) {
     const auto first = static_cast<std::ptrdiff_t>(hops_.size());
     for (VertexId at = problem_.stage_vertex(leg.stage); at != leg.start;) {
-        const EdgeId edge = best_[at].by;
-        into_cost_[at] = std::min(into_cost_[at] + cost_shared, most_shared);
-        if (const EdgeId back = back_[edge]; back != none) {
-            edge_cost_[back] =
-                std::min(edge_cost_[back] + cost_against, cost_of_edge + most_against);
+        const EdgeId edge = best_[index(at)].by;
+        into_cost_[index(at)] = std::min(into_cost_[index(at)] + cost_shared, most_shared);
+        if (const EdgeId back = back_[index(edge)]; back != none) {
+            edge_cost_[index(back)] =
+                std::min(edge_cost_[index(back)] + cost_against, cost_of_edge + most_against);
         }
-        hops_.push_back({tail_[edge], at});
-        at = tail_[edge];
+        hops_.push_back({tail_[index(edge)], at});
+        at = tail_[index(edge)];
     }
     std::sort(hops_.begin() + first, hops_.end(),
               [](const Hop& left, const Hop& right) { return left.from < right.from; });
-    first_hop_[leg.stage] = static_cast<std::size_t>(first);
-    end_hop_[leg.stage] = hops_.size();
+    first_hop_[index(leg.stage)] = index(first);
+    end_hop_[index(leg.stage)] = hops_.size();
 }
 
 }  // namespace rightofway

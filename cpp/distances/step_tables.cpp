@@ -63,13 +63,13 @@ StepTables::StepTables(const Graph& graph)
     find_places(graph);
     arriving_.assign(static_cast<std::size_t>(size_) + 1, 0);
     for (const VertexId head : graph.indices) {
-        ++arriving_[place_[head] + 1];
+        ++arriving_[index(place_[index(head)] + 1)];
     }
     std::partial_sum(arriving_.begin(), arriving_.end(), arriving_.begin());
     std::vector<EdgeId> next(arriving_.begin(), arriving_.end() - 1);
     for (VertexId v = 0; v < graph.n_vertices(); ++v) {
         for (const VertexId head : graph.heads(v)) {
-            source_[next[place_[head]]++] = place_[v];
+            source_[index(next[index(place_[index(head)])]++)] = place_[index(v)];
         }
     }
 }
@@ -80,13 +80,13 @@ void StepTables::find_places(const Graph& graph) {
     std::vector<VertexId> reached;
     std::vector<VertexId> reached_from(place_.size(), none);  // by the search of this first vertex
     for (VertexId first = 0; first < graph.n_vertices(); ++first) {
-        if (place_[first] != none) {
+        if (place_[index(first)] != none) {
             continue;
         }
         Place next = size_ + (is_wide_ ? 0 : 2);
         size_ += line_size;
         reached.assign(1, first);
-        reached_from[first] = first;
+        reached_from[index(first)] = first;
         std::size_t end_of_level = 1;
         std::int32_t distance = 0;
         for (std::size_t k = 0; k < reached.size() && k < most_for_a_line && next < size_; ++k) {
@@ -96,13 +96,13 @@ void StepTables::find_places(const Graph& graph) {
                     break;
                 }
             }
-            if (place_[reached[k]] == none) {
-                place_[reached[k]] = next;
+            if (place_[index(reached[k])] == none) {
+                place_[index(reached[k])] = next;
                 next += cell_size;
             }
             for (const VertexId head : graph.heads(reached[k])) {
-                if (reached_from[head] != first) {
-                    reached_from[head] = first;
+                if (reached_from[index(head)] != first) {
+                    reached_from[index(head)] = first;
                     reached.push_back(head);
                 }
             }
@@ -112,13 +112,13 @@ void StepTables::find_places(const Graph& graph) {
 
 StepTables::TableId StepTables::table_of(VertexId target) {
     require_id("target", target, n_vertices());
-    if (by_target_[target] == none) {
-        by_target_[target] = static_cast<TableId>(cells_.size());
+    if (by_target_[index(target)] == none) {
+        by_target_[index(target)] = static_cast<TableId>(cells_.size());
         cells_.push_back(new_cells());
-        searches_.push_back({{place_[target]}, 0});
-        write(cells_.back(), place_[target], 0);
+        searches_.push_back({{place_[index(target)]}, 0});
+        write(cells_.back(), place_[index(target)], 0);
     }
-    return by_target_[target];
+    return by_target_[index(target)];
 }
 
 void StepTables::write(Byte* table, Place place, std::int32_t steps) const {
@@ -156,9 +156,10 @@ StepTables::Byte* StepTables::new_cells() {
 }
 
 std::int32_t StepTables::search_on(TableId table, VertexId from) {
-    while (!searches_[table].frontier.empty()) {
+    while (!searches_[index(table)].frontier.empty()) {
         next_level(table, scratch_);
-        if (const std::int32_t steps = read(cells_[table], place_[from]); steps >= 0) {
+        if (const std::int32_t steps = read(cells_[index(table)], place_[index(from)]);
+            steps >= 0) {
             return steps;
         }
     }
@@ -173,9 +174,9 @@ void StepTables::search_all(std::span<const Request> requests) {
             if (static_cast<std::size_t>(table) % n_shares != share) {
                 continue;
             }
-            const Search& search = searches_[table];
-            while (read(cells_[table], place_[from]) < 0 && !search.frontier.empty() &&
-                   search.depth < most_steps) {
+            const Search& search = searches_[index(table)];
+            while (read(cells_[index(table)], place_[index(from)]) < 0 &&
+                   !search.frontier.empty() && search.depth < most_steps) {
                 next_level(table, scratch);
             }
         }
@@ -191,18 +192,18 @@ void StepTables::search_all(std::span<const Request> requests) {
 }
 
 void StepTables::next_level(TableId table, std::vector<Place>& scratch) {
-    Search& search = searches_[table];
+    Search& search = searches_[index(table)];
     if (++search.depth > most_steps) {
         throw std::overflow_error("robots: more than " + std::to_string(most_steps) +
                                   " edges lead to a place (use a coarser map)");
     }
-    Byte* const cells = cells_[table];
+    Byte* const cells = cells_[index(table)];
     scratch.clear();
     for (const Place place : search.frontier) {
-        for (EdgeId k = arriving_[place]; k < arriving_[place + 1]; ++k) {
-            if (read(cells, source_[k]) < 0) {
-                write(cells, source_[k], search.depth);
-                scratch.push_back(source_[k]);
+        for (EdgeId k = arriving_[index(place)]; k < arriving_[index(place + 1)]; ++k) {
+            if (read(cells, source_[index(k)]) < 0) {
+                write(cells, source_[index(k)], search.depth);
+                scratch.push_back(source_[index(k)]);
             }
         }
     }

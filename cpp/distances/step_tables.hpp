@@ -38,7 +38,7 @@ class StepTables {
     // The least number of edges from a vertex to the target of a table, or `unreachable`. Throws
     // std::overflow_error if the number does not fit uint16.
     std::int32_t steps(TableId table, VertexId from) {
-        const std::int32_t known = read(cells_[table], place_[from]);
+        const std::int32_t known = read(cells_[index(table)], place_[index(from)]);
         return known >= 0 ? known : search_on(table, from);
     }
 

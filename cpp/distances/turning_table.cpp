@@ -20,16 +20,16 @@ struct EdgesInto {
     explicit EdgesInto(const Graph& graph)
         : first(graph.indptr.size(), 0), edge(graph.indices.size()), tail(graph.indices.size()) {
         for (const VertexId head : graph.indices) {
-            ++first[head + 1];
+            ++first[index(head + 1)];
         }
         for (std::size_t v = 0; v + 1 < first.size(); ++v) {
             first[v + 1] += first[v];
         }
         std::vector<EdgeId> next(first.begin(), first.end() - 1);
         for (VertexId v = 0; v < graph.n_vertices(); ++v) {
-            for (EdgeId e = graph.indptr[v]; e < graph.indptr[v + 1]; ++e) {
-                tail[e] = v;
-                edge[next[graph.indices[e]]++] = e;
+            for (EdgeId e = graph.indptr[index(v)]; e < graph.indptr[index(v + 1)]; ++e) {
+                tail[index(e)] = v;
+                edge[index(next[index(graph.indices[index(e)])]++)] = e;
             }
         }
     }
@@ -66,17 +66,17 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
         };
         std::vector<Tick> best(graph.indices.size(), never);
         std::priority_queue<Key, std::vector<Key>, std::greater<>> open;
-        for (EdgeId k = into.first[target]; k < into.first[target + 1]; ++k) {
-            const EdgeId edge = into.edge[k];
-            best[edge] = served(edge);
-            if (best[edge] < never) {
-                open.emplace(best[edge], edge);
+        for (EdgeId k = into.first[index(target)]; k < into.first[index(target + 1)]; ++k) {
+            const EdgeId edge = into.edge[index(k)];
+            best[index(edge)] = served(edge);
+            if (best[index(edge)] < never) {
+                open.emplace(best[index(edge)], edge);
             }
         }
         while (!open.empty()) {
             const auto [ticks, edge] = open.top();
             open.pop();
-            if (ticks > best[edge]) {
+            if (ticks > best[index(edge)]) {
                 continue;
             }
             if (ticks > largest) {
@@ -88,19 +88,19 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
             if (problem.drive(robot, edge) < 0) {
                 continue;  // barred
             }
-            const VertexId tail = into.tail[edge];
+            const VertexId tail = into.tail[index(edge)];
             const Tick before = ticks + problem.drive(robot, edge);
-            for (EdgeId k = into.first[tail]; k < into.first[tail + 1]; ++k) {
-                const Tick through = before + itinerary.turns.between(into.edge[k], edge);
-                if (through < best[into.edge[k]]) {
-                    best[into.edge[k]] = through;
-                    open.emplace(through, into.edge[k]);
+            for (EdgeId k = into.first[index(tail)]; k < into.first[index(tail + 1)]; ++k) {
+                const Tick through = before + itinerary.turns.between(into.edge[index(k)], edge);
+                if (through < best[index(into.edge[index(k)])]) {
+                    best[index(into.edge[index(k)])] = through;
+                    open.emplace(through, into.edge[index(k)]);
                 }
             }
         }
         Tick at_home = itinerary.home == target ? served(-1) : never;
-        for (EdgeId e = graph.indptr[itinerary.home];
-             e < graph.indptr[itinerary.home + 1] && itinerary.home != target; ++e) {
+        for (EdgeId e = graph.indptr[index(itinerary.home)];
+             e < graph.indptr[index(itinerary.home + 1)] && itinerary.home != target; ++e) {
             if (least[e] >= 0 && problem.drive(robot, e) > 0) {
                 at_home = std::min(at_home, problem.drive(robot, e) + Tick{least[e]});
             }
@@ -152,7 +152,7 @@ Tick least_completion_with_turns(const Problem& problem, RobotId robot,
         open.pop();
         const auto edge = static_cast<EdgeId>(state % n_places) - 1;
         const std::size_t stage = state / n_places;
-        const VertexId vertex = edge < 0 ? trip.home : graph.indices[edge];
+        const VertexId vertex = edge < 0 ? trip.home : graph.indices[index(edge)];
         if (stage >= first_last && vertex == trip.stage_vertex.back()) {
             return bound;
         }
@@ -160,10 +160,10 @@ Tick least_completion_with_turns(const Problem& problem, RobotId robot,
         if (now > best[state]) {
             continue;
         }
-        for (EdgeId e = graph.indptr[vertex]; e < graph.indptr[vertex + 1]; ++e) {
+        for (EdgeId e = graph.indptr[index(vertex)]; e < graph.indptr[index(vertex + 1)]; ++e) {
             const Tick drive = problem.drive(robot, e);
             if (drive > 0) {
-                reach(e, graph.indices[e], stage, now + trip.turns.between(edge, e) + drive);
+                reach(e, graph.indices[index(e)], stage, now + trip.turns.between(edge, e) + drive);
             }
         }
     }

@@ -23,8 +23,7 @@ class TurningTable {
     // The least ticks to completion, -1 if no path exists: the robot has driven in along an edge
     // (-1: it starts at home), and `stage` is the first stage not served.
     Tick from(EdgeId edge, std::int32_t stage) const {
-        return least_[static_cast<std::size_t>(stage) * n_places_ +
-                      static_cast<std::size_t>(edge + 1)];
+        return least_[index(stage) * n_places_ + index(edge + 1)];
     }
 
   private:

@@ -50,7 +50,7 @@ void ActionDependencyGraph::number_robots() {
     robot_.resize(vertex_.size());
     for (RobotId r = 0; r < n_robots(); ++r) {
         for (VisitId x = first_of(r); x <= last_of(r); ++x) {
-            robot_[x] = r;
+            robot_[index(x)] = r;
         }
     }
 }
@@ -64,12 +64,12 @@ void ActionDependencyGraph::check() const {
         reject("headway", headway_, "is not in 0.." + std::to_string(longest - 1));
     }
     for (VisitId x = 0; x < n_visits(); ++x) {
-        const VisitId other = before_[x];
+        const VisitId other = before_[index(x)];
         if (other < none || other >= n_visits()) {
-            reject_entry("before", static_cast<std::size_t>(x), other, "is not a visit");
+            reject_entry("before", index(x), other, "is not a visit");
         }
-        if (other != none && (vertex_[other] != vertex_[x] || is_first(x))) {
-            reject_entry("before", static_cast<std::size_t>(x), other,
+        if (other != none && (vertex_[index(other)] != vertex_[index(x)] || is_first(x))) {
+            reject_entry("before", index(x), other,
                          "is at another vertex, or before a first visit");
         }
     }

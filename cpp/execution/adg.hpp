@@ -41,32 +41,34 @@ class ActionDependencyGraph {
 
     RobotId n_robots() const { return static_cast<RobotId>(first_visit_.size()) - 1; }
     VisitId n_visits() const { return static_cast<VisitId>(vertex_.size()); }
-    VisitId first_of(RobotId robot) const { return first_visit_[robot]; }
-    VisitId last_of(RobotId robot) const { return first_visit_[robot + 1] - 1; }
-    bool is_first(VisitId visit) const { return visit == first_of(robot_[visit]); }
-    bool is_last(VisitId visit) const { return visit == last_of(robot_[visit]); }
+    VisitId first_of(RobotId robot) const { return first_visit_[index(robot)]; }
+    VisitId last_of(RobotId robot) const { return first_visit_[index(robot + 1)] - 1; }
+    bool is_first(VisitId visit) const { return visit == first_of(robot_[index(visit)]); }
+    bool is_last(VisitId visit) const { return visit == last_of(robot_[index(visit)]); }
 
-    RobotId robot(VisitId visit) const { return robot_[visit]; }
-    VertexId vertex(VisitId visit) const { return vertex_[visit]; }
-    Tick planned(VisitId visit) const { return planned_[visit]; }
-    Tick dwell(VisitId visit) const { return dwell_[visit]; }
-    Tick drive(VisitId visit) const { return drive_[visit]; }
+    RobotId robot(VisitId visit) const { return robot_[index(visit)]; }
+    VertexId vertex(VisitId visit) const { return vertex_[index(visit)]; }
+    Tick planned(VisitId visit) const { return planned_[index(visit)]; }
+    Tick dwell(VisitId visit) const { return dwell_[index(visit)]; }
+    Tick drive(VisitId visit) const { return drive_[index(visit)]; }
     Tick headway() const { return headway_; }
     bool books_ahead() const { return books_ahead_; }
 
     // The visit before `visit` at its vertex, which has to leave first; or `none`. If it is a last
     // visit, which never ends, `visit` cannot take place.
-    VisitId before(VisitId visit) const { return before_[visit]; }
+    VisitId before(VisitId visit) const { return before_[index(visit)]; }
     // Only where robots have sizes: all visits that have to leave before `visit` starts.
     std::span<const VisitId> all_before(VisitId visit) const {
-        return {rights_.data() + first_right_[visit], rights_.data() + first_right_[visit + 1]};
+        return {rights_.data() + first_right_[index(visit)],
+                rights_.data() + first_right_[index(visit + 1)]};
     }
     // The number of visits before a visit, and the k-th of them.
     int n_before(VisitId visit) const {
-        return has_sizes() ? static_cast<int>(all_before(visit).size()) : before_[visit] != none;
+        return has_sizes() ? static_cast<int>(all_before(visit).size())
+                           : before_[index(visit)] != none;
     }
     VisitId before(VisitId visit, int k) const {
-        return has_sizes() ? all_before(visit)[static_cast<std::size_t>(k)] : before_[visit];
+        return has_sizes() ? all_before(visit)[index(k)] : before_[index(visit)];
     }
 
     bool has_sizes() const { return incompatible_.is_known(); }
@@ -78,10 +80,10 @@ class ActionDependencyGraph {
     const VisitClosures& closures() const { return closures_; }
 
     // Earliest start [tick]: when the right of way was given during execution, else 0.
-    Tick since(VisitId visit) const { return since_.empty() ? 0 : since_[visit]; }
+    Tick since(VisitId visit) const { return since_.empty() ? 0 : since_[index(visit)]; }
 
     Tick planned_completion(RobotId robot) const {
-        return planned_[last_of(robot)] + dwell_[last_of(robot)];
+        return planned_[index(last_of(robot))] + dwell_[index(last_of(robot))];
     }
 
   private:

@@ -109,8 +109,7 @@ void require_stoppages(std::span<const std::int32_t> first, std::size_t n_robots
         require_range("stoppage_ticks[" + std::to_string(k) + "]", stoppages[k].ticks, 0, never);
     }
     for (std::size_t r = 0; r < n_robots; ++r) {
-        for (auto k = static_cast<std::size_t>(first[r]) + 1;
-             k < static_cast<std::size_t>(first[r + 1]); ++k) {
+        for (auto k = index(first[r]) + 1; k < index(first[r + 1]); ++k) {
             if (stoppages[k].tick < stoppages[k - 1].tick) {
                 reject_entry("stoppage_tick", k, stoppages[k].tick,
                              "is before the stoppage before it");
@@ -134,8 +133,8 @@ void Delays::draw(std::uint64_t seed, std::uint64_t run, DelaySample& out) const
 
 void Delays::draw_stoppages(RobotId robot, Random& random, DelaySample& out) const {
     const auto first = static_cast<std::ptrdiff_t>(out.stoppages.size());
-    out.stoppages.insert(out.stoppages.end(), stoppages_.begin() + first_stoppage_[robot],
-                         stoppages_.begin() + first_stoppage_[robot + 1]);
+    out.stoppages.insert(out.stoppages.end(), stoppages_.begin() + first_stoppage_[index(robot)],
+                         stoppages_.begin() + first_stoppage_[index(robot + 1)]);
     for (const Delay& delay : delays_) {
         if (delay.kind == DelayKind::breaks && unit(random) <= delay.a) {
             const double share = unit(random);
@@ -146,7 +145,7 @@ void Delays::draw_stoppages(RobotId robot, Random& random, DelaySample& out) con
     std::stable_sort(
         out.stoppages.begin() + first, out.stoppages.end(),
         [](const Stoppage& left, const Stoppage& right) { return left.tick < right.tick; });
-    merge(out.stoppages, static_cast<std::size_t>(first));
+    merge(out.stoppages, index(first));
     out.first_stoppage.push_back(static_cast<std::int32_t>(out.stoppages.size()));
 }
 
@@ -154,14 +153,15 @@ void Delays::draw_durations(RobotId robot, Random& random, DelaySample& out) con
     Rounding rounding(unit(random));
     for (VisitId x = plan_.first_of(robot); x <= plan_.last_of(robot); ++x) {
         const auto [more, stop] = draw_visit(random);
-        const double factor = std::clamp(pace_[robot] * (1 + more), least_factor, most_factor);
+        const double factor =
+            std::clamp(pace_[index(robot)] * (1 + more), least_factor, most_factor);
         const bool is_done = plan_.is_last(x) && plan_.dwell(x) == 0;
-        out.dwell[x] = rounding.lengthen(plan_.dwell(x), factor, 0) + (is_done ? 0 : stop);
+        out.dwell[index(x)] = rounding.lengthen(plan_.dwell(x), factor, 0) + (is_done ? 0 : stop);
         if (plan_.is_first(x)) {
-            out.drive[x] = 0;
+            out.drive[index(x)] = 0;
         }
         if (!plan_.is_last(x)) {
-            out.drive[x + 1] = rounding.lengthen(plan_.drive(x + 1), factor, 1);
+            out.drive[index(x + 1)] = rounding.lengthen(plan_.drive(x + 1), factor, 1);
         }
     }
 }

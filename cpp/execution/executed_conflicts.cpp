@@ -71,7 +71,7 @@ ConflictCount ExecutedConflicts::count(const ActualTimes& times) {
 // All incompatible visits book ahead: a swap is an overlap of bookings.
 void ExecutedConflicts::count_incompatible(const ActualTimes& times, ConflictCount& found) const {
     const auto start = [&](VisitId x, VisitId starts) {
-        return starts > plan_.last_of(plan_.robot(x)) ? never : times.start[starts];
+        return starts > plan_.last_of(plan_.robot(x)) ? never : times.start[index(starts)];
     };
     const Tick headway = plan_.headway();
     for (VisitId one = 0; one < plan_.n_visits(); ++one) {
@@ -99,17 +99,17 @@ void ExecutedConflicts::count_at_vertex(std::size_t group, const ActualTimes& ti
                                         ConflictCount& found) {
     const std::span<VisitId> visits{&at_vertex_.visit[at_vertex_.first[group]],
                                     at_vertex_.first[group + 1] - at_vertex_.first[group]};
-    insertion_sort(visits, [&](VisitId x) { return times.start[x]; });
+    insertion_sort(visits, [&](VisitId x) { return times.start[index(x)]; });
     for (std::size_t k = 0; k < visits.size(); ++k) {
         const VisitId one = visits[k];
         const Tick left = leave(one, times);
         for (std::size_t m = k + 1; m < visits.size(); ++m) {
             const VisitId other = visits[m];
-            const Tick start = times.start[other];
+            const Tick start = times.start[index(other)];
             if (start >= never || start >= left + plan_.headway()) {
                 break;
             }
-            const bool lasts = times.start[one] < left + plan_.headway() &&
+            const bool lasts = times.start[index(one)] < left + plan_.headway() &&
                                start < leave(other, times) + plan_.headway();
             if (lasts && plan_.robot(one) != plan_.robot(other)) {
                 ++(start < left ? found.vertex : found.headway);
@@ -123,13 +123,13 @@ void ExecutedConflicts::count_on_edge(std::size_t group, const ActualTimes& time
                                       ConflictCount& found) {
     const std::span<VisitId> visits{&on_edge_.visit[on_edge_.first[group]],
                                     on_edge_.first[group + 1] - on_edge_.first[group]};
-    insertion_sort(visits, [&](VisitId x) { return times.enter[x]; });
+    insertion_sort(visits, [&](VisitId x) { return times.enter[index(x)]; });
     for (std::size_t k = 0; k < visits.size(); ++k) {
-        const Tick instant = times.enter[visits[k]];
+        const Tick instant = times.enter[index(visits[k])];
         for (std::size_t m = k + 1; m < visits.size(); ++m) {
             const VisitId one = visits[k];
             const VisitId other = visits[m];
-            if (instant >= never || times.enter[other] != instant) {
+            if (instant >= never || times.enter[index(other)] != instant) {
                 break;
             }
             if (plan_.robot(one) != plan_.robot(other) &&

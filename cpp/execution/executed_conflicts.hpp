@@ -32,7 +32,7 @@ class ExecutedConflicts {
     void count_incompatible(const ActualTimes& times, ConflictCount& found) const;
     void count_on_edge(std::size_t group, const ActualTimes& times, ConflictCount& found);
     Tick leave(VisitId visit, const ActualTimes& times) const {
-        return plan_.is_last(visit) ? never : times.enter[visit + 1];
+        return plan_.is_last(visit) ? never : times.enter[index(visit + 1)];
     }
 
     // Visits to one vertex, or over one edge, by more than one robot. Each group keeps the order of

@@ -15,7 +15,7 @@ class Stoppages {
   public:
     Stoppages(const DelaySample& sample, RobotId robot, std::int32_t& next, std::uint8_t& is_broken)
         : all_(sample.stoppages.data()),
-          end_(sample.first_stoppage[robot + 1]),
+          end_(sample.first_stoppage[index(robot + 1)]),
           next_(next),
           is_broken_(is_broken) {}
 
@@ -58,7 +58,7 @@ void reset(const ActionDependencyGraph& plan, const DelaySample& sample, ActualT
     times.is_caught.assign(n_robots, 0);
     next_stoppage.assign(sample.first_stoppage.begin(), sample.first_stoppage.end() - 1);
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
-        times.enter[plan.first_of(r)] = times.start[plan.first_of(r)] = 0;
+        times.enter[index(plan.first_of(r))] = times.start[index(plan.first_of(r))] = 0;
     }
 }
 
@@ -66,9 +66,10 @@ void complete(const ActionDependencyGraph& plan, const DelaySample& sample, Actu
               std::vector<std::int32_t>& next_stoppage) {
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
         const VisitId last = plan.last_of(r);
-        Stoppages stoppages(sample, r, next_stoppage[r], times.is_broken[r]);
-        if (times.enter[last] < never) {
-            times.completion[r] = stoppages.busy_until(sum(times.enter[last], sample.dwell[last]));
+        Stoppages stoppages(sample, r, next_stoppage[index(r)], times.is_broken[index(r)]);
+        if (times.enter[index(last)] < never) {
+            times.completion[index(r)] =
+                stoppages.busy_until(sum(times.enter[index(last)], sample.dwell[index(last)]));
         }
     }
 }
@@ -107,33 +108,34 @@ void ExecutionTimetable::order_events() {
         return plan_.is_last(other) ? none : other + 1;
     };
     const auto begin = [&](VisitId x) {
-        number[x] = low[x] = count++;
-        is_open[x] = 1;
+        number[index(x)] = low[index(x)] = count++;
+        is_open[index(x)] = 1;
         component.push_back(x);
         path.push_back({x, 0});
     };
     for (VisitId root = 0; root < plan_.n_visits(); ++root) {
-        if (number[root] < 0) {
+        if (number[index(root)] < 0) {
             begin(root);
         }
         while (!path.empty()) {
             const VisitId x = path.back().visit;
             if (path.back().next <= plan_.n_before(x)) {
                 const VisitId other = waits_for(x, path.back().next++);
-                if (other != none && number[other] < 0) {
+                if (other != none && number[index(other)] < 0) {
                     begin(other);
-                } else if (other != none && is_open[other] != 0) {
-                    low[x] = std::min(low[x], number[other]);
+                } else if (other != none && is_open[index(other)] != 0) {
+                    low[index(x)] = std::min(low[index(x)], number[index(other)]);
                 }
                 continue;
             }
             path.pop_back();
             if (!path.empty()) {
-                low[path.back().visit] = std::min(low[path.back().visit], low[x]);
+                low[index(path.back().visit)] =
+                    std::min(low[index(path.back().visit)], low[index(x)]);
             }
-            if (low[x] == number[x]) {
+            if (low[index(x)] == number[index(x)]) {
                 const auto from = std::find(component.rbegin(), component.rend(), x).base() - 1;
-                std::for_each(from, component.end(), [&](VisitId y) { is_open[y] = 0; });
+                std::for_each(from, component.end(), [&](VisitId y) { is_open[index(y)] = 0; });
                 emit({from, component.end()});
                 component.erase(from, component.end());
             }
@@ -143,7 +145,8 @@ void ExecutionTimetable::order_events() {
 
 void ExecutionTimetable::emit(std::span<const VisitId> group) {
     if (!is_possible(group)) {
-        std::for_each(group.begin(), group.end(), [this](VisitId x) { is_impossible_[x] = 1; });
+        std::for_each(group.begin(), group.end(),
+                      [this](VisitId x) { is_impossible_[index(x)] = 1; });
     } else if (!plan_.is_first(group.front())) {
         events_.insert(events_.end(), group.begin(), group.end());
         first_of_group_.push_back(static_cast<std::int32_t>(events_.size()));
@@ -187,7 +190,7 @@ void ExecutionTimetable::by_right_of_way(const DelaySample& sample, ActualTimes&
         const std::int32_t end = first_of_group_[group + 1];
         poll();
         if (end - first == 1) {
-            take_place(events_[first], sample, times);
+            take_place(events_[index(first)], sample, times);
         } else {
             take_place_jointly({events_.begin() + first, events_.begin() + end}, sample, times);
         }
@@ -222,37 +225,37 @@ Tick ExecutionTimetable::clear_of_closures(VisitId x, Tick start) const {
 void ExecutionTimetable::find_caught(const DelaySample& sample, ActualTimes& times) const {
     const VisitClosures& closed = plan_.closures();
     for (VisitId x = 0; x < plan_.n_visits(); ++x) {
-        const Tick start = times.start[x];
+        const Tick start = times.start[index(x)];
         if (start >= never) {
             continue;
         }
-        const Tick left = plan_.is_last(x) ? never : times.enter[x + 1];
+        const Tick left = plan_.is_last(x) ? never : times.enter[index(x + 1)];
         const Tick end = left >= never ? never : left + plan_.headway();
         bool is_caught = closed.free_at(x, start, end) > start;
         if (!plan_.is_first(x)) {
-            const Tick begin = plan_.books_ahead() ? start : start - sample.drive[x];
-            const Tick entered = std::min(times.enter[x], never - plan_.headway());
+            const Tick begin = plan_.books_ahead() ? start : start - sample.drive[index(x)];
+            const Tick entered = std::min(times.enter[index(x)], never - plan_.headway());
             is_caught |= closed.free_along(x, begin, entered + plan_.headway() - begin) > begin;
         }
-        times.is_caught[plan_.robot(x)] |= static_cast<std::uint8_t>(is_caught);
+        times.is_caught[index(plan_.robot(x))] |= static_cast<std::uint8_t>(is_caught);
     }
 }
 
 void ExecutionTimetable::take_place(VisitId x, const DelaySample& sample, ActualTimes& times) {
-    const Tick from = times.enter[x - 1];
+    const Tick from = times.enter[index(x - 1)];
     if (from >= never) {
         return;
     }
     const RobotId robot = plan_.robot(x);
-    Stoppages stoppages(sample, robot, next_stoppage_[robot], times.is_broken[robot]);
-    const Tick drive_before = plan_.books_ahead() ? 0 : sample.drive[x];
-    const Tick drive_after = sample.drive[x] - drive_before;
-    const Tick ready = stoppages.busy_until(sum(from, sample.dwell[x - 1] + drive_before));
+    Stoppages stoppages(sample, robot, next_stoppage_[index(robot)], times.is_broken[index(robot)]);
+    const Tick drive_before = plan_.books_ahead() ? 0 : sample.drive[index(x)];
+    const Tick drive_after = sample.drive[index(x)] - drive_before;
+    const Tick ready = stoppages.busy_until(sum(from, sample.dwell[index(x - 1)] + drive_before));
     VisitId other = plan_.before(x);
-    Tick free = other == none ? 0 : sum(times.enter[other + 1], plan_.headway());
+    Tick free = other == none ? 0 : sum(times.enter[index(other + 1)], plan_.headway());
     if (plan_.has_sizes()) {
         for (const VisitId one : plan_.all_before(x)) {
-            if (const Tick end = sum(times.enter[one + 1], plan_.headway()); end > free) {
+            if (const Tick end = sum(times.enter[index(one + 1)], plan_.headway()); end > free) {
                 other = one;
                 free = end;
             }
@@ -262,10 +265,11 @@ void ExecutionTimetable::take_place(VisitId x, const DelaySample& sample, Actual
     for (Tick clear = start; (clear = clear_of_closures(x, start)) > start;) {
         start = stoppages.waits_until(clear);
     }
-    times.start[x] = start;
-    times.enter[x] = drive_after == 0 ? start : stoppages.busy_until(sum(start, drive_after));
-    times.cause[x] = free > ready && start == free ? other + 1 : x - 1;
-    times.source[x] = x - 1;
+    times.start[index(x)] = start;
+    times.enter[index(x)] =
+        drive_after == 0 ? start : stoppages.busy_until(sum(start, drive_after));
+    times.cause[index(x)] = free > ready && start == free ? other + 1 : x - 1;
+    times.source[index(x)] = x - 1;
 }
 
 // All visits of the group begin when the last of their robots is ready.
@@ -281,24 +285,26 @@ void ExecutionTimetable::take_place_jointly(std::span<const VisitId> group,
     };
     const auto stoppages_of = [&](VisitId x) {
         const RobotId robot = plan_.robot(x);
-        return Stoppages(sample, robot, next_stoppage_[robot], times.is_broken[robot]);
+        return Stoppages(sample, robot, next_stoppage_[index(robot)],
+                         times.is_broken[index(robot)]);
     };
     for (const VisitId x : group) {
-        const Tick from = times.enter[x - 1];
-        const Tick done = sum(from, sample.dwell[x - 1] + sample.drive[x]);
+        const Tick from = times.enter[index(x - 1)];
+        const Tick done = sum(from, sample.dwell[index(x - 1)] + sample.drive[index(x)]);
         put_off(x, from >= never ? never : stoppages_of(x).busy_until(done));
         put_off(x, plan_.since(x));
     }
     for (Tick before = -1; before < instant;) {
         before = instant;
         for (const VisitId x : group) {
-            put_off(x, times.enter[x - 1] >= never ? never : stoppages_of(x).waits_until(instant));
+            put_off(x, times.enter[index(x - 1)] >= never ? never
+                                                          : stoppages_of(x).waits_until(instant));
             put_off(x, clear_of_closures(x, instant));
         }
     }
     for (const VisitId x : group) {
-        times.enter[x] = times.start[x] = instant;
-        times.cause[x] = times.source[x] = latest - 1;
+        times.enter[index(x)] = times.start[index(x)] = instant;
+        times.cause[index(x)] = times.source[index(x)] = latest - 1;
     }
 }
 
@@ -306,18 +312,18 @@ void by_clock(const ActionDependencyGraph& plan, const DelaySample& sample, Actu
     std::vector<std::int32_t> next;
     reset(plan, sample, times, next);
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
-        Stoppages stoppages(sample, r, next[r], times.is_broken[r]);
+        Stoppages stoppages(sample, r, next[index(r)], times.is_broken[index(r)]);
         for (VisitId x = plan.first_of(r) + 1; x <= plan.last_of(r); ++x) {
-            const Tick from = times.enter[x - 1];
+            const Tick from = times.enter[index(x - 1)];
             if (from >= never) {
                 break;
             }
-            const Tick done = stoppages.busy_until(sum(from, sample.dwell[x - 1]));
+            const Tick done = stoppages.busy_until(sum(from, sample.dwell[index(x - 1)]));
             const Tick depart =
                 stoppages.waits_until(std::max(done, plan.planned(x) - plan.drive(x)));
-            const Tick arrive = stoppages.busy_until(sum(depart, sample.drive[x]));
-            times.enter[x] = stoppages.waits_until(std::max(arrive, plan.planned(x)));
-            times.start[x] = plan.books_ahead() ? depart : times.enter[x];
+            const Tick arrive = stoppages.busy_until(sum(depart, sample.drive[index(x)]));
+            times.enter[index(x)] = stoppages.waits_until(std::max(arrive, plan.planned(x)));
+            times.start[index(x)] = plan.books_ahead() ? depart : times.enter[index(x)];
         }
     }
     complete(plan, sample, times, next);

@@ -42,7 +42,7 @@ class ExecutionTimetable {
     std::span<const RobotId> deadlocked() const { return deadlocked_; }
 
     // False for a visit in or behind a deadlock.
-    bool can_take_place(VisitId visit) const { return is_impossible_[visit] == 0; }
+    bool can_take_place(VisitId visit) const { return is_impossible_[index(visit)] == 0; }
 
     // Ends early only by an exception of `interrupt`, which is polled.
     void by_right_of_way(const DelaySample& sample, ActualTimes& times,

@@ -19,21 +19,21 @@ LatenessSources::LatenessSources(const ActionDependencyGraph& plan)
 
 void LatenessSources::add(const ActualTimes& times) {
     const auto late = [&](VisitId x) {
-        return std::max<Tick>(times.enter[x] - plan_.planned(x), 0);
+        return std::max<Tick>(times.enter[index(x)] - plan_.planned(x), 0);
     };
     for (RobotId r = 0; r < plan_.n_robots(); ++r) {
-        if (times.completion[r] >= never) {
+        if (times.completion[index(r)] >= never) {
             continue;
         }
         VisitId x = plan_.last_of(r);
         VisitId source = x;
-        Tick left = times.completion[r] - plan_.planned_completion(r);
+        Tick left = times.completion[index(r)] - plan_.planned_completion(r);
         while (left > 0) {
             const Tick before = std::min(late(x), left);
             charge(r, source, left - before);
             left = before;
-            source = times.source[x];
-            x = times.cause[x];
+            source = times.source[index(x)];
+            x = times.cause[index(x)];
         }
     }
 }
@@ -44,10 +44,10 @@ void LatenessSources::charge(RobotId robot, VisitId source, Tick ticks) {
         return;
     }
     if (other == robot) {
-        add_up(own_[source], ticks);
+        add_up(own_[index(source)], ticks);
         return;
     }
-    add_up(of_others_[source], ticks);
+    add_up(of_others_[index(source)], ticks);
     add_up(between_[static_cast<std::int64_t>(robot) * plan_.n_robots() + other], ticks);
 }
 

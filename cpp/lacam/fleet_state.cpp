@@ -46,14 +46,14 @@ FleetState::FleetState(const Problem& problem)
                  {nobody, nobody, -problem.rules().headway}) {
     for (RobotId r = 0; r < problem.n_robots(); ++r) {
         has_turns_ = has_turns_ || problem.turns(r).take_time();
-        robots_[r] = {problem.home(r), problem.home(r), problem.first_stage(r), busy, 0, 0};
-        resources_[problem.home(r)].here = r;
+        robots_[index(r)] = {problem.home(r), problem.home(r), problem.first_stage(r), busy, 0, 0};
+        resources_[index(problem.home(r))].here = r;
         begin_stage(r);
     }
 }
 
 std::uint64_t FleetState::key(RobotId robot) const {
-    const Robot& r = robots_[robot];
+    const Robot& r = robots_[index(robot)];
     const auto pack = [](std::int32_t high, std::int32_t low) {
         return static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint32_t>(low);
     };
@@ -62,15 +62,15 @@ std::uint64_t FleetState::key(RobotId robot) const {
 }
 
 void FleetState::set_busy(RobotId robot, Tick until) {
-    robots_[robot].place = busy;
-    robots_[robot].ready = until;
+    robots_[index(robot)].place = busy;
+    robots_[index(robot)].ready = until;
     sum_busy_ += key(robot) * base_to_now_ * power(base, until - now_);
     events_.push_back({until, robot});
     std::push_heap(events_.begin(), events_.end(), std::greater<>());
 }
 
 void FleetState::set_free(RobotId robot) {
-    Robot& r = robots_[robot];
+    Robot& r = robots_[index(robot)];
     if (problem_->is_last(robot, r.stage) && r.at == target(robot)) {
         r.place = arrived;
         ++n_arrived_;
@@ -82,25 +82,25 @@ void FleetState::set_free(RobotId robot) {
 }
 
 void FleetState::take_off_list(RobotId robot) {
-    const std::int32_t place = robots_[robot].place;
+    const std::int32_t place = robots_[index(robot)].place;
     if (place == arrived) {
         --n_arrived_;
     } else {
-        robots_[undecided_.back()].place = place;
-        undecided_[place] = undecided_.back();
+        robots_[index(undecided_.back())].place = place;
+        undecided_[index(place)] = undecided_.back();
         undecided_.pop_back();
     }
 }
 
 // The edge of a robot on the move.
 FleetState::Resource& FleetState::edge_of(const Robot& robot) {
-    return resources_[problem_->n_vertices() + problem_->graph().edge(robot.at, robot.to)];
+    return resources_[index(problem_->n_vertices() + problem_->graph().edge(robot.at, robot.to))];
 }
 
 // Begins the work of the stage if its vertex is here; skips stages of 0 ticks. The last stage has
 // no work here, because no move follows.
 void FleetState::begin_stage(RobotId robot) {
-    Robot& r = robots_[robot];
+    Robot& r = robots_[index(robot)];
     while (!problem_->is_last(robot, r.stage) && r.at == target(robot)) {
         const Tick dwell = problem_->stage_dwell(r.stage);
         if (dwell > 0) {
@@ -116,14 +116,14 @@ void FleetState::begin_stage(RobotId robot) {
 void FleetState::decide(const Decision& decision) {
     const RobotId robot = decision.robot;
     sum_free_ -= key(robot);
-    if (robots_[robot].place == arrived) {
-        robots_[robot].since = now_;
+    if (robots_[index(robot)].place == arrived) {
+        robots_[index(robot)].since = now_;
     }
     take_off_list(robot);
-    robots_[robot].to = decision.vertex;
-    resources_[decision.vertex].comes = robot;
+    robots_[index(robot)].to = decision.vertex;
+    resources_[index(decision.vertex)].comes = robot;
     if (problem_->edges_exclude()) {
-        edge_of(robots_[robot]).here = robot;
+        edge_of(robots_[index(robot)]).here = robot;
     }
     set_busy(robot, decision.arrival);
 }
@@ -143,23 +143,23 @@ bool FleetState::advance() {
         events_.pop_back();
     }
     for (const RobotId robot : finished_) {  // all leave before the first enter
-        const Robot& r = robots_[robot];
+        const Robot& r = robots_[index(robot)];
         sum_busy_ -= key(robot) * base_to_now_;
         if (r.at != r.to) {
-            resources_[r.at].here = nobody;
-            resources_[r.at].left = now_;
+            resources_[index(r.at)].here = nobody;
+            resources_[index(r.at)].left = now_;
             if (problem_->edges_exclude()) {
                 edge_of(r) = {nobody, nobody, now_};
             }
         }
     }
     for (const RobotId robot : finished_) {
-        Robot& r = robots_[robot];
+        Robot& r = robots_[index(robot)];
         if (r.at != r.to) {
             r.edge = has_turns_ ? problem_->graph().edge(r.at, r.to) : -1;
             r.at = r.to;
-            resources_[r.at].here = robot;
-            resources_[r.at].comes = nobody;
+            resources_[index(r.at)].here = robot;
+            resources_[index(r.at)].comes = nobody;
         } else {  // the work is complete
             ++r.stage;
             r.since = now_;

@@ -31,22 +31,30 @@ class FleetState {
     explicit FleetState(const Problem& problem);
 
     Tick now() const { return now_; }
-    VertexId at(RobotId robot) const { return robots_[robot].at; }
-    VertexId to(RobotId robot) const { return robots_[robot].to; }  // `at`, unless the robot moves
-    std::int32_t stage(RobotId robot) const { return robots_[robot].stage; }
-    VertexId target(RobotId robot) const { return problem_->stage_vertex(robots_[robot].stage); }
+    VertexId at(RobotId robot) const { return robots_[index(robot)].at; }
+    VertexId to(RobotId robot) const {
+        return robots_[index(robot)].to;
+    }  // `at`, unless the robot moves
+    std::int32_t stage(RobotId robot) const { return robots_[index(robot)].stage; }
+    VertexId target(RobotId robot) const {
+        return problem_->stage_vertex(robots_[index(robot)].stage);
+    }
     // When a busy robot finishes; when a free robot has finished.
-    Tick ready(RobotId robot) const { return robots_[robot].ready; }
+    Tick ready(RobotId robot) const { return robots_[index(robot)].ready; }
     // The edge driven in, -1 before the first drive. Only where turning takes time.
-    EdgeId came_by(RobotId robot) const { return robots_[robot].edge; }
-    Tick on_its_way_since(RobotId robot) const { return robots_[robot].since; }
-    bool is_busy(RobotId robot) const { return robots_[robot].place == busy; }
-    bool has_arrived(RobotId robot) const { return robots_[robot].place == arrived; }
+    EdgeId came_by(RobotId robot) const { return robots_[index(robot)].edge; }
+    Tick on_its_way_since(RobotId robot) const { return robots_[index(robot)].since; }
+    bool is_busy(RobotId robot) const { return robots_[index(robot)].place == busy; }
+    bool has_arrived(RobotId robot) const { return robots_[index(robot)].place == arrived; }
 
     // The robot at a vertex until its leave, or on an edge.
-    RobotId here(std::int32_t resource) const { return resources_[resource].here; }
-    RobotId comes(VertexId vertex) const { return resources_[vertex].comes; }  // by a booked move
-    Tick left(std::int32_t resource) const { return resources_[resource].left; }  // or -headway
+    RobotId here(std::int32_t resource) const { return resources_[index(resource)].here; }
+    RobotId comes(VertexId vertex) const {
+        return resources_[index(vertex)].comes;
+    }  // by a booked move
+    Tick left(std::int32_t resource) const {
+        return resources_[index(resource)].left;
+    }  // or -headway
 
     // The robots that are neither busy nor arrived, in no particular order.
     std::span<const RobotId> undecided() const { return undecided_; }

@@ -24,15 +24,16 @@ Lacam::Lacam(const Problem& problem, StepTables& tables, const SpaceUtilization&
       goal_(none) {
     std::vector<std::int32_t> way(static_cast<std::size_t>(problem.n_robots()));
     for (RobotId r = 0; r < problem.n_robots(); ++r) {
-        way[r] = tables.steps(tables.table_of(start_.target(r)), problem.home(r));
+        way[index(r)] = tables.steps(tables.table_of(start_.target(r)), problem.home(r));
     }
     std::vector<RobotId> robots(static_cast<std::size_t>(problem.n_robots()));
     std::iota(robots.begin(), robots.end(), 0);
     std::sort(robots.begin(), robots.end(), [&way](RobotId left, RobotId right) {
-        return way[left] != way[right] ? way[left] > way[right] : left < right;
+        return way[index(left)] != way[index(right)] ? way[index(left)] > way[index(right)]
+                                                     : left < right;
     });
     for (std::size_t k = 0; k < robots.size(); ++k) {
-        rank_[robots[k]] = static_cast<std::int32_t>(k);
+        rank_[index(robots[k])] = static_cast<std::int32_t>(k);
     }
 }
 
@@ -61,7 +62,7 @@ SearchEnd Lacam::expand() {
         goal_ = top;
         return SearchEnd::found;
     }
-    if (!next_constraint(nodes_[top])) {
+    if (!next_constraint(nodes_[index(top)])) {
         open_.pop_back();  // all constraints are tried
         return SearchEnd::stopped;
     }
@@ -86,8 +87,9 @@ bool Lacam::next_constraint(Node& node) {
     if (node.next_constraint > node.constraints.size()) {
         return false;
     }
-    for (std::int32_t c = k; node.constraints[c].depth > 0; c = node.constraints[c].parent) {
-        pibt_.fix(node.constraints[c].robot, node.constraints[c].vertex);
+    for (std::int32_t c = k; node.constraints[index(c)].depth > 0;
+         c = node.constraints[index(c)].parent) {
+        pibt_.fix(node.constraints[index(c)].robot, node.constraints[index(c)].vertex);
     }
     return true;
 }
@@ -103,11 +105,11 @@ void Lacam::branch(Node& node, std::int32_t constraint) {
             }
         }
     }
-    const std::int32_t depth = node.constraints[constraint].depth;
+    const std::int32_t depth = node.constraints[index(constraint)].depth;
     if (depth == static_cast<std::int32_t>(node.order.size())) {
         return;
     }
-    const RobotId robot = node.order[depth];
+    const RobotId robot = node.order[index(depth)];
     const VertexId here = state_.at(robot);
     for (const VertexId head : problem_.graph().heads(here)) {
         node.constraints.push_back({constraint, depth + 1, robot, head});
@@ -121,7 +123,7 @@ std::span<const RobotId> Lacam::by_urgency() {
     for (const RobotId robot : state_.undecided()) {
         const Tick waited = state_.now() - state_.on_its_way_since(robot);
         const Tick urgency = pibt_.pace(robot) * std::min(waited, longest_wait);
-        urgencies_.push_back({urgency, rank_[robot], robot});
+        urgencies_.push_back({urgency, rank_[index(robot)], robot});
     }
     std::sort(urgencies_.begin(), urgencies_.end(), [](const Urgency& left, const Urgency& right) {
         return left.urgency != right.urgency ? left.urgency > right.urgency
@@ -158,7 +160,7 @@ bool Lacam::add(std::int32_t parent, std::size_t first_decision) {
         return false;
     }
     state_of_ = node;
-    const std::int32_t level = parent == none ? 0 : nodes_[parent].level + 1;
+    const std::int32_t level = parent == none ? 0 : nodes_[index(parent)].level + 1;
     nodes_.push_back({parent, level, first_decision, decisions_.size(), 0, {}, {}});
     open_.push_back(node);
     return true;
@@ -171,7 +173,7 @@ void Lacam::restore(std::int32_t node) {
     std::vector<std::int32_t> path;
     const Snapshot* snapshot = nullptr;
     for (std::int32_t step = node; step != none && snapshot == nullptr;
-         step = nodes_[step].parent) {
+         step = nodes_[index(step)].parent) {
         snapshot = snapshot_of(step);
         if (snapshot == nullptr) {
             path.push_back(step);
@@ -186,7 +188,7 @@ void Lacam::restore(std::int32_t node) {
 }
 
 void Lacam::take_again(std::int32_t node) {
-    const Node& taken = nodes_[node];
+    const Node& taken = nodes_[index(node)];
     for (std::size_t k = taken.first_decision; k < taken.end_decision; ++k) {
         state_.decide(decisions_[k]);
     }
@@ -203,7 +205,7 @@ const Lacam::Snapshot* Lacam::snapshot_of(std::int32_t node) const {
 }
 
 void Lacam::keep_snapshot(std::int32_t node) {
-    if (nodes_[node].level % levels_between_snapshots != 0) {
+    if (nodes_[index(node)].level % levels_between_snapshots != 0) {
         return;
     }
     if (snapshots_.size() < most_snapshots) {
@@ -220,27 +222,28 @@ Tracks Lacam::tracks() const {
         return tracks;
     }
     std::vector<std::int32_t> path;
-    for (std::int32_t node = goal_; node != none; node = nodes_[node].parent) {
+    for (std::int32_t node = goal_; node != none; node = nodes_[index(node)].parent) {
         path.push_back(node);
     }
     std::reverse(path.begin(), path.end());
     const auto for_each_decision = [&](auto&& use) {
         for (const std::int32_t step : path) {
-            for (std::size_t k = nodes_[step].first_decision; k < nodes_[step].end_decision; ++k) {
+            for (std::size_t k = nodes_[index(step)].first_decision;
+                 k < nodes_[index(step)].end_decision; ++k) {
                 use(decisions_[k]);
             }
         }
     };
     std::vector<VisitId> next(static_cast<std::size_t>(problem_.n_robots()) + 1, 1);
     next[0] = 0;
-    for_each_decision([&next](const Decision& decision) { ++next[decision.robot + 1]; });
+    for_each_decision([&next](const Decision& decision) { ++next[index(decision.robot + 1)]; });
     std::partial_sum(next.begin(), next.end(), next.begin());
     tracks.first_visit = next;
     tracks.vertex.resize(static_cast<std::size_t>(next.back()));
     tracks.enter.resize(tracks.vertex.size());
     const auto enter = [&](RobotId robot, VertexId vertex, Tick tick) {
-        tracks.vertex[next[robot]] = vertex;
-        tracks.enter[next[robot]++] = tick;
+        tracks.vertex[index(next[index(robot)])] = vertex;
+        tracks.enter[index(next[index(robot)]++)] = tick;
     };
     for (RobotId r = 0; r < problem_.n_robots(); ++r) {
         enter(r, problem_.home(r), 0);

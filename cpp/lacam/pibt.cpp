@@ -86,7 +86,9 @@ bool Pibt::take_fixed(const FleetState& now) {
 }
 
 bool Pibt::choose_all(const FleetState& now, std::span<const RobotId> order) {
-    const auto choose_next = [&](RobotId r) { return next_[r] != nowhere || choose_one(now, r); };
+    const auto choose_next = [&](RobotId r) {
+        return next_[index(r)] != nowhere || choose_one(now, r);
+    };
     return std::all_of(order.begin(), order.end(), choose_next) &&
            std::all_of(fixed_.begin(), fixed_.end(), [&](const Fixed& fixed) {
                // Maybe a robot that has arrived.
@@ -151,7 +153,7 @@ RobotId Pibt::next_ahead(const FleetState& now, RobotId robot, Ahead& ahead) con
         if (asks_who_crosses && resource < problem_.n_vertices()) {
             continue;
         }
-        const RobotId other = asks_who_crosses ? claim_[resource] : now.here(resource);
+        const RobotId other = asks_who_crosses ? claim_[index(resource)] : now.here(resource);
         if (other != nobody && other != robot && problem_.first_row(other) == row - resource &&
             (!asks_who_crosses || !is_drive || goes_first(now, other, robot))) {
             return other;
@@ -164,42 +166,42 @@ RobotId Pibt::next_ahead(const FleetState& now, RobotId robot, Ahead& ahead) con
 // else the robot that chose first.
 bool Pibt::goes_first(const FleetState& now, RobotId other, RobotId robot) const {
     const auto is_in_the_way_of = [&](RobotId one, RobotId mover) {
-        return any_near(now, mover, next_[mover],
+        return any_near(now, mover, next_[index(mover)],
                         [&](std::int32_t resource, std::int32_t size, bool) {
                             return resource == now.at(one) && size == problem_.first_row(one);
                         });
     };
     return !is_in_the_way_of(robot, other) &&
-           (is_in_the_way_of(other, robot) || rank_[other] < rank_[robot]);
+           (is_in_the_way_of(other, robot) || rank_[index(other)] < rank_[index(robot)]);
 }
 
 void Pibt::take(const FleetState& now, RobotId robot, VertexId vertex) {
-    if (next_[robot] == nowhere) {
-        rank_[robot] = static_cast<std::int32_t>(chosen_.size());
+    if (next_[index(robot)] == nowhere) {
+        rank_[index(robot)] = static_cast<std::int32_t>(chosen_.size());
         chosen_.push_back(robot);
     } else {
         release(now, robot);
     }
-    claim_[vertex] = robot;
-    next_[robot] = vertex;
+    claim_[index(vertex)] = robot;
+    next_[index(robot)] = vertex;
     if (problem_.edges_exclude() && moves(now, robot)) {
-        claim_[problem_.n_vertices() + edge_to(now, robot, vertex)] = robot;
+        claim_[index(problem_.n_vertices() + edge_to(now, robot, vertex))] = robot;
     }
 }
 
 // Gives up the place that the robot chose.
 void Pibt::release(const FleetState& now, RobotId robot) {
-    const VertexId place = next_[robot];
-    if (claim_[place] == robot) {
-        claim_[place] = nobody;
+    const VertexId place = next_[index(robot)];
+    if (claim_[index(place)] == robot) {
+        claim_[index(place)] = nobody;
     }
     if (problem_.edges_exclude() && moves(now, robot)) {
-        claim_[problem_.n_vertices() + edge_to(now, robot, place)] = nobody;
+        claim_[index(problem_.n_vertices() + edge_to(now, robot, place))] = nobody;
     }
 }
 
 bool Pibt::moves(const FleetState& now, RobotId robot) const {
-    return next_[robot] != nowhere && next_[robot] != now.at(robot);
+    return next_[index(robot)] != nowhere && next_[index(robot)] != now.at(robot);
 }
 
 // Whether no other robot enters a vertex near to the place, and no robot near to it works or wants
@@ -211,14 +213,14 @@ bool Pibt::is_open(const FleetState& now, RobotId robot, VertexId place) const {
             return other != nobody && other != robot && problem_.first_row(other) == size;
         };
         if (resource >= n_vertices) {
-            return place == now.at(robot) && is_other(claim_[resource]);
+            return place == now.at(robot) && is_other(claim_[index(resource)]);
         }
-        if (is_other(now.comes(resource)) || is_other(claim_[resource])) {
+        if (is_other(now.comes(resource)) || is_other(claim_[index(resource)])) {
             return true;
         }
         const RobotId other = now.here(resource);
         const bool is_at_work = is_other(other) && now.is_busy(other) && now.to(other) == resource;
-        return is_at_work || (is_other(other) && next_[other] == now.at(robot));
+        return is_at_work || (is_other(other) && next_[index(other)] == now.at(robot));
     });
 }
 
@@ -238,9 +240,9 @@ bool Pibt::closes_circle(const FleetState& now, RobotId robot) {
     while (!queue_.empty()) {
         const RobotId next = queue_.back();
         queue_.pop_back();
-        const bool meets = any_ahead(now, next, next_[next], [&](RobotId other) {
-            if (other != robot && moves(now, other) && seen_by_[other] != n_circles_) {
-                seen_by_[other] = n_circles_;
+        const bool meets = any_ahead(now, next, next_[index(next)], [&](RobotId other) {
+            if (other != robot && moves(now, other) && seen_by_[index(other)] != n_circles_) {
+                seen_by_[index(other)] = n_circles_;
                 queue_.push_back(other);
             }
             return other == robot;
@@ -288,7 +290,7 @@ Pibt::Choice Pibt::begin(const FleetState& now, RobotId robot) {
 // robot (`open`). `pushed`: what the robot that it pushed last has chosen.
 Pibt::Choice Pibt::go_on(const FleetState& now, Choice pushed) {
     Frame& frame = frames_.back();
-    const auto stays = [&](RobotId other) { return next_[other] == now.at(other); };
+    const auto stays = [&](RobotId other) { return next_[index(other)] == now.at(other); };
     while (frame.ahead.place != nowhere || take_next_place(now, frame)) {
         bool is_held = pushed == Choice::failed || (pushed == Choice::found && stays(frame.pushed));
         for (RobotId other; !is_held;) {
@@ -342,7 +344,7 @@ Pibt::Choice Pibt::end(const FleetState& now, bool is_found) {
     const RobotId partner = frame.partner;
     const bool pulls =
         is_found && partner != nobody && frame.k == frame.first && places_[frame.k].vertex != here;
-    if (pulls && is_idle(now, partner) && claim_[here] == nobody &&
+    if (pulls && is_idle(now, partner) && claim_[index(here)] == nobody &&
         edge_to(now, partner, here) >= 0) {
         pull(now, partner, here);
     }
@@ -379,7 +381,7 @@ bool Pibt::has_to_wait(const FleetState& now, RobotId robot) {
 }
 
 bool Pibt::has_partner(const FleetState& now, RobotId robot) {
-    const Outlook& ahead = outlook_[robot];
+    const Outlook& ahead = outlook_[index(robot)];
     const std::size_t n_heads = problem_.graph().heads(ahead.here).size();
     const std::int32_t* steps = steps_beside(robot);
     Place best = place(now, robot, n_heads);
@@ -404,17 +406,17 @@ void Pibt::pull(const FleetState& now, RobotId partner, VertexId place) {
     take(now, partner, place);
     if (closes_circle(now, partner)) {
         release(now, partner);
-        next_[partner] = nowhere;
+        next_[index(partner)] = nowhere;
         chosen_.pop_back();
     }
 }
 
 bool Pibt::is_idle(const FleetState& now, RobotId robot) const {
-    return next_[robot] == nowhere && !now.is_busy(robot);
+    return next_[index(robot)] == nowhere && !now.is_busy(robot);
 }
 
 std::int32_t Pibt::way(const FleetState& now, RobotId robot, VertexId vertex) {
-    return tables_.steps(stage_table_[now.stage(robot)], vertex);
+    return tables_.steps(stage_table_[index(now.stage(robot))], vertex);
 }
 
 // The earliest arrival at a place if a free robot there leaves at once.
@@ -433,13 +435,13 @@ Tick Pibt::soonest(const FleetState& now, RobotId robot, VertexId place, Tick dr
 
 // When a free robot can begin to drive along an edge: it turns as soon as it is free.
 Tick Pibt::turned(const FleetState& now, RobotId robot, EdgeId edge) const {
-    const Tick turn = turns_[robot].between(now.came_by(robot), edge);
+    const Tick turn = turns_[index(robot)].between(now.came_by(robot), edge);
     return turn == 0 ? now.now() : std::max(now.now(), now.ready(robot) + turn);
 }
 
 // The steps to the target from the robot's vertex and its neighbours; cached for waiting robots.
 const Pibt::Outlook& Pibt::outlook(const FleetState& now, RobotId robot) {
-    Outlook& outlook = outlook_[robot];
+    Outlook& outlook = outlook_[index(robot)];
     const VertexId here = now.at(robot);
     const std::int32_t stage = now.stage(robot);
     if (outlook.here == here && outlook.stage == stage) {
@@ -449,7 +451,7 @@ const Pibt::Outlook& Pibt::outlook(const FleetState& now, RobotId robot) {
     outlook.stage = stage;
     outlook.steps = way(now, robot, here);
     outlook.preferred = paths_.next(stage, here);
-    std::int32_t* beside = steps_beside_.data() + static_cast<std::size_t>(robot) * most_heads_;
+    std::int32_t* beside = steps_beside_.data() + index(robot) * most_heads_;
     for (const VertexId head : problem_.graph().heads(here)) {
         *beside++ = head == outlook.preferred ? outlook.steps - 1 : way(now, robot, head);
     }
@@ -459,13 +461,13 @@ const Pibt::Outlook& Pibt::outlook(const FleetState& now, RobotId robot) {
 // The candidate over the k-th edge of the robot's vertex, or the vertex itself. The next vertex of
 // the preferred path counts as one step nearer and wins ties; other ties are random.
 Pibt::Place Pibt::place(const FleetState& now, RobotId robot, std::size_t k) const {
-    const Outlook& ahead = outlook_[robot];
-    const EdgeId edge = problem_.graph().indptr[ahead.here] + static_cast<EdgeId>(k);
-    const bool stays = edge == problem_.graph().indptr[ahead.here + 1];
-    const VertexId vertex = stays ? ahead.here : problem_.graph().indices[edge];
-    const Tick there =
-        stays ? now.now() + pace_[robot] : soonest(now, robot, vertex, problem_.drive(robot, edge));
-    const Tick way_on = (stays ? ahead.steps : steps_beside(robot)[k]) * pace_[robot];
+    const Outlook& ahead = outlook_[index(robot)];
+    const EdgeId edge = problem_.graph().indptr[index(ahead.here)] + static_cast<EdgeId>(k);
+    const bool stays = edge == problem_.graph().indptr[index(ahead.here + 1)];
+    const VertexId vertex = stays ? ahead.here : problem_.graph().indices[index(edge)];
+    const Tick there = stays ? now.now() + pace_[index(robot)]
+                             : soonest(now, robot, vertex, problem_.drive(robot, edge));
+    const Tick way_on = (stays ? ahead.steps : steps_beside(robot)[k]) * pace_[index(robot)];
     const bool is_first = !stays && vertex == ahead.preferred;
     const std::uint64_t draw = draw_ + (k + 1) * draw_step;
     std::uint64_t tie = (draw ^ (draw >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -493,13 +495,13 @@ void Pibt::push_places(const FleetState& now, RobotId robot) {
 
 bool Pibt::settle_arrivals(const FleetState& now) {
     for (const RobotId robot : chosen_) {
-        if (next_[robot] == now.at(robot)) {
+        if (next_[index(robot)] == now.at(robot)) {
             continue;
         }
-        if (arrival_[robot] == unsettled && !settle_queue(now, robot)) {
+        if (arrival_[index(robot)] == unsettled && !settle_queue(now, robot)) {
             return false;
         }
-        decisions_.push_back({robot, next_[robot], arrival_[robot]});
+        decisions_.push_back({robot, next_[index(robot)], arrival_[index(robot)]});
     }
     return true;
 }
@@ -508,20 +510,20 @@ bool Pibt::settle_arrivals(const FleetState& now) {
 // stays, or if a queue is a circle and rotations are forbidden.
 bool Pibt::settle_queue(const FleetState& now, RobotId last) {
     queue_.assign(1, last);
-    arrival_[last] = in_queue;
+    arrival_[index(last)] = in_queue;
     while (!queue_.empty()) {
         const RobotId robot = queue_.back();
-        const VertexId place = next_[robot];
+        const VertexId place = next_[index(robot)];
         RobotId in_circle = nobody;
         const bool is_behind = any_ahead(now, robot, place, [&](RobotId other) {
-            if (now.is_busy(other) || arrival_[other] >= 0) {
+            if (now.is_busy(other) || arrival_[index(other)] >= 0) {
                 return false;
             }
-            if (arrival_[other] == in_queue || !moves(now, other)) {
+            if (arrival_[index(other)] == in_queue || !moves(now, other)) {
                 in_circle = other;
                 return false;
             }
-            arrival_[other] = in_queue;
+            arrival_[index(other)] = in_queue;
             queue_.push_back(other);
             return true;
         });
@@ -532,7 +534,7 @@ bool Pibt::settle_queue(const FleetState& now, RobotId last) {
             return false;
         }
         queue_.pop_back();
-        if (arrival_[robot] != in_queue) {
+        if (arrival_[index(robot)] != in_queue) {
             continue;  // part of a circle
         }
         const EdgeId edge = edge_to(now, robot, place);
@@ -543,10 +545,11 @@ bool Pibt::settle_queue(const FleetState& now, RobotId last) {
             return false;
         });
         any_ahead(now, robot, place, [&](RobotId other) {
-            left = std::max(left, now.is_busy(other) ? now.ready(other) : arrival_[other]);
+            left = std::max(left, now.is_busy(other) ? now.ready(other) : arrival_[index(other)]);
             return false;
         });
-        arrival_[robot] = std::max(turned(now, robot, edge) + drive, left + problem_.gap(drive));
+        arrival_[index(robot)] =
+            std::max(turned(now, robot, edge) + drive, left + problem_.gap(drive));
     }
     return true;
 }
@@ -558,26 +561,27 @@ bool Pibt::settle_circle(const FleetState& now, RobotId member) {
     Tick latest = 0;
     RobotId robot = member;
     do {
-        const EdgeId edge = edge_to(now, robot, next_[robot]);
+        const EdgeId edge = edge_to(now, robot, next_[index(robot)]);
         latest = std::max(latest, turned(now, robot, edge) + problem_.drive(robot, edge));
-        robot = now.here(next_[robot]);
+        robot = now.here(next_[index(robot)]);
     } while (robot != member);
     do {
-        arrival_[robot] = latest;
-        robot = now.here(next_[robot]);
+        arrival_[index(robot)] = latest;
+        robot = now.here(next_[index(robot)]);
     } while (robot != member);
     return true;
 }
 
 void Pibt::forget(const FleetState& now) {
     for (const RobotId robot : chosen_) {
-        claim_[next_[robot]] = nobody;
-        claim_[now.at(robot)] = nobody;
+        claim_[index(next_[index(robot)])] = nobody;
+        claim_[index(now.at(robot))] = nobody;
         if (problem_.edges_exclude() && moves(now, robot)) {
-            claim_[problem_.n_vertices() + edge_to(now, robot, next_[robot])] = nobody;
+            claim_[index(problem_.n_vertices() + edge_to(now, robot, next_[index(robot)]))] =
+                nobody;
         }
-        next_[robot] = nowhere;
-        arrival_[robot] = unsettled;
+        next_[index(robot)] = nowhere;
+        arrival_[index(robot)] = unsettled;
     }
     chosen_.clear();
     fixed_.clear();

@@ -43,7 +43,7 @@ class Pibt {
     std::span<const Decision> decisions() const { return decisions_; }
 
     // The ticks that a robot needs for its quickest edge.
-    Tick pace(RobotId robot) const { return pace_[robot]; }
+    Tick pace(RobotId robot) const { return pace_[index(robot)]; }
 
     // The number of choices of single robots since construction.
     std::int64_t n_choices() const { return n_choices_; }
@@ -109,7 +109,7 @@ class Pibt {
     }
     const Outlook& outlook(const FleetState& now, RobotId robot);
     const std::int32_t* steps_beside(RobotId robot) const {
-        return steps_beside_.data() + static_cast<std::size_t>(robot) * most_heads_;
+        return steps_beside_.data() + index(robot) * most_heads_;
     }
     Place place(const FleetState& now, RobotId robot, std::size_t k) const;
     static bool ranks_before(const Place& left, const Place& right);

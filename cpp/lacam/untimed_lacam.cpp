@@ -45,7 +45,7 @@ SearchEnd UntimedLacam::run(const StopCondition& is_over, std::int64_t most_step
             return SearchEnd::stopped;
         }
         const std::int32_t top = open_.back();
-        Node& node = nodes_[top];
+        Node& node = nodes_[index(top)];
         if (is_goal(problem_, ends_anywhere_, node.now)) {
             goal_ = top;
             return SearchEnd::found;
@@ -75,7 +75,9 @@ void UntimedLacam::add(Configuration&& now, std::int32_t parent) {
     std::vector<RobotId> order(urgent.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&urgent](RobotId left, RobotId right) {
-        return urgent[left] != urgent[right] ? urgent[left] > urgent[right] : left < right;
+        return urgent[index(left)] != urgent[index(right)]
+                   ? urgent[index(left)] > urgent[index(right)]
+                   : left < right;
     });
     known_.emplace(hash_of(now), node);
     nodes_.push_back(
@@ -88,29 +90,30 @@ void UntimedLacam::add(Configuration&& now, std::int32_t parent) {
 std::vector<float> UntimedLacam::urgency(const Configuration& now, std::int32_t parent) const {
     std::vector<float> urgent(now.at.size());
     for (RobotId r = 0; r < problem_.n_robots(); ++r) {
-        const std::int32_t stage = now.stage[r];
+        const std::int32_t stage = now.stage[index(r)];
         if (parent == none) {
-            const auto way = static_cast<float>(pibt_.way(now, r, now.at[r]));
-            urgent[r] = way / (way + 1.0F) * 0.99F;
+            const auto way = static_cast<float>(pibt_.way(now, r, now.at[index(r)]));
+            urgent[index(r)] = way / (way + 1.0F) * 0.99F;
             continue;
         }
-        const Node& before = nodes_[parent];
+        const Node& before = nodes_[index(parent)];
         const bool begins_anew =
-            stage != before.now.stage[r] || problem_.stage_vertex(stage) == now.at[r];
-        urgent[r] = begins_anew ? before.urgency[r] - std::floor(before.urgency[r])
-                                : before.urgency[r] + 1.0F;
+            stage != before.now.stage[index(r)] || problem_.stage_vertex(stage) == now.at[index(r)];
+        urgent[index(r)] = begins_anew
+                               ? before.urgency[index(r)] - std::floor(before.urgency[index(r)])
+                               : before.urgency[index(r)] + 1.0F;
     }
     return urgent;
 }
 
 // Adds the children of a constraint: one more robot fixed, to each neighbour or to its own vertex.
 void UntimedLacam::branch(Node& node, std::int32_t constraint) {
-    const std::int32_t depth = node.constraints[constraint].depth;
+    const std::int32_t depth = node.constraints[index(constraint)].depth;
     if (depth == problem_.n_robots()) {
         return;
     }
-    const RobotId robot = node.order[depth];
-    const VertexId here = node.now.at[robot];
+    const RobotId robot = node.order[index(depth)];
+    const VertexId here = node.now.at[index(robot)];
     for (const VertexId head : problem_.graph().heads(here)) {
         node.constraints.push_back({constraint, depth + 1, robot, head});
     }
@@ -118,9 +121,9 @@ void UntimedLacam::branch(Node& node, std::int32_t constraint) {
 }
 
 bool UntimedLacam::take_step(Node& node, std::int32_t constraint) {
-    for (std::int32_t k = constraint; node.constraints[k].depth > 0;
-         k = node.constraints[k].parent) {
-        pibt_.fix(node.constraints[k].robot, node.constraints[k].vertex);
+    for (std::int32_t k = constraint; node.constraints[index(k)].depth > 0;
+         k = node.constraints[index(k)].parent) {
+        pibt_.fix(node.constraints[index(k)].robot, node.constraints[index(k)].vertex);
     }
     return pibt_.step(node.now, node.order);
 }
@@ -137,18 +140,19 @@ Configuration UntimedLacam::after_step(const Configuration& now) const {
 std::int32_t UntimedLacam::find(const Configuration& now) const {
     const auto [first, last] = known_.equal_range(hash_of(now));
     const auto same = std::find_if(
-        first, last, [&](const auto& entry) { return nodes_[entry.second].now == now; });
+        first, last, [&](const auto& entry) { return nodes_[index(entry.second)].now == now; });
     return same == last ? none : same->second;
 }
 
 std::vector<VertexId> UntimedLacam::steps() const {
     std::vector<std::int32_t> path;
-    for (std::int32_t node = goal_; node != none; node = nodes_[node].parent) {
+    for (std::int32_t node = goal_; node != none; node = nodes_[index(node)].parent) {
         path.push_back(node);
     }
     std::vector<VertexId> steps;
     for (auto node = path.rbegin(); node != path.rend(); ++node) {
-        steps.insert(steps.end(), nodes_[*node].now.at.begin(), nodes_[*node].now.at.end());
+        steps.insert(steps.end(), nodes_[index(*node)].now.at.begin(),
+                     nodes_[index(*node)].now.at.end());
     }
     return steps;
 }

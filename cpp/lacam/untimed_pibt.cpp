@@ -21,23 +21,25 @@ struct UntimedPibt::Choosing {
     const Configuration& now;
 
     const Graph& graph() const { return pibt.problem_.graph(); }
-    VertexId at(RobotId robot) const { return now.at[robot]; }
-    RobotId here(VertexId vertex) const { return pibt.here_[vertex]; }
+    VertexId at(RobotId robot) const { return now.at[index(robot)]; }
+    RobotId here(VertexId vertex) const { return pibt.here_[index(vertex)]; }
     RobotId keeps_off(RobotId, VertexId vertex) const { return here(vertex); }
-    VertexId target(RobotId robot) const { return pibt.problem_.stage_vertex(now.stage[robot]); }
+    VertexId target(RobotId robot) const {
+        return pibt.problem_.stage_vertex(now.stage[index(robot)]);
+    }
     std::int32_t way(RobotId robot, VertexId vertex) const { return pibt.way(now, robot, vertex); }
     bool is_free(RobotId) const { return true; }
-    bool is_idle(RobotId robot) const { return pibt.next_[robot] == nowhere; }
+    bool is_idle(RobotId robot) const { return pibt.next_[index(robot)] == nowhere; }
 };
 
 UntimedPibt::UntimedPibt(const Problem& problem, StepTables& tables, std::uint32_t seed)
     : problem_(problem),
       tables_(tables),
       draw_(seed),
-      here_(problem.n_vertices(), nobody),
-      comes_(problem.n_vertices(), nobody),
-      next_(problem.n_robots(), nowhere),
-      tie_(problem.n_vertices(), 0) {
+      here_(static_cast<std::size_t>(problem.n_vertices()), nobody),
+      comes_(static_cast<std::size_t>(problem.n_vertices()), nobody),
+      next_(static_cast<std::size_t>(problem.n_robots()), nowhere),
+      tie_(static_cast<std::size_t>(problem.n_vertices()), 0) {
     for (std::size_t stage = 0; stage < problem.n_stages(); ++stage) {
         const VertexId target = problem.stage_vertex(static_cast<std::int32_t>(stage));
         stage_table_.push_back(tables.table_of(target));
@@ -45,24 +47,24 @@ UntimedPibt::UntimedPibt(const Problem& problem, StepTables& tables, std::uint32
 }
 
 std::int32_t UntimedPibt::way(const Configuration& now, RobotId robot, VertexId vertex) const {
-    return tables_.steps(stage_table_[now.stage[robot]], vertex);
+    return tables_.steps(stage_table_[index(now.stage[index(robot)])], vertex);
 }
 
 void UntimedPibt::fix(RobotId robot, VertexId vertex) { fixed_.push_back({robot, vertex}); }
 
 bool UntimedPibt::step(const Configuration& now, std::span<const RobotId> order) {
     for (RobotId r = 0; r < problem_.n_robots(); ++r) {
-        here_[now.at[r]] = r;
-        next_[r] = nowhere;
+        here_[index(now.at[index(r)])] = r;
+        next_[index(r)] = nowhere;
     }
     const bool found = take_fixed(now) && std::all_of(order.begin(), order.end(), [&](RobotId r) {
-                           return next_[r] != nowhere || choose(now, r);
+                           return next_[index(r)] != nowhere || choose(now, r);
                        });
     const bool is_good = found && (problem_.may_rotate() || !closes_rotation(now));
     for (RobotId r = 0; r < problem_.n_robots(); ++r) {
-        here_[now.at[r]] = nobody;
-        if (next_[r] != nowhere) {
-            comes_[next_[r]] = nobody;
+        here_[index(now.at[index(r)])] = nobody;
+        if (next_[index(r)] != nowhere) {
+            comes_[index(next_[index(r)])] = nobody;
         }
     }
     fixed_.clear();
@@ -71,7 +73,7 @@ bool UntimedPibt::step(const Configuration& now, std::span<const RobotId> order)
 
 bool UntimedPibt::take_fixed(const Configuration& now) {
     return std::all_of(fixed_.begin(), fixed_.end(), [&](const Fixed& fixed) {
-        if (comes_[fixed.vertex] != nobody || is_swap(now, fixed.robot, fixed.vertex)) {
+        if (comes_[index(fixed.vertex)] != nobody || is_swap(now, fixed.robot, fixed.vertex)) {
             return false;
         }
         take(fixed.robot, fixed.vertex);
@@ -81,13 +83,13 @@ bool UntimedPibt::take_fixed(const Configuration& now) {
 
 // Whether the robot at the vertex moves to this robot's vertex.
 bool UntimedPibt::is_swap(const Configuration& now, RobotId robot, VertexId vertex) const {
-    const RobotId other = here_[vertex];
-    return other != nobody && other != robot && next_[other] == now.at[robot];
+    const RobotId other = here_[index(vertex)];
+    return other != nobody && other != robot && next_[index(other)] == now.at[index(robot)];
 }
 
 void UntimedPibt::take(RobotId robot, VertexId vertex) {
-    comes_[vertex] = robot;
-    next_[robot] = vertex;
+    comes_[index(vertex)] = robot;
+    next_[index(robot)] = vertex;
 }
 
 // A robot that is pushed chooses before the robot that pushes it. The chain of pushes is as long as
@@ -101,12 +103,12 @@ bool UntimedPibt::choose(const Configuration& now, RobotId robot) {
         // Where the robot that was pushed stays, its place is occupied.
         while (!found && pushed == nobody && frame.next < frame.end) {
             const VertexId place = places_[frame.next++];
-            const RobotId other = here_[place];
-            if (comes_[place] != nobody || is_swap(now, frame.robot, place)) {
+            const RobotId other = here_[index(place)];
+            if (comes_[index(place)] != nobody || is_swap(now, frame.robot, place)) {
                 continue;
             }
             take(frame.robot, place);
-            found = other == nobody || other == frame.robot || next_[other] != nowhere;
+            found = other == nobody || other == frame.robot || next_[index(other)] != nowhere;
             pushed = found ? nobody : other;
         }
         if (pushed != nobody) {
@@ -116,7 +118,7 @@ bool UntimedPibt::choose(const Configuration& now, RobotId robot) {
         if (found) {
             pull_partner(now, frame);
         } else {
-            take(frame.robot, now.at[frame.robot]);
+            take(frame.robot, now.at[index(frame.robot)]);
         }
         places_.resize(frame.first);
         frames_.pop_back();
@@ -138,11 +140,11 @@ void UntimedPibt::begin(const Configuration& now, RobotId robot) {
 
 // Lets the partner follow a robot that took its first candidate.
 void UntimedPibt::pull_partner(const Configuration& now, const Frame& frame) {
-    const VertexId here = now.at[frame.robot];
-    const VertexId place = next_[frame.robot];
+    const VertexId here = now.at[index(frame.robot)];
+    const VertexId place = next_[index(frame.robot)];
     const bool pulls = frame.partner != nobody && place == places_[frame.first] && place != here;
-    if (pulls && next_[frame.partner] == nowhere && comes_[here] == nobody &&
-        has(problem_.graph().heads(now.at[frame.partner]), here)) {
+    if (pulls && next_[index(frame.partner)] == nowhere && comes_[index(here)] == nobody &&
+        has(problem_.graph().heads(now.at[index(frame.partner)]), here)) {
         take(frame.partner, here);
     }
 }
@@ -150,18 +152,18 @@ void UntimedPibt::pull_partner(const Configuration& now, const Frame& frame) {
 // Pushes all candidates, nearest to the robot's stage first; ties are random.
 void UntimedPibt::push_places_by_distance(const Configuration& now, RobotId robot) {
     const auto first = static_cast<std::ptrdiff_t>(places_.size());
-    const auto heads = problem_.graph().heads(now.at[robot]);
+    const auto heads = problem_.graph().heads(now.at[index(robot)]);
     places_.insert(places_.end(), heads.begin(), heads.end());
-    places_.push_back(now.at[robot]);
+    places_.push_back(now.at[index(robot)]);
     for (auto place = places_.begin() + first; place != places_.end(); ++place) {
-        tie_[*place] = static_cast<std::uint32_t>(draw_());
+        tie_[index(*place)] = static_cast<std::uint32_t>(draw_());
     }
     std::sort(places_.begin() + first, places_.end(), [&](VertexId left, VertexId right) {
         const auto way_left = way(now, robot, left);
         const auto way_right = way(now, robot, right);
-        return way_left != way_right       ? way_left < way_right
-               : tie_[left] != tie_[right] ? tie_[left] < tie_[right]
-                                           : left < right;
+        return way_left != way_right                     ? way_left < way_right
+               : tie_[index(left)] != tie_[index(right)] ? tie_[index(left)] < tie_[index(right)]
+                                                         : left < right;
     });
 }
 
@@ -170,11 +172,12 @@ bool UntimedPibt::closes_rotation(const Configuration& now) const {
     std::vector<RobotId> seen(next_.size(), nobody);  // first robot of the walk
     for (RobotId first = 0; first < problem_.n_robots(); ++first) {
         RobotId robot = first;
-        while (robot != nobody && seen[robot] == nobody) {
-            seen[robot] = first;
-            robot = next_[robot] == now.at[robot] ? nobody : here_[next_[robot]];
+        while (robot != nobody && seen[index(robot)] == nobody) {
+            seen[index(robot)] = first;
+            robot = next_[index(robot)] == now.at[index(robot)] ? nobody
+                                                                : here_[index(next_[index(robot)])];
         }
-        if (robot != nobody && seen[robot] == first) {
+        if (robot != nobody && seen[index(robot)] == first) {
             return true;
         }
     }

@@ -32,9 +32,9 @@ struct Configuration {
 
 // Advances a robot to its first stage not reached; a robot keeps its last stage for ever.
 inline void advance(const Problem& problem, Configuration& now, RobotId robot) {
-    while (!problem.is_last(robot, now.stage[robot]) &&
-           problem.stage_vertex(now.stage[robot]) == now.at[robot]) {
-        ++now.stage[robot];
+    while (!problem.is_last(robot, now.stage[index(robot)]) &&
+           problem.stage_vertex(now.stage[index(robot)]) == now.at[index(robot)]) {
+        ++now.stage[index(robot)];
     }
 }
 
@@ -43,9 +43,9 @@ inline void advance(const Problem& problem, Configuration& now, RobotId robot) {
 inline bool is_goal(const Problem& problem, std::span<const std::uint8_t> ends_anywhere,
                     const Configuration& now) {
     for (RobotId r = 0; r < problem.n_robots(); ++r) {
-        const bool is_there = problem.stage_vertex(now.stage[r]) == now.at[r] ||
-                              (!ends_anywhere.empty() && ends_anywhere[r] != 0);
-        if (!problem.is_last(r, now.stage[r]) || !is_there) {
+        const bool is_there = problem.stage_vertex(now.stage[index(r)]) == now.at[index(r)] ||
+                              (!ends_anywhere.empty() && ends_anywhere[index(r)] != 0);
+        if (!problem.is_last(r, now.stage[index(r)]) || !is_there) {
             return false;
         }
     }

@@ -78,7 +78,7 @@ Tracks FleetPlan::tracks() const {
 }
 
 void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
-    TimedTrack& own = tracks_[static_cast<std::size_t>(robot)];
+    TimedTrack& own = tracks_[index(robot)];
     for (std::size_t k = 0; k < own.visits.size(); ++k) {
         for_each_row(robot, own, k, [&](std::int32_t row, const Booking& time) {
             for_each_mark(row,
@@ -103,7 +103,7 @@ void FleetPlan::retime(const StopCondition& interrupt) {
         TimedTrack one = track(robot);
         for (std::size_t k = 0; k < one.visits.size(); ++k) {
             poll();
-            one.visits[k].enter = all.enter[static_cast<std::size_t>(all.first_visit[robot]) + k];
+            one.visits[k].enter = all.enter[index(all.first_visit[index(robot)]) + k];
         }
         one.cost = completion(problem_->itinerary(robot), one.visits) + surcharges(one.visits);
         retimed.exchange(robot, one);
@@ -113,7 +113,7 @@ void FleetPlan::retime(const StopCondition& interrupt) {
 
 void FleetPlan::hold_home(RobotId robot, Tick until) {
     const std::int32_t row = problem_->vertex_row(robot, problem_->home(robot));
-    Tick& held = held_[static_cast<std::size_t>(robot)];
+    Tick& held = held_[index(robot)];
     if (held > 0) {
         for_each_mark(row, [&](std::int32_t mark) { bookings_.erase(mark, 0, robot); });
     }
@@ -132,9 +132,10 @@ void FleetPlan::meet(RobotId robot, const TimedTrack& track, const Found& found)
         for_each_row(robot, track, k, [&](std::int32_t row, const Booking& time) {
             const auto there = bookings_.at(row);
             for (std::int32_t j = BookingTable::started(there, time.end - 1);
-                 j > 0 && there[j - 1].reach > time.start && !is_over; --j) {
-                is_over = there[j - 1].robot != robot && there[j - 1].time.end > time.start &&
-                          found(there[j - 1].robot);
+                 j > 0 && there[index(j - 1)].reach > time.start && !is_over; --j) {
+                is_over = there[index(j - 1)].robot != robot &&
+                          there[index(j - 1)].time.end > time.start &&
+                          found(there[index(j - 1)].robot);
             }
         });
         if (!may_swap || k == 0) {
@@ -144,12 +145,13 @@ void FleetPlan::meet(RobotId robot, const TimedTrack& track, const Found& found)
         const auto here = bookings_.at(track.visits[k].vertex);
         const auto before = bookings_.at(track.visits[k - 1].vertex);
         for (std::int32_t i = BookingTable::started(before, own.start);
-             i > 0 && before[i - 1].time.start == own.start; --i) {
+             i > 0 && before[index(i - 1)].time.start == own.start; --i) {
             for (std::int32_t j = BookingTable::started(here, own.start);
-                 j > 0 && here[j - 1].reach >= own.start; --j) {
-                if (here[j - 1].time.end == own.start && here[j - 1].robot != robot &&
-                    here[j - 1].robot != nobody && here[j - 1].robot == before[i - 1].robot &&
-                    found(here[j - 1].robot)) {
+                 j > 0 && here[index(j - 1)].reach >= own.start; --j) {
+                if (here[index(j - 1)].time.end == own.start && here[index(j - 1)].robot != robot &&
+                    here[index(j - 1)].robot != nobody &&
+                    here[index(j - 1)].robot == before[index(i - 1)].robot &&
+                    found(here[index(j - 1)].robot)) {
                     return;
                 }
             }

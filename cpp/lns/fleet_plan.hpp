@@ -23,9 +23,7 @@ class FleetPlan {
 
     RobotId n_robots() const { return problem_->n_robots(); }
     const BookingTable& bookings() const { return bookings_; }
-    const TimedTrack& track(RobotId robot) const {
-        return tracks_[static_cast<std::size_t>(robot)];
-    }
+    const TimedTrack& track(RobotId robot) const { return tracks_[index(robot)]; }
     bool has_track(RobotId robot) const { return !track(robot).visits.empty(); }
     Tick cost() const { return cost_; }  // of all tracks: flowtime and surcharges
     Tracks tracks() const;

@@ -107,7 +107,7 @@ void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
         task.tracks[k].visits.clear();
         task.tracks[k].cost = 0;
         worker.plan.exchange(task.robots[k], task.tracks[k]);
-        slack += task.tracks[k].cost - alone_[static_cast<std::size_t>(task.robots[k])];
+        slack += task.tracks[k].cost - alone_[index(task.robots[k])];
     }
     const auto restore = [&] {
         for (std::size_t k = 0; k < n; ++k) {
@@ -128,7 +128,7 @@ void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
 // Gives the robots of a task new tracks in the worker's plan, one after another.
 bool Lns::find_tracks(Worker& worker, const Task& task, Tick& slack, const StopCondition& is_over) {
     for (const RobotId robot : task.robots) {
-        const Tick alone = alone_[static_cast<std::size_t>(robot)];
+        const Tick alone = alone_[index(robot)];
         const SearchRequest errand{
             worker.reader.read(robot), worker.plan.bookings(), {}, alone + slack};
         if (worker.search.run(errand, is_over) != SearchEnd::found) {
@@ -163,7 +163,7 @@ void Lns::settle(std::size_t n) {
 bool Lns::adopt(Task& task, bool may_clash) {
     const std::size_t n = task.robots.size();
     for (const RobotId robot : task.robots) {
-        if (is_touched_[static_cast<std::size_t>(robot)] != 0) {
+        if (is_touched_[index(robot)] != 0) {
             return false;
         }
     }
@@ -185,7 +185,7 @@ bool Lns::adopt(Task& task, bool may_clash) {
             replica.exchange(task.robots[k], old[k]);
         }
         plan_.exchange(task.robots[k], task.tracks[k]);
-        is_touched_[static_cast<std::size_t>(task.robots[k])] = 1;
+        is_touched_[index(task.robots[k])] = 1;
     }
     return true;
 }

@@ -25,7 +25,7 @@ Neighbourhoods::Neighbourhoods(SharedDistances& distances, const FleetPlan& plan
 const std::vector<RobotId>& Neighbourhoods::choose(NeighbourhoodKind kind, std::size_t size,
                                                    Random& random) {
     for (const RobotId robot : chosen_) {
-        is_chosen_[static_cast<std::size_t>(robot)] = 0;
+        is_chosen_[index(robot)] = 0;
     }
     chosen_.clear();
     size = std::min(size, is_chosen_.size());
@@ -52,7 +52,7 @@ const std::vector<RobotId>& Neighbourhoods::choose(NeighbourhoodKind kind, std::
 }
 
 void Neighbourhoods::add(RobotId robot) {
-    auto& is_chosen = is_chosen_[static_cast<std::size_t>(robot)];
+    auto& is_chosen = is_chosen_[index(robot)];
     if (is_chosen == 0) {
         is_chosen = 1;
         chosen_.push_back(robot);
@@ -64,9 +64,9 @@ void Neighbourhoods::add(RobotId robot) {
 void Neighbourhoods::add_all(VertexId vertex, Tick start, Tick end, std::size_t size) {
     const auto here = plan_.bookings().at(problem_.vertex_row(chosen_.front(), vertex));
     for (std::int32_t k = BookingTable::started(here, end - 1);
-         k > 0 && here[k - 1].reach > start && chosen_.size() < size; --k) {
-        if (here[k - 1].time.end > start && here[k - 1].robot != nobody) {
-            add(here[k - 1].robot);
+         k > 0 && here[index(k - 1)].reach > start && chosen_.size() < size; --k) {
+        if (here[index(k - 1)].time.end > start && here[index(k - 1)].robot != nobody) {
+            add(here[index(k - 1)].robot);
         }
     }
 }
@@ -89,7 +89,7 @@ RobotId Neighbourhoods::late_robot(Random& random) {
     }
     Tick left = static_cast<Tick>(random.below(static_cast<std::size_t>(all - bound)));
     RobotId robot = 0;
-    while ((left -= plan_.track(robot).cost - alone_[static_cast<std::size_t>(robot)]) >= 0) {
+    while ((left -= plan_.track(robot).cost - alone_[index(robot)]) >= 0) {
         ++robot;
     }
     return robot;
@@ -106,7 +106,7 @@ void Neighbourhoods::blockers(std::size_t size, Random& random) {
     for (std::int32_t walk = 0; walk < walks && chosen_.size() < size; ++walk) {
         const std::size_t first = random.below(visits.size());
         VertexId place = visits[first].vertex;
-        auto stage = static_cast<std::size_t>(stage_of_[first]);
+        auto stage = index(stage_of_[first]);
         if (stage == trip.n_stages() || first + 1 == visits.size()) {
             continue;
         }
@@ -127,9 +127,10 @@ void Neighbourhoods::blockers(std::size_t size, Random& random) {
             VertexId next = -1;
             std::int32_t drive = 0;
             std::size_t n_ways = 0;
-            for (EdgeId e = roads.graph.indptr[place]; e < roads.graph.indptr[place + 1]; ++e) {
-                const std::int32_t ticks = trip.pace[roads.length_class[e]];
-                const VertexId head = roads.graph.indices[e];
+            for (EdgeId e = roads.graph.indptr[index(place)];
+                 e < roads.graph.indptr[index(place + 1)]; ++e) {
+                const std::int32_t ticks = trip.pace[index(roads.length_class[index(e)])];
+                const VertexId head = roads.graph.indices[index(e)];
                 const Tick rest = trip.to_stage[stage].from(head);
                 if (ticks != barred && rest >= 0 && rest + ticks == way &&
                     random.below(++n_ways) == 0) {
@@ -156,7 +157,7 @@ void Neighbourhoods::delay(std::size_t size, Random& random) {
     for (std::int32_t walk = 0; walk < walks && chosen_.size() < size; ++walk) {
         const std::size_t first = random.below(track.visits.size());
         VertexId place = track.visits[first].vertex;
-        const auto stage = static_cast<std::size_t>(stage_of_[first]);
+        const auto stage = index(stage_of_[first]);
         if (stage == trip.n_stages()) {
             continue;
         }
@@ -169,9 +170,10 @@ void Neighbourhoods::delay(std::size_t size, Random& random) {
             VertexId next = -1;
             std::int32_t drive = 0;
             std::size_t n_ways = 0;
-            for (EdgeId e = roads.graph.indptr[place]; e < roads.graph.indptr[place + 1]; ++e) {
-                const std::int32_t ticks = trip.pace[roads.length_class[e]];
-                const VertexId head = roads.graph.indices[e];
+            for (EdgeId e = roads.graph.indptr[index(place)];
+                 e < roads.graph.indptr[index(place + 1)]; ++e) {
+                const std::int32_t ticks = trip.pace[index(roads.length_class[index(e)])];
+                const VertexId head = roads.graph.indices[index(e)];
                 const Tick rest = trip.to_stage[stage].from(head);
                 if (ticks != barred && rest >= 0 && now + ticks + rest < until &&
                     random.below(++n_ways) == 0) {
@@ -225,14 +227,15 @@ void Neighbourhoods::segment(std::size_t size, Random& random) {
         const std::int32_t from = std::max(now - 8, 0);
         const std::int32_t to = std::min(now + 8, static_cast<std::int32_t>(here.size()));
         for (std::int32_t j = from; j < to; ++j) {
-            const BookedBy& one = here[j];
+            const BookedBy& one = here[index(j)];
             if (one.robot == robot || one.robot == nobody) {
                 continue;
             }
             // The robot that was at the next vertex just before.
             std::int32_t i = BookingTable::started(there, one.time.start);
-            for (; i > 0 && there[i - 1].reach >= one.time.start; --i) {
-                if (there[i - 1].robot == one.robot && there[i - 1].time.end >= one.time.start) {
+            for (; i > 0 && there[index(i - 1)].reach >= one.time.start; --i) {
+                if (there[index(i - 1)].robot == one.robot &&
+                    there[index(i - 1)].time.end >= one.time.start) {
                     opposite.emplace_back(std::abs(one.time.start - visits[k].enter), one.robot);
                     break;
                 }

@@ -47,12 +47,12 @@ std::vector<RobotId> grow(const FleetPlan& plan, const FleetPlan& mate, RobotId 
     std::vector<RobotId> group{first};
     std::vector<RobotId> open{first};
     std::vector<std::uint8_t> is_known(static_cast<std::size_t>(plan.n_robots()), 0);
-    is_known[static_cast<std::size_t>(first)] = 1;
+    is_known[index(first)] = 1;
     std::vector<RobotId> met;
     const auto add_all = [&] {
         for (const RobotId robot : met) {
-            if (is_known[static_cast<std::size_t>(robot)] == 0 && group.size() < size) {
-                is_known[static_cast<std::size_t>(robot)] = 1;
+            if (is_known[index(robot)] == 0 && group.size() < size) {
+                is_known[index(robot)] = 1;
                 group.push_back(robot);
                 open.push_back(robot);
             }

@@ -35,7 +35,7 @@ Prioritized::Prioritized(SharedDistances& distances, FleetPlan& plan, const Trac
       expected_(prices_.size()),
       next_raise_(prices.states_between_raises) {
     for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
-        prices_[static_cast<std::size_t>(robot)] = prices.first * first_hold(robot);
+        prices_[index(robot)] = prices.first * first_hold(robot);
     }
 }
 
@@ -44,7 +44,7 @@ Tick Prioritized::first_hold(RobotId robot) const {
 }
 
 void Prioritized::keep_home(RobotId robot) {
-    const Tick holds = 1 + n_lost_[static_cast<std::size_t>(robot)];
+    const Tick holds = 1 + n_lost_[index(robot)];
     plan_.hold_home(robot, holds * first_hold(robot));
 }
 
@@ -52,7 +52,7 @@ void Prioritized::start(std::span<const RobotId> order) {
     waiting_.assign(order.begin(), order.end());
     for (const RobotId robot : order) {
         keep_home(robot);
-        Tick& expected = expected_[static_cast<std::size_t>(robot)];
+        Tick& expected = expected_[index(robot)];
         expected = distances_.alone(robot);
         outlook_ += expected;
     }
@@ -83,7 +83,7 @@ bool Prioritized::place(RobotId robot, const StopCondition& is_over) {
         }
         evict_those_met();
     }
-    Tick& expected = expected_[static_cast<std::size_t>(robot)];
+    Tick& expected = expected_[index(robot)];
     outlook_ += track_.cost - expected;
     expected = track_.cost;
     plan_.exchange(robot, track_);
@@ -133,10 +133,9 @@ void Prioritized::evict(RobotId robot) {
     TimedTrack no_track;
     plan_.exchange(robot, no_track);
     const Tick dearer = track_prices_.dearer * first_hold(robot);
-    prices_[static_cast<std::size_t>(robot)] +=
-        static_cast<Tick>(level_ * static_cast<double>(dearer));
+    prices_[index(robot)] += static_cast<Tick>(level_ * static_cast<double>(dearer));
     keep_home(robot);
-    ++n_lost_[static_cast<std::size_t>(robot)];
+    ++n_lost_[index(robot)];
     waiting_.push_back(robot);
 }
 

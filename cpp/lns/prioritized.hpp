@@ -68,7 +68,7 @@ class Prioritized {
     void raise_prices();
     void keep_home(RobotId robot);
     Tick first_hold(RobotId robot) const;
-    bool has_lost(RobotId robot) const { return n_lost_[static_cast<std::size_t>(robot)] > 0; }
+    bool has_lost(RobotId robot) const { return n_lost_[index(robot)] > 0; }
 
     SharedDistances& distances_;
     const Problem& problem_;

@@ -38,7 +38,7 @@ template <class Value>
 template <class Key, class OtherKey>
 ConflictIndex::Groups<Value>::Groups(const Routes& routes, std::vector<VisitId> visits, Key key,
                                      OtherKey other_key)
-    : slot_of(routes.n_visits(), none) {
+    : slot_of(static_cast<std::size_t>(routes.n_visits()), none) {
     std::stable_sort(visits.begin(), visits.end(),
                      [&](VisitId left, VisitId right) { return key(left) < key(right); });
     const auto place = [&](auto visit) {
@@ -54,7 +54,7 @@ ConflictIndex::Groups<Value>::Groups(const Routes& routes, std::vector<VisitId> 
             std::partition_point(begin, end, [&](VisitId y) { return routes.robot(y) < robot; });
         const auto own_end =
             std::partition_point(own, end, [&](VisitId y) { return routes.robot(y) == robot; });
-        slot_of[x] = static_cast<std::int32_t>(slots.size());
+        slot_of[index(x)] = static_cast<std::int32_t>(slots.size());
         slots.push_back({Value{}, x, robot});
         others.push_back({place(begin), place(own), place(own_end), place(end)});
     }
@@ -88,8 +88,9 @@ ConflictIndex::ConflictIndex(const Routes& routes)
 }
 
 bool ConflictIndex::has(VisitId visit) const {
-    return routes_.has_sizes() ? stays_[visit].start != never
-                               : !bookings_.slots[bookings_.slot_of[visit]].value.is_empty();
+    return routes_.has_sizes()
+               ? stays_[index(visit)].start != never
+               : !bookings_.slots[index(bookings_.slot_of[index(visit)])].value.is_empty();
 }
 
 Tick ConflictIndex::add(VisitId visit, const Timetable& timetable) {
@@ -103,7 +104,7 @@ Tick ConflictIndex::add(VisitId visit, const Timetable& timetable) {
 Tick ConflictIndex::remove(VisitId visit) {
     const Tick removed = weight(visit);
     if (routes_.has_sizes()) {
-        stays_[visit] = {};
+        stays_[index(visit)] = {};
         return removed;
     }
     *bookings_.find(visit) = no_booking;
@@ -121,7 +122,7 @@ void ConflictIndex::move(VisitId visit, const Timetable& timetable) {
         const auto [start, end] = booked(visit, routes_, timetable);
         const Tick edge_start =
             routes_.is_last(visit) ? never : timetable.leave(visit) - routes_.approach(visit + 1);
-        stays_[visit] = {start, edge_start, end};
+        stays_[index(visit)] = {start, edge_start, end};
         return;
     }
     *bookings_.find(visit) = booked(visit, routes_, timetable);
@@ -134,8 +135,8 @@ template <class Use>
 void ConflictIndex::for_each_conflict(VisitId visit, Use&& use) const {
     if (routes_.has_sizes()) {
         for (const IncompatibleVisit& other : routes_.incompatible(visit)) {
-            const Booking own = stays_[visit].from(other.own_is_later != 0);
-            const Booking its = stays_[other.visit].from(other.is_later != 0);
+            const Booking own = stays_[index(visit)].from(other.own_is_later != 0);
+            const Booking its = stays_[index(other.visit)].from(other.is_later != 0);
             if (const Tick weight = overlap(own, its); weight > 0) {
                 use(Other{other.visit, routes_.robot(other.visit)}, std::max(own.start, its.start),
                     weight, ConflictKind::vertex);
@@ -143,16 +144,16 @@ void ConflictIndex::for_each_conflict(VisitId visit, Use&& use) const {
         }
         return;
     }
-    const Booking own = bookings_.slots[bookings_.slot_of[visit]].value;
+    const Booking own = bookings_.slots[index(bookings_.slot_of[index(visit)])].value;
     bookings_.for_each_other(visit, [&](const auto& other) {
         if (const Tick weight = overlap(own, other.value); weight > 0) {
             use(other, std::max(own.start, other.value.start), weight, ConflictKind::vertex);
         }
     });
-    if (enters_.slot_of[visit] == none) {
+    if (enters_.slot_of[index(visit)] == none) {
         return;
     }
-    const Tick enter = enters_.slots[enters_.slot_of[visit]].value;
+    const Tick enter = enters_.slots[index(enters_.slot_of[index(visit)])].value;
     enters_.for_each_other(visit, [&](const auto& other) {
         if (other.value == enter && enter != never) {
             use(other, enter, swap_weight, ConflictKind::swap);
@@ -172,7 +173,7 @@ Tick ConflictIndex::weight_where(VisitId visit, Accept&& accept) const {
 Tick ConflictIndex::weight(VisitId visit) const { return weight_where(visit, any_robot); }
 
 Tick ConflictIndex::weight(VisitId visit, std::span<const std::uint8_t> mask) const {
-    return weight_where(visit, [mask](RobotId robot) { return mask[robot] != 0; });
+    return weight_where(visit, [mask](RobotId robot) { return mask[index(robot)] != 0; });
 }
 
 template <class Accept>

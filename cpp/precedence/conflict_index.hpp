@@ -67,20 +67,21 @@ class ConflictIndex {
         Groups(const Routes& routes, std::vector<VisitId> visits, Key key, OtherKey other_key);
 
         Value* find(VisitId visit) {
-            return slot_of[visit] == none ? nullptr : &slots[slot_of[visit]].value;
+            return slot_of[index(visit)] == none ? nullptr
+                                                 : &slots[index(slot_of[index(visit)])].value;
         }
         // Calls use(slot) for each slot in the range of a visit.
         template <class Use>
         void for_each_other(VisitId visit, Use&& use) const {
-            if (slot_of[visit] == none) {
+            if (slot_of[index(visit)] == none) {
                 return;
             }
-            const Range& range = others[slot_of[visit]];
+            const Range& range = others[index(slot_of[index(visit)])];
             for (std::int32_t k = range.begin; k < range.own_begin; ++k) {
-                use(slots[k]);
+                use(slots[index(k)]);
             }
             for (std::int32_t k = range.own_end; k < range.end; ++k) {
-                use(slots[k]);
+                use(slots[index(k)]);
             }
         }
     };

@@ -10,18 +10,18 @@ EarliestConflicts::EarliestConflicts(const Routes& routes, const Timetable& time
     : routes_(routes),
       timetable_(timetable),
       index_(index),
-      looked_up_(routes.n_robots(), 0),
-      changed_(routes.n_robots(), 0) {
+      looked_up_(static_cast<std::size_t>(routes.n_robots()), 0),
+      changed_(static_cast<std::size_t>(routes.n_robots()), 0) {
     for (RobotId r = 0; r < routes.n_robots(); ++r) {
         forget(r);
     }
 }
 
 void EarliestConflicts::forget(RobotId robot) {
-    if (changed_[robot] <= looked_up_[robot]) {
+    if (changed_[index(robot)] <= looked_up_[index(robot)]) {
         to_look_up_.push_back(robot);
     }
-    changed_[robot] = ++now_;
+    changed_[index(robot)] = ++now_;
 }
 
 std::optional<Conflict> EarliestConflicts::next() {
@@ -36,7 +36,7 @@ std::optional<Conflict> EarliestConflicts::next() {
         }
         std::pop_heap(known_.begin(), known_.end(), std::greater<>());
         known_.pop_back();
-        if (top.at == looked_up_[top.robot]) {  // else a newer entry replaces this one
+        if (top.at == looked_up_[index(top.robot)]) {  // else a newer entry replaces this one
             look_up(top.robot);
         }
     }
@@ -44,12 +44,13 @@ std::optional<Conflict> EarliestConflicts::next() {
 }
 
 bool EarliestConflicts::is_current(const Known& known) const {
-    return known.at == looked_up_[known.robot] && changed_[known.conflict.robot_a] <= known.at &&
-           changed_[known.conflict.robot_b] <= known.at;
+    return known.at == looked_up_[index(known.robot)] &&
+           changed_[index(known.conflict.robot_a)] <= known.at &&
+           changed_[index(known.conflict.robot_b)] <= known.at;
 }
 
 void EarliestConflicts::look_up(RobotId robot) {
-    looked_up_[robot] = ++now_;
+    looked_up_[index(robot)] = ++now_;
     if (const auto found = search(robot, [this](VisitId x) { return index_.earliest(x); })) {
         known_.push_back({*found, now_, robot});
         std::push_heap(known_.begin(), known_.end(), std::greater<>());

@@ -41,11 +41,13 @@ IncompatibleVisits::IncompatibleVisits(std::span<const RobotId> robot, const Boo
         }
     }
     std::vector<std::vector<BookedBy>> booked(static_cast<std::size_t>(n_rows));
-    const auto rows_of = [&](VisitId x) { return std::array{rows.vertex[x], rows.edge[x]}; };
+    const auto rows_of = [&](VisitId x) {
+        return std::array{rows.vertex[index(x)], rows.edge[index(x)]};
+    };
     for (VisitId x = 0; x < n_visits; ++x) {
         for (std::uint8_t is_edge = 0; is_edge < 2; ++is_edge) {
             if (rows_of(x)[is_edge] != none) {
-                booked[rows_of(x)[is_edge]].push_back({x, is_edge});
+                booked[index(rows_of(x)[is_edge])].push_back({x, is_edge});
             }
         }
     }
@@ -59,9 +61,9 @@ IncompatibleVisits::IncompatibleVisits(std::span<const RobotId> robot, const Boo
             if (row == none) {
                 continue;
             }
-            for (std::int32_t k = rows.first[row]; k < rows.first[row + 1]; ++k) {
-                for (const BookedBy& other : booked[rows.excluded[k]]) {
-                    if (robot[other.visit] != robot[x]) {
+            for (std::int32_t k = rows.first[index(row)]; k < rows.first[index(row + 1)]; ++k) {
+                for (const BookedBy& other : booked[index(rows.excluded[index(k)])]) {
+                    if (robot[index(other.visit)] != robot[index(x)]) {
                         found.push_back({other.visit, other.is_edge, is_edge});
                     }
                 }

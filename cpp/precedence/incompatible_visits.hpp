@@ -44,7 +44,7 @@ class IncompatibleVisits {
 
     // Visits of other robots, in increasing order.
     std::span<const IncompatibleVisit> of(VisitId visit) const {
-        return {others_.data() + first_[visit], others_.data() + first_[visit + 1]};
+        return {others_.data() + first_[index(visit)], others_.data() + first_[index(visit + 1)]};
     }
 
   private:

@@ -103,9 +103,8 @@ bool PrecedenceGraph::keep_order(std::span<const Tick> when, const StopCondition
         reject("when", checkpoint(), "changes have been made already (keep an order first)");
     }
     for (VisitId x = 1; x < n_visits(); ++x) {
-        if (!routes_.is_first(x) && when[x] <= when[x - 1]) {
-            reject_entry("when", static_cast<std::size_t>(x), when[x],
-                         "is not after the visit before");
+        if (!routes_.is_first(x) && when[index(x)] <= when[index(x - 1)]) {
+            reject_entry("when", index(x), when[index(x)], "is not after the visit before");
         }
     }
     if (!timetable_.keep_order(when, interrupt)) {

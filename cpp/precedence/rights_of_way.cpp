@@ -6,16 +6,16 @@ namespace {
 void cut(std::int32_t& head, std::vector<std::int32_t>& next, std::int32_t right) {
     std::int32_t* link = &head;
     while (*link != right) {
-        link = &next[*link];
+        link = &next[index(*link)];
     }
-    *link = next[right];
+    *link = next[index(right)];
 }
 
 }  // namespace
 
 std::int32_t RightsOfWay::find(VisitId first, VisitId second) const {
-    for (std::int32_t k = latest_of_first_[first]; k != none; k = next_of_first_[k]) {
-        if (rights_[k].second == second) {
+    for (std::int32_t k = latest_of_first_[index(first)]; k != none; k = next_of_first_[index(k)]) {
+        if (rights_[index(k)].second == second) {
             return k;
         }
     }
@@ -41,19 +41,19 @@ void RightsOfWay::forget_latest() {
 }
 
 void RightsOfWay::link(std::int32_t right) {
-    const auto& [first, second] = rights_[right];
-    next_of_first_[right] = latest_of_first_[first];
-    latest_of_first_[first] = right;
-    next_of_second_[right] = latest_of_second_[second];
-    latest_of_second_[second] = right;
-    holds_[right] = 1;
+    const auto& [first, second] = rights_[index(right)];
+    next_of_first_[index(right)] = latest_of_first_[index(first)];
+    latest_of_first_[index(first)] = right;
+    next_of_second_[index(right)] = latest_of_second_[index(second)];
+    latest_of_second_[index(second)] = right;
+    holds_[index(right)] = 1;
 }
 
 void RightsOfWay::unlink(std::int32_t right) {
-    const auto& [first, second] = rights_[right];
-    cut(latest_of_first_[first], next_of_first_, right);
-    cut(latest_of_second_[second], next_of_second_, right);
-    holds_[right] = 0;
+    const auto& [first, second] = rights_[index(right)];
+    cut(latest_of_first_[index(first)], next_of_first_, right);
+    cut(latest_of_second_[index(second)], next_of_second_, right);
+    holds_[index(right)] = 0;
 }
 
 std::vector<RightOfWay> RightsOfWay::list() const {

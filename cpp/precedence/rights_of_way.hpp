@@ -20,7 +20,8 @@ struct RightOfWay {
 class RightsOfWay {
   public:
     explicit RightsOfWay(VisitId n_visits)
-        : latest_of_first_(n_visits, none), latest_of_second_(n_visits, none) {}
+        : latest_of_first_(static_cast<std::size_t>(n_visits), none),
+          latest_of_second_(static_cast<std::size_t>(n_visits), none) {}
 
     // The number of the right of way of one visit over another, or `none`.
     std::int32_t find(VisitId first, VisitId second) const;
@@ -36,14 +37,16 @@ class RightsOfWay {
     // Calls use(visit) for each visit over which `first` has the right of way; and vice versa.
     template <class Use>
     void for_each_second(VisitId first, Use&& use) const {
-        for (std::int32_t k = latest_of_first_[first]; k != none; k = next_of_first_[k]) {
-            use(rights_[k].second);
+        for (std::int32_t k = latest_of_first_[index(first)]; k != none;
+             k = next_of_first_[index(k)]) {
+            use(rights_[index(k)].second);
         }
     }
     template <class Use>
     void for_each_first(VisitId second, Use&& use) const {
-        for (std::int32_t k = latest_of_second_[second]; k != none; k = next_of_second_[k]) {
-            use(rights_[k].first);
+        for (std::int32_t k = latest_of_second_[index(second)]; k != none;
+             k = next_of_second_[index(k)]) {
+            use(rights_[index(k)].first);
         }
     }
 

@@ -74,28 +74,28 @@ void Routes::number_robots() {
         const VisitId first = first_of(r);
         const VisitId end = last_of(r) + 1;
         std::fill(robot_.begin() + first, robot_.begin() + end, r);
-        longest_approach_[r] =
+        longest_approach_[index(r)] =
             *std::max_element(approach_.begin() + first, approach_.begin() + end);
     }
 }
 
 void Routes::check_robot(RobotId robot) const {
     for (VisitId x = first_of(robot); x <= last_of(robot); ++x) {
-        if (vertex_[x] < 0) {
-            reject_entry("vertex", x, vertex_[x], "is negative");
+        if (vertex_[index(x)] < 0) {
+            reject_entry("vertex", index(x), vertex_[index(x)], "is negative");
         }
-        if (!is_first(x) && vertex_[x] == vertex_[x - 1]) {
-            reject_entry("vertex", x, vertex_[x],
+        if (!is_first(x) && vertex_[index(x)] == vertex_[index(x - 1)]) {
+            reject_entry("vertex", index(x), vertex_[index(x)],
                          "is the vertex of the visit before it (make them one visit)");
         }
-        if (!is_last(x) && least_[x] <= 0) {
-            reject_entry("least", x, least_[x], "is not positive");
+        if (!is_last(x) && least_[index(x)] <= 0) {
+            reject_entry("least", index(x), least_[index(x)], "is not positive");
         }
-        if (approach_[x] < 0) {
-            reject_entry("approach", x, approach_[x], "is negative");
+        if (approach_[index(x)] < 0) {
+            reject_entry("approach", index(x), approach_[index(x)], "is negative");
         }
-        if (is_first(x) && approach_[x] != 0) {
-            reject_entry("approach", x, approach_[x], "must be 0 on a first visit");
+        if (is_first(x) && approach_[index(x)] != 0) {
+            reject_entry("approach", index(x), approach_[index(x)], "must be 0 on a first visit");
         }
     }
 }
@@ -103,10 +103,10 @@ void Routes::check_robot(RobotId robot) const {
 void Routes::check_horizon() const {
     Tick left = horizon;
     for (VisitId x = 0; x < n_visits(); ++x) {
-        const Tick least = is_last(x) ? 0 : least_[x];
-        for (const Tick duration : {least, headway_, approach_[x]}) {
+        const Tick least = is_last(x) ? 0 : least_[index(x)];
+        for (const Tick duration : {least, headway_, approach_[index(x)]}) {
             if (duration > left) {
-                reject_entry("least", x, least_[x],
+                reject_entry("least", index(x), least_[index(x)],
                              "and the durations before it add up beyond 2^60 (use a larger tick)");
             }
             left -= duration;

@@ -35,16 +35,16 @@ class Routes {
     RobotId n_robots() const { return static_cast<RobotId>(active_.size()); }
     VisitId n_visits() const { return static_cast<VisitId>(vertex_.size()); }
 
-    VisitId first_of(RobotId robot) const { return first_visit_[robot]; }
-    VisitId last_of(RobotId robot) const { return first_visit_[robot + 1] - 1; }
-    bool is_active(RobotId robot) const { return active_[robot] != 0; }
-    void deactivate(RobotId robot) { active_[robot] = 0; }
-    Tick longest_approach(RobotId robot) const { return longest_approach_[robot]; }
+    VisitId first_of(RobotId robot) const { return first_visit_[index(robot)]; }
+    VisitId last_of(RobotId robot) const { return first_visit_[index(robot + 1)] - 1; }
+    bool is_active(RobotId robot) const { return active_[index(robot)] != 0; }
+    void deactivate(RobotId robot) { active_[index(robot)] = 0; }
+    Tick longest_approach(RobotId robot) const { return longest_approach_[index(robot)]; }
 
-    RobotId robot(VisitId visit) const { return robot_[visit]; }
-    VertexId vertex(VisitId visit) const { return vertex_[visit]; }
-    Tick least(VisitId visit) const { return least_[visit]; }
-    Tick approach(VisitId visit) const { return approach_[visit]; }
+    RobotId robot(VisitId visit) const { return robot_[index(visit)]; }
+    VertexId vertex(VisitId visit) const { return vertex_[index(visit)]; }
+    Tick least(VisitId visit) const { return least_[index(visit)]; }
+    Tick approach(VisitId visit) const { return approach_[index(visit)]; }
     Tick headway() const { return headway_; }
     bool swaps_conflict() const { return swaps_conflict_; }
 
@@ -60,7 +60,7 @@ class Routes {
     bool is_last(VisitId visit) const { return visit == last_of(robot(visit)); }
 
     // The least ticks from one robot's leave to the enter of a later visit to the same vertex.
-    Tick gap_before(VisitId visit) const { return headway_ + approach_[visit]; }
+    Tick gap_before(VisitId visit) const { return headway_ + approach_[index(visit)]; }
 
     // True if the move into this visit can be half of a swap. With a headway or an approach, an
     // exchange at one instant is a vertex conflict instead.

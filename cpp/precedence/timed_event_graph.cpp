@@ -29,18 +29,18 @@ class Rows {
          std::span<const std::int32_t> to)
         : first_(static_cast<std::size_t>(arcs.n_nodes) + 1, 0), arcs_(from.size()) {
         for (const std::int32_t node : from) {
-            ++first_[static_cast<std::size_t>(node) + 1];
+            ++first_[index(node) + 1];
         }
         std::partial_sum(first_.begin(), first_.end(), first_.begin());
         std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
         for (std::size_t k = 0; k < from.size(); ++k) {
-            arcs_[next[static_cast<std::size_t>(from[k])]++] = {static_cast<std::int32_t>(k), to[k],
-                                                                arcs.height[k], arcs.length[k]};
+            arcs_[next[index(from[k])]++] = {static_cast<std::int32_t>(k), to[k], arcs.height[k],
+                                             arcs.length[k]};
         }
     }
 
     std::span<const Arc> of(std::int32_t node) const {
-        const auto k = static_cast<std::size_t>(node);
+        const auto k = index(node);
         return {arcs_.data() + first_[k], first_[k + 1] - first_[k]};
     }
 
@@ -82,8 +82,7 @@ class PolicyIteration {
         return length * best_.height - best_.length * height;
     }
     Tick worth_of(std::int32_t arc) const {
-        return worth(arcs_.length[static_cast<std::size_t>(arc)],
-                     arcs_.height[static_cast<std::size_t>(arc)]);
+        return worth(arcs_.length[index(arc)], arcs_.height[index(arc)]);
     }
 
     // Switches every node to a better arc, if any. From the last node to the first: a robot's
@@ -91,13 +90,12 @@ class PolicyIteration {
     bool improve() {
         bool is_changed = false;
         for (std::int32_t node = arcs_.n_nodes; node-- > 0;) {
-            Tick& own = value_[static_cast<std::size_t>(node)];
+            Tick& own = value_[index(node)];
             for (const Rows::Arc& arc : leaving_.of(node)) {
-                const Tick value =
-                    value_[static_cast<std::size_t>(arc.end)] + worth(arc.length, arc.height);
+                const Tick value = value_[index(arc.end)] + worth(arc.length, arc.height);
                 if (value > own) {
                     own = value;
-                    follows_[static_cast<std::size_t>(node)] = arc.number;
+                    follows_[index(node)] = arc.number;
                     is_changed = true;
                 }
             }
@@ -106,8 +104,8 @@ class PolicyIteration {
     }
 
     std::int32_t after(std::int32_t node) const {
-        const std::int32_t arc = follows_[static_cast<std::size_t>(node)];
-        return arc == none ? none : arcs_.head[static_cast<std::size_t>(arc)];
+        const std::int32_t arc = follows_[index(node)];
+        return arc == none ? none : arcs_.head[index(arc)];
     }
 
     // Walks along the policy from every node; a node reached twice in one walk is on a circuit.
@@ -118,11 +116,11 @@ class PolicyIteration {
         for (std::int32_t start = 0; start < arcs_.n_nodes; ++start) {
             ++walk;
             std::int32_t node = start;
-            while (node != none && seen_[static_cast<std::size_t>(node)] == 0) {
-                seen_[static_cast<std::size_t>(node)] = walk;
+            while (node != none && seen_[index(node)] == 0) {
+                seen_[index(node)] = walk;
                 node = after(node);
             }
-            if (node != none && seen_[static_cast<std::size_t>(node)] == walk) {
+            if (node != none && seen_[index(node)] == walk) {
                 is_found |= take_if_longer(node);
                 if (best_.height <= 0) {
                     return true;
@@ -136,10 +134,10 @@ class PolicyIteration {
         CriticalCircuit circuit{0, 0, {}};
         std::int32_t node = start;
         do {
-            const std::int32_t arc = follows_[static_cast<std::size_t>(node)];
+            const std::int32_t arc = follows_[index(node)];
             circuit.arcs.push_back(arc);
-            circuit.length += arcs_.length[static_cast<std::size_t>(arc)];
-            circuit.height += arcs_.height[static_cast<std::size_t>(arc)];
+            circuit.length += arcs_.length[index(arc)];
+            circuit.height += arcs_.height[index(arc)];
             node = after(node);
         } while (node != start);
         if (circuit.height <= 0) {
@@ -160,9 +158,9 @@ class PolicyIteration {
     // leads to the circuit, else by the fewest arcs. The other nodes follow no arc.
     void hang_on_circuit() {
         std::fill(seen_.begin(), seen_.end(), 0);
-        order_.assign(1, arcs_.head[static_cast<std::size_t>(best_.arcs.back())]);
-        seen_[static_cast<std::size_t>(order_.front())] = 1;
-        value_[static_cast<std::size_t>(order_.front())] = 0;
+        order_.assign(1, arcs_.head[index(best_.arcs.back())]);
+        seen_[index(order_.front())] = 1;
+        value_[index(order_.front())] = 0;
         hang(true);
         hang(false);
         for (std::size_t node = 0; node < seen_.size(); ++node) {
@@ -178,12 +176,11 @@ class PolicyIteration {
         for (std::size_t k = 0; k < order_.size(); ++k) {
             const std::int32_t node = order_[k];
             for (const Rows::Arc& arc : entering_.of(node)) {
-                const auto tail = static_cast<std::size_t>(arc.end);
+                const auto tail = index(arc.end);
                 if (seen_[tail] == 0 && (!by_policy || follows_[tail] == arc.number)) {
                     seen_[tail] = 1;
                     follows_[tail] = arc.number;
-                    value_[tail] =
-                        value_[static_cast<std::size_t>(node)] + worth(arc.length, arc.height);
+                    value_[tail] = value_[index(node)] + worth(arc.length, arc.height);
                     order_.push_back(arc.end);
                 }
             }
@@ -194,27 +191,26 @@ class PolicyIteration {
     void value_policy() {
         std::fill(seen_.begin(), seen_.end(), 0);
         for (const std::int32_t arc : best_.arcs) {
-            settle(arcs_.tail[static_cast<std::size_t>(arc)]);
+            settle(arcs_.tail[index(arc)]);
         }
         for (std::int32_t node = 0; node < arcs_.n_nodes; ++node) {
             order_.clear();
             std::int32_t next = node;
-            while (next != none && seen_[static_cast<std::size_t>(next)] == 0) {
+            while (next != none && seen_[index(next)] == 0) {
                 order_.push_back(next);
                 settle(next);
                 next = after(next);
             }
             for (std::size_t k = order_.size(); k-- > 0;) {
-                const auto one = static_cast<std::size_t>(order_[k]);
+                const auto one = index(order_[k]);
                 if (follows_[one] != none) {
-                    value_[one] = value_[static_cast<std::size_t>(after(order_[k]))] +
-                                  worth_of(follows_[one]);
+                    value_[one] = value_[index(after(order_[k]))] + worth_of(follows_[one]);
                 }
             }
         }
     }
 
-    void settle(std::int32_t node) { seen_[static_cast<std::size_t>(node)] = 1; }
+    void settle(std::int32_t node) { seen_[index(node)] = 1; }
 
     const TimedEventGraph& arcs_;
     Rows leaving_;
@@ -302,7 +298,7 @@ std::optional<std::vector<Tick>> earliest_times(const TimedEventGraph& arcs, Tic
             }
             is_later[node] = 0;
             for (const Rows::Arc& arc : leaving.of(static_cast<std::int32_t>(node))) {
-                const auto end = static_cast<std::size_t>(arc.end);
+                const auto end = index(arc.end);
                 const Tick earliest = time[node] + arc.length * parts - period * arc.height;
                 if (earliest > longest) {
                     return std::nullopt;  // a circuit above the period

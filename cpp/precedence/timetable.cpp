@@ -19,13 +19,13 @@ const StopCondition never_asked;  // empty
 Timetable::Timetable(const Routes& routes)
     : RaiseSearch(none),
       routes_(routes),
-      enter_(routes.n_visits(), 0),
+      enter_(static_cast<std::size_t>(routes.n_visits()), 0),
       rights_(routes.n_visits()),
-      raise_(routes.n_visits(), 0),
-      cause_(routes.n_visits(), none),
-      is_in_instant_(routes.n_visits(), 0) {
+      raise_(static_cast<std::size_t>(routes.n_visits()), 0),
+      cause_(static_cast<std::size_t>(routes.n_visits()), none),
+      is_in_instant_(static_cast<std::size_t>(routes.n_visits()), 0) {
     for (VisitId x = 0; x < routes_.n_visits(); ++x) {
-        enter_[x] = routes_.is_first(x) ? 0 : enter_[x - 1] + routes_.least(x - 1);
+        enter_[index(x)] = routes_.is_first(x) ? 0 : enter_[index(x - 1)] + routes_.least(x - 1);
     }
     Poll poll(never_asked);
     if (!recompute(poll)) {
@@ -47,7 +47,7 @@ bool Timetable::precede(VisitId a, VisitId b) {
         cycle_ = {b, source};
         return false;
     }
-    const Tick delta = enter_[source] + routes_.gap_before(b) - enter_[b];
+    const Tick delta = enter_[index(source)] + routes_.gap_before(b) - enter_[index(b)];
     if (delta > 0) {
         if (!spread(b, delta, source)) {
             explain(source);
@@ -64,16 +64,16 @@ bool Timetable::precede(VisitId a, VisitId b) {
         const bool is_possible = rise_above_closures(open, poll);
         trail_.insert(trail_.end(), risen_.begin(), risen_.end());
         for (const VisitId x : raised_) {
-            is_in_instant_[x] = 1;
+            is_in_instant_[index(x)] = 1;
         }
         const auto known = static_cast<std::ptrdiff_t>(raised_.size());
         for (const OldEnter& one : risen_) {
-            if (is_in_instant_[one.visit] == 0) {
+            if (is_in_instant_[index(one.visit)] == 0) {
                 raised_.push_back(one.visit);
             }
         }
         std::for_each(raised_.begin(), raised_.begin() + known,
-                      [this](VisitId x) { is_in_instant_[x] = 0; });
+                      [this](VisitId x) { is_in_instant_[index(x)] = 0; });
         if (!is_possible) {
             rollback(journal_.size() - 1);
             raised_.clear();
@@ -94,30 +94,31 @@ bool Timetable::rise_above_closures(std::vector<VisitId>& open, Poll& poll) {
         poll();
         const VisitId x = open.back();
         open.pop_back();
-        for_each_arc(x, [&](VisitId to, Tick length) { rise(to, enter_[x] + length, open); });
+        for_each_arc(x,
+                     [&](VisitId to, Tick length) { rise(to, enter_[index(x)] + length, open); });
         for (VisitId y = routes_.is_first(x) ? x : x - 1; y <= x && is_possible; ++y) {
             const Tick clear = routes_.is_active(routes_.robot(y)) ? clear_of_closures(y) : 0;
-            is_possible = clear <= enter_[y] || (clear < never && !routes_.is_first(y));
+            is_possible = clear <= enter_[index(y)] || (clear < never && !routes_.is_first(y));
             if (is_possible) {
                 rise(y, clear, open);
             }
         }
     }
     for (const OldEnter& one : risen_) {
-        raise_[one.visit] = 0;
+        raise_[index(one.visit)] = 0;
     }
     return is_possible;
 }
 
 void Timetable::rise(VisitId visit, Tick tick, std::vector<VisitId>& open) {
-    if (tick <= enter_[visit]) {
+    if (tick <= enter_[index(visit)]) {
         return;
     }
-    if (raise_[visit] == 0) {
-        raise_[visit] = 1;
-        risen_.push_back({visit, enter_[visit]});
+    if (raise_[index(visit)] == 0) {
+        raise_[index(visit)] = 1;
+        risen_.push_back({visit, enter_[index(visit)]});
     }
-    enter_[visit] = tick;
+    enter_[index(visit)] = tick;
     open.push_back(visit);
 }
 
@@ -126,8 +127,8 @@ Tick Timetable::clear_of_closures(VisitId visit) const {
     const VisitClosures& closed = routes_.closures();
     const Tick approach = routes_.approach(visit);
     const Tick drive = closed.drive(visit);
-    const Tick end = routes_.is_last(visit) ? never : enter_[visit + 1] + routes_.headway();
-    Tick enter = closed.free_at(visit, enter_[visit] - approach, end);
+    const Tick end = routes_.is_last(visit) ? never : enter_[index(visit + 1)] + routes_.headway();
+    Tick enter = closed.free_at(visit, enter_[index(visit)] - approach, end);
     enter = enter >= never ? never : enter + approach;
     if (!routes_.is_first(visit) && enter < never) {
         const Tick start = closed.free_along(visit, enter - drive, drive + routes_.headway());
@@ -144,7 +145,7 @@ bool Timetable::recompute(Poll& poll) {
     }
     std::vector<VisitId> all;
     for (VisitId x = routes_.n_visits() - 1; x >= 0; --x) {
-        enter_[x] = 0;
+        enter_[index(x)] = 0;
         all.push_back(x);
     }
     const bool is_possible = rise_above_closures(all, poll);
@@ -154,8 +155,8 @@ bool Timetable::recompute(Poll& poll) {
 
 void Timetable::find_changes(const std::vector<Tick>& before) {
     for (VisitId x = 0; x < routes_.n_visits(); ++x) {
-        if (enter_[x] != before[x]) {
-            trail_.push_back({x, before[x]});
+        if (enter_[index(x)] != before[index(x)]) {
+            trail_.push_back({x, before[index(x)]});
             raised_.push_back(x);
         }
     }
@@ -200,7 +201,7 @@ bool Timetable::give_in_order(std::span<const Tick> when, Poll& poll) {
             visits.push_back(x);
         }
     }
-    const auto key = [&](VisitId x) { return std::tuple(routes_.vertex(x), when[x], x); };
+    const auto key = [&](VisitId x) { return std::tuple(routes_.vertex(x), when[index(x)], x); };
     std::sort(visits.begin(), visits.end(), [&](VisitId x, VisitId y) {
         poll();
         return key(x) < key(y);
@@ -212,7 +213,7 @@ bool Timetable::give_in_order(std::span<const Tick> when, Poll& poll) {
         if (routes_.vertex(a) != routes_.vertex(b) || routes_.robot(a) == routes_.robot(b)) {
             continue;
         }
-        if (routes_.is_last(a) || routes_.is_first(b) || when[a + 1] > when[b] ||
+        if (routes_.is_last(a) || routes_.is_first(b) || when[index(a + 1)] > when[index(b)] ||
             closes_swap(a, b)) {
             return false;
         }
@@ -224,7 +225,7 @@ bool Timetable::give_in_order(std::span<const Tick> when, Poll& poll) {
 // The start of each visit gets, from each other robot, the latest visit that leaves before it, if
 // no earlier start of the same robot has it already.
 bool Timetable::give_incompatible_in_order(std::span<const Tick> when, Poll& poll) {
-    const auto leaves = [&](VisitId x) { return routes_.is_last(x) ? never : when[x + 1]; };
+    const auto leaves = [&](VisitId x) { return routes_.is_last(x) ? never : when[index(x + 1)]; };
     std::vector<VisitId> latest(static_cast<std::size_t>(routes_.n_robots()), none);
     std::vector<RobotId> met;
     std::vector<VisitId> firsts;
@@ -243,7 +244,7 @@ bool Timetable::give_incompatible_in_order(std::span<const Tick> when, Poll& pol
                         continue;
                     }
                     if (routes_.is_last(a) || routes_.is_first(b) || leaves(a) == leaves(x) ||
-                        when[a + 1] >= when[b]) {
+                        when[index(a + 1)] >= when[index(b)]) {
                         return false;
                     }
                     firsts.push_back(a);
@@ -251,7 +252,7 @@ bool Timetable::give_incompatible_in_order(std::span<const Tick> when, Poll& pol
             }
             std::sort(firsts.rbegin(), firsts.rend());
             for (const VisitId a : firsts) {
-                VisitId& known = latest[routes_.robot(a)];
+                VisitId& known = latest[index(routes_.robot(a))];
                 if (known == none) {
                     met.push_back(routes_.robot(a));
                 }
@@ -262,7 +263,7 @@ bool Timetable::give_incompatible_in_order(std::span<const Tick> when, Poll& pol
             }
         }
         for (const RobotId other : met) {
-            latest[other] = none;
+            latest[index(other)] = none;
         }
         met.clear();
     }
@@ -276,10 +277,11 @@ bool Timetable::sweep(std::span<const Tick> when, Poll& poll) {
     std::iota(in_order.begin(), in_order.end(), 0);
     std::sort(in_order.begin(), in_order.end(), [&](VisitId x, VisitId y) {
         poll();
-        return std::tuple(when[x], x) < std::tuple(when[y], y);
+        return std::tuple(when[index(x)], x) < std::tuple(when[index(y)], y);
     });
     for (std::size_t first = 0, end = 0; first < in_order.size(); first = end) {
-        while (end < in_order.size() && when[in_order[end]] == when[in_order[first]]) {
+        while (end < in_order.size() &&
+               when[index(in_order[end])] == when[index(in_order[first])]) {
             ++end;
         }
         std::size_t rounds_left = end - first + 1;
@@ -292,8 +294,8 @@ bool Timetable::sweep(std::span<const Tick> when, Poll& poll) {
                 poll();
                 const VisitId x = in_order[k];
                 const Tick held = routes_.is_first(x) ? 0 : held_to(x);
-                has_changed = has_changed || held > enter_[x];
-                enter_[x] = std::max(enter_[x], held);
+                has_changed = has_changed || held > enter_[index(x)];
+                enter_[index(x)] = std::max(enter_[index(x)], held);
             }
         }
     }
@@ -306,7 +308,7 @@ bool Timetable::take_back(VisitId a, VisitId b) {
     if (right == none) {
         return false;
     }
-    const bool was_tight = enter_[b] == enter_[a + 1] + routes_.gap_before(b);
+    const bool was_tight = enter_[index(b)] == enter_[index(a + 1)] + routes_.gap_before(b);
     rights_.take_back(right);
     if (routes_.closures().is_known()) {
         const std::vector<Tick> before = enter_;
@@ -341,11 +343,11 @@ void Timetable::lower(VisitId b) {
         gather_instant();
         lower_instant();
         for (const VisitId x : instant_) {
-            is_in_instant_[x] = 0;
-            if (raise_[x] < 0) {
+            is_in_instant_[index(x)] = 0;
+            if (raise_[index(x)] < 0) {
                 raised_.push_back(x);
                 for_each_arc(x, [this, x](VisitId next, Tick length) {
-                    if (length > 0 && enter_[next] == enter_[x] + length) {
+                    if (length > 0 && enter_[index(next)] == enter_[index(x)] + length) {
                         let_fall(next);  // held by x, at a later instant
                     }
                 });
@@ -358,28 +360,28 @@ void Timetable::lower(VisitId b) {
 void Timetable::let_fall(VisitId visit) {
     falling_.push_back(visit);
     std::push_heap(falling_.begin(), falling_.end(),
-                   [this](VisitId x, VisitId y) { return enter_[x] > enter_[y]; });
+                   [this](VisitId x, VisitId y) { return enter_[index(x)] > enter_[index(y)]; });
 }
 
 // Collects the visits that fall from the earliest instant, and visits held by them at this instant.
 void Timetable::gather_instant() {
     const auto add = [this](VisitId x) {
-        if (is_in_instant_[x] == 0) {
-            is_in_instant_[x] = 1;
+        if (is_in_instant_[index(x)] == 0) {
+            is_in_instant_[index(x)] = 1;
             instant_.push_back(x);
         }
     };
-    const Tick now = enter_[falling_.front()];
+    const Tick now = enter_[index(falling_.front())];
     instant_.clear();
-    while (!falling_.empty() && enter_[falling_.front()] == now) {
+    while (!falling_.empty() && enter_[index(falling_.front())] == now) {
         std::pop_heap(falling_.begin(), falling_.end(),
-                      [this](VisitId x, VisitId y) { return enter_[x] > enter_[y]; });
+                      [this](VisitId x, VisitId y) { return enter_[index(x)] > enter_[index(y)]; });
         add(falling_.back());
         falling_.pop_back();
     }
     for (std::size_t k = 0; k < instant_.size(); ++k) {
         rights_.for_each_second(instant_[k] - 1, [&](VisitId second) {
-            if (enter_[second] == now && routes_.gap_before(second) == 0) {
+            if (enter_[index(second)] == now && routes_.gap_before(second) == 0) {
                 add(second);
             }
         });
@@ -389,14 +391,15 @@ void Timetable::gather_instant() {
 // Lowers each visit to its bound from outside the instant, then raises visits held by one another.
 void Timetable::lower_instant() {
     for (const VisitId x : instant_) {
-        raise_[x] = held_to(x) - enter_[x];
+        raise_[index(x)] = held_to(x) - enter_[index(x)];
     }
     for (bool has_changed = true; has_changed;) {
         has_changed = false;
         for (const VisitId x : instant_) {
             rights_.for_each_second(x - 1, [&](VisitId second) {
-                if (is_in_instant_[second] != 0 && raise_[second] < raise_[x]) {
-                    raise_[second] = raise_[x];
+                if (is_in_instant_[index(second)] != 0 &&
+                    raise_[index(second)] < raise_[index(x)]) {
+                    raise_[index(second)] = raise_[index(x)];
                     has_changed = true;
                 }
             });
@@ -406,11 +409,12 @@ void Timetable::lower_instant() {
 
 // The bound of a visit from its route and the rights of way over it, outside the falling instant.
 Tick Timetable::held_to(VisitId visit) const {
-    Tick held = enter_[visit - 1] + raise_[visit - 1] + routes_.least(visit - 1);
+    Tick held = enter_[index(visit - 1)] + raise_[index(visit - 1)] + routes_.least(visit - 1);
     rights_.for_each_first(visit, [&](VisitId first) {
         const VisitId after = first + 1;
-        if (is_in_instant_[after] == 0) {
-            held = std::max(held, enter_[after] + raise_[after] + routes_.gap_before(visit));
+        if (is_in_instant_[index(after)] == 0) {
+            held = std::max(
+                held, enter_[index(after)] + raise_[index(after)] + routes_.gap_before(visit));
         }
     });
     return held;
@@ -418,9 +422,9 @@ Tick Timetable::held_to(VisitId visit) const {
 
 void Timetable::accept() {
     for (const VisitId x : raised_) {
-        trail_.push_back({x, enter_[x]});
-        enter_[x] += raise_[x];
-        raise_[x] = 0;
+        trail_.push_back({x, enter_[index(x)]});
+        enter_[index(x)] += raise_[index(x)];
+        raise_[index(x)] = 0;
     }
 }
 
@@ -446,13 +450,13 @@ std::vector<RightOfWay> Timetable::critical_rights(VisitId visit) const {
     for (VisitId x = visit; !routes_.is_first(x);) {
         const VisitId first = held_by(x, passed);
         const VisitId cause = first == none ? x - 1 : first + 1;
-        if (first == none && enter_[x] > enter_[x - 1] + routes_.least(x - 1)) {
+        if (first == none && enter_[index(x)] > enter_[index(x - 1)] + routes_.least(x - 1)) {
             break;  // a closure holds it
         }
         if (first != none) {
             rights.push_back({first, x});
         }
-        if (enter_[cause] < enter_[x]) {
+        if (enter_[index(cause)] < enter_[index(x)]) {
             passed.clear();
         }
         passed.push_back(cause);
@@ -464,9 +468,10 @@ std::vector<RightOfWay> Timetable::critical_rights(VisitId visit) const {
 // The visit with the right of way that a visit waited for; `none` without a wait.
 VisitId Timetable::held_by(VisitId visit, std::span<const VisitId> passed) const {
     VisitId found = none;
-    if (enter_[visit] > enter_[visit - 1] + routes_.least(visit - 1)) {
+    if (enter_[index(visit)] > enter_[index(visit - 1)] + routes_.least(visit - 1)) {
         rights_.for_each_first(visit, [&](VisitId first) {
-            const bool holds = enter_[visit] == enter_[first + 1] + routes_.gap_before(visit);
+            const bool holds =
+                enter_[index(visit)] == enter_[index(first + 1)] + routes_.gap_before(visit);
             const bool is_new = std::find(passed.begin(), passed.end(), first + 1) == passed.end();
             if (holds && is_new) {
                 found = std::max(found, first);
@@ -480,14 +485,14 @@ void Timetable::restore_enters(std::size_t trail_length) {
     while (trail_.size() > trail_length) {
         const OldEnter old = trail_.back();
         trail_.pop_back();
-        enter_[old.visit] = old.enter;
-        if (raise_[old.visit] == 0) {  // first time in this rollback
-            raise_[old.visit] = 1;
+        enter_[index(old.visit)] = old.enter;
+        if (raise_[index(old.visit)] == 0) {  // first time in this rollback
+            raise_[index(old.visit)] = 1;
             raised_.push_back(old.visit);
         }
     }
     for (const VisitId x : raised_) {
-        raise_[x] = 0;
+        raise_[index(x)] = 0;
     }
 }
 
@@ -514,8 +519,9 @@ void retime_with_sizes(const Problem& problem, std::span<const EdgeId> edge,
     std::vector<Latest> latest(static_cast<std::size_t>(problem.n_rows()));
     std::vector<Drive> drives;
     for (RobotId r = 0; r < problem.n_robots(); ++r) {
-        for (VisitId x = tracks.first_visit[r] + 1; x < tracks.first_visit[r + 1]; ++x) {
-            drives.push_back({tracks.enter[x] - approach[x], x, r});
+        for (VisitId x = tracks.first_visit[index(r)] + 1; x < tracks.first_visit[index(r + 1)];
+             ++x) {
+            drives.push_back({tracks.enter[index(x)] - approach[index(x)], x, r});
         }
     }
     std::sort(drives.begin(), drives.end(), [&](const Drive& left, const Drive& right) {
@@ -524,18 +530,19 @@ void retime_with_sizes(const Problem& problem, std::span<const EdgeId> edge,
     });
     for (const auto& [start, x, robot] : drives) {
         poll();
-        const std::int32_t along = problem.edge_row(robot, edge[x - 1]);
-        Tick enter = tracks.enter[x - 1] + least[x - 1];
-        for (const std::int32_t row : {problem.vertex_row(robot, tracks.vertex[x]), along}) {
-            const Latest& one = latest[row];
+        const std::int32_t along = problem.edge_row(robot, edge[index(x - 1)]);
+        Tick enter = tracks.enter[index(x - 1)] + least[index(x - 1)];
+        for (const std::int32_t row : {problem.vertex_row(robot, tracks.vertex[index(x)]), along}) {
+            const Latest& one = latest[index(row)];
             const Tick end = one.robot == robot ? one.end_of_others : one.end;
-            enter = std::max(enter, end + approach[x]);
+            enter = std::max(enter, end + approach[index(x)]);
         }
-        tracks.enter[x] = enter;
+        tracks.enter[index(x)] = enter;
         const Tick end = enter + problem.rules().headway;
-        for (const std::int32_t row : {problem.vertex_row(robot, tracks.vertex[x - 1]), along}) {
+        for (const std::int32_t row :
+             {problem.vertex_row(robot, tracks.vertex[index(x - 1)]), along}) {
             for (const std::int32_t mark : problem.excluded(row)) {
-                Latest& one = latest[mark];
+                Latest& one = latest[index(mark)];
                 if (one.robot == robot) {
                     one.end = std::max(one.end, end);
                 } else if (end > one.end) {
@@ -559,19 +566,22 @@ void retime(const Problem& problem, Tracks& tracks, const StopCondition& interru
         const Itinerary itinerary = problem.itinerary(r);
         std::size_t stage = 0;
         EdgeId before = -1;
-        for (VisitId x = tracks.first_visit[r]; x + 1 < tracks.first_visit[r + 1]; ++x) {
+        for (VisitId x = tracks.first_visit[index(r)]; x + 1 < tracks.first_visit[index(r + 1)];
+             ++x) {
             poll();
-            const EdgeId edge = problem.graph().edge(tracks.vertex[x], tracks.vertex[x + 1]);
+            const EdgeId edge =
+                problem.graph().edge(tracks.vertex[index(x)], tracks.vertex[index(x + 1)]);
             const Tick drive = problem.drive(r, edge);
             const Tick turn = itinerary.turns.between(before, edge);
-            const Tick spare = tracks.enter[x + 1] - tracks.enter[x] - drive - turn;
-            before = edges[x] = edge;
-            least[x] = turn + drive;
-            for (const std::size_t end = itinerary.stage_after(stage, tracks.vertex[x], spare);
+            const Tick spare = tracks.enter[index(x + 1)] - tracks.enter[index(x)] - drive - turn;
+            before = edges[index(x)] = edge;
+            least[index(x)] = turn + drive;
+            for (const std::size_t end =
+                     itinerary.stage_after(stage, tracks.vertex[index(x)], spare);
                  stage < end; ++stage) {
-                least[x] += itinerary.stage_work[stage] + itinerary.stage_turn[stage];
+                least[index(x)] += itinerary.stage_work[stage] + itinerary.stage_turn[stage];
             }
-            approach[x + 1] = problem.rules().books_ahead ? drive : 0;
+            approach[index(x + 1)] = problem.rules().books_ahead ? drive : 0;
         }
     }
     if (problem.has_sizes()) {

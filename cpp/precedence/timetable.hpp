@@ -31,8 +31,10 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     // Throws std::invalid_argument if closures leave the route of a robot no times.
     explicit Timetable(const Routes& routes);
 
-    Tick enter(VisitId visit) const { return enter_[visit]; }
-    Tick leave(VisitId visit) const { return routes_.is_last(visit) ? never : enter_[visit + 1]; }
+    Tick enter(VisitId visit) const { return enter_[index(visit)]; }
+    Tick leave(VisitId visit) const {
+        return routes_.is_last(visit) ? never : enter_[index(visit + 1)];
+    }
     std::span<const Tick> enters() const { return enter_; }
     std::vector<RightOfWay> rights_of_way() const { return rights_.list(); }
 
@@ -96,8 +98,8 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     bool give_in_order(std::span<const Tick> when, Poll& poll);
     bool give_incompatible_in_order(std::span<const Tick> when, Poll& poll);
     bool sweep(std::span<const Tick> when, Poll& poll);
-    Tick& raise(VisitId visit) { return raise_[visit]; }
-    VisitId& cause(VisitId visit) { return cause_[visit]; }
+    Tick& raise(VisitId visit) { return raise_[index(visit)]; }
+    VisitId& cause(VisitId visit) { return cause_[index(visit)]; }
     template <class Use>
     void for_each_arc(VisitId visit, Use&& use) const {
         if (!routes_.is_last(visit)) {

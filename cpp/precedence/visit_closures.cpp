@@ -34,8 +34,7 @@ VisitClosures::VisitClosures(const VisitClosureArrays& arrays, std::size_t n_vis
         closed_.push_back({arrays.from[k], arrays.until[k]});
     }
     for (std::size_t list = 0; list + 1 < first_.size(); ++list) {
-        for (auto k = static_cast<std::size_t>(first_[list]) + 1;
-             k < static_cast<std::size_t>(first_[list + 1]); ++k) {
+        for (auto k = index(first_[list]) + 1; k < index(first_[list + 1]); ++k) {
             if (arrays.from[k] < arrays.until[k - 1]) {
                 reject_entry("closed_from", k, arrays.from[k],
                              "is before the end of the closure before it");
@@ -45,9 +44,10 @@ VisitClosures::VisitClosures(const VisitClosureArrays& arrays, std::size_t n_vis
 }
 
 Tick VisitClosures::free(std::int32_t list, Tick start, Tick end) const {
-    for (std::int32_t k = first_[list]; k < first_[list + 1] && closed_[k].start < end; ++k) {
-        if (closed_[k].end > start) {
-            start = closed_[k].end;
+    for (std::int32_t k = first_[index(list)];
+         k < first_[index(list + 1)] && closed_[index(k)].start < end; ++k) {
+        if (closed_[index(k)].end > start) {
+            start = closed_[index(k)].end;
         }
     }
     return start;

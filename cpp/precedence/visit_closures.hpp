@@ -27,7 +27,7 @@ class VisitClosures {
     VisitClosures(const VisitClosureArrays& arrays, std::size_t n_visits);
 
     bool is_known() const { return !first_.empty(); }
-    Tick drive(VisitId visit) const { return drive_[visit]; }
+    Tick drive(VisitId visit) const { return drive_[index(visit)]; }
 
     // The earliest start, from `start` on, with which a booking of the vertex until `end` overlaps
     // no closure; `never` if there is none.

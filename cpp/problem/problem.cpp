@@ -95,8 +95,8 @@ void Problem::check_turns() const {
     require_ids("turn_kind", turns_.kind, turns_.n_kinds);
     for (std::size_t e = 0; e < arrays_.heads.size(); ++e) {
         const auto n_entries = static_cast<std::int64_t>(turns_.kind.size());
-        const std::int64_t first = graph().indptr[arrays_.heads[e]];
-        const std::int64_t end = graph().indptr[arrays_.heads[e] + 1];
+        const std::int64_t first = graph().indptr[index(arrays_.heads[e])];
+        const std::int64_t end = graph().indptr[index(arrays_.heads[e] + 1)];
         if (turns_.offset[e] < -first || turns_.offset[e] > n_entries - end) {
             reject_entry("turn_offset", e, turns_.offset[e], "leads out of turn_kind");
         }
@@ -135,10 +135,10 @@ void Problem::check_robots() const {
     require_ids("home", arrays_.home, n_vertices());
     std::vector<bool> is_taken(static_cast<std::size_t>(n_vertices()), false);
     for (std::size_t r = 0; r < n_robots; ++r) {
-        if (is_taken[arrays_.home[r]]) {
+        if (is_taken[index(arrays_.home[r])]) {
             reject_entry("home", r, arrays_.home[r], "is the home of another robot");
         }
-        is_taken[arrays_.home[r]] = true;
+        is_taken[index(arrays_.home[r])] = true;
     }
     require_length("first_stage", arrays_.first_stage.size(), n_robots + 1);
     require_lists("first_stage", arrays_.first_stage, arrays_.stage_vertex.size(), "stages", 1);
@@ -151,8 +151,8 @@ void Problem::check_robots() const {
 }
 
 Itinerary Problem::itinerary(RobotId robot) const {
-    const auto first = static_cast<std::size_t>(first_stage(robot));
-    const std::size_t n = static_cast<std::size_t>(first_stage(robot + 1)) - first;
+    const auto first = index(first_stage(robot));
+    const std::size_t n = index(first_stage(robot + 1)) - first;
     return {home(robot),
             arrays_.stage_vertex.subspan(first, n),
             arrays_.stage_work.subspan(first, n),
@@ -163,11 +163,11 @@ Itinerary Problem::itinerary(RobotId robot) const {
 }
 
 Turns Problem::turns(RobotId robot) const {
-    if (turns_.class_of.empty() || turns_.class_of[robot] < 0) {
+    if (turns_.class_of.empty() || turns_.class_of[index(robot)] < 0) {
         return {};
     }
     const auto n = static_cast<std::size_t>(turns_.n_kinds);
-    const auto first = static_cast<std::size_t>(turns_.class_of[robot]) * n;
+    const auto first = index(turns_.class_of[index(robot)]) * n;
     return {turns_.offset, turns_.kind, turns_.ticks.subspan(first, n)};
 }
 

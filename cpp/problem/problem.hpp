@@ -76,7 +76,7 @@ struct Turns {
     bool take_time() const { return !ticks.empty(); }
     // Ticks from the heading of one edge to that of the next; 0 for the first drive (`in` is -1).
     std::int32_t between(EdgeId in, EdgeId out) const {
-        return ticks.empty() || in < 0 ? 0 : ticks[kind[offset[in] + out]];
+        return ticks.empty() || in < 0 ? 0 : ticks[index(kind[index(offset[index(in)] + out)])];
     }
 };
 
@@ -130,23 +130,23 @@ class Problem {
     std::size_t n_stages() const { return arrays_.stage_vertex.size(); }
 
     // Stages of all robots share one numbering.
-    VertexId home(RobotId robot) const { return arrays_.home[robot]; }
-    std::int32_t first_stage(RobotId robot) const { return arrays_.first_stage[robot]; }
+    VertexId home(RobotId robot) const { return arrays_.home[index(robot)]; }
+    std::int32_t first_stage(RobotId robot) const { return arrays_.first_stage[index(robot)]; }
     bool is_last(RobotId robot, std::int32_t stage) const {
-        return stage + 1 == arrays_.first_stage[robot + 1];
+        return stage + 1 == arrays_.first_stage[index(robot + 1)];
     }
-    VertexId stage_vertex(std::int32_t stage) const { return arrays_.stage_vertex[stage]; }
+    VertexId stage_vertex(std::int32_t stage) const { return arrays_.stage_vertex[index(stage)]; }
     // Work time plus turn of a stage; the last visit of a robot needs no turn.
     Tick stage_dwell(std::int32_t stage) const {
-        return arrays_.stage_work[stage] + arrays_.stage_turn[stage];
+        return arrays_.stage_work[index(stage)] + arrays_.stage_turn[index(stage)];
     }
     Itinerary itinerary(RobotId robot) const;
 
     // Robots of one pace drive each edge in equal ticks.
-    std::int32_t pace_of(RobotId robot) const { return arrays_.pace_of[robot]; }
+    std::int32_t pace_of(RobotId robot) const { return arrays_.pace_of[index(robot)]; }
     std::span<const std::int32_t> pace(RobotId robot) const {
         const auto n = static_cast<std::size_t>(arrays_.n_classes);
-        return arrays_.paces.subspan(static_cast<std::size_t>(pace_of(robot)) * n, n);
+        return arrays_.paces.subspan(index(pace_of(robot)) * n, n);
     }
     Turns turns(RobotId robot) const;
     // The ticks of a robot's quickest edge, and of its slowest edge; 1 without an edge.
@@ -157,7 +157,9 @@ class Problem {
 
     // What an edge adds to costs.
     Tick surcharge(EdgeId edge) const {
-        return arrays_.surcharges.empty() ? 0 : arrays_.surcharges[roads_.length_class[edge]];
+        return arrays_.surcharges.empty()
+                   ? 0
+                   : arrays_.surcharges[index(roads_.length_class[index(edge)])];
     }
     bool has_surcharges() const { return !arrays_.surcharges.empty(); }
 
@@ -173,7 +175,7 @@ class Problem {
         return closes_edges_ ? n_resources() : n_vertices();
     }
     std::int32_t first_row(RobotId robot) const {
-        return has_sizes() ? resources_.size_of[robot] * n_resources() : 0;
+        return has_sizes() ? resources_.size_of[index(robot)] * n_resources() : 0;
     }
     std::int32_t vertex_row(RobotId robot, VertexId vertex) const {
         return first_row(robot) + vertex;
@@ -191,14 +193,15 @@ class Problem {
     }
     // Only where robots have sizes: the rows from which a booking of a row excludes other robots.
     std::span<const std::int32_t> excluded(std::int32_t row) const {
-        const auto begin = static_cast<std::size_t>(resources_.first[row]);
-        const auto end = static_cast<std::size_t>(resources_.first[row + 1]);
+        const auto begin = index(resources_.first[index(row)]);
+        const auto end = index(resources_.first[index(row + 1)]);
         return resources_.excluded.subspan(begin, end - begin);
     }
 
     // The ticks of a robot's drive along an edge, -1 if it is barred.
     std::int32_t drive(RobotId robot, EdgeId edge) const {
-        return arrays_.paces[pace_of(robot) * arrays_.n_classes + roads_.length_class[edge]];
+        return arrays_
+            .paces[index(pace_of(robot) * arrays_.n_classes + roads_.length_class[index(edge)])];
     }
     // The ticks of the drive from tail to head, -1 if no edge between them is open to the robot.
     std::int32_t drive(RobotId robot, VertexId tail, VertexId head) const {

@@ -29,8 +29,8 @@ void require_interval(const Booking& time) {
 const BookedBy* overlapping(std::span<const BookedBy> here, const Booking& time, RobotId robot) {
     auto k = BookingTable::started(here, time.end - 1);
     const BookedBy* found = nullptr;
-    while (k > 0 && here[static_cast<std::size_t>(k - 1)].reach > time.start) {
-        const BookedBy& one = here[static_cast<std::size_t>(--k)];
+    while (k > 0 && here[index(k - 1)].reach > time.start) {
+        const BookedBy& one = here[index(--k)];
         if (one.robot != robot && one.time.end > time.start) {
             found = &one;
         }
@@ -67,7 +67,7 @@ void BookingTable::mark(std::int32_t row, const Booking& time, RobotId robot) {
 
 void BookingTable::insert(std::int32_t row, const Booking& time, RobotId robot) {
     has_closures_ |= robot == nobody;
-    Row& one = rows_[static_cast<std::size_t>(row)];
+    Row& one = rows_[index(row)];
     if (one.size_class < 0 || one.size == (std::int32_t{1} << one.size_class)) {
         grow(one);
     }
@@ -81,7 +81,7 @@ void BookingTable::insert(std::int32_t row, const Booking& time, RobotId robot) 
 }
 
 void BookingTable::erase(std::int32_t row, Tick start, RobotId robot) {
-    Row& one = rows_[static_cast<std::size_t>(row)];
+    Row& one = rows_[index(row)];
     BookedBy* here = pool_.data() + one.first;
     std::int32_t k = started(at(row), start) - 1;
     while (k >= 0 && here[k].time.start == start && here[k].robot != robot) {
@@ -100,7 +100,7 @@ void BookingTable::erase(std::int32_t row, Tick start, RobotId robot) {
 
 void BookingTable::grow(Row& row) {
     const std::int32_t wanted = row.size_class < 0 ? smallest_class : row.size_class + 1;
-    auto& unused = unused_[static_cast<std::size_t>(wanted)];
+    auto& unused = unused_[index(wanted)];
     std::uint32_t place = static_cast<std::uint32_t>(pool_.size());
     if (unused.empty()) {
         pool_.resize(pool_.size() + (std::size_t{1} << wanted));
@@ -110,7 +110,7 @@ void BookingTable::grow(Row& row) {
     }
     std::copy_n(pool_.begin() + row.first, row.size, pool_.begin() + place);
     if (row.size_class >= 0) {
-        unused_[static_cast<std::size_t>(row.size_class)].push_back(row.first);
+        unused_[index(row.size_class)].push_back(row.first);
     }
     row.first = place;
     row.size_class = wanted;

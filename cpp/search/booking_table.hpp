@@ -31,7 +31,7 @@ class BookingTable {
 
     std::int32_t n_rows() const { return static_cast<std::int32_t>(rows_.size()); }
     std::span<const BookedBy> at(std::int32_t row) const {
-        const Row& one = rows_[static_cast<std::size_t>(row)];
+        const Row& one = rows_[index(row)];
         return {pool_.data() + one.first, static_cast<std::size_t>(one.size)};
     }
 

@@ -80,21 +80,21 @@ Tick PeriodicBookings::fold(Tick tick) const {
 }
 
 const PeriodicBookings::Row& PeriodicBookings::gaps_of(std::int32_t row) const {
-    const auto index = static_cast<std::size_t>(row);
+    const std::size_t here = index(row);
     if (!has_sizes()) {
-        return at_[index];
+        return at_[here];
     }
-    if (is_changed_[index] != 0) {
+    if (is_changed_[here] != 0) {
         join(row);
-        is_changed_[index] = 0;
+        is_changed_[here] = 0;
     }
-    return joined_[index];
+    return joined_[here];
 }
 
 void PeriodicBookings::join(std::int32_t row) const {
-    Row& joined = joined_[static_cast<std::size_t>(row)];
+    Row& joined = joined_[index(row)];
     joined.clear();
-    for (const Booking& mark : at_[static_cast<std::size_t>(row)]) {
+    for (const Booking& mark : at_[index(row)]) {
         if (!joined.empty() && mark.start <= joined.back().end) {
             joined.back().end = std::max(joined.back().end, mark.end);
         } else {
@@ -162,7 +162,7 @@ bool PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const 
     }
     std::vector<std::int32_t>& rows = rows_of_[robot];
     const auto insert = [&](std::int32_t row, const Booking& booking) {
-        Row& bookings_there = at_[static_cast<std::size_t>(row)];
+        Row& bookings_there = at_[index(row)];
         bookings_there.insert(
             std::upper_bound(bookings_there.begin(), bookings_there.end(), booking), booking);
         rows.push_back(row);
@@ -172,11 +172,10 @@ bool PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const 
             insert(row, booking);
             continue;
         }
-        for (auto k = first_[static_cast<std::size_t>(row)];
-             k < first_[static_cast<std::size_t>(row) + 1]; ++k) {
-            const std::int32_t marked = excluded_[static_cast<std::size_t>(k)];
+        for (auto k = first_[index(row)]; k < first_[index(row) + 1]; ++k) {
+            const std::int32_t marked = excluded_[index(k)];
             insert(marked, booking);
-            is_changed_[static_cast<std::size_t>(marked)] = 1;
+            is_changed_[index(marked)] = 1;
         }
     }
     sort_unique(rows);
@@ -189,10 +188,9 @@ void PeriodicBookings::remove(RobotId robot) {
         return;
     }
     for (const std::int32_t row : found->second) {
-        std::erase_if(at_[static_cast<std::size_t>(row)],
-                      [robot](const Booking& one) { return one.robot == robot; });
+        std::erase_if(at_[index(row)], [robot](const Booking& one) { return one.robot == robot; });
         if (has_sizes()) {
-            is_changed_[static_cast<std::size_t>(row)] = 1;
+            is_changed_[index(row)] = 1;
         }
     }
     rows_of_.erase(found);
@@ -203,7 +201,7 @@ std::vector<RobotId> PeriodicBookings::users(std::span<const std::int32_t> rows,
     std::vector<RobotId> found;
     for (const std::int32_t row : rows) {
         require_id("vertex", row, n_rows());
-        for (const Booking& one : at_[static_cast<std::size_t>(row)]) {
+        for (const Booking& one : at_[index(row)]) {
             if (one.start < to && from < one.end) {
                 found.push_back(one.robot);
             }
@@ -385,7 +383,7 @@ void PeriodicBookings::trace(std::size_t last, const Stay& stay, std::vector<Tic
     const Stay* one = &stay;
     for (std::size_t k = last; k > 0; --k) {
         enter[k] = one->enter;
-        one = &stays_[k - 1][static_cast<std::size_t>(one->from)];
+        one = &stays_[k - 1][index(one->from)];
     }
     enter[0] = one->enter;
 }

@@ -28,14 +28,14 @@ PeriodicSearch::PeriodicSearch(const Roads& roads, const PeriodicBookings& circl
 
 // The ticks that serving a stage adds to a visit: work plus turn.
 Tick PeriodicSearch::dwell_of(std::int32_t stage) const {
-    const auto k = static_cast<std::size_t>(stage);
+    const auto k = index(stage);
     return trip_->stage_work[k] + trip_->stage_turn[k];
 }
 
 // The least ticks from a vertex through the remaining stages to home; -1 if no path exists.
 Tick PeriodicSearch::rest(VertexId vertex, std::int32_t stage) const {
-    const Tick way = trip_->to_stage[static_cast<std::size_t>(stage)].from(vertex);
-    return way < 0 ? way : way + to_go_[static_cast<std::size_t>(stage)];
+    const Tick way = trip_->to_stage[index(stage)].from(vertex);
+    return way < 0 ? way : way + to_go_[index(stage)];
 }
 
 bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
@@ -50,8 +50,7 @@ bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
     is_stopped_ = false;
     to_go_.assign(trip.n_stages(), 0);
     for (std::int32_t stage = last_stage(); stage-- > 0;) {
-        to_go_[static_cast<std::size_t>(stage)] =
-            dwell_of(stage) + rest(trip.stage_vertex[static_cast<std::size_t>(stage)], stage + 1);
+        to_go_[index(stage)] = dwell_of(stage) + rest(trip.stage_vertex[index(stage)], stage + 1);
     }
     const Tick first = circle_.fold(phase);
     bool is_found = false;
@@ -88,7 +87,7 @@ bool PeriodicSearch::close_from(const PeriodicBookings::Gap& home, Tick start,
 // `never` if no return is possible.
 Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick start, Tick latest) {
     for (const VertexId vertex : touched_) {
-        at_[static_cast<std::size_t>(vertex)] = none;
+        at_[index(vertex)] = none;
     }
     touched_.clear();
     nodes_.clear();
@@ -98,7 +97,7 @@ Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick sta
     reach({start, home, trip_->home, 0, none, 0, none});
     while (!open_.empty()) {
         const OpenList::Entry top = open_.pop();
-        const Node& node = nodes_[static_cast<std::size_t>(top.node)];
+        const Node& node = nodes_[index(top.node)];
         if (top.key != key(node)) {  // outdated: the gap has an earlier enter
             continue;
         }
@@ -120,15 +119,15 @@ Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick sta
 
 // Drives along every edge, for each number of stages that this visit can serve.
 void PeriodicSearch::expand(std::int32_t from, Tick latest) {
-    const VertexId here = nodes_[static_cast<std::size_t>(from)].vertex;
-    std::int32_t stage = nodes_[static_cast<std::size_t>(from)].stage;
-    Tick dwell = nodes_[static_cast<std::size_t>(from)].from == none ? dwell_of(last_stage()) : 0;
+    const VertexId here = nodes_[index(from)].vertex;
+    std::int32_t stage = nodes_[index(from)].stage;
+    Tick dwell = nodes_[index(from)].from == none ? dwell_of(last_stage()) : 0;
     for (;; dwell += dwell_of(stage++)) {
-        const auto v = static_cast<std::size_t>(here);
+        const auto v = index(here);
         for (EdgeId edge = roads_.graph.indptr[v]; edge < roads_.graph.indptr[v + 1]; ++edge) {
             drive(from, edge, stage, dwell, latest);
         }
-        if (stage == last_stage() || trip_->stage_vertex[static_cast<std::size_t>(stage)] != here) {
+        if (stage == last_stage() || trip_->stage_vertex[index(stage)] != here) {
             return;
         }
     }
@@ -137,14 +136,14 @@ void PeriodicSearch::expand(std::int32_t from, Tick latest) {
 // Drives into every reachable gap of the next vertex.
 void PeriodicSearch::drive(std::int32_t from, EdgeId edge, std::int32_t stage, Tick dwell,
                            Tick latest) {
-    const Node here = nodes_[static_cast<std::size_t>(from)];
-    const auto e = static_cast<std::size_t>(edge);
+    const Node here = nodes_[index(from)];
+    const auto e = index(edge);
     const VertexId next = roads_.graph.indices[e];
     const Tick left = rest(next, stage);
     if (left < 0) {
         return;
     }
-    const std::int32_t ticks = trip_->pace[static_cast<std::size_t>(roads_.length_class[e])];
+    const std::int32_t ticks = trip_->pace[index(roads_.length_class[e])];
     if (ticks == barred) {
         return;
     }
@@ -168,9 +167,9 @@ void PeriodicSearch::drive(std::int32_t from, EdgeId edge, std::int32_t stage, T
 }
 
 void PeriodicSearch::reach(const Node& node) {
-    std::int32_t& head = at_[static_cast<std::size_t>(node.vertex)];
-    for (std::int32_t k = head; k != none; k = nodes_[static_cast<std::size_t>(k)].next) {
-        Node& known = nodes_[static_cast<std::size_t>(k)];
+    std::int32_t& head = at_[index(node.vertex)];
+    for (std::int32_t k = head; k != none; k = nodes_[index(k)].next) {
+        Node& known = nodes_[index(k)];
         // The start node is no return: a round trip takes time.
         if (known.stage == node.stage && known.gap == node.gap && known.from != none) {
             if (node.enter < known.enter) {
@@ -199,8 +198,8 @@ std::uint64_t PeriodicSearch::key(const Node& node) const {
 void PeriodicSearch::trace(PeriodicRoundTrip& found) const {
     found = {};
     std::vector<std::int32_t> stages;
-    for (std::int32_t k = goal_; k != none; k = nodes_[static_cast<std::size_t>(k)].from) {
-        const Node& node = nodes_[static_cast<std::size_t>(k)];
+    for (std::int32_t k = goal_; k != none; k = nodes_[index(k)].from) {
+        const Node& node = nodes_[index(k)];
         found.vertex.push_back(node.vertex);
         found.drive.push_back(node.drive);
         found.enter.push_back(node.enter);

@@ -87,8 +87,8 @@ Tick SafeIntervalSearch::rest(VertexId vertex, std::int32_t stage) const {
     if (stage == n_stages()) {
         return 0;
     }
-    const Tick way = trip_->to_stage[static_cast<std::size_t>(stage)].from(vertex);
-    return way < 0 ? way : way + to_go_[static_cast<std::size_t>(stage)];
+    const Tick way = trip_->to_stage[index(stage)].from(vertex);
+    return way < 0 ? way : way + to_go_[index(stage)];
 }
 
 Tick SafeIntervalSearch::rest(const Node& node) const {
@@ -140,7 +140,7 @@ SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const StopConditi
     reach(first, first_f_);
     while (!open_.empty()) {
         const OpenList::Entry top = open_.pop();
-        const Node& node = nodes_[static_cast<std::size_t>(top.node)];
+        const Node& node = nodes_[index(top.node)];
         if (node.is_beaten) {
             continue;
         }
@@ -165,27 +165,27 @@ void SafeIntervalSearch::expand(std::int32_t node) {
     if (!prices_.empty()) {
         stay_on(node);
     }
-    const VertexId vertex = nodes_[static_cast<std::size_t>(node)].vertex;
-    for (EdgeId edge = roads_.graph.indptr[vertex]; edge < roads_.graph.indptr[vertex + 1];
-         ++edge) {
+    const VertexId vertex = nodes_[index(node)].vertex;
+    for (EdgeId edge = roads_.graph.indptr[index(vertex)];
+         edge < roads_.graph.indptr[index(vertex + 1)]; ++edge) {
         drive(node, edge);
     }
 }
 
 // Ends the track: the last visit needs a gap without end, or pays for later bookings.
 void SafeIntervalSearch::finish(std::int32_t node) {
-    Node after = nodes_[static_cast<std::size_t>(node)];
+    Node after = nodes_[index(node)];
     if (after.stage < first_last_ || after.vertex != trip_->stage_vertex.back()) {
         return;
     }
     const auto here = at(after.vertex);
-    for (auto k = static_cast<std::size_t>(after.gap); k < here.size(); ++k) {
+    for (auto k = index(after.gap); k < here.size(); ++k) {
         after.cost += price(here[k].robot);
         if (after.cost >= never) {
             return;
         }
     }
-    after.ready += to_go_[static_cast<std::size_t>(after.stage)];
+    after.ready += to_go_[index(after.stage)];
     after.gap = static_cast<std::int32_t>(here.size());
     after.stage = n_stages();
     after.parent = node;
@@ -195,16 +195,16 @@ void SafeIntervalSearch::finish(std::int32_t node) {
 
 // Serves the next stage if the vertex is right and the gap is long enough.
 void SafeIntervalSearch::serve(std::int32_t node) {
-    Node after = nodes_[static_cast<std::size_t>(node)];
-    if (after.stage + 1 >= n_stages() || trip_->stage_vertex[after.stage] != after.vertex) {
+    Node after = nodes_[index(node)];
+    if (after.stage + 1 >= n_stages() || trip_->stage_vertex[index(after.stage)] != after.vertex) {
         return;
     }
-    after.ready += trip_->stage_work[after.stage] + trip_->stage_turn[after.stage];
+    after.ready += trip_->stage_work[index(after.stage)] + trip_->stage_turn[index(after.stage)];
     const auto here = at(after.vertex);
     const std::int32_t n = static_cast<std::int32_t>(here.size());
-    for (; after.gap < n && here[after.gap].time.start <= after.ready + rules_.headway;
+    for (; after.gap < n && here[index(after.gap)].time.start <= after.ready + rules_.headway;
          ++after.gap) {
-        after.cost += price(here[after.gap].robot);
+        after.cost += price(here[index(after.gap)].robot);
         if (after.cost >= never) {
             return;
         }
@@ -217,12 +217,12 @@ void SafeIntervalSearch::serve(std::int32_t node) {
 
 // Stays past the start of the next booking and pays its price.
 void SafeIntervalSearch::stay_on(std::int32_t node) {
-    Node after = nodes_[static_cast<std::size_t>(node)];
+    Node after = nodes_[index(node)];
     const auto here = at(after.vertex);
-    if (static_cast<std::size_t>(after.gap) == here.size()) {
+    if (index(after.gap) == here.size()) {
         return;
     }
-    const BookedBy& next = here[after.gap];
+    const BookedBy& next = here[index(after.gap)];
     after.cost += price(next.robot);
     if (after.cost >= never) {
         return;
@@ -236,22 +236,22 @@ void SafeIntervalSearch::stay_on(std::int32_t node) {
 
 // Drives along an edge into each gap of its head that the robot can enter before this gap ends.
 void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
-    const Node& here = nodes_[static_cast<std::size_t>(node)];
+    const Node& here = nodes_[index(node)];
     const auto from = at(here.vertex);
-    const std::int32_t length_class = roads_.length_class[edge];
-    const std::int32_t ticks = trip_->pace[length_class];
+    const std::int32_t length_class = roads_.length_class[index(edge)];
+    const std::int32_t ticks = trip_->pace[index(length_class)];
     if (ticks == barred) {
         return;
     }
     Node candidate = here;
-    candidate.cost += trip_->surcharges.empty() ? 0 : trip_->surcharges[length_class];
-    candidate.vertex = roads_.graph.indices[edge];
+    candidate.cost += trip_->surcharges.empty() ? 0 : trip_->surcharges[index(length_class)];
+    candidate.vertex = roads_.graph.indices[index(edge)];
     candidate.ready += Tick{trip_->turns.between(here.edge, edge)} + ticks;
     candidate.parent = node;
     candidate.drive = ticks;
     candidate.edge = edge;
-    const bool never_ends = static_cast<std::size_t>(here.gap) == from.size();
-    const Tick latest = never_ends ? never : from[here.gap].time.start - rules_.headway;
+    const bool never_ends = index(here.gap) == from.size();
+    const Tick latest = never_ends ? never : from[index(here.gap)].time.start - rules_.headway;
     const Tick way = rest(candidate);
     if (candidate.ready > latest || way < 0 || candidate.ready + way + candidate.cost > limit_) {
         return;
@@ -274,14 +274,14 @@ void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Ti
     for (std::int32_t k = BookingTable::started(to, candidate.ready + rules_.headway); k <= n;
          ++k) {
         if (k > 0) {
-            candidate.ready = std::max(candidate.ready, to[k - 1].reach + approach);
+            candidate.ready = std::max(candidate.ready, to[index(k - 1)].reach + approach);
         }
         candidate.ready = free_drive(along, candidate.ready, candidate.drive);
         if (candidate.ready > latest || candidate.ready >= never) {
             return;
         }
         candidate.gap = k;
-        if ((k == n || candidate.ready + rules_.headway < to[k].time.start) &&
+        if ((k == n || candidate.ready + rules_.headway < to[index(k)].time.start) &&
             price_of_swaps(candidate) == 0) {
             reach(candidate, way);
         }
@@ -292,10 +292,10 @@ void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Ti
 Tick SafeIntervalSearch::free_drive(std::span<const BookedBy> along, Tick tick, Tick drive) const {
     for (;;) {
         const std::int32_t k = BookingTable::started(along, tick + rules_.headway - 1);
-        if (k == 0 || along[k - 1].reach <= tick - drive || tick >= never) {
+        if (k == 0 || along[index(k - 1)].reach <= tick - drive || tick >= never) {
             return tick;
         }
-        tick = along[k - 1].reach + drive;
+        tick = along[index(k - 1)].reach + drive;
     }
 }
 
@@ -342,9 +342,9 @@ Tick SafeIntervalSearch::price_of_drive(std::span<const BookedBy> along, Tick ti
                                         Tick drive) const {
     Tick sum = 0;
     for (std::int32_t k = BookingTable::started(along, tick + rules_.headway - 1);
-         k > 0 && along[k - 1].reach > tick - drive && sum < never; --k) {
-        if (along[k - 1].time.end > tick - drive) {
-            sum += price(along[k - 1].robot);
+         k > 0 && along[index(k - 1)].reach > tick - drive && sum < never; --k) {
+        if (along[index(k - 1)].time.end > tick - drive) {
+            sum += price(along[index(k - 1)].robot);
         }
     }
     return std::min(sum, never);
@@ -355,9 +355,9 @@ Tick SafeIntervalSearch::price_of_entry(const Node& candidate, Tick approach) co
     const auto to = at(candidate.vertex);
     const Tick start = candidate.ready - approach;
     Tick sum = 0;
-    for (std::int32_t k = candidate.gap; k > 0 && to[k - 1].reach > start; --k) {
-        if (to[k - 1].time.end > start) {
-            sum += price(to[k - 1].robot);
+    for (std::int32_t k = candidate.gap; k > 0 && to[index(k - 1)].reach > start; --k) {
+        if (to[index(k - 1)].time.end > start) {
+            sum += price(to[index(k - 1)].robot);
         }
         if (sum >= never) {
             return never;
@@ -372,15 +372,16 @@ Tick SafeIntervalSearch::price_of_swaps(const Node& candidate) const {
     if (rules_.headway > 0 || rules_.books_ahead) {
         return 0;
     }
-    const Node& before = nodes_[static_cast<std::size_t>(candidate.parent)];
+    const Node& before = nodes_[index(candidate.parent)];
     const auto from = at(before.vertex);
     const auto to = at(candidate.vertex);
     Tick sum = 0;
-    for (auto j = static_cast<std::size_t>(before.gap);
-         j < from.size() && from[j].time.start == candidate.ready; ++j) {
-        for (std::int32_t k = candidate.gap; k > 0 && to[k - 1].reach >= candidate.ready; --k) {
-            if (to[k - 1].time.end == candidate.ready && to[k - 1].robot == from[j].robot &&
-                from[j].robot != nobody) {
+    for (auto j = index(before.gap); j < from.size() && from[j].time.start == candidate.ready;
+         ++j) {
+        for (std::int32_t k = candidate.gap; k > 0 && to[index(k - 1)].reach >= candidate.ready;
+             --k) {
+            if (to[index(k - 1)].time.end == candidate.ready &&
+                to[index(k - 1)].robot == from[j].robot && from[j].robot != nobody) {
                 sum += price(from[j].robot);
             }
         }
@@ -389,7 +390,7 @@ Tick SafeIntervalSearch::price_of_swaps(const Node& candidate) const {
 }
 
 Tick SafeIntervalSearch::price(RobotId robot) const {
-    return prices_.empty() || robot == nobody ? never : prices_[static_cast<std::size_t>(robot)];
+    return prices_.empty() || robot == nobody ? never : prices_[index(robot)];
 }
 
 // Adds a node unless a node of its state is as early and as cheap.
@@ -408,7 +409,7 @@ void SafeIntervalSearch::reach(const Node& candidate, Tick way) {
         if (slot.least <= sum) {
             return;
         }
-        nodes_[static_cast<std::size_t>(slot.node)].is_beaten = true;
+        nodes_[index(slot.node)].is_beaten = true;
     }
     slot.least = sum;
     const auto node = static_cast<std::int32_t>(nodes_.size());
@@ -423,8 +424,8 @@ void SafeIntervalSearch::reach(const Node& candidate, Tick way) {
 // Whether a node of the same state dominates the candidate (ready and cost no greater); marks the
 // nodes that the candidate dominates.
 bool SafeIntervalSearch::is_known(const Node& candidate, std::int32_t first) {
-    for (std::int32_t k = first; k != none; k = nodes_[static_cast<std::size_t>(k)].next) {
-        Node& known = nodes_[static_cast<std::size_t>(k)];
+    for (std::int32_t k = first; k != none; k = nodes_[index(k)].next) {
+        Node& known = nodes_[index(k)];
         if (known.ready <= candidate.ready && known.cost <= candidate.cost) {
             return true;
         }
@@ -478,12 +479,12 @@ void SafeIntervalSearch::next_generation() {
 
 void SafeIntervalSearch::track(std::vector<Visit>& visits) const {
     visits.clear();
-    for (std::int32_t node = goal_; node != none; node = nodes_[node].parent) {
-        const Node& one = nodes_[node];
+    for (std::int32_t node = goal_; node != none; node = nodes_[index(node)].parent) {
+        const Node& one = nodes_[index(node)];
         if (one.parent == none) {
             visits.push_back({one.ready, one.vertex, 0});
         } else if (one.drive > 0) {
-            const EdgeId before = nodes_[one.parent].edge;
+            const EdgeId before = nodes_[index(one.parent)].edge;
             visits.push_back(
                 {one.ready, one.vertex, one.drive, trip_->turns.between(before, one.edge)});
         }

@@ -63,8 +63,8 @@ class SafeIntervalSearch {
 
     // The track of the last search; empty if the search found none.
     void track(std::vector<Visit>& visits) const;
-    Tick completion() const { return nodes_[static_cast<std::size_t>(goal_)].ready; }
-    Tick cost() const { return completion() + nodes_[static_cast<std::size_t>(goal_)].cost; }
+    Tick completion() const { return nodes_[index(goal_)].ready; }
+    Tick cost() const { return completion() + nodes_[index(goal_)].cost; }
 
     // The number of states expanded by all searches: effort, independent of the clock.
     std::int64_t n_expanded() const { return n_expanded_; }

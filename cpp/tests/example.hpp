@@ -37,7 +37,7 @@ struct Example {
     Example& book_both() {
         approach.assign(vertex.size(), 1);
         for (const VisitId first : std::span(first_visit).first(active.size())) {
-            approach[first] = 0;
+            approach[index(first)] = 0;
         }
         return *this;
     }

@@ -27,7 +27,7 @@ struct Problem {
         for (RobotId r = 0; r < n_robots; ++r) {
             std::vector<VertexId> lap(12);
             for (VertexId v = 0; v < 12; ++v) {
-                lap[v] = v;
+                lap[index(v)] = v;
             }
             std::shuffle(lap.begin(), lap.end(), draw);
             lap.resize(3 + draw() % 6);
@@ -55,17 +55,18 @@ std::vector<Ticks> slow_times(const CyclicRoutes& routes, const std::vector<Cycl
     for (int round = 0; round < n_robots * (n_shown + 1); ++round) {
         bool has_changed = false;
         const auto raise = [&](CyclicVisit visit, Tick tick) {
-            Tick& own = enter[visit.robot][visit.number];
+            Tick& own = enter[index(visit.robot)][index(visit.number)];
             has_changed |= own < tick;
             own = std::max(own, tick);
         };
         for (RobotId r = 0; r < n_robots; ++r) {
             for (std::int32_t k = 0; k < n_shown; ++k) {
-                raise({r, k + 1}, enter[r][k] + routes.least({r, k}));
+                raise({r, k + 1}, enter[index(r)][index(k)] + routes.least({r, k}));
             }
         }
         for (const auto& [first, second] : rights) {
-            raise(second, enter[first.robot][first.number + 1] + routes.gap_before(second));
+            raise(second,
+                  enter[index(first.robot)][index(first.number + 1)] + routes.gap_before(second));
         }
         if (!has_changed) {
             return enter;
@@ -78,7 +79,7 @@ std::vector<Ticks> times(const RollingTimetable& timetable) {
     std::vector<Ticks> enter(n_robots);
     for (RobotId r = 0; r < n_robots; ++r) {
         for (std::int32_t k = 0; k <= n_shown; ++k) {
-            enter[r].push_back(timetable.enter({r, k}));
+            enter[index(r)].push_back(timetable.enter({r, k}));
         }
     }
     return enter;
@@ -141,7 +142,7 @@ TEST_CASE("what is frozen is not delayed, and the view moves on without losing a
         CHECK(timetable.enter(last) <= 20);
         CHECK(timetable.enter(last.next()) > 20);
         CHECK(!timetable.precede({(r + 1) % n_robots, n_shown}, last, 0));
-        CHECK(timetable.enter({r, n_shown}) == expected[r].back());
+        CHECK(timetable.enter({r, n_shown}) == expected[index(r)].back());
     }
 }
 

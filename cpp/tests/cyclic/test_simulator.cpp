@@ -143,7 +143,7 @@ TEST_CASE("on crowded floors no two robots are ever at one place, however a run 
         std::vector<std::vector<VertexId>> ways;
         Ticks speeds;
         for (int r = 0; r < 10; ++r) {
-            ways.push_back(way_of(cells[2 * r], cells[2 * r + 1], size));
+            ways.push_back(way_of(cells[index(2 * r)], cells[index(2 * r + 1)], size));
             speeds.push_back(1 + static_cast<Tick>(draw() % 3));
         }
         const Laps laps{ways, speeds};
@@ -155,8 +155,8 @@ TEST_CASE("on crowded floors no two robots are ever at one place, however a run 
         std::map<VertexId, std::vector<std::pair<Tick, Tick>>> at;
         for (RobotId r = 0; r < run.n_robots(); ++r) {
             for (std::int32_t k = 0; k + 1 < run.visit_times().n_started(r); ++k) {
-                const auto length = laps.first_place[r + 1] - laps.first_place[r];
-                at[laps.vertex[laps.first_place[r] + k % length]].emplace_back(
+                const auto length = laps.first_place[index(r + 1)] - laps.first_place[index(r)];
+                at[laps.vertex[index(laps.first_place[index(r)] + k % length)]].emplace_back(
                     run.visit_times().enter({r, k}), run.visit_times().enter({r, k + 1}));
             }
         }

@@ -40,7 +40,7 @@ void check_all_pairs(const Map& map) {
     for (VertexId target = 0; target < tables.n_vertices(); ++target) {
         const auto expected = tables.to(target, ticks);
         for (VertexId from = 0; from < tables.n_vertices(); ++from) {
-            CHECK(ways.between(from, target) == expected[from]);
+            CHECK(ways.between(from, target) == expected[index(from)]);
         }
     }
 }

@@ -73,7 +73,7 @@ TEST_CASE("a long search can be interrupted, and the next one is not disturbed")
     const std::vector<std::int64_t> station(600, 0);
     std::vector<std::int32_t> to_go(600);
     for (VertexId v = 0; v < 600; ++v) {
-        to_go[v] = 599 - v;
+        to_go[index(v)] = 599 - v;
     }
     Congestion traffic(problem, 16, station);
     CHECK_THROWS_AS(traffic.path(0, 0, 599, to_go, test::interrupted), std::runtime_error);

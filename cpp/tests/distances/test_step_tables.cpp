@@ -64,7 +64,7 @@ void check_grid(VertexId rows, VertexId columns, VertexId one_way) {
         const auto ticks = expected.to(target, std::vector<std::int32_t>(heads.size(), 1));
         const auto table = tables.table_of(target);
         for (VertexId v = rows * columns - 1; v >= 0; --v) {
-            REQUIRE(tables.steps(table, v) == ticks[v]);
+            REQUIRE(tables.steps(table, v) == ticks[index(v)]);
         }
     }
 }

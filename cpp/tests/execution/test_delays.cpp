@@ -66,7 +66,7 @@ TEST_CASE("what befalls a robot does not depend on what others do") {
             {first_visit, vertex, planned, dwell, drive, before, 0, false});
         DelaySample out;
         Delays(plan, pace, {{DelayKind::exponential, 0.2, 0}}, {0, 0, 0}, {}).draw(1, 7, out);
-        return out.dwell[static_cast<std::size_t>(first_visit[1])];
+        return out.dwell[index(first_visit[1])];
     };
     CHECK(second({0, 2, 4}) == second({0, 3, 4}));
     CHECK(second({0, 2, 4}) == second({0, 1, 4}));

@@ -47,7 +47,7 @@ TEST_CASE("who books ahead starts to drive when the robot in front has left") {
 TEST_CASE("two robots change places where there is a bay") {
     test::Fleet fleet{test::corridor_with_bay(), {{0, {{2}}, 2}, {2, {{0}}, 3}}};
     const Tracks tracks = plan(fleet);
-    CHECK(tracks.vertex[tracks.first_visit[1] - 1] == 2);
+    CHECK(tracks.vertex[index(tracks.first_visit[1] - 1)] == 2);
     CHECK(tracks.vertex.back() == 0);
 }
 

@@ -9,10 +9,10 @@ struct System {
     explicit System(const Example& example)
         : routes(example.routes()),
           timetable(routes),
-          index(routes),
-          earliest(routes, timetable, index) {
+          conflicts(routes),
+          earliest(routes, timetable, conflicts) {
         for (VisitId x = 0; x < routes.n_visits(); ++x) {
-            index.add(x, timetable);
+            conflicts.add(x, timetable);
         }
     }
 
@@ -26,15 +26,15 @@ struct System {
     }
     void tell() {
         for (const VisitId x : timetable.changed()) {
-            index.move(x - 1, timetable);
-            index.move(x, timetable);
+            conflicts.move(x - 1, timetable);
+            conflicts.move(x, timetable);
             earliest.forget(routes.robot(x));
         }
     }
 
     Routes routes;
     Timetable timetable;
-    ConflictIndex index;
+    ConflictIndex conflicts;
     EarliestConflicts earliest;
 };
 

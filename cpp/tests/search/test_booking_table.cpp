@@ -72,7 +72,7 @@ TEST_CASE("many bookings and takings back leave what a plain list would hold") {
     for (int k = 0; k < 2000; ++k) {
         const auto vertex = static_cast<VertexId>(random.below(3));
         const Tick start = 10 * static_cast<Tick>(random.below(60));
-        auto& list = plain[static_cast<std::size_t>(vertex)];
+        auto& list = plain[index(vertex)];
         const auto known = std::find(list.begin(), list.end(), start);
         if (known == list.end()) {
             table.book(vertex, {start, start + 10}, static_cast<RobotId>(start));

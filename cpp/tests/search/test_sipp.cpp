@@ -104,7 +104,7 @@ class EveryTick {
     Tick price(std::uint32_t bookings) const {
         Tick sum = 0;
         for (std::size_t k = 0; k < booked_.size(); ++k) {
-            sum += (bookings >> k & 1U) != 0 ? one_.prices[booked_[k].robot] : 0;
+            sum += (bookings >> k & 1U) != 0 ? one_.prices[index(booked_[k].robot)] : 0;
         }
         return sum;
     }
@@ -122,7 +122,7 @@ class EveryTick {
         }
         Tick sum = 0;
         for (const RobotId robot : robots) {
-            sum += one_.prices[robot];
+            sum += one_.prices[index(robot)];
         }
         return sum;
     }
