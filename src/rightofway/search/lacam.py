@@ -61,7 +61,8 @@ def plan_by_lacam(
     Notes
     -----
     Deterministic for a seed as long as there is time; not optimal. No robot could be earlier on
-    the same routes with the same order at every vertex.
+    the same routes with the same order at every vertex, unless rotations are forbidden or the
+    roadmap has zones.
     """
     end, first_visit, vertices, enter = _core.plan_by_lacam(
         bound(problem), spreads, checked_seed(seed), most_effort, time_limit
