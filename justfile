@@ -46,6 +46,7 @@ thorough *args:
 
 # What CI leaves out, laws, fuzz and campaigns with fresh seeds, round after round until one fails
 nightly law_seconds="60":
+    just native-threads
     for ((round = 1; ; round++)); do \
         echo "round $round"; \
         pytest -m nightly; \
@@ -54,7 +55,7 @@ nightly law_seconds="60":
         just delay 200000; \
         just kills 200; \
         just fuzz-files 20000; \
-        just fuzz-bindings 20000; \
+        just fuzz-bindings --count 20000; \
     done
 
 # Kill the studio in the middle of work COUNT times, and look for all that it had answered
@@ -82,7 +83,7 @@ fuzz-bindings-sanitized *args:
     cmake -S . -B build/sanitized-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
         -DRIGHTOFWAY_BINDING=ON -DRIGHTOFWAY_SANITIZE=address,undefined -DPython_EXECUTABLE="$(which python)" \
         -Dnanobind_DIR="$(python -m nanobind --cmake_dir)"
-    cmake --build build/sanitized-core --parallel
+    cmake --build build/sanitized-core --parallel "$(nproc)"
     CORE="$(echo build/sanitized-core/_core*.so)" ASAN_OPTIONS=detect_leaks=0 \
         LD_PRELOAD="$(${CXX:-c++} -print-file-name=libasan.so) $(${CXX:-c++} -print-file-name=libstdc++.so)" \
         python -m tests.builders.broken_calls {{ args }}
@@ -90,13 +91,13 @@ fuzz-bindings-sanitized *args:
 # The native tests under AddressSanitizer and UndefinedBehaviorSanitizer, warnings as errors
 native:
     cmake --preset sanitize
-    cmake --build --preset sanitize --parallel
+    cmake --build --preset sanitize --parallel "$(nproc)"
     ctest --preset sanitize
 
 # The native tests that run threads, under ThreadSanitizer
 native-threads:
     cmake --preset thread
-    cmake --build --preset thread --parallel
+    cmake --build --preset thread --parallel "$(nproc)"
     build/thread/rightofway_tests -tc='*thread*,*task*,*crew*,*stuck*,*population*,*turn*,*caller*'
 
 # Write the stub of the native core from the installed module
