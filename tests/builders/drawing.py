@@ -28,16 +28,6 @@ BROWSER: dict[str, Any] = {
 
 Point = tuple[float, float]
 
-WHERE = """([x, y]) => {
-  const { viewport, roadmap } = studio.stage.view;
-  const { left, top } = studio.stage.holder.getBoundingClientRect();
-  const { frame, unit } = roadmap;
-  const [right, down] = [(x - frame.x) / unit, (frame.yUp ? frame.y - y : y - frame.y) / unit];
-  const { scale } = viewport;
-  return [left + viewport.left + right * scale, top + viewport.top + down * scale];
-}"""
-
-
 DROP = """([files]) => {
   const transfer = new DataTransfer();
   for (const [name, content] of files) {
@@ -65,9 +55,14 @@ class StudioPage(Viewer):
         self.page.get_by_role("tab", name=name).click()
 
     def where(self, place: Point) -> Point:
-        """Return where a place of the site is on the page [pixels]."""
-        x, y = self.page.evaluate(WHERE, list(place))
-        return x, y
+        """Return where a place of the site is on the page [pixels], as the map says."""
+        holder = self.page.locator(".holder")
+        view, box = holder.get_attribute("data-view"), holder.bounding_box()
+        assert view is not None
+        assert box is not None
+        a, b, c, d, e, f = map(float, view.split())
+        x, y = place
+        return box["x"] + a * x + c * y + e, box["y"] + b * x + d * y + f
 
     def press(self, place: Point, *keys: str) -> None:
         """Press at a place of the site, perhaps with keys held."""

@@ -134,7 +134,32 @@ export class MapView {
     this.names.paint(context, size.width, size.height);
     this.bookings.write(context, this.words);
     this.tip.refresh(this.viewport, this.sizes);
+    this.#sayView();
   }
+
+  /**
+   * Say on the element round the map what is painted, for programs that press on it: `data-view` leads
+   * from a place of the site [length unit] to pixels of the map, as `matrix()` of CSS; `data-lit` names
+   * the places that are lit.
+   */
+  #sayView() {
+    const { dataset } = this.canvas.parentElement ?? this.canvas;
+    const { left, top, scale } = this.viewport;
+    const [[x, y], ...ends] = [
+      [0, 0],
+      [1, 0],
+      [0, 1],
+    ].map(([right, up]) => this.roadmap.toDrawing(right, up));
+    const axes = ends.flatMap(([toX, toY]) => [scale * (toX - x), scale * (toY - y)]);
+    const view = [...axes, left + scale * x, top + scale * y].join(" ");
+    if (dataset.view !== view) dataset.view = view;
+    const { lit } = this.choice;
+    if (this.#lit !== lit) dataset.lit = lit.map((vertex) => this.roadmap.name(vertex)).join(", ");
+    this.#lit = lit;
+  }
+
+  /** @type {number[] | null} */
+  #lit = null; // the places that were lit in the last frame
 
   #click() {
     const { x, y } = this.viewport.pointer;
