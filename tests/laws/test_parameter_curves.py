@@ -18,8 +18,9 @@ from rightofway.errors import InputError
 from rightofway.io import scenario_of
 from rightofway.model import Lap, Rules, Scenario, Tick
 from rightofway.model.route import drives_along
+from rightofway.native import BookedRows
 from rightofway.planners import planning_headway
-from rightofway.precedence import BookedRows, TimedEventGraph
+from rightofway.precedence import TimedEventGraph
 from tests.builders.fleets import random_fleet
 from tests.builders.sizes import repeated
 

@@ -24,7 +24,7 @@ from typing import IO, Any
 import rightofway
 from rightofway.bench.results import COLUMNS, Row
 from rightofway.bench.suite import Case
-from rightofway.search import compiler
+from rightofway.native import compiler
 
 GRACE = 60.0
 """A case is ended that many seconds after thrice its time limit [s]."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from rightofway.errors import InputError, InputFault
 from rightofway.model import Lap, Resources, Roadmap, Robot, Route, Scenario, Tick, VertexId, lap_of
 from rightofway.model.problem import refuse_closures, refuse_turn_rates
+from rightofway.native import BookedRows
 from rightofway.planners import planning_headway
 from rightofway.planners.impossible import reaches_its_places
 from rightofway.planners.routing import (
@@ -21,7 +22,7 @@ from rightofway.planners.routing import (
     shortest_route,
     shortest_routes,
 )
-from rightofway.precedence import BookedRows, CyclicSchedule, TimedEventGraph
+from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from rightofway.search import Distances
 
 NOTHING_REPEATS = "'none' leaves nothing to repeat (set return: home)"

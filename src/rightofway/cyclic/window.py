@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 
 from rightofway.cyclic.route import GroupContext
 from rightofway.model import Route, Tick, VertexId
+from rightofway.native import BookedRows
 from rightofway.planners import Deadline, Task
 from rightofway.planners.conflict_resolution import PartialPlan
-from rightofway.precedence import BookedRows, Meeting, PrecedenceGraph, Segment, SegmentOfSizes
+from rightofway.precedence import Meeting, PrecedenceGraph, Segment, SegmentOfSizes
 
 AnySegment = Segment | SegmentOfSizes
 

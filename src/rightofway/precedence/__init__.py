@@ -10,7 +10,6 @@ from rightofway.precedence.adg import (
     order_of,
     rights_in,
 )
-from rightofway.precedence.bookings import BookedRows
 from rightofway.precedence.graph import (
     Meeting,
     PrecedenceGraph,
@@ -36,7 +35,6 @@ from rightofway.precedence.timed_event_graph import (
 __all__ = [
     "ActionDependencyGraph",
     "Arcs",
-    "BookedRows",
     "Circuit",
     "CyclicSchedule",
     "DelayModel",

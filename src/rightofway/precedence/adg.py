@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import NEVER, Route, Scenario, Tick, Track, route_of
-from rightofway.precedence.bookings import BookedRows, ClosedPlaces
+from rightofway.native import BookedRows, ClosedPlaces
 from rightofway.precedence.graph import Pairs, graph_on
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")

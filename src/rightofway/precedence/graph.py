@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import Route, Scenario, Tick, Track, VertexId, route_of
-from rightofway.precedence.bookings import BookedRows, ClosedPlaces
+from rightofway.native import BookedRows, ClosedPlaces
 from rightofway.precedence.segments import (
     IncompatiblePair,
     Segment,

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick, visits_of_laps
-from rightofway.precedence.bookings import BookedRows
+from rightofway.native import BookedRows
 
 MOST_ANSWERS = 1 << 21
 """Ends of visits that are looked up at once where robots have a size; bounds the memory."""

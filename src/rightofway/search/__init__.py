@@ -4,7 +4,6 @@ from rightofway.search.congestion import Congestion
 from rightofway.search.distances import Distances, Path
 from rightofway.search.fleet import FleetSearch, alone_completions
 from rightofway.search.lacam import plan_by_lacam, untimed_lacam
-from rightofway.search.native import bound, compiler
 from rightofway.search.periodic_bookings import PeriodicBookings, RoundTrip, RowsOfLaps
 from rightofway.search.sipp import Booking, Bookings, earliest_track
 
@@ -19,8 +18,6 @@ __all__ = [
     "RoundTrip",
     "RowsOfLaps",
     "alone_completions",
-    "bound",
-    "compiler",
     "earliest_track",
     "plan_by_lacam",
     "untimed_lacam",

@@ -13,7 +13,7 @@ from rightofway import _core
 from rightofway.errors import InputError, shown
 from rightofway.model import Problem, Scenario, Tick, Track
 from rightofway.model.given import checked_index, checked_number, checked_scenario, checked_seed
-from rightofway.search.native import bound, tracks_of
+from rightofway.native import bound, tracks_of
 
 
 def alone_completions(

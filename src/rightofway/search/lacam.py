@@ -19,7 +19,7 @@ from rightofway import _core
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Problem, Track
 from rightofway.model.given import checked_index, checked_seed
-from rightofway.search.native import bound, tracks_of
+from rightofway.native import bound, tracks_of
 
 FOUND, PROVEN_NONE = 0, 1
 

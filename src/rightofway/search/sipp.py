@@ -15,8 +15,8 @@ from rightofway import _core
 from rightofway.errors import GaveUp, InputError
 from rightofway.model import NEVER, Problem, Tick, Track, drives_along
 from rightofway.model.given import checked_index
+from rightofway.native import bound
 from rightofway.search.distances import Distances
-from rightofway.search.native import bound
 
 STOPPED = 2
 
