@@ -3,6 +3,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/tuple.h>
 
+#include <algorithm>
 #include <optional>
 #include <tuple>
 #include <vector>
@@ -85,7 +86,8 @@ constexpr auto deadlock_doc =
 Returns
 -------
 tuple of (int, int, int, int, int32[K])
-    The two robots, the vertex, the tick, and the robots that would each wait for the next.)";
+    The two robots, the vertex, the tick (0 for a booking that would begin before the simulation),
+    and the robots that would each wait for the next.)";
 
 using Rows = std::optional<ArrayIn<std::int32_t>>;
 
@@ -145,8 +147,8 @@ std::tuple<RobotId, RobotId, VertexId, Tick, ArrayOut<RobotId>> deadlock(
         throw std::invalid_argument("deadlock: the latest advance() did not end in one");
     }
     const Conflict& conflict = self.deadlock();
-    return {conflict.robot_a, conflict.robot_b, self.deadlock_at(), conflict.tick,
-            to_numpy(self.waiting_cycle())};
+    return {conflict.robot_a, conflict.robot_b, self.deadlock_at(),
+            std::max(conflict.tick, Tick{0}), to_numpy(self.waiting_cycle())};
 }
 
 }  // namespace

@@ -115,7 +115,9 @@ void UntimedLacam::branch(Node& node, std::int32_t constraint) {
     const RobotId robot = node.order[index(depth)];
     const VertexId here = node.now.at[index(robot)];
     for (const VertexId head : problem_.graph().heads(here)) {
-        node.constraints.push_back({constraint, depth + 1, robot, head});
+        if (problem_.may_drive(robot, here, head)) {
+            node.constraints.push_back({constraint, depth + 1, robot, head});
+        }
     }
     node.constraints.push_back({constraint, depth + 1, robot, here});
 }

@@ -1,6 +1,7 @@
 #include "lacam/untimed_pibt.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "lacam/swaps.hpp"
 
@@ -144,7 +145,8 @@ void UntimedPibt::pull_partner(const Configuration& now, const Frame& frame) {
     const VertexId place = next_[index(frame.robot)];
     const bool pulls = frame.partner != nobody && place == places_[frame.first] && place != here;
     if (pulls && next_[index(frame.partner)] == nowhere && comes_[index(here)] == nobody &&
-        has(problem_.graph().heads(now.at[index(frame.partner)]), here)) {
+        has(problem_.graph().heads(now.at[index(frame.partner)]), here) &&
+        problem_.may_drive(frame.partner, now.at[index(frame.partner)], here)) {
         take(frame.partner, here);
     }
 }
@@ -153,7 +155,9 @@ void UntimedPibt::pull_partner(const Configuration& now, const Frame& frame) {
 void UntimedPibt::push_places_by_distance(const Configuration& now, RobotId robot) {
     const auto first = static_cast<std::ptrdiff_t>(places_.size());
     const auto heads = problem_.graph().heads(now.at[index(robot)]);
-    places_.insert(places_.end(), heads.begin(), heads.end());
+    std::copy_if(heads.begin(), heads.end(), std::back_inserter(places_), [&](VertexId head) {
+        return problem_.may_drive(robot, now.at[index(robot)], head);
+    });
     places_.push_back(now.at[index(robot)]);
     for (auto place = places_.begin() + first; place != places_.end(); ++place) {
         tie_[index(*place)] = static_cast<std::uint32_t>(draw_());

@@ -209,6 +209,11 @@ class Problem {
         return edge < 0 ? -1 : drive(robot, edge);
     }
 
+    // Whether an edge from tail to head, which exists, is open to the robot.
+    bool may_drive(RobotId robot, VertexId tail, VertexId head) const {
+        return !is_barred_ || drive(robot, tail, head) >= 0;
+    }
+
     // The least ticks from the leave of one robot to the enter of the next robot after its drive.
     Tick gap(Tick drive_ticks) const {
         return rules_.headway + (rules_.books_ahead ? drive_ticks : 0);

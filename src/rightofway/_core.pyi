@@ -351,7 +351,8 @@ class CyclicSimulator:
         Returns
         -------
         tuple of (int, int, int, int, int32[K])
-            The two robots, the vertex, the tick, and the robots that would each wait for the next.
+            The two robots, the vertex, the tick (0 for a booking that would begin before the simulation),
+            and the robots that would each wait for the next.
         """
 
 def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> tuple[int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]] | None:

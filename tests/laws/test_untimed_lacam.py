@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 import rightofway
 from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.io import scenario_of
 from rightofway.model import Plan, PlannerRun, Rules, Scenario
 from rightofway.planners.lacam import timetable_of
 from rightofway.search import untimed_lacam
@@ -29,6 +30,31 @@ def fleets(draw: st.DrawFn) -> Scenario:
         occupancy=draw(st.sampled_from(["one", "both"])),
     )
     return grid_fleet(grid, list(zip(homes, targets, strict=True)), rules=rules)
+
+
+def test_a_robot_goes_round_an_edge_that_is_barred_for_its_type() -> None:
+    """Two edges instead of one for R1."""
+    scenario = scenario_of(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {
+                "roadmap": {
+                    "vertices": {"a": [0, 0], "b": [1, 1], "c": [2, 0]},
+                    "edges": [
+                        {"from": "a", "to": "c", "length": 2, "barred": ["wide"]},
+                        {"from": "a", "to": "b", "length": 2},
+                        {"from": "b", "to": "c", "length": 2},
+                    ],
+                }
+            },
+            "robots": [
+                {"name": "R1", "home": "a", "target": "c", "type": "wide", "return": "none"},
+            ],
+        }
+    )
+    for seed in range(20):
+        steps = untimed_lacam(scenario.problem, seed=seed)
+        assert [scenario.roadmap.name(vertex) for vertex in steps[:, 0].tolist()] == ["a", "b", "c"]
 
 
 @law(fleets(), st.integers(0, 3))
