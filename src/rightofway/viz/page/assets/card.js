@@ -259,7 +259,7 @@ export class Card {
 
   /** @param {FaultData} fault */
   #fault(fault) {
-    const robots = fault.robots.map((index) => this.plan.robots[index]);
+    const robots = fault.robots.map((index) => this.choice.robots[index]);
     const names = robots.map((robot) =>
       link(robot.name, () => this.choice.chooseRobot(robot.index)),
     );
@@ -289,7 +289,7 @@ export class Card {
 
   /** @param {DecisionData} decision */
   #decision(decision) {
-    const pair = decision.robots.map((index) => this.plan.robots[index]);
+    const pair = decision.robots.map((index) => this.choice.robots[index]);
     const names = pair.map((robot) => link(robot.name, () => this.choice.chooseRobot(robot.index)));
     const title = element("h2", {}, ...joined(names));
     return [

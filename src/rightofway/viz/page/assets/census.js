@@ -25,8 +25,8 @@ export class Census {
     this.plan = plan;
     this.theme = theme;
     this.choice = choice;
-    this.#counts = new FleetMemo(plan, () => this.#count(plan.robots));
-    this.#beside = new FleetMemo(plan, () => this.#out(this.#count(choice.beside ?? [])));
+    this.#counts = new FleetMemo(choice, () => this.#count(choice.robots));
+    this.#beside = new FleetMemo(choice, () => this.#out(this.#count(choice.beside ?? [])));
     this.samples = Math.min(plan.end, MOST_SAMPLES);
   }
 

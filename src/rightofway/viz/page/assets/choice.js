@@ -7,7 +7,8 @@ import { Observable } from "./observable.js";
 
 /**
  * What the user looks at: a robot, a decision or fault, the heat map, the plan or what became of it,
- * the bottleneck, a corridor, what robots book, places of a finding. Events: `choice`, `heat`, `mode`,
+ * the bottleneck, a corridor, what robots book, places of a finding. It is the fleet that views show, and
+ * writes nothing into the plan. Events: `choice`, `heat`, `mode`,
  * `bottleneck`, `corridor`, `space`.
  */
 export class Choice extends Observable {
@@ -33,9 +34,20 @@ export class Choice extends Observable {
     this.picked = null; // the ends of the next corridor that are chosen so far
   }
 
+  /** The robots that are shown: as planned, or what became of them on the floor. */
+  get robots() {
+    const { planned, happened } = this.plan;
+    return this.mode === "plan" ? planned : (happened ?? planned);
+  }
+
+  /** What they drive on. */
+  get roadmap() {
+    return this.plan.roadmap;
+  }
+
   /** The robot, or null. */
   get robot() {
-    return this.plan.robots[this.robotIndex] ?? null;
+    return this.robots[this.robotIndex] ?? null;
   }
 
   /** The decision or fault, or null: what happens between its `robots` at its `vertices` at its `tick`. */
@@ -158,8 +170,6 @@ export class Choice extends Observable {
   show(mode) {
     if (mode === this.mode) return;
     this.mode = mode;
-    const { planned, happened } = this.plan;
-    this.plan.robots = mode === "plan" ? planned : (happened ?? planned);
     this.tell("mode");
   }
 

@@ -2,6 +2,7 @@ import { lastAtMost } from "./arrays.js";
 import { FleetMemo } from "./fleet_memo.js";
 import { Observable } from "./observable.js";
 
+/** @import { Fleet } from "./motion.js" */
 /** @import { Site } from "./site.js" */
 /** @import { Robot } from "./robot.js" */
 
@@ -28,8 +29,11 @@ const PLEASANT_SECONDS = 24;
  * `loop` when it begins or ends to play a stretch of time again and again.
  */
 export class Clock extends Observable {
-  /** @param {Site} plan */
-  constructor(plan) {
+  /**
+   * @param {Site} plan
+   * @param {Fleet} [fleet] the robots that are shown
+   */
+  constructor(plan, fleet = plan) {
     super();
     this.end = plan.end;
     this.tick = 0;
@@ -42,7 +46,7 @@ export class Clock extends Observable {
     /** @type {Stretch | null} */
     this.loop = null;
     this.turns = 0; // how often it has gone back since it loops
-    this.#events = new FleetMemo(plan, () => eventsOf(plan));
+    this.#events = new FleetMemo(fleet, () => eventsOf(fleet));
   }
 
   #events;
@@ -202,10 +206,10 @@ export class Follower extends Observable {
 /**
  * All instants at which a robot does something new, in order.
  *
- * @param {Site} plan
+ * @param {Fleet} fleet
  */
-function eventsOf(plan) {
+function eventsOf({ robots }) {
   const begins = new Set();
-  for (const robot of plan.robots) for (const begin of robot.phases.begin) begins.add(begin);
+  for (const robot of robots) for (const begin of robot.phases.begin) begins.add(begin);
   return Float64Array.from(begins).sort();
 }

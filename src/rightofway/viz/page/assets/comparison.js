@@ -133,8 +133,8 @@ export class Comparison {
   #beside(plan, scale, { axis }) {
     const { theme } = this;
     const clock = new Follower(this.clock, 1 / scale);
-    const [choice, motion, words] = [new Choice(plan), new Motion(plan), new Words(plan)];
-    const use = new Use(plan);
+    const choice = new Choice(plan);
+    const [motion, words, use] = [new Motion(choice), new Words(plan), new Use(choice)];
     const bottleneck = new Bottleneck(plan, clock, choice, theme, words);
     const title = element("h2", { className: "map-title" });
     const canvas = element("canvas", { tabIndex: 0 });

@@ -13,18 +13,18 @@ export class FleetMemo {
   #made;
 
   /**
-   * @param {Fleet} plan
+   * @param {Fleet} fleet
    * @param {() => T} make
    */
-  constructor(plan, make) {
-    this.plan = plan;
+  constructor(fleet, make) {
+    this.fleet = fleet;
     this.make = make;
   }
 
   /** @returns {T} */
   get value() {
-    if (this.#robots !== this.plan.robots) {
-      this.#robots = this.plan.robots;
+    if (this.#robots !== this.fleet.robots) {
+      this.#robots = this.fleet.robots;
       this.#made = this.make();
     }
     return /** @type {T} */ (this.#made);

@@ -33,11 +33,11 @@ offerLanguages(byId("language", HTMLSelectElement));
 const plan = new Plan(JSON.parse(byId("plan").textContent));
 const words = new Words(plan);
 const theme = new Theme();
-const clock = new Clock(plan);
 const choice = new Choice(plan);
-const motion = new Motion(plan);
+const clock = new Clock(plan, choice);
+const motion = new Motion(choice);
 const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap }); // as planned, whatever is shown
-const use = new Use(plan);
+const use = new Use(choice);
 const bottleneck = new Bottleneck(plan, clock, choice, theme, words);
 
 const mapView = new MapView(byId("map", HTMLCanvasElement), plan, theme, {

@@ -132,7 +132,7 @@ export class MapBase {
   #strength(robot) {
     return (
       (this.choice.standsOut(robot.index) ? 1 : 0.25) *
-      (this.plan.robots.length > MANY_ROBOTS ? 0.45 : 1)
+      (this.choice.robots.length > MANY_ROBOTS ? 0.45 : 1)
     );
   }
 
@@ -143,7 +143,7 @@ export class MapBase {
    */
   #homes(context) {
     const { x, y } = this.plan.roadmap;
-    for (const robot of this.plan.robots) {
+    for (const robot of this.choice.robots) {
       const half = this.sizes.homeOf(robot);
       const side = this.#pixels(2 * half);
       context.lineWidth = this.#pixels(Math.min(Math.max(half * 0.1, 1.5), 3));

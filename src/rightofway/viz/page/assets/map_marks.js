@@ -176,7 +176,7 @@ function tracedZone({ vertices, edges }, { x, y }) {
  * @param {Roadmap} options
  * @param {[number, number, number, number]} other
  */
-function crossingOf({ x, y }, [a, b, c, d]) {
+export function crossingOf({ x, y }, [a, b, c, d]) {
   const [right, down] = [x[b] - x[a], y[b] - y[a]];
   const [otherRight, otherDown] = [x[d] - x[c], y[d] - y[c]];
   const cross = right * otherDown - down * otherRight;

@@ -41,17 +41,17 @@ export class MapRobots {
       for (const robot of this.#haunted)
         this.#ghost(context, robot, this.#radius(robot, scale), scale);
     if (this.choice.robotIndex < 0) {
-      for (const robot of this.plan.robots)
+      for (const robot of this.choice.robots)
         this.#robot(context, robot, this.#radius(robot, scale), scale);
     } else {
       context.globalAlpha = 0.4;
-      for (const robot of this.plan.robots) {
+      for (const robot of this.choice.robots) {
         if (!this.choice.standsOut(robot.index))
           this.#robot(context, robot, this.#radius(robot, scale), scale);
       }
       context.globalAlpha = 1;
       const chosen = this.choice.decision?.robots ?? [this.choice.robotIndex];
-      for (const index of chosen) this.#chosen(context, this.plan.robots[index], scale);
+      for (const index of chosen) this.#chosen(context, this.choice.robots[index], scale);
     }
     this.#faulty(context, scale);
   }
@@ -75,7 +75,7 @@ export class MapRobots {
     context.lineWidth = Math.max(0.03, 2 / scale);
     const { faulty } = this.choice;
     for (const index of faulty) {
-      const robot = this.plan.robots[index];
+      const robot = this.choice.robots[index];
       const radius = this.#radius(robot, scale);
       const wide = robot.radius
         ? radius + 4 / scale
@@ -89,8 +89,8 @@ export class MapRobots {
   /** The robots shown with their ghosts: those chosen; all of a small fleet where none is. */
   get #haunted() {
     if (this.choice.robot)
-      return this.plan.robots.filter(({ index }) => this.choice.standsOut(index));
-    return this.plan.robots.length <= FEW ? this.plan.robots : [];
+      return this.choice.robots.filter(({ index }) => this.choice.standsOut(index));
+    return this.choice.robots.length <= FEW ? this.choice.robots : [];
   }
 
   /**
@@ -184,7 +184,7 @@ export class MapRobots {
 
   /** Whether robots are set apart from what lies behind; of a crowd only on the heat map. */
   get #outlined() {
-    return this.choice.heat || this.plan.robots.length <= FEW;
+    return this.choice.heat || this.choice.robots.length <= FEW;
   }
 
   /**
@@ -211,7 +211,7 @@ export class MapRobots {
    * @param {number} scale
    */
   #waiting(context, robot, x, y, radius, scale) {
-    if (this.plan.robots.length <= FEW && this.choice.robotIndex < 0)
+    if (this.choice.robots.length <= FEW && this.choice.robotIndex < 0)
       this.#wish(context, robot, x, y, scale);
     const width = Math.max(radius * 0.26, 1 / scale);
     context.fillStyle = this.theme.floor;

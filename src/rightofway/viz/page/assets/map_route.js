@@ -46,7 +46,7 @@ export class MapRoute {
     const { decision, routed } = this.choice;
     if (decision) this.#place(context, decision, scale);
     routed.forEach((index, place) =>
-      this.#route(context, this.plan.robots[index], this.aside(place), scale),
+      this.#route(context, this.choice.robots[index], this.aside(place), scale),
     );
   }
 

@@ -56,7 +56,7 @@ export class MapSpace {
   paint(context, scale) {
     this.#zones(context, scale);
     if (this.choice.space) {
-      for (const each of this.plan.robots) this.#band(context, each, scale);
+      for (const each of this.choice.robots) this.#band(context, each, scale);
       if (this.choice.robot) this.#excluded(context, this.choice.robot, scale);
     }
     for (const closure of this.plan.closures) this.#closure(context, closure, scale);
@@ -72,7 +72,7 @@ export class MapSpace {
     if (!this.choice.space) return;
     const { x, y } = this.motion;
     context.lineWidth = 1.25 / scale;
-    for (const robot of this.plan.robots) {
+    for (const robot of this.choice.robots) {
       if (!robot.radius || this.#half(robot) * scale - this.sizes.of(robot) < LEAST_GAP) continue;
       context.strokeStyle = robot.colour;
       context.setLineDash([4 / scale, 3 / scale]);
@@ -114,7 +114,7 @@ export class MapSpace {
     const middle = left + ((x[one] + x[other]) / 2) * scale;
     const ends = [one, other].map((index) => [
       top + y[index] * scale,
-      this.sizes.of(this.plan.robots[index]),
+      this.sizes.of(this.choice.robots[index]),
     ]);
     const above = Math.min(...ends.map(([at, radius]) => at - radius)) - 8;
     const below = Math.max(...ends.map(([at, radius]) => at + radius)) + 24;
@@ -135,7 +135,7 @@ export class MapSpace {
     if (!robot) return null;
     const nearest = this.space.nearestTo(robot);
     if (pair < 0 || !nearest) return nearest;
-    const other = this.plan.robots[pair];
+    const other = this.choice.robots[pair];
     const { x, y } = this.motion;
     const distance =
       Math.hypot(x[robot.index] - x[pair], y[robot.index] - y[pair]) * this.plan.roadmap.unit;
@@ -234,7 +234,7 @@ export class MapSpace {
    */
   #excluded(context, robot, scale) {
     const { roadmap } = this.plan;
-    const others = this.plan.robots.filter((other) => other !== robot);
+    const others = this.choice.robots.filter((other) => other !== robot);
     if (!robot.radius || !others.length) return;
     const least = others.reduce((smallest, other) =>
       other.radius < smallest.radius ? other : smallest,

@@ -95,7 +95,7 @@ export class MapTip {
     const vertex = this.plan.roadmap.near(x, y);
     const obstacle = this.plan.roadmap.obstacleAt(x, y);
     return [
-      ...(index < 0 ? [] : this.#aboutRobot(this.plan.robots[index])),
+      ...(index < 0 ? [] : this.#aboutRobot(this.choice.robots[index])),
       ...(vertex < 0 ? [] : this.#aboutPlace(vertex, index)),
       ...(vertex < 0 ? [] : this.#aboutZones(vertex)),
       ...this.plan.closures
@@ -188,7 +188,9 @@ export class MapTip {
    * @param {number} vertex
    */
   #placeName(vertex) {
-    const homes = this.plan.robots.filter((robot) => robot.home === vertex).map(({ name }) => name);
+    const homes = this.choice.robots
+      .filter((robot) => robot.home === vertex)
+      .map(({ name }) => name);
     const stops = (this.plan.stops.get(vertex) ?? []).map(({ name }) => name);
     const uses = [
       homes.length ? texts.homeOf(several(homes)) : "",

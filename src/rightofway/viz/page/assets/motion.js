@@ -9,10 +9,10 @@ import { pointAlong } from "./roadmap.js";
 
 /** Where all robots are and what they do, at one instant. */
 export class Motion {
-  /** @param {Fleet} plan */
-  constructor(plan) {
-    const count = plan.robots.length;
-    this.plan = plan;
+  /** @param {Fleet} fleet */
+  constructor(fleet) {
+    const count = fleet.robots.length;
+    this.fleet = fleet;
     this.x = new Float64Array(count);
     this.y = new Float64Array(count);
     this.activity = new Uint8Array(count);
@@ -33,8 +33,8 @@ export class Motion {
    * @param {((robot: number) => number) | null} [tickOf]
    */
   moveTo(tick, tickOf = null) {
-    if (this.#robots !== this.plan.robots) this.phase.fill(0);
-    const { robots } = this.plan;
+    if (this.#robots !== this.fleet.robots) this.phase.fill(0);
+    const { robots } = this.fleet;
     this.#robots = robots;
     this.counts.fill(0);
     for (const robot of robots) this.#move(robot, tickOf ? tickOf(robot.index) : tick);
@@ -72,14 +72,14 @@ export class Motion {
     const end = robot.phases.end(phase);
     const share = end === Infinity ? 1 : (tick - begin) / (end - begin);
     this.share[i] = Math.max(share, 0);
-    const { x, y } = this.plan.roadmap;
+    const { x, y } = this.fleet.roadmap;
     const visit = robot.phases.visit[phase];
     const here = robot.vertices[visit];
     this.x[i] = x[here];
     this.y[i] = y[here];
     if (activity !== DRIVE) return;
     const there = robot.vertices[visit + 1];
-    const curve = this.plan.roadmap.curve(here, there);
+    const curve = this.fleet.roadmap.curve(here, there);
     if (curve) {
       [this.x[i], this.y[i]] = pointAlong(curve, share);
       return;

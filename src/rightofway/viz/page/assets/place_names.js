@@ -292,7 +292,7 @@ export class PlaceNames {
     const { size } = this.plan.roadmap;
     /** @type {Map<number, Lane>} */
     const ways = new Map();
-    for (const { vertices } of routed.map((index) => this.plan.robots[index])) {
+    for (const { vertices } of routed.map((index) => this.choice.robots[index])) {
       for (let visit = 1; visit < vertices.length; visit++) {
         const [tail, head] = [vertices[visit - 1], vertices[visit]].sort((a, b) => a - b);
         ways.set(tail * size + head, [tail, head]);

@@ -17,7 +17,7 @@ export class Plan extends Site {
     this.line = raw.line.map(([vertex, at]) => ({ vertex, at })); // of a small fleet: its places in one line
     giveLosses(this.planned, raw.losses);
     this.happened = raw.floor ? onTheFloor(raw, raw.floor, this.planned) : null;
-    this.robots = this.happened ?? this.planned;
+    this.robots = this.happened ?? this.planned; // a view may show those planned instead: see Choice
     this.steady = raw.steady && raw.laps ? new Steady(raw.steady, raw.laps, this.planned) : null;
     this.faults = raw.faults.listed;
     this.faultCount = raw.faults.count;

@@ -52,7 +52,7 @@ export class RobotList {
   }
 
   #select() {
-    const found = this.plan.robots.filter((robot) => matches(robot.name, this.find.value));
+    const found = this.choice.robots.filter((robot) => matches(robot.name, this.find.value));
     if (this.sort.getAttribute("aria-pressed") === "true")
       found.sort((one, other) => lost(other) - lost(one));
     this.list.setItems(found);

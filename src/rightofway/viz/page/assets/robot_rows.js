@@ -44,11 +44,11 @@ export class RobotRows {
    */
   paint(context, area) {
     this.area = area;
-    this.rowHeight = Math.min(area.height / this.plan.robots.length, HIGHEST_ROW);
-    const names = this.plan.robots.map((robot) => robot.name);
+    this.rowHeight = Math.min(area.height / this.choice.robots.length, HIGHEST_ROW);
+    const names = this.choice.robots.map((robot) => robot.name);
     paintRowNames(context, area, this.theme, names, this.rowHeight, (row) => this.#middle(row));
     this.bottleneck.paintDiagram(context, area, ({ robot }) => this.#lane(robot));
-    for (const robot of this.plan.robots) this.#row(context, robot);
+    for (const robot of this.choice.robots) this.#row(context, robot);
     for (const robot of this.choice.beside ?? []) this.#ghost(context, robot);
   }
 
@@ -105,7 +105,7 @@ export class RobotRows {
    */
   robotAt(y) {
     const row = Math.floor((y - this.area.top) / this.rowHeight);
-    return this.plan.robots[row] ? row : -1;
+    return this.choice.robots[row] ? row : -1;
   }
 
   /** @param {number} row */

@@ -13,7 +13,7 @@ const LIMIT_NOTED = 480; // pixels; a narrower map has no room for the usual spe
  *
  * @param {number} perPixel
  */
-function roundLength(perPixel) {
+export function roundLength(perPixel) {
   const most = LONGEST_BAR * perPixel;
   const power = 10 ** Math.floor(Math.log10(most));
   return ([5, 2].find((digit) => digit * power <= most) ?? 1) * power;

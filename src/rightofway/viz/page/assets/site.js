@@ -18,7 +18,7 @@ export class Site {
     this.roadmap = new Roadmap(raw.map, raw.units.length);
     this.planned = raw.robots.map((robot, index) => new Robot(robot, index));
     /** @type {Robot[]} */
-    this.robots = this.planned; // those that are shown
+    this.robots = this.planned;
     this.clearance = raw.clearance ?? 0; // [length unit]
     this.largestRadius = this.planned.reduce((most, { radius }) => Math.max(most, radius), 0);
     /** @type {Closure[]} */

@@ -27,7 +27,7 @@ export class Space {
   constructor(plan, motion) {
     this.plan = plan;
     this.motion = motion;
-    this.#encounters = new FleetMemo(plan, () => new Map());
+    this.#encounters = new FleetMemo(motion.fleet, () => new Map());
     const { zones, size } = plan.roadmap;
     /** @type {Map<string | number, number[]>} */
     this.zonesOf = new Map(); // numbers of the zones of a vertex, and of a lane by tail * size + head
@@ -101,7 +101,7 @@ export class Space {
     /** @type {Map<number, Robot>} */
     const holders = new Map();
     if (!this.zonesOf.size) return holders;
-    for (const robot of this.plan.robots)
+    for (const robot of this.motion.fleet.robots)
       for (const zone of this.heldBy(robot).zones) holders.set(zone, robot);
     return holders;
   }
@@ -114,7 +114,7 @@ export class Space {
   nearestTo(robot) {
     /** @type {Omit<Encounter, "tick"> | null} */
     let best = null;
-    for (const other of this.plan.robots) {
+    for (const other of this.motion.fleet.robots) {
       const room = this.plan.room(robot, other);
       if (other === robot || !room) continue;
       const encounter = { other, room, distance: this.#distance(robot.index, other.index) };
@@ -134,7 +134,7 @@ export class Space {
 
   /** The closest approach of the whole fleet, with its two robots; null for points and for large fleets. */
   get closest() {
-    const { robots } = this.plan;
+    const { robots } = this.motion.fleet;
     if (!this.plan.largestRadius || robots.length > MOST_COMPARED) return null;
     const [first] = robots
       .flatMap((robot) =>
@@ -160,8 +160,8 @@ export class Space {
 
   /** @param {Robot} robot */
   #findEncounters(robot) {
-    const { roadmap, robots } = this.plan;
-    return robots
+    const { roadmap } = this.plan;
+    return this.motion.fleet.robots
       .filter((other) => other !== robot && this.plan.room(robot, other))
       .map((other) => ({
         other,

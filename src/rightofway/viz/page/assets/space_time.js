@@ -112,7 +112,8 @@ export class SpaceTime {
     const drawn = this.#drawn();
     const { beside } = this.choice;
     if (beside) for (const { index } of drawn) this.#line(context, beside[index], true);
-    for (const robot of this.plan.robots) if (!this.#isDrawn(robot)) this.#passing(context, robot);
+    for (const robot of this.choice.robots)
+      if (!this.#isDrawn(robot)) this.#passing(context, robot);
     for (const robot of drawn) this.#line(context, robot);
     if (this.choice.decision) this.#mark(context, this.choice.decision);
   }
@@ -127,8 +128,8 @@ export class SpaceTime {
   /** The robots that have strong lines. */
   #drawn() {
     const { robot, decision } = this.choice;
-    if (decision) return decision.robots.map((index) => this.plan.robots[index]);
-    return robot ? [robot] : this.plan.robots;
+    if (decision) return decision.robots.map((index) => this.choice.robots[index]);
+    return robot ? [robot] : this.choice.robots;
   }
 
   /**

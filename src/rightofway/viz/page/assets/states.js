@@ -29,7 +29,7 @@ export class States {
     this.motion = motion;
     this.choice = choice;
     this.#counts = texts.activities.map(() => element("b"));
-    const digits = String(motion.plan.robots.length).length;
+    const digits = String(motion.fleet.robots.length).length;
     for (const count of this.#counts) count.style.minWidth = `${digits}ch`; // or the layout would move with the count
     this.rows = texts.activities.map((word, activity) =>
       element("li", {}, sign(SIGNS[activity]), word, this.#counts[activity]),
@@ -43,7 +43,7 @@ export class States {
   /** Show the signs that may be on the map. */
   #suit() {
     for (const activity of [HELD, BROKEN]) {
-      this.rows[activity].hidden = !this.motion.plan.robots.some(({ phases }) =>
+      this.rows[activity].hidden = !this.motion.fleet.robots.some(({ phases }) =>
         phases.activity.includes(activity),
       );
     }

@@ -2,7 +2,7 @@ import { lastOf } from "./arrays.js";
 import { FleetMemo } from "./fleet_memo.js";
 import { blend } from "./theme.js";
 
-/** @import { Site } from "./site.js" */
+/** @import { Fleet } from "./motion.js" */
 /** @import { Theme } from "./theme.js" */
 /** @import { Robot } from "./robot.js" */
 
@@ -11,11 +11,11 @@ export class Use {
   #held;
   #byVertex;
 
-  /** @param {Site} plan */
-  constructor(plan) {
-    this.plan = plan;
-    this.#held = new FleetMemo(plan, () => this.#sum());
-    this.#byVertex = new FleetMemo(plan, () => this.#sort());
+  /** @param {Fleet} fleet the robots that are shown */
+  constructor(fleet) {
+    this.fleet = fleet;
+    this.#held = new FleetMemo(fleet, () => this.#sum());
+    this.#byVertex = new FleetMemo(fleet, () => this.#sort());
   }
 
   /** How long each vertex is held, without resting at the end [ticks]. */
@@ -48,13 +48,13 @@ export class Use {
     /** @type {[Robot, number][]} */
     const pairs = [];
     for (let i = first[vertex]; i < first[vertex + 1]; i++)
-      pairs.push([this.plan.robots[robots[i]], visits[i]]);
+      pairs.push([this.fleet.robots[robots[i]], visits[i]]);
     return pairs;
   }
 
   #sum() {
-    const held = new Float64Array(this.plan.roadmap.size);
-    for (const robot of this.plan.robots) {
+    const held = new Float64Array(this.fleet.roadmap.size);
+    for (const robot of this.fleet.robots) {
       for (let visit = 0; visit + 1 < robot.vertices.length; visit++) {
         held[robot.vertices[visit]] += robot.leave(visit) - robot.enter[visit];
       }
@@ -64,13 +64,13 @@ export class Use {
 
   /** All visits in the order of their vertices, in flat arrays. */
   #sort() {
-    const first = new Int32Array(this.plan.roadmap.size + 1);
-    for (const robot of this.plan.robots) for (const vertex of robot.vertices) first[vertex + 1]++;
-    for (let vertex = 0; vertex < this.plan.roadmap.size; vertex++)
+    const first = new Int32Array(this.fleet.roadmap.size + 1);
+    for (const robot of this.fleet.robots) for (const vertex of robot.vertices) first[vertex + 1]++;
+    for (let vertex = 0; vertex < this.fleet.roadmap.size; vertex++)
       first[vertex + 1] += first[vertex];
     const next = first.slice();
     const [robots, visits] = [new Int32Array(lastOf(first)), new Int32Array(lastOf(first))];
-    for (const robot of this.plan.robots) {
+    for (const robot of this.fleet.robots) {
       robot.vertices.forEach((vertex, visit) => {
         robots[next[vertex]] = robot.index;
         visits[next[vertex]++] = visit;

@@ -1,0 +1,195 @@
+"""What pages are made from, kept as files, so that tests of their modules run without Python.
+
+`python -m tests.builders.payloads` writes the files; a test compares them with the package.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import rightofway
+from rightofway.io import scenario_of
+from rightofway.model import ExecutionTrace, Plan, PlannerRun, Quantities, Tick, Track, Units
+from rightofway.solve import solve
+from rightofway.viz.motion import trips_of
+from rightofway.viz.page.document import compact_json
+from rightofway.viz.page.payload import payload_of
+from rightofway.viz.placement import plane_of
+from tests.builders.plans import counter, counter_late, counter_steady, crowd, door, loop, yard
+
+__all__ = ["FOLDER", "MADE", "cross", "in_metres", "written"]
+
+FOLDER = Path(__file__).parents[1] / "data" / "pages"
+
+CROSS = {
+    "vertices": {"A": [0, 0], "B": [8, 0], "C": [4, -4], "D": [4, 4]},
+    "edges": [["A", "B"], ["C", "D"]],
+}
+
+
+def cross(**more: Any) -> Plan:
+    """Return two robots on lanes that cross: R1 is by before R2 starts.
+
+    R1 drives from A to B from 0 to 8; R2 waits at C until 8 and drives to D until 16.
+
+    Parameters
+    ----------
+    more
+        Keys of the roadmap, beside vertices and edges or instead of them.
+    """
+    robots = [
+        {"name": "R1", "home": "A", "target": "B", "radius": 1, "return": "none"},
+        {"name": "R2", "home": "C", "target": "D", "radius": "1/2", "return": "none"},
+    ]
+    document: dict[str, Any] = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": {**CROSS, **more}, "y": "up"},
+        "units": {"length": "m", "time": "s"},
+        "robots": robots,
+        "rules": {"clearance": "1/10"},
+    }
+    scenario = scenario_of(document)
+    tick, times = scenario.problem.clock.tick, ([0, 8], [0, 16])
+    return Plan(
+        scenario=scenario,
+        tracks=tuple(
+            Track.of([tail, head], [int(at / tick) for at in enter])
+            for tail, head, enter in zip((0, 2), (1, 3), times, strict=True)
+        ),
+        run=PlannerRun(name="by hand", status="valid"),
+    )
+
+
+def in_metres(plan: Plan) -> Plan:
+    """Return a plan whose lengths are metres; its cells are as wide as one."""
+    return replace(plan, scenario=replace(plan.scenario, units=Units(length="m", time="s")))
+
+
+def _aisle() -> object:
+    """Two lanes that cross, one of them in a zone."""
+    zones = [{"name": "aisle", "vertices": ["C"], "edges": [["C", "D"], ["D", "C"]]}]
+    return payload_of(cross(zones=zones))
+
+
+def _packed() -> object:
+    """Four robots nearly as wide as a cell, whose ways cross, as a planner leads them."""
+    robots = [
+        {"name": f"R{k}", "home": [0, 2 * k], "target": [6, 6 - 2 * k], "radius": "45/100"}
+        for k in range(4)
+    ]
+    document = {"format": "rightofway-scenario/1", "map": {"grid": ["." * 7] * 7}, "robots": robots}
+    plan = solve(scenario_of(document), time_limit=None, planner="prioritized")
+    return payload_of(plan)
+
+
+def _corner() -> Plan:
+    """A robot that goes round a corner, works for 3 and comes back."""
+    fleet = rightofway.FleetBuilder(grid=["...", "@@."], turn_rate=45)
+    scenario = fleet.add_robot("R1", home="N0", target="N5", work=3).scenario()
+    return rightofway.solve(scenario, time_limit=None)
+
+
+def _corner_late() -> object:
+    """The same robot, twice as slow in all."""
+    plan = _corner()
+    trace = rightofway.simulate(plan, "slow:R1x2", runs=1).trace(0)
+    return payload_of(plan, actual=trace)
+
+
+def _rerouted() -> object:
+    """The door, where R2 breaks down in N4 at 3; R1 turns back in N1 and is home at 6."""
+    actual = ExecutionTrace(
+        tracks=(Track.of([0, 1, 0], [0, 2, 6]), Track.of([2, 1, 3], [0, 1, 2])),
+        dwell=(np.zeros(3, np.int64), np.zeros(3, np.int64)),
+        drive=(np.array([0, 1, 1]), np.array([0, 1, 1])),
+        completion=(None, None),
+        stoppages=((), ((Tick(3), None),)),
+    )
+    return payload_of(door(), actual=actual)
+
+
+def _closed() -> object:
+    """A lane that is closed from 8 until 24."""
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": CROSS},
+        "robots": [{"name": "R1", "home": "A", "target": "B"}],
+        "closures": [{"edge": ["C", "D"], "from": 8, "until": 24, "radius": 1}],
+    }
+    return payload_of(solve(scenario_of(document), time_limit=None))
+
+
+def _positions() -> object:
+    """Where the pictures of the package have robots: x, y [units] and activity, at some ticks."""
+    found = {}
+    for name, plan in {"door": door(), "loop": loop(), "crowd": crowd(6)}.items():
+        plane = plane_of(plan.scenario.roadmap)
+        moments = []
+        for tick in (0, 0.5, 3, 4.25, 9, 12.5, 40, 200):
+            robots: list[tuple[float, float, str]] = []
+            for trip in trips_of(plan):
+                moment = trip.at(tick)
+                tail, head = plane.points[moment.tail], plane.points[moment.head]
+                x, y = (tail + (head - tail) * moment.share).tolist()
+                robots.append((round(x, 6), round(y, 6), moment.activity.value))
+            moments.append({"tick": tick, "robots": robots})
+        found[name] = {"payload": payload_of(plan), "moments": moments}
+    return found
+
+
+def _times() -> object:
+    """Times as the package writes them, whole and in between, of ticks at random."""
+    draw = random.Random(1)  # noqa: S311 (no secret depends on it)
+    found = []
+    for units in [Units(), *(Units(length="m", time=time) for time in ("ms", "s", "min", "h"))]:
+        tick = Fraction(draw.randint(1, 900), draw.randint(1, 900))
+        ours = Quantities(units=units, tick=tick)
+        ticks = [
+            *(draw.randrange(10 ** draw.randint(1, 7)) for _ in range(40)),
+            *(draw.random() * 10.0 ** draw.randint(-8, 5) for _ in range(40)),
+        ]
+        found.append({
+            "units": {"length": units.length, "time": units.time},
+            "tick": [tick.numerator, tick.denominator],
+            "written": [[n, ours.duration(n), ours.moment(n), ours.cell(n)] for n in ticks],
+        })  # fmt: skip
+    return found
+
+
+MADE: dict[str, Callable[[], object]] = {
+    "door": lambda: payload_of(door()),
+    "measured": lambda: payload_of(in_metres(door())),
+    "yard": lambda: payload_of(yard()),
+    "loop": lambda: payload_of(loop()),
+    "laps": lambda: payload_of(counter(), steady=[counter_steady()]),
+    "late": lambda: payload_of(counter(), actual=counter_late()),
+    "late_laps": lambda: payload_of(counter(), steady=[counter_steady()], actual=counter_late()),
+    "cross": lambda: payload_of(cross()),
+    "aisle": _aisle,
+    "packed": _packed,
+    "corner": lambda: payload_of(_corner()),
+    "corner_late": _corner_late,
+    "closed": _closed,
+    "rerouted": _rerouted,
+    "positions": _positions,
+    "times": _times,
+}
+"""The files, by their names without ``.json``."""
+
+
+def written(name: str) -> str:
+    """Return what a file has to hold."""
+    return f"{compact_json({'made': MADE[name]()})}\n"
+
+
+if __name__ == "__main__":
+    FOLDER.mkdir(exist_ok=True)
+    for each in MADE:
+        (FOLDER / f"{each}.json").write_text(written(each), encoding="utf-8")

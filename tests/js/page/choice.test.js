@@ -1,0 +1,56 @@
+/** Which robots are shown. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Choice } from "../../../src/rightofway/viz/page/assets/choice.js";
+import { Clock } from "../../../src/rightofway/viz/page/assets/clock.js";
+import { Motion } from "../../../src/rightofway/viz/page/assets/motion.js";
+import { Use } from "../../../src/rightofway/viz/page/assets/use.js";
+import { planOf } from "../made.js";
+
+test("a choice shows the plan or the floor and writes nothing into the plan", () => {
+  const plan = Object.freeze(planOf("late"));
+  const choice = new Choice(plan);
+  assert.equal(choice.mode, "both");
+  assert.equal(choice.robots, plan.happened);
+  choice.show("plan");
+  assert.equal(choice.robots, plan.planned);
+  choice.show("floor");
+  assert.equal(choice.robots, plan.happened);
+});
+
+test("the robot chosen is the one that is shown", () => {
+  const plan = planOf("late");
+  const choice = new Choice(plan);
+  choice.chooseRobot(1);
+  assert.equal(choice.robot, plan.happened?.[1]);
+  choice.show("plan");
+  assert.equal(choice.robot, plan.planned[1]);
+});
+
+test("two views of one plan show what each has chosen", () => {
+  const plan = planOf("late");
+  const [one, other] = [new Choice(plan), new Choice(plan)];
+  one.show("plan");
+  const [first, second] = [new Motion(one), new Motion(other)];
+  // At 8 R1 still works in N1, where R2 should be; R2 waits in N2, and R1 should be at home.
+  for (const motion of [first, second]) motion.moveTo(8);
+  assert.deepEqual([...first.x], [0, 1]);
+  assert.deepEqual([...second.x], [1, 2]);
+});
+
+test("positions, events and use of vertices follow the robots shown", () => {
+  const plan = planOf("late");
+  const choice = new Choice(plan);
+  const [motion, clock, use] = [new Motion(choice), new Clock(plan, choice), new Use(choice)];
+  motion.moveTo(8);
+  clock.seek(5);
+  clock.stepEvent(1, null); // R1 works on at 7
+  // N1 is held from 1 to 10, 10 to 15 and 15 to 20; who stays for ever is not counted
+  assert.deepEqual([motion.x[0], clock.tick, use.held[1]], [1, 7, 9 + 5 + 5]);
+  choice.show("plan");
+  motion.moveTo(8);
+  clock.seek(5);
+  clock.stepEvent(1, null); // R2 comes to N1 when R1 is home, at 6; it is held for 5 in each of 8 laps
+  assert.deepEqual([motion.x[0], clock.tick, use.held[1]], [0, 6, 40]);
+});
