@@ -6,6 +6,7 @@ import {
   decimal,
   fraction,
 } from "../../../src/rightofway/viz/page/assets/quantities.js";
+import { made } from "../made.js";
 
 /** Values and their texts; the package is tested with the same ones. */
 const CASES = JSON.parse(readFileSync(new URL("../../data/quantities.json", import.meta.url)));
@@ -33,4 +34,33 @@ test("a tick lasts as long as the scenario says", () => {
   assert.equal(quantities.cell(5), "1.25");
   assert.equal(quantities.speed("6/5"), "1.2 m/s");
   assert.equal(quantities.length("9/20"), "0.45 m");
+});
+
+test("times at random are written as the package writes them", () => {
+  // numbers of ticks that are whole, or in between while the clock runs
+  for (const { units, tick, written } of made("times")) {
+    const quantities = new Quantities(units, tick);
+    for (const [ticks, duration, moment, cell] of written)
+      assert.deepEqual(
+        [quantities.duration(ticks), quantities.moment(ticks), quantities.cell(ticks)],
+        [duration, moment, cell],
+        `${ticks} ticks of ${tick.join("/")} ${units.time}`,
+      );
+  }
+});
+
+test("lengths and speeds have the units of the scenario or none", () => {
+  const plain = new Quantities({ length: null, time: null }, [1, 1]);
+  assert.equal(plain.length("9/20"), "0.45 length units");
+  assert.equal(plain.speed("6/5"), "1.2");
+});
+
+test("a running time keeps its decimals", () => {
+  const seconds = new Quantities({ length: "m", time: "s" }, [1, 2]);
+  assert.deepEqual(
+    [0, 1, 2.5, 120, 121.3].map((ticks) => seconds.running(ticks)),
+    ["0.0 s", "0.5 s", "1.3 s", "1 min 0.0 s", "1 min 0.7 s"],
+  );
+  const plain = new Quantities({ length: null, time: null }, [1, 1]);
+  assert.equal(plain.running(3, 2), "3.00");
 });
