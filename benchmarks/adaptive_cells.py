@@ -26,8 +26,9 @@ import rightofway
 from benchmarks.common import DOCS, IMAGES, plain_axes, save_figure, table, write_tables
 from rightofway.io import scenario_of
 from rightofway.metrics import measure
-from rightofway.model import Roadmap, Scenario
-from rightofway.model.places import Spot, vertex_at
+from rightofway.model import Scenario
+from rightofway.site import Roadmap
+from rightofway.site.places import Spot, vertex_at
 
 MAPS = DOCS.parent / "examples" / "maps"
 PAGE = DOCS / "layouts" / "ros-map.md"

@@ -109,7 +109,7 @@ def _peak() -> float:
 def measured(path: Path) -> None:
     """Print CPU time and the most memory of a process that opens a layout."""
     from rightofway.io import read_layout, scenario_of
-    from rightofway.model.layout import Layout
+    from rightofway.site.layout import Layout
 
     begin = time.process_time()
     found = read_layout(path)

@@ -24,10 +24,11 @@ import numpy as np
 import rightofway
 from benchmarks.common import SEEDS, movingai_fleet, table
 from rightofway.metrics import measure
-from rightofway.model import Robot, Scenario, Stop, VertexId
+from rightofway.model import Robot, Scenario, Stop
 from rightofway.model.problem import problem_of
 from rightofway.planners import planning_problem
 from rightofway.search import FleetSearch, plan_by_lacam
+from rightofway.site import VertexId
 
 MAP, ROBOTS, RADIUS = "warehouse-10-20-10-2-1", 1000, Fraction("0.45")
 RUNS, NEIGHBOURHOODS, EFFORT = 3, 1000, 10**12

@@ -17,7 +17,8 @@ from itertools import pairwise
 import rightofway
 from benchmarks.common import README, table, write_tables
 from rightofway.io import scenario_of
-from rightofway.model import Closure, Plan, Robot, Scenario, VertexId
+from rightofway.model import Closure, Plan, Robot, Scenario
+from rightofway.site import VertexId
 
 LIMIT, CUT = 10, 1.0
 """The limit for each plan [s], and the processor time after which plans are compared [s]."""

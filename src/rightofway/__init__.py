@@ -28,9 +28,7 @@ from rightofway.model import (
     LostTime,
     Plan,
     PlannerRun,
-    Quantities,
     Reroute,
-    Roadmap,
     Robot,
     RobotPlan,
     Rules,
@@ -40,7 +38,6 @@ from rightofway.model import (
     Track,
     Wait,
 )
-from rightofway.model.layout import Layout
 from rightofway.planners import (
     AutoOptions,
     LacamOptions,
@@ -53,6 +50,9 @@ from rightofway.planners import (
     RandomPriorityOptions,
     TwoLevelOptions,
 )
+from rightofway.quantities import Quantities
+from rightofway.site import Roadmap
+from rightofway.site.layout import Layout
 from rightofway.solve import improve, solve
 
 if _TYPE_CHECKING:

@@ -22,8 +22,6 @@ from rightofway.model.given import (
 )
 from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
-from rightofway.model.values import at, between
-from rightofway.model.zones import listed_only
 from rightofway.planners import (
     DEFAULT,
     IMPROVER,
@@ -34,6 +32,8 @@ from rightofway.planners import (
     find,
     registered,
 )
+from rightofway.site.zones import listed_only
+from rightofway.values import at, between
 
 __all__ = ["improve", "solve"]
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from rightofway.model import NEVER, Problem, Roadmap, Tick
+from rightofway.model import NEVER, Problem, Tick
 from rightofway.search import Booking, Bookings
+from rightofway.site import Roadmap
 from tests.oracles.sipp import Booked
 
 

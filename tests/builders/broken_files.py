@@ -51,7 +51,7 @@ from rightofway.io.layouts.formats import refuse_layout
 from rightofway.io.text import parse_yaml
 from rightofway.io.workbook import workbook_of
 from rightofway.io.workbook.writer import TEMPLATE
-from rightofway.model.layout import Layout
+from rightofway.site.layout import Layout
 from rightofway.solve import solve
 
 DATA = Path(__file__).parents[1] / "data"

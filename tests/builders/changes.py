@@ -8,7 +8,8 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from rightofway.model import Closure, Rules, Scenario, Stop, VertexId
+from rightofway.model import Closure, Rules, Scenario, Stop
+from rightofway.site import VertexId
 
 __all__ = ["CHANGES"]
 

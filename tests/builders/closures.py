@@ -6,7 +6,8 @@ import random
 from dataclasses import replace
 from fractions import Fraction
 
-from rightofway.model import Closure, Rules, Scenario, VertexId
+from rightofway.model import Closure, Rules, Scenario
+from rightofway.site import VertexId
 from tests.builders.fleets import random_fleet
 from tests.builders.sizes import sized, sized_on_lanes
 

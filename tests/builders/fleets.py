@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.io import load
-from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, roadmap_of_grid
+from rightofway.model import Robot, Rules, Scenario, Stop
+from rightofway.site import Roadmap, roadmap_of_grid
 
 __all__ = [
     "PAPER",

@@ -16,7 +16,8 @@ import numpy as np
 
 import rightofway
 from rightofway.io import scenario_of
-from rightofway.model import ExecutionTrace, Plan, PlannerRun, Quantities, Tick, Track, Units
+from rightofway.model import ExecutionTrace, Plan, PlannerRun, Tick, Track
+from rightofway.quantities import Quantities, Units
 from rightofway.solve import solve
 from rightofway.viz.motion import trips_of
 from rightofway.viz.page.document import compact_json

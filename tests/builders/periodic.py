@@ -7,8 +7,9 @@ import random
 import numpy as np
 from hypothesis import strategies as st
 
-from rightofway.model import Lap, Tick, VertexId
+from rightofway.model import Lap, Tick
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
+from rightofway.site import VertexId
 
 __all__ = ["patterns", "random_timetable", "timetable_of"]
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from rightofway.model import (
     Decision,
-    Edge,
     ExecutionTrace,
     Plan,
     PlannerRun,
@@ -21,12 +20,10 @@ from rightofway.model import (
     Stop,
     Tick,
     Track,
-    Units,
-    VertexId,
-    roadmap_of_edges,
-    roadmap_of_grid,
     stays_of,
 )
+from rightofway.quantities import Units
+from rightofway.site import Edge, VertexId, roadmap_of_edges, roadmap_of_grid
 
 __all__ = [
     "DOOR",

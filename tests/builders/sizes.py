@@ -7,18 +7,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from rightofway.model import (
-    Edge,
-    Roadmap,
-    Robot,
-    Rules,
-    Scenario,
-    Stop,
-    VertexId,
-    roadmap_of_edges,
-    roadmap_of_grid,
-)
-from rightofway.model.zones import Zone
+from rightofway.model import Robot, Rules, Scenario, Stop
+from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
+from rightofway.site.zones import Zone
 from tests.builders.fleets import grid_fleet, largest_part, random_fleet, random_grid
 
 __all__ = [

@@ -8,7 +8,8 @@ from dataclasses import replace
 from fractions import Fraction
 from math import ceil
 
-from rightofway.model import Robot, Rules, Scenario, Stop, VertexId
+from rightofway.model import Robot, Rules, Scenario, Stop
+from rightofway.site import VertexId
 from tests.builders.closures import with_closures
 from tests.builders.sizes import crowded_roadmap, has_room, tiny, zoned
 from tests.oracles import joint_space, turning

@@ -10,19 +10,9 @@ from typing import Any
 import pytest
 
 from rightofway.check import Report, check
-from rightofway.model import (
-    Edge,
-    Plan,
-    PlannerRun,
-    Robot,
-    Rules,
-    Scenario,
-    Stop,
-    Track,
-    Units,
-    VertexId,
-    roadmap_of_edges,
-)
+from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
+from rightofway.quantities import Units
+from rightofway.site import Edge, VertexId, roadmap_of_edges
 from tests.builders.fleets import grid_fleet
 
 Trip = tuple[Sequence[int], Sequence[int]]

@@ -8,7 +8,8 @@ from fractions import Fraction
 import pytest
 
 from rightofway import check
-from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, Units
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
+from rightofway.quantities import Units
 from tests.builders.fleets import grid_fleet
 from tests.builders.sizes import crossing, with_radii
 

@@ -8,19 +8,8 @@ from fractions import Fraction
 import pytest
 
 from rightofway.check import Report, check
-from rightofway.model import (
-    Edge,
-    Plan,
-    PlannerRun,
-    Robot,
-    Rules,
-    Scenario,
-    Stop,
-    Track,
-    VertexId,
-    roadmap_of_edges,
-    roadmap_of_grid,
-)
+from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
+from rightofway.site import Edge, VertexId, roadmap_of_edges, roadmap_of_grid
 
 # The rows 0 1 2 and 3 4 5; robots drive an edge in one tick and turn at stops in another.
 GRID = ["...", "..."]

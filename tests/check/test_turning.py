@@ -7,18 +7,8 @@ from fractions import Fraction
 import pytest
 
 from rightofway import check
-from rightofway.model import (
-    Edge,
-    Plan,
-    PlannerRun,
-    Robot,
-    Rules,
-    Scenario,
-    Stop,
-    Track,
-    VertexId,
-    roadmap_of_edges,
-)
+from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
+from rightofway.site import Edge, VertexId, roadmap_of_edges
 from tests.builders.fleets import grid_fleet
 
 NAMES = ("N0", "N1", "N3", "N1", "N0")

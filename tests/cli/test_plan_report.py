@@ -7,7 +7,8 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.cli.plan_report import decision_log, planning, summary
-from rightofway.model import Improvement, Plan, PlannerRun, Reroute, Rules, Tick, Track, Units
+from rightofway.model import Improvement, Plan, PlannerRun, Reroute, Rules, Tick, Track
+from rightofway.quantities import Units
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import counter, door
 

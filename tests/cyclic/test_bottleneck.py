@@ -11,8 +11,9 @@ from fractions import Fraction
 
 from rightofway.cyclic.bottleneck import bottleneck_of, in_words
 from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects, stages_at
-from rightofway.model import Lap, Rules, Scenario, Tick, VertexId
+from rightofway.model import Lap, Rules, Scenario, Tick
 from rightofway.precedence import TimedEventGraph
+from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet
 from tests.builders.periodic import timetable_of
 

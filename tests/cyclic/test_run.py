@@ -14,8 +14,9 @@ from rightofway.cyclic.result import GroupResult
 from rightofway.cyclic.route import GroupContext, independent_groups
 from rightofway.cyclic.run import share_time
 from rightofway.cyclic.simulator import CyclicSimulator
-from rightofway.model import Robot, Rules, Scenario, Stop, roadmap_of_grid
+from rightofway.model import Robot, Rules, Scenario, Stop
 from rightofway.planners import Deadline
+from rightofway.site import roadmap_of_grid
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: paper_scenario(case) for case in PAPER}

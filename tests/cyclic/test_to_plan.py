@@ -6,7 +6,8 @@ import numpy as np
 
 from rightofway.cyclic import excerpt, run_laps
 from rightofway.io import load
-from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
+from rightofway.model import Robot, Scenario, Stop
+from rightofway.site import VertexId, roadmap_of_grid
 from rightofway.viz import payload_of
 from tests.builders.plans import counter
 

@@ -6,7 +6,8 @@ from dataclasses import replace
 from fractions import Fraction
 
 import rightofway
-from rightofway.model import Edge, Plan, PlannerRun, Track, roadmap_of_edges
+from rightofway.model import Plan, PlannerRun, Track
+from rightofway.site import Edge, roadmap_of_edges
 from tests.builders.sizes import crossing
 
 

@@ -15,7 +15,7 @@ from rightofway.errors import InputError
 from rightofway.io import dump_plan, dump_scenario, plan_of, scenario_of
 from rightofway.io.opening import load_with_notes
 from rightofway.metrics import Site, inspect
-from rightofway.model import Units
+from rightofway.quantities import Units
 
 FLOOR = {"size": [8, 4], "obstacles": [{"name": "rack", "rect": [2, 1, 3, 2]}]}
 ROBOT = {"name": "R1", "home": {"x": 0.5, "y": 0.5}, "target": {"x": 7, "y": 3}}

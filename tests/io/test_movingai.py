@@ -7,7 +7,8 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import load, load_map, load_scen, write_map, write_scen
-from rightofway.model import Edge, Robot, Rules, Scenario, Stop, roadmap_of_edges
+from rightofway.model import Robot, Rules, Scenario, Stop
+from rightofway.site import Edge, roadmap_of_edges
 from tests.builders.fleets import grid_fleet
 
 MAP = "type octile\nheight 2\nwidth 3\nmap\n..T\nG@S\n"

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rightofway.io.text import decimal, whole
-from rightofway.model.values import COORDINATE_DIGITS, exact, written
+from rightofway.values import COORDINATE_DIGITS, exact, written
 
 
 @pytest.mark.parametrize(

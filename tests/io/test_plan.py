@@ -12,17 +12,8 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import dump_plan, load_plan, plan_of, write_plan
-from rightofway.model import (
-    Decision,
-    Plan,
-    PlannerRun,
-    Reroute,
-    Rules,
-    SteadyState,
-    Tick,
-    Track,
-    VertexId,
-)
+from rightofway.model import Decision, Plan, PlannerRun, Reroute, Rules, SteadyState, Tick, Track
+from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet
 
 

@@ -10,17 +10,10 @@ from hypothesis import strategies as st
 
 from rightofway.check import check
 from rightofway.metrics.alone import alone_completions
-from rightofway.model import (
-    Plan,
-    PlannerRun,
-    Rules,
-    Scenario,
-    Track,
-    completions_of,
-    roadmap_of_grid,
-)
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, completions_of
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
+from rightofway.site import roadmap_of_grid
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.laws import law
 

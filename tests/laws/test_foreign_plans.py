@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from rightofway.io import FOREIGN_FORMATS, foreign_text, load_plan, write_map
 from rightofway.io.foreign import planviz
-from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track, VertexId
-from rightofway.model.grid import roadmap_of_grid
+from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
+from rightofway.site import VertexId
+from rightofway.site.grid import roadmap_of_grid
 from tests.builders.laws import law
 from tests.oracles.planviz import visits_step_by_step
 

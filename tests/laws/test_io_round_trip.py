@@ -21,11 +21,9 @@ from rightofway.io import (
 )
 from rightofway.model import (
     Decision,
-    Edge,
     Plan,
     PlannerRun,
     Reroute,
-    Roadmap,
     Robot,
     Rules,
     Scenario,
@@ -33,11 +31,9 @@ from rightofway.model import (
     Stop,
     Tick,
     Track,
-    VertexId,
-    roadmap_of_edges,
-    roadmap_of_grid,
 )
-from rightofway.model.values import exact, written
+from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
+from rightofway.values import exact, written
 from tests.builders.any_fleet import any_fleet
 from tests.builders.laws import law
 

@@ -13,8 +13,9 @@ from rightofway.check import check
 from rightofway.cyclic import RULES, CyclicResult, best_timetable, plan_of, run_laps
 from rightofway.cyclic.to_plan import whole_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Closure, Plan, Scenario, Tick, VertexId
+from rightofway.model import Closure, Plan, Scenario, Tick
 from rightofway.planners import planning_headway
+from rightofway.site import VertexId
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave

@@ -13,18 +13,10 @@ from hypothesis import strategies as st
 from rightofway.cyclic import CyclicResult, best_timetable, in_words, run_laps
 from rightofway.cyclic.route import CyclicRoute, GroupContext, cyclic_routes, independent_groups
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import (
-    Edge,
-    Lap,
-    Robot,
-    Rules,
-    Scenario,
-    Stop,
-    Tick,
-    roadmap_of_edges,
-)
+from rightofway.model import Lap, Robot, Rules, Scenario, Stop, Tick
 from rightofway.precedence import CyclicSchedule
 from rightofway.search import PeriodicBookings, RowsOfLaps
+from rightofway.site import Edge, roadmap_of_edges
 from tests.builders.laws import law
 from tests.builders.sizes import crossing
 from tests.oracles import periodic_space as oracle

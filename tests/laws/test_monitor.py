@@ -15,9 +15,10 @@ from rightofway.check import check
 from rightofway.errors import InputError
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
-from rightofway.model import NEVER, Closure, Rules, Scenario, Tick, VertexId
+from rightofway.model import NEVER, Closure, Rules, Scenario, Tick
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
+from rightofway.site import VertexId
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, planned
 from tests.builders.executions import ONE_CHAIN, late, oracle_of, times

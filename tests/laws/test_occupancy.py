@@ -7,7 +7,7 @@ import numpy as np
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from rightofway.model.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy, grown
+from rightofway.site.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy, grown
 from tests.builders.laws import law, leave
 
 maps = st.integers(1, 7).flatmap(

@@ -8,9 +8,10 @@ from dataclasses import replace
 import numpy as np
 from hypothesis import strategies as st
 
-from rightofway.model import Lap, Tick, VertexId
+from rightofway.model import Lap, Tick
 from rightofway.precedence import TimedEventGraph
 from rightofway.search import PeriodicBookings
+from rightofway.site import VertexId
 from tests.builders.laws import law
 from tests.builders.periodic import random_timetable
 from tests.oracles import periodic_bookings as oracle

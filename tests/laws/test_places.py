@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, scenario_of
-from rightofway.model import Roadmap, Robot, Scenario, Stop, VertexId, roadmap_of_grid
-from rightofway.model.places import Spot, vertex_at
+from rightofway.model import Robot, Scenario, Stop
+from rightofway.site import Roadmap, VertexId, roadmap_of_grid
+from rightofway.site.places import Spot, vertex_at
 from tests.builders.laws import law
 
 sizes = st.fractions(Fraction(1, 20), 5, max_denominator=40)

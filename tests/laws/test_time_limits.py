@@ -20,7 +20,7 @@ import rightofway
 from rightofway import _core
 from rightofway.cyclic import best_timetable
 from rightofway.errors import RightOfWayError
-from rightofway.model import Lap, Plan, Scenario, Tick, VertexId
+from rightofway.model import Lap, Plan, Scenario, Tick
 from rightofway.planners import registered
 from rightofway.planners.flip import flipped
 from rightofway.precedence import ActionDependencyGraph, DelayModel, TimedEventGraph
@@ -35,6 +35,7 @@ from rightofway.search import (
     plan_by_lacam,
     untimed_lacam,
 )
+from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.periodic import random_timetable
 

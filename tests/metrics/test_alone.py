@@ -11,19 +11,9 @@ from hypothesis import strategies as st
 from rightofway import search
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import alone_completions
-from rightofway.model import (
-    Edge,
-    Roadmap,
-    Robot,
-    Rules,
-    Scenario,
-    Stop,
-    VertexId,
-    roadmap_of_edges,
-    roadmap_of_grid,
-    route_of,
-)
+from rightofway.model import Robot, Rules, Scenario, Stop, route_of
 from rightofway.search import Bookings, Distances, earliest_track
+from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
 from tests.builders.any_fleet import any_fleet
 from tests.builders.laws import law, leave
 

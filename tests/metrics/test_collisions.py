@@ -8,7 +8,8 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.metrics import Collision, Swap, collisions, free_running, near_misses, swaps
-from rightofway.model import Plan, PlannerRun, Rules, Scenario, Tick, Track, VertexId
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Tick, Track
+from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet
 
 DOOR = ["...", "@.@", "..."]

@@ -10,7 +10,9 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.metrics import changes, compare
-from rightofway.model import Closure, Robot, Scenario, Stop, Units, VertexId, roadmap_of_grid
+from rightofway.model import Closure, Robot, Scenario, Stop
+from rightofway.quantities import Units
+from rightofway.site import VertexId, roadmap_of_grid
 from tests.builders.plans import door, door_shifted, loop
 
 

@@ -21,7 +21,7 @@ from rightofway.metrics.connectivity import (
     strong_parts,
     ways_of,
 )
-from rightofway.model import Edge, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, roadmap_of_edges, roadmap_of_grid
 
 DIGRAPHS = st.integers(1, 9).flatmap(
     lambda count: st.tuples(

@@ -6,9 +6,10 @@ from fractions import Fraction
 
 import rightofway
 from rightofway.metrics import event_columns, events, lost_time
-from rightofway.model import Plan, PlannerRun, Rules, Stop, Track, VertexId
+from rightofway.model import Plan, PlannerRun, Rules, Stop, Track
 from rightofway.model.robot import Robot
 from rightofway.model.scenario import Scenario
+from rightofway.site import VertexId
 from tests.builders.fleets import PAPER, paper_scenario
 
 DOOR_1 = paper_scenario(PAPER[0])

@@ -10,16 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rightofway.metrics import Finding, Site, inspect
-from rightofway.model import (
-    Edge,
-    Roadmap,
-    Robot,
-    Stop,
-    Units,
-    VertexId,
-    roadmap_of_edges,
-    roadmap_of_grid,
-)
+from rightofway.model import Robot, Stop
+from rightofway.quantities import Units
+from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
 
 METRES = Units(length="m", time="s")
 

@@ -8,19 +8,8 @@ from typing import Any
 
 import rightofway
 from rightofway.metrics import lost_time
-from rightofway.model import (
-    Edge,
-    Loss,
-    Plan,
-    PlannerRun,
-    Robot,
-    Rules,
-    Scenario,
-    Stop,
-    Track,
-    VertexId,
-    roadmap_of_edges,
-)
+from rightofway.model import Loss, Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
+from rightofway.site import Edge, VertexId, roadmap_of_edges
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import counter, door
 

@@ -11,17 +11,8 @@ import pytest
 
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import measure
-from rightofway.model import (
-    Plan,
-    PlannerRun,
-    Robot,
-    Rules,
-    Scenario,
-    Stop,
-    Track,
-    completions_of,
-    roadmap_of_grid,
-)
+from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track, completions_of
+from rightofway.site import roadmap_of_grid
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 DOOR = ["...", "@.@", "..."]

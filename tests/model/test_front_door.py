@@ -14,7 +14,7 @@ import pytest
 
 import rightofway
 from rightofway import FleetBuilder, InputError, LnsOptions, Robot, Rules, Scenario, Stop
-from rightofway.model import Edge, roadmap_of_grid
+from rightofway.site import Edge, roadmap_of_grid
 
 DOOR = ["...", "@.@", "..."]
 

@@ -2,8 +2,9 @@
 
 from dataclasses import replace
 
-from rightofway.model import Scenario, Units
+from rightofway.model import Scenario
 from rightofway.model.place_names import PlaceNames
+from rightofway.quantities import Units
 from tests.builders.fleets import grid_fleet
 
 METRES = Units(length="m")

@@ -10,16 +10,9 @@ import numpy as np
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.model import (
-    Edge,
-    Resources,
-    Roadmap,
-    Rules,
-    Scenario,
-    roadmap_of_edges,
-    roadmap_of_grid,
-)
+from rightofway.model import Resources, Rules, Scenario
 from rightofway.model.resources import circle_around, close_pairs, resources_of
+from rightofway.site import Edge, Roadmap, roadmap_of_edges, roadmap_of_grid
 from tests.builders.any_fleet import any_fleet
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave

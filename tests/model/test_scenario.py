@@ -6,7 +6,8 @@ from fractions import Fraction
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.model import Robot, Rules, Scenario, Stop, VertexId, roadmap_of_grid
+from rightofway.model import Robot, Rules, Scenario, Stop
+from rightofway.site import VertexId, roadmap_of_grid
 from tests.builders.fleets import grid_fleet
 
 ROW = ["....."]

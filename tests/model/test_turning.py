@@ -11,21 +11,9 @@ import pytest
 from rightofway import solve
 from rightofway.errors import InputError
 from rightofway.fleet_builder import FleetBuilder
-from rightofway.model import (
-    Clock,
-    Edge,
-    Roadmap,
-    Robot,
-    Rules,
-    Scenario,
-    Stop,
-    Track,
-    VertexId,
-    roadmap_of_edges,
-    roadmap_of_grid,
-    route_through,
-)
+from rightofway.model import Clock, Robot, Rules, Scenario, Stop, Track, route_through
 from rightofway.model.turning import angles_of, turnings_of
+from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
 from tests.builders.fleets import grid_fleet
 
 

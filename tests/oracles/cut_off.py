@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rightofway.model import Roadmap
+from rightofway.site import Roadmap
 from tests.oracles.untimed_lacam import advance, steps
 
 __all__ = ["most_who_can_finish"]

@@ -14,7 +14,8 @@ from itertools import combinations, pairwise, product
 from math import ceil, degrees, floor, inf
 from typing import NamedTuple
 
-from rightofway.model import ExecutionTrace, Plan, Roadmap, Robot, Scenario
+from rightofway.model import ExecutionTrace, Plan, Robot, Scenario
+from rightofway.site import Roadmap
 
 __all__ = ["Booking", "Site", "faults", "is_shut"]
 

@@ -6,8 +6,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
-from rightofway.model import Itinerary, Lap, Roadmap, drives_along
+from rightofway.model import Itinerary, Lap, drives_along
 from rightofway.precedence import CyclicSchedule
+from rightofway.site import Roadmap
 
 
 def bookings(

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
-from rightofway.model import Itinerary, Roadmap
+from rightofway.model import Itinerary
+from rightofway.site import Roadmap
 
 __all__ = ["Booked", "earliest_completion"]
 

@@ -8,7 +8,8 @@ from functools import cache, partial
 from itertools import combinations, pairwise, permutations, product
 from typing import NamedTuple
 
-from rightofway.model import Roadmap, Scenario, Track
+from rightofway.model import Scenario, Track
+from rightofway.site import Roadmap
 
 Point = tuple[Fraction, Fraction]
 Shape = tuple[int, ...]

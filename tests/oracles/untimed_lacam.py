@@ -6,7 +6,8 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 from itertools import product
 
-from rightofway.model import Roadmap, Scenario
+from rightofway.model import Scenario
+from rightofway.site import Roadmap
 
 __all__ = ["advance", "can_get_through", "is_step", "steps"]
 

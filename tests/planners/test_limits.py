@@ -16,10 +16,11 @@ import rightofway
 from rightofway import search
 from rightofway.errors import GaveUp, InputError
 from rightofway.metrics import alone_completions
-from rightofway.model import Robot, Rules, Scenario, Stop, Tick, VertexId, roadmap_of_grid
+from rightofway.model import Robot, Rules, Scenario, Stop, Tick
 from rightofway.planners import Deadline, Task
 from rightofway.planners.priorities import fixed_priority
 from rightofway.planners.two_level import two_level
+from rightofway.site import VertexId, roadmap_of_grid
 from tests.builders.fleets import random_fleet
 
 HARD = Path(__file__).parents[1] / "data" / "hard"

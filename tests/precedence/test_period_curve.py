@@ -7,8 +7,9 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Lap, Tick, VertexId
+from rightofway.model import Lap, Tick
 from rightofway.precedence import Growth, PeriodPiece, TimedEventGraph, period_curve
+from rightofway.site import VertexId
 from tests.builders.periodic import timetable_of
 
 

@@ -2,8 +2,9 @@
 
 import pytest
 
-from rightofway.model import Route, Tick, VertexId
+from rightofway.model import Route, Tick
 from rightofway.precedence import crossing, shared_segment
+from rightofway.site import VertexId
 
 
 def route(*vertices: int) -> Route:

@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from rightofway.errors import GaveUp
-from rightofway.model import Lap, Tick, VertexId
+from rightofway.model import Lap, Tick
 from rightofway.precedence import TimedEventGraph, sensitivity, unrolled
+from rightofway.site import VertexId
 from tests.builders.periodic import timetable_of
 
 

@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from rightofway.model import Tick, Units
+from rightofway.model import Tick
+from rightofway.quantities import Units
 from tests.builders.plans import crowd, door, loop
 from tests.viewer.conftest import Opener
 

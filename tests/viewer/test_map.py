@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from rightofway.model import Obstacle, Plan
+from rightofway.model import Plan
+from rightofway.site import Obstacle
 from rightofway.viz import Background
 from tests.builders.labels import labels, overlap
 from tests.builders.plans import crowd, door, loop, yard

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rightofway.model import Plan, Units
+from rightofway.model import Plan
+from rightofway.quantities import Units
 from rightofway.solve import solve
 from tests.builders.fleets import grid_fleet
 from tests.builders.labels import labels, overlap

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rightofway.model import Quantities, Units
+from rightofway.quantities import Quantities, Units
 from tests.builders.plans import door
 from tests.viewer.conftest import Opener
 

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from rightofway.errors import InputError
-from rightofway.model import Edge, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, roadmap_of_edges, roadmap_of_grid
 from rightofway.viz import Background, payload_of
 from rightofway.viz.page.background import background_data
 from rightofway.viz.page.schema import PlaceData

@@ -8,7 +8,9 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.metrics import Site, inspect
-from rightofway.model import Edge, Robot, Stop, Units, VertexId, roadmap_of_edges
+from rightofway.model import Robot, Stop
+from rightofway.quantities import Units
+from rightofway.site import Edge, VertexId, roadmap_of_edges
 from rightofway.viz import inspection_page, site_data
 
 EVIL = '</script><img src="x" onerror="alert(1)">'

@@ -13,8 +13,8 @@ import rightofway
 from rightofway.errors import InputError
 from rightofway.metrics import NamedCollision, free_running, named_collisions
 from rightofway.model import Plan, Tick, completions_of
-from rightofway.model.quantities import Units
 from rightofway.planners.routing import free_running_tracks
+from rightofway.quantities import Units
 from rightofway.viz.table import (
     Column,
     Listing,

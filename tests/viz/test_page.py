@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.model import Units
+from rightofway.quantities import Units
 from rightofway.viz import frame_of, page_of, payload_of, png_of, write_page
 from rightofway.viz.page.scripts import scripts_of
 from tests.builders.plans import (

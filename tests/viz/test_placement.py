@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from rightofway.model import Edge, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, roadmap_of_edges, roadmap_of_grid
 from rightofway.viz.placement import (
     MAX_ROBOTS,
     MAX_VERTICES,

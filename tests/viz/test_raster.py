@@ -13,8 +13,9 @@ from PIL import Image, ImageColor
 
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
-from rightofway.model import Edge, Plan, Robot, Scenario, Stop, VertexId, roadmap_of_edges
-from rightofway.model.drawing import Drawing, Picture
+from rightofway.model import Plan, Robot, Scenario, Stop
+from rightofway.site import Edge, VertexId, roadmap_of_edges
+from rightofway.site.drawing import Drawing, Picture
 from rightofway.solve import solve
 from rightofway.viz import Film, write_gif, write_png
 from rightofway.viz.palette import DARK, LIGHT, robot_colours

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import rightofway
-from rightofway.model import Plan, Robot, Rules, Scenario, Stop, VertexId
-from rightofway.model.quadtree import roadmap_of_squares
+from rightofway.model import Plan, Robot, Rules, Scenario, Stop
+from rightofway.site import VertexId
+from rightofway.site.quadtree import roadmap_of_squares
 from rightofway.viz import payload_of
 from rightofway.viz.placement import plane_of
 

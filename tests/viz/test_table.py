@@ -10,18 +10,8 @@ import pytest
 
 from rightofway.check import check
 from rightofway.errors import InputError
-from rightofway.model import (
-    Edge,
-    Plan,
-    PlannerRun,
-    Robot,
-    Rules,
-    Scenario,
-    Stop,
-    Track,
-    VertexId,
-    roadmap_of_edges,
-)
+from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
+from rightofway.site import Edge, VertexId, roadmap_of_edges
 from rightofway.solve import solve
 from rightofway.viz.table import Row, TimeSpaceTable, as_csv, as_text, table_of
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario

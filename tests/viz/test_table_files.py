@@ -11,18 +11,8 @@ import openpyxl  # type: ignore[import-untyped]  # it ships no types
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.model import (
-    Edge,
-    Plan,
-    PlannerRun,
-    Robot,
-    Rules,
-    Scenario,
-    Stop,
-    Track,
-    VertexId,
-    roadmap_of_edges,
-)
+from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
+from rightofway.site import Edge, VertexId, roadmap_of_edges
 from rightofway.viz.table import table_of, write_csv, write_xlsx
 from tests.builders.fleets import grid_fleet
 

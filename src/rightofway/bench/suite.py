@@ -18,8 +18,8 @@ from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT, checked_format
 from rightofway.io.text import parse_toml, read_text
 from rightofway.model import Scenario
-from rightofway.model.values import written
 from rightofway.planners import find
+from rightofway.values import written
 
 if TYPE_CHECKING:
     from rightofway.io.suite import (

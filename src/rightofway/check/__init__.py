@@ -12,9 +12,10 @@ from rightofway.check.space import judge_space
 from rightofway.check.tracks import judge_drives, judge_trips, judge_turns
 from rightofway.check.visits import visits_of
 from rightofway.check.zones import judge_zones
-from rightofway.model import Plan, Quantities
+from rightofway.model import Plan
 from rightofway.model.given import checked_number, checked_plan
-from rightofway.model.values import at, one_of
+from rightofway.quantities import Quantities
+from rightofway.values import at, one_of
 
 __all__ = ["Fault", "FaultKind", "Report", "check"]
 

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from rightofway.check.faults import Fault, FaultCollector, Names
 from rightofway.check.visits import Visits
-from rightofway.model import NEVER, Closure, Plan, Roadmap, Tick, VertexId
+from rightofway.model import NEVER, Closure, Plan, Tick
+from rightofway.site import Roadmap, VertexId
 
 Place = tuple[int, int]
 """A vertex, twice; or the ends of an edge, the lower number first."""

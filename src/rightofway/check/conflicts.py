@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names
 from rightofway.check.visits import Visits
-from rightofway.model import Plan, Tick, VertexId
+from rightofway.model import Plan, Tick
 from rightofway.model.sorting import order_by
+from rightofway.site import VertexId
 
 Indices = NDArray[np.int64]
 

@@ -11,8 +11,10 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Quantities, Scenario, Tick, VertexId
+from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
+from rightofway.quantities import Quantities
+from rightofway.site import VertexId
 
 FaultKind = Literal[
     "unknown vertex",

@@ -19,8 +19,10 @@ from numpy.typing import NDArray
 
 from rightofway.check.faults import Fault, FaultCollector, Names
 from rightofway.check.visits import Visits
-from rightofway.model import Plan, Roadmap, Tick, VertexId, decimal
+from rightofway.model import Plan, Tick
 from rightofway.model.sorting import order_by
+from rightofway.quantities import decimal
+from rightofway.site import Roadmap, VertexId
 
 Indices = NDArray[np.int64]
 Exact = NDArray[Any]

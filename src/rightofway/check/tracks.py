@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names
 from rightofway.check.turning import MICRO
 from rightofway.check.visits import Visits
-from rightofway.model import Itinerary, Plan, Stage, Tick, VertexId, decimal
+from rightofway.model import Itinerary, Plan, Stage, Tick
+from rightofway.quantities import decimal
+from rightofway.site import VertexId
 
 
 def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> None:

@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Plan, Roadmap
+from rightofway.model import Plan
+from rightofway.site import Roadmap
 
 MICRO = 10**6
 """Angles are whole numbers of 1e-6 degrees."""

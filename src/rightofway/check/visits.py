@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.check.turning import turns_of
-from rightofway.model import Plan, Roadmap
+from rightofway.model import Plan
+from rightofway.site import Roadmap
 
 SAFE = 2**60
 """Sums of a few numbers below this stay within 64 bits; plans beyond it are judged in exact

@@ -10,8 +10,9 @@ import numpy as np
 
 from rightofway.check.faults import Fault, FaultCollector, Names
 from rightofway.check.visits import Visits
-from rightofway.model import Plan, Tick, VertexId
-from rightofway.model.zones import Zone
+from rightofway.model import Plan, Tick
+from rightofway.site import VertexId
+from rightofway.site.zones import Zone
 
 
 class _Stay(NamedTuple):

@@ -16,7 +16,7 @@ from rightofway.cli.terminal import counted, progress, put_json
 if TYPE_CHECKING:
     from rightofway.metrics import NamedCollision
     from rightofway.model import Plan
-    from rightofway.model.quantities import Quantities
+    from rightofway.quantities import Quantities
     from rightofway.viz.table import Listing
 
 EXAMPLES = """\b

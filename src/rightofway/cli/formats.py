@@ -169,7 +169,7 @@ def _refuse_layout_format(source: str, name: str | None) -> None:
 def _write_layout(source: str, path: str, name: str | None, radius: Fraction | None) -> None:
     """Write a layout in another format, or without one a scenario that has it as its map."""
     from rightofway.io import LAYOUT_WRITERS, layout_text, read_layout
-    from rightofway.model.layout import Layout
+    from rightofway.site.layout import Layout
 
     if name is None:
         _write_example(source, path, radius or Fraction(0))

@@ -26,9 +26,10 @@ from rightofway.cyclic import (
     visits_along,
 )
 from rightofway.errors import GaveUp
-from rightofway.model import Quantities, Scenario, Tick, decimal
+from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
-from rightofway.model.values import written
+from rightofway.quantities import Quantities, decimal
+from rightofway.values import written
 
 HOUR = 3600
 """Seconds in an hour; where the time unit is not known, laps are counted in as many time units."""

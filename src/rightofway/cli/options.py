@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from rightofway.model import Quantities, Scenario
+    from rightofway.model import Scenario
+    from rightofway.quantities import Quantities
 
     NumberType = click.ParamType[Fraction]
 else:
@@ -79,7 +80,7 @@ class Time(NumberType):
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> Fraction:
         """Return the number, exactly."""
-        from rightofway.model.values import exact
+        from rightofway.values import exact
 
         try:
             number = exact(value)

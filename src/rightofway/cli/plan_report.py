@@ -19,8 +19,9 @@ from rightofway.metrics import (
     swaps,
     waits,
 )
-from rightofway.model import Decision, Loss, LostTime, Plan, Quantities, decimal, stays_of
+from rightofway.model import Decision, Loss, LostTime, Plan, stays_of
 from rightofway.model.place_names import PlaceNames
+from rightofway.quantities import Quantities, decimal
 
 MAX_LINES = 10
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""

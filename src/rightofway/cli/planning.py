@@ -37,7 +37,8 @@ from rightofway.errors import NoPlanExists
 from rightofway.planners import DEFAULT, IMPROVER, PlannerSpec, find, registered
 
 if TYPE_CHECKING:
-    from rightofway.model import Plan, Quantities
+    from rightofway.model import Plan
+    from rightofway.quantities import Quantities
 
 SECONDS_PER_VISIT = 2.2e-6
 """The time to judge a plan, to write it and to report on it, for each visit that it has at least.

@@ -33,12 +33,12 @@ from rightofway.cli.terminal import (
     say,
     short,
 )
-from rightofway.model import decimal
 from rightofway.model.place_names import PlaceNames
+from rightofway.quantities import decimal
 
 if TYPE_CHECKING:
     from rightofway.execution import Outcome, PolicyGain, Quantiles
-    from rightofway.model import Quantities
+    from rightofway.quantities import Quantities
 
 MAX_ROBOTS = 20
 """Robots in the report; --json has them all."""

@@ -17,11 +17,11 @@ from rightofway.cli.options import Time, as_json_option, quantities_of, ticks_op
 from rightofway.cli.terminal import put_json, say, width
 from rightofway.errors import InputError
 from rightofway.model.place_names import PlaceNames
-from rightofway.model.values import written
+from rightofway.values import written
 
 if TYPE_CHECKING:
     from rightofway.model import Decision, Plan
-    from rightofway.model.quantities import Quantities
+    from rightofway.quantities import Quantities
     from rightofway.viz.table import Listing, TimeSpaceTable
 
 
@@ -70,7 +70,7 @@ def _shown(
     step: Fraction | None,
     in_ticks: bool,
 ) -> _Shown:
-    from rightofway.model import decimal
+    from rightofway.quantities import decimal
     from rightofway.viz.table import end_of
 
     if step == 0:

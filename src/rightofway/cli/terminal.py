@@ -19,11 +19,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.errors import printable
-from rightofway.model.quantities import Value, decimal
-from rightofway.model.values import written
+from rightofway.quantities import Value, decimal
+from rightofway.values import written
 
 if TYPE_CHECKING:
-    from rightofway.model import Quantities, Scenario
+    from rightofway.model import Scenario
+    from rightofway.quantities import Quantities
 
 
 COLUMNS = 80

@@ -234,8 +234,8 @@ def _background(path: str | None, scale: float | None, plan: Plan) -> Background
     if not path.lower().endswith(LAYOUTS_WITH_PICTURES):
         return Background(picture=path, scale=scale)
     from rightofway.io import read_layout
-    from rightofway.model.layout import Layout, Level
-    from rightofway.model.occupancy import Occupancy
+    from rightofway.site.layout import Layout, Level
+    from rightofway.site.occupancy import Occupancy
 
     layout = read_layout(path)
     owners = layout.levels if isinstance(layout, Layout) else (layout,)

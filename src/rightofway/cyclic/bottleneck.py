@@ -12,9 +12,10 @@ from fractions import Fraction
 from itertools import groupby
 from typing import Literal
 
-from rightofway.model import Scenario, Tick, VertexId
+from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
 from rightofway.precedence import TimedEventGraph
+from rightofway.site import VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

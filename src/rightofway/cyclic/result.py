@@ -16,8 +16,9 @@ from rightofway.cyclic.bottleneck import Bottleneck, bottleneck_of
 from rightofway.cyclic.pattern import History, Pattern
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.warmup import MeasuredLaps, measure
-from rightofway.model import NEVER, Scenario, Tick, VertexId
+from rightofway.model import NEVER, Scenario, Tick
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
+from rightofway.site import VertexId
 
 BaselineEnds = Literal["repeats", "starves", "deadlock", "open"]
 

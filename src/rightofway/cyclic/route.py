@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, InputFault
-from rightofway.model import Lap, Resources, Roadmap, Robot, Route, Scenario, Tick, VertexId, lap_of
+from rightofway.model import Lap, Resources, Robot, Route, Scenario, Tick, lap_of
 from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.native import BookedRows
 from rightofway.planners import planning_headway
@@ -24,6 +24,7 @@ from rightofway.planners.routing import (
 )
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from rightofway.search import Distances
+from rightofway.site import Roadmap, VertexId
 
 NOTHING_REPEATS = "'none' leaves nothing to repeat (set return: home)"
 

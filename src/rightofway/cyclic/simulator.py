@@ -16,9 +16,10 @@ from rightofway.cyclic.pattern import VisitTimes
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.rules import NATIVE_RULES
 from rightofway.errors import GaveUp
-from rightofway.model import Lap, Tick, VertexId
+from rightofway.model import Lap, Tick
 from rightofway.native import BookedRows
 from rightofway.planners import Deadline
+from rightofway.site import VertexId
 
 OPEN, REPEATS = 0, 1
 """Ends reported by the kernel; any other end is a deadlock."""

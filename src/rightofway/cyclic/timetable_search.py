@@ -31,10 +31,10 @@ from rightofway.cyclic.startup import start
 from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, Tick, checked_time_limit
 from rightofway.model.given import checked_functions, checked_number, checked_scenario, checked_seed
-from rightofway.model.values import at, list_of, number
 from rightofway.planners import Deadline
 from rightofway.precedence import unrolled
 from rightofway.search import Distances, RoundTrip
+from rightofway.values import at, list_of, number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

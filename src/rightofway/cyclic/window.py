@@ -18,11 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.cyclic.route import GroupContext
-from rightofway.model import Route, Tick, VertexId
+from rightofway.model import Route, Tick
 from rightofway.native import BookedRows
 from rightofway.planners import Deadline, Task
 from rightofway.planners.conflict_resolution import PartialPlan
 from rightofway.precedence import Meeting, PrecedenceGraph, Segment, SegmentOfSizes
+from rightofway.site import VertexId
 
 AnySegment = Segment | SegmentOfSizes
 

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from rightofway.errors import InputError
 from rightofway.model import NEVER, Scenario
-from rightofway.model.values import at, exact, list_of, text
 from rightofway.precedence import DelayModel, Stoppage
+from rightofway.values import at, exact, list_of, text
 
 DEFAULT = "exponential:0.2"
 """The default delays."""

@@ -31,7 +31,6 @@ from rightofway.model import (
     Itinerary,
     Plan,
     PlannerRun,
-    Roadmap,
     Robot,
     Route,
     Scenario,
@@ -39,7 +38,6 @@ from rightofway.model import (
     Stop,
     Tick,
     Track,
-    VertexId,
     route_of,
     turns_along,
 )
@@ -49,6 +47,7 @@ from rightofway.planners.moves import tracks_by_moves
 from rightofway.planners.prioritized import fleet_search
 from rightofway.precedence import ActionDependencyGraph
 from rightofway.search import Distances, untimed_lacam
+from rightofway.site import Roadmap, VertexId
 from rightofway.solve import improve
 
 NEIGHBOURHOODS = 20

@@ -17,9 +17,9 @@ from rightofway.execution.statistics import Collisions, Lateness, Outcome, Polic
 from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
 from rightofway.model.given import checked_number, checked_seed, checked_truths
 from rightofway.model.problem import refuse_closures
-from rightofway.model.values import at, function
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
+from rightofway.values import at, function
 
 CHUNK = 1 << 20
 """Visits per call of the kernel; time limit and Ctrl-C are checked between calls."""

@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
-from rightofway.model import NEVER, ExecutionTrace, Plan, VertexId
-from rightofway.model.values import written
+from rightofway.model import NEVER, ExecutionTrace, Plan
 from rightofway.precedence import ActionDependencyGraph, RunBatch
+from rightofway.site import VertexId
+from rightofway.values import written
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -21,22 +21,15 @@ from rightofway.fleet_builder.values import (
     units_of,
     within,
 )
-from rightofway.model import (
-    Roadmap,
-    Robot,
-    Scenario,
-    Stop,
-    TripEnd,
-    Units,
-    VertexId,
-    roadmap_of_grid,
-)
+from rightofway.model import Robot, Scenario, Stop, TripEnd
 from rightofway.model.closures import Closure, closure_faults
-from rightofway.model.layout import Layout, LevelRoadmap, roadmap_of_level
-from rightofway.model.places import as_place, vertex_at
-from rightofway.model.values import Number, at, list_of, text
-from rightofway.model.values import length as exact_length
-from rightofway.model.zones import NamedZone
+from rightofway.quantities import Units
+from rightofway.site import Roadmap, VertexId, roadmap_of_grid
+from rightofway.site.layout import Layout, LevelRoadmap, roadmap_of_level
+from rightofway.site.places import as_place, vertex_at
+from rightofway.site.zones import NamedZone
+from rightofway.values import Number, at, list_of, text
+from rightofway.values import length as exact_length
 
 
 class FleetBuilder:

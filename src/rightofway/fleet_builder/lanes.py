@@ -9,7 +9,7 @@ from typing import Any
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.fleet_builder.values import point_of, surcharge_of, types_of, within
-from rightofway.model import (
+from rightofway.site import (
     Edge,
     Point,
     Roadmap,
@@ -18,10 +18,10 @@ from rightofway.model import (
     squared_distance,
     straight_length,
 )
-from rightofway.model.spacing import SplitLanes, split_lanes
-from rightofway.model.values import Number
-from rightofway.model.values import length as exact_length
-from rightofway.model.zones import NamedZone
+from rightofway.site.spacing import SplitLanes, split_lanes
+from rightofway.site.zones import NamedZone
+from rightofway.values import Number
+from rightofway.values import length as exact_length
 
 
 @dataclass

@@ -10,8 +10,8 @@ from rightofway.errors import InputError, nearest, shown
 from rightofway.fleet_builder.values import within
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.model.given import checked_scenario
-from rightofway.model.places import as_place, vertex_at
-from rightofway.model.values import at, list_of
+from rightofway.site.places import as_place, vertex_at
+from rightofway.values import at, list_of
 
 __all__ = ["plan_of_paths"]
 

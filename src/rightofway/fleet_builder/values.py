@@ -8,10 +8,12 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.errors import InputError, shown
-from rightofway.model import Point, Rules, Units
-from rightofway.model.places import is_cell
+from rightofway.model import Rules
 from rightofway.model.resources import circle_around
-from rightofway.model.values import Number, coordinate, length, names, number
+from rightofway.quantities import Units
+from rightofway.site import Point
+from rightofway.site.places import is_cell
+from rightofway.values import Number, coordinate, length, names, number
 
 
 def within(place: str, make: Callable[..., Any], *arguments: Any, **named: Any) -> Any:

@@ -24,9 +24,9 @@ from pydantic import (
 from pydantic_core import CoreSchema, core_schema
 
 from rightofway.errors import is_printable, shown
-from rightofway.model import VertexId
-from rightofway.model.places import as_place
-from rightofway.model.values import COORDINATE_DIGITS, PATTERN, coordinate, exact
+from rightofway.site import VertexId
+from rightofway.site.places import as_place
+from rightofway.values import COORDINATE_DIGITS, PATTERN, coordinate, exact
 
 MAX_TICK = 2**53 - 1
 """Times in a plan lie within this, so that every reader holds them exactly; JavaScript too."""

@@ -19,7 +19,8 @@ from rightofway.errors import InputError, InputFault, shown
 from rightofway.files import write_whole
 from rightofway.io.faults import Faults, blaming
 from rightofway.io.text import read_text
-from rightofway.model import Grid, Roadmap, Robot, Rules, Scenario, Stop, roadmap_of_grid
+from rightofway.model import Robot, Rules, Scenario, Stop
+from rightofway.site import Grid, Roadmap, roadmap_of_grid
 
 _SIZE = re.compile(r"[0-9]{1,9}")
 _COLUMNS = "bucket, map, width, height, start x, start y, goal x, goal y, optimal length"

@@ -18,8 +18,9 @@ from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.text import read_text
 from rightofway.metrics import Site
-from rightofway.model import Scenario, Units
-from rightofway.model.layout import Layout, Level, roadmap_of_level
+from rightofway.model import Scenario
+from rightofway.quantities import Units
+from rightofway.site.layout import Layout, Level, roadmap_of_level
 
 METRES = Units(length="m", time="s")
 

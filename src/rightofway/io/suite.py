@@ -19,7 +19,7 @@ from rightofway.io.fields import (
     optional,
 )
 from rightofway.io.scenario.shape import RulesDocument
-from rightofway.model.values import exact
+from rightofway.values import exact
 
 MAX_SEED = 2**32 - 1
 MAX_SIDE = 10_000

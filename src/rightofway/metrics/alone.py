@@ -20,9 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import Blockage, NoPlanExists
-from rightofway.model import NEVER, Itinerary, Roadmap, Scenario, Tick, VertexId, least_dwell
+from rightofway.model import NEVER, Itinerary, Scenario, Tick, least_dwell
 from rightofway.model.place_names import PlaceNames
 from rightofway.model.turning import Turning
+from rightofway.site import Roadmap, VertexId
 
 Leg = tuple[VertexId, VertexId]
 """Two places of a trip that follow each other."""

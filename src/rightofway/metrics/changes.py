@@ -13,9 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from rightofway.model import Quantities, Roadmap, Robot, Scenario, decimal
+from rightofway.model import Robot, Scenario
 from rightofway.model.closures import Closure
 from rightofway.model.place_names import PlaceNames
+from rightofway.quantities import Quantities, decimal
+from rightofway.site import Roadmap
 
 NAMED = 2
 """Robots with the same change that are named; more are counted."""

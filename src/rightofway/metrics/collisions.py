@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
+from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, stays_of
 from rightofway.model.resources import Resources
 from rightofway.model.sorting import order_by
+from rightofway.site import VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -15,7 +15,8 @@ from typing import Any
 from rightofway.errors import InputError
 from rightofway.metrics.changes import Change, changes
 from rightofway.metrics.measure import measure
-from rightofway.model import Plan, Units, decimal
+from rightofway.model import Plan
+from rightofway.quantities import Units, decimal
 
 MAX_COMPARED = 8
 """Plans that are compared at once."""

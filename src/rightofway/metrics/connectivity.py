@@ -15,7 +15,7 @@ from math import lcm
 
 import numpy as np
 
-from rightofway.model import Roadmap
+from rightofway.site import Roadmap
 
 Neighbours = Sequence[Sequence[int]]
 """The vertices that edges of each vertex lead to, or come from."""

@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 
 from rightofway.errors import NoPlanExists
 from rightofway.metrics.lost_time import joined_waits, lost_time
-from rightofway.model import Loss, Plan, Scenario, Stays, Tick, VertexId, stays_of
+from rightofway.model import Loss, Plan, Scenario, Stays, Tick, stays_of
+from rightofway.site import VertexId
 
 
 class Event(NamedTuple):

@@ -27,8 +27,9 @@ from rightofway.metrics.connectivity import (
 )
 from rightofway.metrics.nearness import nearness, rounded_distance
 from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, trip_of
-from rightofway.model import Roadmap, decimal
 from rightofway.phrases import Phrase, counted
+from rightofway.quantities import decimal
+from rightofway.site import Roadmap
 
 MOST_PLACES = 200
 """The most places that are compared; of a longer list, this number spread over it."""

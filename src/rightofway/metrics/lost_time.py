@@ -22,9 +22,10 @@ from rightofway.metrics.alone import least_dwell_of_trip
 from rightofway.metrics.collisions import Bookings, bookings_of
 from rightofway.metrics.measure import measure
 from rightofway.metrics.waits import NOBODY, freed_by
-from rightofway.model import Loss, LostTime, Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
+from rightofway.model import Loss, LostTime, Plan, Scenario, Stays, Tick, Track, stays_of
 from rightofway.model.given import checked_plan
 from rightofway.model.turning import Turning
+from rightofway.site import VertexId
 
 MOST_AHEAD = 32
 """How many vertices a robot with a size may keep behind the one that it follows."""

@@ -9,12 +9,12 @@ from math import dist
 import numpy as np
 
 from rightofway.metrics.site import Finding, Site
-from rightofway.model import Roadmap
-from rightofway.model.geometry import squared_distance
 from rightofway.model.resources import ClosePairs, close_pairs
-from rightofway.model.spacing import along_one_lane
-from rightofway.model.walls import reaches_walls
 from rightofway.phrases import Phrase, counted, joined
+from rightofway.site import Roadmap
+from rightofway.site.geometry import squared_distance
+from rightofway.site.spacing import along_one_lane
+from rightofway.site.walls import reaches_walls
 
 TOUCHING = Fraction(1, 10**6)
 """Vertices and lanes nearer than this touch, whatever the size of the robots [length unit]."""

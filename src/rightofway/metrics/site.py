@@ -11,9 +11,11 @@ from itertools import pairwise
 from typing import Literal
 
 from rightofway.errors import listed
-from rightofway.model import Roadmap, Robot, Rules, Units, decimal
+from rightofway.model import Robot, Rules
 from rightofway.model.place_names import middle
 from rightofway.phrases import Phrase, counted
+from rightofway.quantities import Units, decimal
+from rightofway.site import Roadmap
 
 Severity = Literal["error", "warning", "note"]
 """``error``: some work cannot be done; ``warning``: robots will wait; ``note``: good to know."""

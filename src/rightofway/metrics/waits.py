@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.metrics.collisions import Bookings, bookings_of
-from rightofway.model import Plan, Roadmap, Scenario, Stays, Tick, Track, VertexId, Wait, stays_of
+from rightofway.model import Plan, Scenario, Stays, Tick, Track, Wait, stays_of
 from rightofway.model.given import checked_plan
 from rightofway.model.resources import Resources
+from rightofway.site import Roadmap, VertexId
 
 Visits = NDArray[np.int64]
 """Numbers of visits, counted robot by robot along the tracks."""

@@ -18,11 +18,10 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputFault
 from rightofway.model.deadline import check_work
-from rightofway.model.geometry import Point, squared_distance
 from rightofway.model.resources import exact_positions
-from rightofway.model.roadmap import Roadmap
-from rightofway.model.units import NEVER, Clock, Tick, VertexId
-from rightofway.model.values import coerced, number, optional, vertex
+from rightofway.model.units import NEVER, Clock, Tick
+from rightofway.site import Point, Roadmap, VertexId, squared_distance
+from rightofway.values import coerced, number, optional, vertex
 
 Lane = tuple[VertexId, VertexId]
 """The two ends of a lane, whichever way it is driven."""
@@ -79,7 +78,7 @@ class Closure:
 
 def _ends(value: object) -> Lane:
     if isinstance(value, list | tuple) and len(value) == 2:  # noqa: PLR2004 (two ends)
-        return vertex(value[0]), vertex(value[1])
+        return VertexId(vertex(value[0])), VertexId(vertex(value[1]))
     raise ValueError(f"{value!r} is no edge (give the vertices at both ends)")
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from rightofway.errors import InputError, shown
 from rightofway.model.plan import Plan
 from rightofway.model.scenario import Scenario
-from rightofway.model.values import at, function, one_of, optional, truth
+from rightofway.values import at, function, one_of, optional, truth
 
 LARGEST_SEED = 2**32 - 1
 """Planners draw from this many streams."""

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from rightofway.model.problem import Itinerary, Stage, least_dwell
 from rightofway.model.route import Route
-from rightofway.model.units import Tick, VertexId
+from rightofway.model.units import Tick
+from rightofway.site import VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
-from rightofway.model.units import Tick, VertexId
+from rightofway.model.units import Tick
+from rightofway.site import VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

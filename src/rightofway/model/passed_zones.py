@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model.resources import Resources, members_of, resources_of
-from rightofway.model.roadmap import Roadmap
 from rightofway.model.scenario import Scenario
-from rightofway.model.zones import listed_only
+from rightofway.site import Roadmap
+from rightofway.site.zones import listed_only
 
 Route = Sequence[int] | NDArray[np.int32]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from functools import cached_property
 
-from rightofway.model.quantities import decimal
-from rightofway.model.roadmap import Roadmap
 from rightofway.model.scenario import Scenario
+from rightofway.quantities import decimal
+from rightofway.site import Roadmap
 
 DECIMALS = 3
 """Decimal places of the middle of a cell."""

@@ -15,8 +15,9 @@ from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
 from rightofway.model.stays import completions_of
 from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
-from rightofway.model.units import Tick, VertexId
-from rightofway.model.values import coerced, list_of, one_of
+from rightofway.model.units import Tick
+from rightofway.site import VertexId
+from rightofway.values import coerced, list_of, one_of
 
 T = TypeVar("T")
 

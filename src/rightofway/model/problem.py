@@ -10,10 +10,10 @@ from itertools import chain
 from rightofway.errors import InputError
 from rightofway.model.closures import Closure, Closures, closures_of
 from rightofway.model.resources import Resources, resources_of
-from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules
 from rightofway.model.turning import Turning, turnings_of
-from rightofway.model.units import Clock, Tick, VertexId, choose_clock
+from rightofway.model.units import Clock, Tick, choose_clock
+from rightofway.site import Roadmap, VertexId
 
 LARGEST_SURCHARGE = 2**27
 """Routes are chosen as if no edge had a larger surcharge [ticks]."""

@@ -26,9 +26,8 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError
 from rightofway.model.deadline import check_work
-from rightofway.model.geometry import Point, squared_distance
-from rightofway.model.roadmap import Roadmap
-from rightofway.model.zones import Zone
+from rightofway.site import Point, Roadmap, squared_distance
+from rightofway.site.zones import Zone
 
 RADIUS_STEP = Fraction(1, 10**6)
 """The radius of a robot that is given by length and width is rounded up to this [length unit]."""

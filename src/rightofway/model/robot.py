@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Literal
 
 from rightofway.errors import shown
-from rightofway.model.units import VertexId
-from rightofway.model.values import (
+from rightofway.site import VertexId
+from rightofway.values import (
     coerced,
     number,
     optional,

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
 from rightofway.model.problem import Itinerary, Stage, least_dwell
-from rightofway.model.roadmap import Roadmap
-from rightofway.model.units import NEVER, Tick, VertexId
-from rightofway.model.values import at, coerced
+from rightofway.model.units import NEVER, Tick
+from rightofway.site import Roadmap, VertexId
+from rightofway.values import at, coerced
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

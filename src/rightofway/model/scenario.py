@@ -10,12 +10,12 @@ from rightofway.errors import InputError, InputFault, shown
 from rightofway.model.above import from_above
 from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.problem import Problem, problem_of
-from rightofway.model.quantities import Quantities, Units, decimal
 from rightofway.model.resources import too_short_edges
-from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules, Turn
-from rightofway.model.units import Clock, VertexId
-from rightofway.model.walls import clear_of_walls, reaches_walls
+from rightofway.model.units import Clock
+from rightofway.quantities import Quantities, Units, decimal
+from rightofway.site import Roadmap, VertexId
+from rightofway.site.walls import clear_of_walls, reaches_walls
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

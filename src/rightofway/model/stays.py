@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model.roadmap import Roadmap
 from rightofway.model.route import Track, least_dwells, serving_visits
 from rightofway.model.scenario import Scenario
 from rightofway.model.units import NEVER, Tick
+from rightofway.site import Roadmap
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from rightofway.errors import InputError, shown
 from rightofway.model.units import Tick
-from rightofway.model.values import coerced, list_of, whole_number
+from rightofway.values import coerced, list_of, whole_number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

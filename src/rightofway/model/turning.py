@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
 from rightofway.model.resources import exact_positions
-from rightofway.model.roadmap import Roadmap
 from rightofway.model.units import Clock, Tick
+from rightofway.site import Roadmap
 
 ANGLE_STEP = Fraction(1, 10**6)
 """Angles are rounded to this [degrees]."""

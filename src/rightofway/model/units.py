@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 Tick = NewType("Tick", int)
-VertexId = NewType("VertexId", int)
 
 NEVER = Tick(2**62)
 """The tick of what never happens, such as the end of a booking that never ends."""

@@ -21,16 +21,7 @@ from itertools import pairwise
 import numpy as np
 
 from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists, listed
-from rightofway.model import (
-    Itinerary,
-    Plan,
-    PlannerRun,
-    Roadmap,
-    Scenario,
-    Tick,
-    Track,
-    VertexId,
-)
+from rightofway.model import Itinerary, Plan, PlannerRun, Scenario, Tick, Track
 from rightofway.model.closures import Closure
 from rightofway.model.deadline import Deadline
 from rightofway.model.place_names import PlaceNames
@@ -42,6 +33,7 @@ from rightofway.search import (
     earliest_track,
     untimed_lacam,
 )
+from rightofway.site import Roadmap, VertexId
 
 EFFORT = 4_000_000
 """Steps of robots in all trials of the deletion filter."""

@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Scenario, Track, VertexId, route_through
+from rightofway.model import Scenario, Track, route_through
 from rightofway.planners.impossible import (
     blocking_set,
     refuse_blocked_parts,
@@ -37,6 +37,7 @@ from rightofway.planners.moves import plan_by_moves
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import graph_on
 from rightofway.search import Distances, FleetSearch, plan_by_lacam, untimed_lacam
+from rightofway.site import VertexId
 
 SHARE_OF_TIME = 0.9
 """The part of the time for the timed search."""

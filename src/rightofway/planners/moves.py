@@ -30,9 +30,10 @@ from itertools import count, product
 from typing import NamedTuple
 
 from rightofway.errors import Blockage, GaveUp, NoPlanExists, listed
-from rightofway.model import NEVER, Tick, Track, VertexId, least_dwell
+from rightofway.model import NEVER, Tick, Track, least_dwell
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.search import Distances, FleetSearch
+from rightofway.site import VertexId
 
 MOST_STATES = 100_000
 """States that are expanded at most."""

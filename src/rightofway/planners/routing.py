@@ -7,10 +7,11 @@ from functools import partial
 from itertools import accumulate, pairwise
 
 from rightofway.errors import GaveUp
-from rightofway.model import Itinerary, Route, Scenario, Track, VertexId, route_along, route_of
+from rightofway.model import Itinerary, Route, Scenario, Track, route_along, route_of
 from rightofway.planners.impossible import refuse_the_impossible
 from rightofway.planners.task import Task, planning_problem
 from rightofway.search import Bookings, Congestion, Distances, earliest_track
+from rightofway.site import VertexId
 
 
 def chosen_routes(task: Task) -> tuple[Distances, list[Route]]:

@@ -36,12 +36,10 @@ from rightofway.model import (
     NEVER,
     Plan,
     PlannerRun,
-    Roadmap,
     Route,
     Scenario,
     StartPlan,
     Track,
-    VertexId,
     cost_of,
     route_along,
     route_of,
@@ -51,6 +49,7 @@ from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Task, planning_headway
 from rightofway.precedence import graph_on
 from rightofway.search import FleetSearch
+from rightofway.site import Roadmap, VertexId
 
 SHARE = 0.5
 """The part of the time for a first plan; planning from nothing has the rest where there is none."""

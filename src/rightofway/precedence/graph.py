@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Route, Scenario, Tick, Track, VertexId, route_of
+from rightofway.model import Route, Scenario, Tick, Track, route_of
 from rightofway.native import BookedRows, ClosedPlaces
 from rightofway.precedence.segments import (
     IncompatiblePair,
@@ -31,6 +31,7 @@ from rightofway.precedence.segments import (
     segments_of_sizes,
     shared_segment,
 )
+from rightofway.site import VertexId
 
 Visit = int
 """A visit's number in the graph: the robots' routes one behind the other."""

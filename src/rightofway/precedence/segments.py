@@ -17,7 +17,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from rightofway.model import Route, VertexId
+from rightofway.model import Route
+from rightofway.site import VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Itinerary, Problem, VertexId
+from rightofway.model import Itinerary, Problem
 from rightofway.model.given import checked_index
 from rightofway.native import bound
 from rightofway.search.distances import Distances, Path
+from rightofway.site import VertexId
 
 SHARES = 16
 """In how many shares a tick is counted, if all robots cost the same."""

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.errors import InputError
-from rightofway.model import Roadmap, Tick, VertexId
+from rightofway.model import Tick
 from rightofway.model.given import checked_index
+from rightofway.site import Roadmap, VertexId
 
 Path = tuple[VertexId, ...]
 """The vertices of a path, both ends included."""

@@ -17,18 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import (
-    NEVER,
-    Itinerary,
-    Lap,
-    Resources,
-    Roadmap,
-    Stage,
-    Tick,
-    VertexId,
-    visits_of_laps,
-)
+from rightofway.model import NEVER, Itinerary, Lap, Resources, Stage, Tick, visits_of_laps
 from rightofway.search.distances import Distances
+from rightofway.site import Roadmap, VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

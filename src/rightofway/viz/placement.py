@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Roadmap
+from rightofway.site import Roadmap
 
 SHORT = 0.1
 """Share of edges that may be shorter than a unit, so that one tiny edge does not shrink robots."""

@@ -18,7 +18,7 @@ from rightofway.io.layouts import layout_text
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.metrics import Site, inspect
-from rightofway.model.layout import Layout
+from rightofway.site.layout import Layout
 
 
 def arc() -> Nurbs:

@@ -11,7 +11,7 @@ from PIL import Image
 from rightofway.io import example_of_layout, load
 from rightofway.io.text import parse_yaml
 from rightofway.metrics.connectivity import strong_parts, ways_of
-from rightofway.model import Edge, Roadmap, roadmap_of_edges
+from rightofway.site import Edge, Roadmap, roadmap_of_edges
 from rightofway.solve import solve
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"

@@ -12,7 +12,7 @@ import pytest
 from rightofway import FleetBuilder, layout_of_graph, solve
 from rightofway.errors import InputError
 from rightofway.io.layouts import layout_text, read_layout
-from rightofway.model.layout import Layout
+from rightofway.site.layout import Layout
 
 HALL = Path(__file__).parents[2] / "data" / "layouts" / "hall.lif.json"
 

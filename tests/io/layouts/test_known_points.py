@@ -10,8 +10,9 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import dump_plan, plan_of, read_layout, scenario_of
-from rightofway.model import Point, Roadmap, Scenario
-from rightofway.model.layout import Layout, Level
+from rightofway.model import Scenario
+from rightofway.site import Point, Roadmap
+from rightofway.site.layout import Layout, Level
 from rightofway.solve import solve
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"

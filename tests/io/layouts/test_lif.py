@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.io.layouts import read_layout
-from rightofway.model.layout import Layout
+from rightofway.site.layout import Layout
 
 
 def properties(*series: str, **more: Any) -> dict[str, Any]:

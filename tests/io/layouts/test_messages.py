@@ -8,7 +8,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import load, load_either, read_layout, scenario_of
-from rightofway.model.layout import Layout
+from rightofway.site.layout import Layout
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
 

@@ -8,7 +8,7 @@ import pytest
 
 from rightofway.io import layouts, read_layout
 from rightofway.io.layouts import LayoutFormat, formats
-from rightofway.model.layout import Layout, LayoutVertex, Level
+from rightofway.site.layout import Layout, LayoutVertex, Level
 
 ORIGIN = Fraction(0), Fraction(0)
 

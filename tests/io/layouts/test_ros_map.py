@@ -12,7 +12,7 @@ from rightofway.io import read_layout
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.sites import Choice, read_sites
-from rightofway.model.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy
+from rightofway.site.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy
 
 YAML = "image: a.png\nresolution: 1\norigin: [0, 0, 0]\nfree_thresh: 0.196\noccupied_thresh: 0.65\n"
 

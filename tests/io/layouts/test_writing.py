@@ -7,7 +7,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import LAYOUT_WRITERS, layout_text, read_layout
-from rightofway.model.layout import Layout, Level
+from rightofway.site.layout import Layout, Level
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
 LEVELS = [

@@ -22,8 +22,9 @@ from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.movingai import ScenRow, load_map, load_scen
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.text import is_regular
-from rightofway.model import Grid, Plan, PlannerRun, Scenario, Track
-from rightofway.model.grid import FREE
+from rightofway.model import Plan, PlannerRun, Scenario, Track
+from rightofway.site import Grid
+from rightofway.site.grid import FREE
 
 Cell = tuple[int, int]
 """Row and column, from 0."""

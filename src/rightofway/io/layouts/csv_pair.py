@@ -13,7 +13,7 @@ from rightofway.errors import InputError, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.parts import Part, number_in
 from rightofway.io.text import is_regular, read_text
-from rightofway.model.layout import Layout, LayoutVertex
+from rightofway.site.layout import Layout, LayoutVertex
 
 NAMES = ("name", "id", "node", "vertex", "nodeid", "node_id")
 TAILS = ("from", "source", "start", "tail", "startid")

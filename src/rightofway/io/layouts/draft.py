@@ -11,21 +11,10 @@ from itertools import groupby, pairwise
 from rightofway.errors import InputError, is_printable, nearest, shown
 from rightofway.io.faults import Faults
 from rightofway.io.layouts.parts import LONGEST_NAME
-from rightofway.model.drawing import Picture
-from rightofway.model.geometry import (
-    Point,
-    rounding_step,
-    squared_distance,
-    straight_length,
-)
-from rightofway.model.layout import (
-    Layout,
-    LayoutEdge,
-    LayoutVertex,
-    Level,
-    Station,
-)
-from rightofway.model.zones import NamedZone
+from rightofway.site.drawing import Picture
+from rightofway.site.geometry import Point, rounding_step, squared_distance, straight_length
+from rightofway.site.layout import Layout, LayoutEdge, LayoutVertex, Level, Station
+from rightofway.site.zones import NamedZone
 
 MAX_VERTICES, MAX_EDGES = 200_000, 1_000_000
 """The most vertices and lanes of a layout."""

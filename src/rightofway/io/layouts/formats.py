@@ -17,8 +17,8 @@ from rightofway.io.layouts.xml_tree import Element, parse_xml
 from rightofway.io.marks import marked
 from rightofway.io.movingai import load_map
 from rightofway.io.text import is_regular, parse_json, parse_yaml, read_text
-from rightofway.model.layout import Layout
-from rightofway.model.occupancy import CellMap, Occupancy
+from rightofway.site.layout import Layout
+from rightofway.site.occupancy import CellMap, Occupancy
 
 MAX_CHARACTERS = 50_000_000
 """A longer layout is refused: reading it would take half a gigabyte and more."""

@@ -10,8 +10,8 @@ from rightofway.errors import InputError, is_printable, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.graphml import LENGTHS, PAIRS, SPEEDS
 from rightofway.io.layouts.parts import LONGEST_NAME, number_in
-from rightofway.model.geometry import Point
-from rightofway.model.layout import Layout, LayoutVertex
+from rightofway.site.geometry import Point
+from rightofway.site.layout import Layout, LayoutVertex
 
 
 def layout_of_graph(graph: Any) -> Layout:

@@ -9,8 +9,8 @@ from rightofway.errors import InputError, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.parts import number_in
 from rightofway.io.layouts.xml_tree import Element
-from rightofway.model.geometry import Point
-from rightofway.model.layout import Layout, LayoutVertex
+from rightofway.site.geometry import Point
+from rightofway.site.layout import Layout, LayoutVertex
 
 PAIRS = ("pos", "coords", "coordinates", "position")
 """Names of attributes that hold x and y in one text, like ``70,182`` or ``(70, 182)``."""

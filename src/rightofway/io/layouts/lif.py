@@ -21,8 +21,8 @@ from rightofway.errors import InputError
 from rightofway.io.layouts.draft import MICRO, Draft, Lane, LevelDraft
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.layouts.parts import Part
-from rightofway.model.geometry import Point
-from rightofway.model.layout import Layout, LayoutVertex, Station
+from rightofway.site.geometry import Point
+from rightofway.site.layout import Layout, LayoutVertex, Station
 
 Curve = tuple[tuple[Point, ...], Fraction]
 """Points of a curve [m], and how far it is from the lines between them [m]."""

@@ -10,8 +10,8 @@ from typing import Any
 from rightofway.errors import InputError, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.parts import Part
-from rightofway.model.geometry import Point
-from rightofway.model.layout import Layout, LayoutVertex
+from rightofway.site.geometry import Point
+from rightofway.site.layout import Layout, LayoutVertex
 
 FASTEST = 10
 """A larger speed limit cannot be meant in m/s: by default Nav2 reads limits as percentages."""

@@ -16,10 +16,10 @@ from typing import Any
 from rightofway.errors import InputError, listed, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.parts import Part
-from rightofway.model.drawing import Picture
-from rightofway.model.geometry import Point
-from rightofway.model.layout import Layout, LayoutVertex
-from rightofway.model.zones import NamedZone
+from rightofway.site.drawing import Picture
+from rightofway.site.geometry import Point
+from rightofway.site.layout import Layout, LayoutVertex
+from rightofway.site.zones import NamedZone
 
 Transform = Callable[[Point], Point]
 

@@ -11,8 +11,8 @@ from fractions import Fraction
 from rightofway.errors import InputError, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.xml_tree import Element
-from rightofway.model.layout import Layout, LayoutVertex, Station
-from rightofway.model.zones import NamedZone
+from rightofway.site.layout import Layout, LayoutVertex, Station
+from rightofway.site.zones import NamedZone
 
 VERSIONS = ("0.0.4", "0.0.5", "6.0.0", "7.0.0")
 MILLIMETRE = Fraction(1, 1000)

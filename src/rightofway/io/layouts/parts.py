@@ -10,7 +10,7 @@ from typing import Any
 
 from rightofway.errors import InputError, is_printable, shown
 from rightofway.io.faults import place_of
-from rightofway.model.values import DIGITS, coordinate
+from rightofway.values import DIGITS, coordinate
 
 BILLION = 10**9
 

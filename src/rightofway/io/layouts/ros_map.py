@@ -22,9 +22,9 @@ from rightofway.errors import InputError, shown
 from rightofway.io.faults import under
 from rightofway.io.layouts.parts import Part
 from rightofway.io.text import refuse_special
-from rightofway.model.drawing import Picture
-from rightofway.model.geometry import Frame
-from rightofway.model.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy
+from rightofway.site.drawing import Picture
+from rightofway.site.geometry import Frame
+from rightofway.site.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy
 
 if TYPE_CHECKING:
     from PIL.Image import Image

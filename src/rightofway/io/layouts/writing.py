@@ -13,8 +13,8 @@ from xml.sax.saxutils import escape, quoteattr
 
 from rightofway.errors import InputError, listed
 from rightofway.io.text import json_line
-from rightofway.model.geometry import squared_distance
-from rightofway.model.layout import Layout, LayoutEdge, LayoutVertex, Level
+from rightofway.site.geometry import squared_distance
+from rightofway.site.layout import Layout, LayoutEdge, LayoutVertex, Level
 
 LISTS = {"layouts", "nodes", "edges", "stations", "features"}
 """Keys of lists that are spread over lines."""

@@ -25,8 +25,8 @@ from rightofway.model import (
     SteadyState,
     Tick,
     Track,
-    VertexId,
 )
+from rightofway.site import VertexId
 
 if TYPE_CHECKING:
     from pydantic import BaseModel

@@ -13,7 +13,7 @@ from rightofway.io.scenario.writer import dump_scenario
 from rightofway.io.text import json_text
 from rightofway.model import Decision, Plan, PlannerRun, Scenario, SteadyState
 from rightofway.model.given import checked_plan, checked_truths
-from rightofway.model.values import written
+from rightofway.values import written
 
 
 def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:

@@ -10,7 +10,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Roadmap, Scenario
+from rightofway.model import Scenario
+from rightofway.site import Roadmap
 
 SLACK = 1e-9
 """Part of a lane's length by which lanes have to pass beyond each other to count as crossing."""

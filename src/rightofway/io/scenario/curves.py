@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from rightofway.errors import InputError
 from rightofway.io.layouts.draft import MICRO
 from rightofway.io.layouts.nurbs import bezier
-from rightofway.model import Point
-from rightofway.model.spacing import lengths_along
+from rightofway.site import Point
+from rightofway.site.spacing import lengths_along
 
 ERROR = Fraction(1, 2000)
 """How far the pieces may be from their curve, in parts of the way along its control points."""

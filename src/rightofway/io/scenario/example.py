@@ -17,10 +17,11 @@ from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.writer import yaml_of
 from rightofway.io.text import json_text
 from rightofway.metrics.connectivity import strong_parts, ways_of
-from rightofway.model import Units, roadmap_of_grid
-from rightofway.model.layout import Layout, Level
-from rightofway.model.occupancy import Occupancy
-from rightofway.model.values import written
+from rightofway.quantities import Units
+from rightofway.site import roadmap_of_grid
+from rightofway.site.layout import Layout, Level
+from rightofway.site.occupancy import Occupancy
+from rightofway.values import written
 
 ROBOTS = 6
 """Robots of the example, at most."""

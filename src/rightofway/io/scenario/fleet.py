@@ -17,8 +17,9 @@ from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.homes import HOMELESS, housed
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.maps import file_beside
-from rightofway.model import Robot, Rules, Stop, VertexId
-from rightofway.model.places import kinds_of_places
+from rightofway.model import Robot, Rules, Stop
+from rightofway.site import VertexId
+from rightofway.site.places import kinds_of_places
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import FleetDocument, TripDocument

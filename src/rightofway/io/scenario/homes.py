@@ -7,8 +7,9 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.errors import InputError, listed
-from rightofway.model import Roadmap, Robot, Rules, Tick, VertexId, squared_distance
+from rightofway.model import Robot, Rules, Tick
 from rightofway.search import Distances
+from rightofway.site import Roadmap, VertexId, squared_distance
 
 HOMELESS = VertexId(-1)
 """The home of a robot to which none is dealt out yet."""

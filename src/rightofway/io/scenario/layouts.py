@@ -12,11 +12,12 @@ from rightofway.errors import InputError
 from rightofway.io.faults import under
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.loaded_map import LoadedMap, curve_note, joined_note
-from rightofway.model import Units, roadmap_of_grid
-from rightofway.model.drawing import Drawing
-from rightofway.model.layout import Layout, roadmap_of_level
-from rightofway.model.occupancy import CellMap, Occupancy
-from rightofway.model.quadtree import MAX_SMALLEST, roadmap_of_squares
+from rightofway.quantities import Units
+from rightofway.site import roadmap_of_grid
+from rightofway.site.drawing import Drawing
+from rightofway.site.layout import Layout, roadmap_of_level
+from rightofway.site.occupancy import CellMap, Occupancy
+from rightofway.site.quadtree import MAX_SMALLEST, roadmap_of_squares
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import MapDocument

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
-from rightofway.model import Floor, Grid, Roadmap, Units, VertexId, decimal
-from rightofway.model.places import Place, vertex_at
+from rightofway.quantities import Units, decimal
+from rightofway.site import Floor, Grid, Roadmap, VertexId
+from rightofway.site.places import Place, vertex_at
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

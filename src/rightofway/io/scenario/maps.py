@@ -15,17 +15,16 @@ from rightofway.io.scenario.curves import LaneCurve, lane_curve, spaced
 from rightofway.io.scenario.layouts import laid_out
 from rightofway.io.scenario.loaded_map import LoadedMap, curve_note, joined_note
 from rightofway.io.text import refuse_special
-from rightofway.model import (
+from rightofway.quantities import Units, decimal
+from rightofway.site import (
     Edge,
     Floor,
     Frame,
     Obstacle,
     Point,
     Roadmap,
-    Units,
     VertexId,
     cluster,
-    decimal,
     node_length,
     roadmap_of_edges,
     roadmap_of_grid,
@@ -33,11 +32,11 @@ from rightofway.model import (
     squared_distance,
     straight_length,
 )
-from rightofway.model.clustering import MAX_CELLS, free_cells
-from rightofway.model.drawing import Drawing
-from rightofway.model.quadtree import MAX_SMALLEST, roadmap_of_squares
-from rightofway.model.spacing import SplitLanes, refuse_many_pieces, split_lanes
-from rightofway.model.zones import NamedZone
+from rightofway.site.clustering import MAX_CELLS, free_cells
+from rightofway.site.drawing import Drawing
+from rightofway.site.quadtree import MAX_SMALLEST, roadmap_of_squares
+from rightofway.site.spacing import SplitLanes, refuse_many_pieces, split_lanes
+from rightofway.site.zones import NamedZone
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import (

@@ -11,7 +11,7 @@ from rightofway.errors import InputError, shown
 from rightofway.io.faults import under
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.text import refuse_special
-from rightofway.model.drawing import Picture
+from rightofway.site.drawing import Picture
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import PictureDocument

@@ -29,9 +29,11 @@ from rightofway.io.scenario.fleet import (
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.picture import with_picture
-from rightofway.model import Roadmap, Rules, Scenario, Units
+from rightofway.model import Rules, Scenario
 from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
+from rightofway.quantities import Units
+from rightofway.site import Roadmap
 
 if TYPE_CHECKING:
     pass

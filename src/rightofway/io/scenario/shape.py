@@ -31,10 +31,11 @@ from rightofway.io.fields import (
     exactly_one_of,
     optional,
 )
-from rightofway.model import Occupancy, TripEnd, VertexId, Walls
-from rightofway.model.places import kinds_of_places
-from rightofway.model.quantities import LengthUnit, TimeUnit
+from rightofway.model import Occupancy, TripEnd, Walls
 from rightofway.model.resources import circle_around
+from rightofway.quantities import LengthUnit, TimeUnit
+from rightofway.site import VertexId
+from rightofway.site.places import kinds_of_places
 
 PLACES = kinds_of_places(None)
 TURNING = "turning time at a stop [time unit], or cell: one cell's crossing time"

@@ -10,10 +10,12 @@ from rightofway.errors import InputError
 from rightofway.files import path_of, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.text import json_text
-from rightofway.model import Roadmap, Robot, Rules, Scenario, Turn, Units, VertexId
-from rightofway.model.drawing import Picture
+from rightofway.model import Robot, Rules, Scenario, Turn
 from rightofway.model.given import checked_scenario
-from rightofway.model.values import written
+from rightofway.quantities import Units
+from rightofway.site import Roadmap, VertexId
+from rightofway.site.drawing import Picture
+from rightofway.values import written
 
 
 def dump_scenario(scenario: Scenario) -> dict[str, Any]:

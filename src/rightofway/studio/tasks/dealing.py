@@ -15,7 +15,8 @@ from rightofway.io.fields import positive
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.shape import MapDocument, UnitsDocument
 from rightofway.metrics.connectivity import strong_parts, ways_of
-from rightofway.model import Roadmap, Units
+from rightofway.quantities import Units
+from rightofway.site import Roadmap
 from rightofway.studio.messages import Blobs, Emit
 
 Result = tuple[Any, ...]

@@ -12,7 +12,8 @@ from functools import lru_cache
 from typing import TypedDict
 
 from rightofway.errors import InputError
-from rightofway.model import Plan, Roadmap
+from rightofway.model import Plan
+from rightofway.site import Roadmap
 from rightofway.studio.tasks.documents import loaded_of
 
 

@@ -18,8 +18,8 @@ from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.picture import with_picture
 from rightofway.io.sites import sites_of
 from rightofway.metrics import Inspection, Site, inspect, sentences
-from rightofway.model import Units
 from rightofway.phrases import parts_of
+from rightofway.quantities import Units
 from rightofway.studio.messages import Blobs, Emit, fault_data, zipped
 from rightofway.studio.tasks.documents import digest_of, loaded_of, plain
 from rightofway.viz import site_data

@@ -11,7 +11,8 @@ from rightofway.io import dump_scenario, is_layout, load_either, load_with_notes
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.sites import Choice, Sites, read_sites, sites_of
 from rightofway.metrics.site import extent
-from rightofway.model import Plan, decimal
+from rightofway.model import Plan
+from rightofway.quantities import decimal
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import Result, plain, raw_document
 from rightofway.studio.tasks.editing import drawn_map, readable

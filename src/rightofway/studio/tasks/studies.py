@@ -16,10 +16,10 @@ from rightofway.errors import GaveUp, InputError
 from rightofway.io import plan_of, plan_text
 from rightofway.io.text import parse_json
 from rightofway.model import Scenario
-from rightofway.model.values import exact
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import digest_of, figures, loaded_of
 from rightofway.studio.tasks.planning import Progress
+from rightofway.values import exact
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import payload_of
 

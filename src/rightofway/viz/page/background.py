@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from rightofway.errors import InputError, shown
-from rightofway.model import Roadmap
-from rightofway.model.drawing import Picture
-from rightofway.model.values import at, coordinate, list_of, one_of, optional
+from rightofway.site import Roadmap
+from rightofway.site.drawing import Picture
+from rightofway.values import at, coordinate, list_of, one_of, optional
 from rightofway.viz.page.schema import BackgroundData, PlaceData
 from rightofway.viz.placement import plane_of
 

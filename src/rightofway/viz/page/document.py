@@ -18,7 +18,7 @@ from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.model.given import checked_plan
-from rightofway.model.values import at, text
+from rightofway.values import at, text
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.page.scripts import asset, classic_script, scripts_of

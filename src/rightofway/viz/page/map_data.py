@@ -10,8 +10,8 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Grid, Point, Roadmap
 from rightofway.model.resources import close_pairs
+from rightofway.site import Grid, Point, Roadmap
 from rightofway.viz.page.background import Background, background_data, background_of
 from rightofway.viz.page.schema import CloseData, FrameData, MapData, ObstacleRow
 from rightofway.viz.placement import Plane, plane_of

@@ -34,7 +34,7 @@ from rightofway.model import (
 from rightofway.model.closures import Closure, ways_along
 from rightofway.model.given import checked_plan
 from rightofway.model.steady_state import refuse_unknown_robots
-from rightofway.model.values import at, list_of, one_of, optional, text
+from rightofway.values import at, list_of, one_of, optional, text
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.map_data import differences, map_data

@@ -9,10 +9,11 @@ from functools import cache
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from rightofway.model import Plan, Roadmap
+from rightofway.model import Plan
 from rightofway.model.given import checked_plan
 from rightofway.model.place_names import PlaceNames
-from rightofway.model.values import at, one_of
+from rightofway.site import Roadmap
+from rightofway.values import at, one_of
 from rightofway.viz.motion import end_of, trips_of
 from rightofway.viz.page.schema import PlaceData
 from rightofway.viz.palette import Theme, mix, robot_colours

@@ -12,7 +12,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model.quantities import Quantities
+from rightofway.quantities import Quantities
 from rightofway.viz.motion import Activity, Trip
 from rightofway.viz.palette import mix
 from rightofway.viz.placement import edge_length, vertices_in_line

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from rightofway.model import Grid
+from rightofway.site import Grid
 from rightofway.viz.motion import Activity, Moment
 from rightofway.viz.page.background import background_of, place_of, unreadable
 from rightofway.viz.palette import ink_on

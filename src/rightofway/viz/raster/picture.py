@@ -15,7 +15,7 @@ from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.model import Plan
 from rightofway.model.given import checked_truths
-from rightofway.model.values import at, between, optional, whole_number
+from rightofway.values import at, between, optional, whole_number
 from rightofway.viz.palette import LIGHT, Theme
 from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.diagram import Diagram

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from rightofway.errors import InputError
-from rightofway.model.quantities import Quantities
+from rightofway.quantities import Quantities
 from rightofway.viz.table.terminal import MAX_LINES, text_width
 
 MAX_CELL = 40

@@ -15,7 +15,7 @@ from rightofway.metrics import (
     swaps,
 )
 from rightofway.model import Decision, Plan, Tick
-from rightofway.model.quantities import Quantities
+from rightofway.quantities import Quantities
 from rightofway.viz.table.listing import Column, Listing
 from rightofway.viz.table.timespace import chosen_robots
 

@@ -16,18 +16,9 @@ import numpy as np
 from rightofway.errors import InputError, InputFault
 from rightofway.metrics import collisions, free_running, near_misses, swaps
 from rightofway.metrics.waits import waits_in
-from rightofway.model import (
-    NEVER,
-    Plan,
-    Roadmap,
-    Scenario,
-    Stays,
-    Tick,
-    Track,
-    completions_of,
-    stays_of,
-)
-from rightofway.model.quantities import DIGITS, Quantities, decimal
+from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, completions_of, stays_of
+from rightofway.quantities import DIGITS, Quantities, decimal
+from rightofway.site import Roadmap
 
 MAX_CELLS = 2_000_000
 """Larger tables than this are not written out."""

@@ -75,7 +75,7 @@ export function decimal([top, bottom], digits = 2) {
   return Number(rounded).toFixed(1 - Number(rounded.split("e")[1]));
 }
 
-/** Times, lengths and speeds as people read them; the twin of model/quantities.py, case for case. */
+/** Times, lengths and speeds as people read them; the twin of quantities.py, case for case. */
 export class Quantities {
   /** @type {Fraction} */
   #perTick;

@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from rightofway import InputError
-from rightofway.model import (
+from rightofway.site import (
     Frame,
     Point,
     roadmap_of_edges,
@@ -14,7 +14,7 @@ from rightofway.model import (
     squared_distance,
     straight_length,
 )
-from rightofway.model.geometry import COARSE, FINE
+from rightofway.site.geometry import COARSE, FINE
 
 HALF = Fraction(1, 2)
 ZERO = (Fraction(0), Fraction(0))

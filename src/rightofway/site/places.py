@@ -12,11 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, InputFault, is_printable, nearest, shown
-from rightofway.model.geometry import Point, squared_distance
-from rightofway.model.quantities import Units, decimal
-from rightofway.model.roadmap import Grid, Roadmap
-from rightofway.model.units import VertexId
-from rightofway.model.values import coordinate, exact
+from rightofway.quantities import Units, decimal
+from rightofway.site.geometry import Point, VertexId, squared_distance
+from rightofway.site.roadmap import Grid, Roadmap
+from rightofway.values import coordinate, exact
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,9 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError
-from rightofway.model.clustering import MAX_CELLS
-from rightofway.model.geometry import Frame, Point
-from rightofway.model.roadmap import Roadmap
+from rightofway.site.clustering import MAX_CELLS
+from rightofway.site.geometry import Frame, Point
+from rightofway.site.roadmap import Roadmap
 
 MAX_SMALLEST = 32_000_000
 """The most smallest cells, free and blocked."""

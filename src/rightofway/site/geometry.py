@@ -6,9 +6,13 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import NewType
 
 from rightofway.errors import InputError
-from rightofway.model.values import DIGITS
+from rightofway.values import DIGITS
+
+VertexId = NewType("VertexId", int)
+"""The number of a vertex."""
 
 Point = tuple[Fraction, Fraction]
 """x and y [length unit]."""

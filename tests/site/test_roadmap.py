@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.model import Edge, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, roadmap_of_edges, roadmap_of_grid
 
 DOOR = ["...", "@.@", "..."]
 

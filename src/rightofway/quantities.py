@@ -14,6 +14,8 @@ from typing import Literal, get_args
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.phrases import counted
 
+__all__ = ["Quantities", "Units", "decimal"]
+
 LengthUnit = Literal["mm", "cm", "m"]
 TimeUnit = Literal["ms", "s", "min", "h"]
 

@@ -10,8 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError
-from rightofway.model import Roadmap
-from rightofway.model.quadtree import OBLIQUE, Squares, roadmap_of_squares, squares_of
+from rightofway.site import Roadmap
+from rightofway.site.quadtree import OBLIQUE, Squares, roadmap_of_squares, squares_of
 
 RANDOM = [(seed, share) for seed in range(2) for share in (0.02, 0.1, 0.3)]
 

@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import numpy as np
 
 from rightofway.errors import InputError
-from rightofway.model.geometry import Frame
-from rightofway.model.units import VertexId
-from rightofway.model.values import coerced, names, number, optional
-from rightofway.model.zones import NamedZone, zones_of
+from rightofway.site.geometry import Frame, VertexId
+from rightofway.site.zones import NamedZone, zones_of
+from rightofway.values import coerced, names, number, optional
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-from rightofway.model.roadmap import Roadmap
+from rightofway.site.roadmap import Roadmap
 
 T = TypeVar("T")
 

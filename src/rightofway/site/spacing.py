@@ -11,13 +11,8 @@ from math import ceil
 from typing import NamedTuple
 
 from rightofway.errors import InputError
-from rightofway.model.edges import Edge
-from rightofway.model.geometry import (
-    COARSE,
-    Point,
-    squared_distance,
-    straight_length,
-)
+from rightofway.site.edges import Edge
+from rightofway.site.geometry import COARSE, Point, squared_distance, straight_length
 
 STRAIGHT = 2
 """Points of a straight way: both ends."""

@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.model import Floor, Obstacle, cluster, node_length, steps_per_unit
+from rightofway.site import Floor, Obstacle, cluster, node_length, steps_per_unit
 
 
 def test_node_clustering_gives_the_numbers_of_the_paper() -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import chain
 
 from rightofway.errors import InputError, InputFault, nearest, shown
-from rightofway.model.units import VertexId
+from rightofway.site.geometry import VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,8 +11,9 @@ import rightofway
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.io import dump_scenario, scenario_of
 from rightofway.metrics import Site, inspect
-from rightofway.model import Scenario, roadmap_of_grid
-from rightofway.model.walls import clear_of_walls, reaches_walls
+from rightofway.model import Scenario
+from rightofway.site import roadmap_of_grid
+from rightofway.site.walls import clear_of_walls, reaches_walls
 
 HALL = ["......", "......", "..@...", "......", "......"]
 

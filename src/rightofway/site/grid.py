@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
-from rightofway.model.geometry import Frame, Point
-from rightofway.model.values import Number, length
+from rightofway.site.geometry import Frame, Point
+from rightofway.values import Number, length
 
 if TYPE_CHECKING:
     pass
 
-from rightofway.model.roadmap import Grid, Roadmap
+from rightofway.site.roadmap import Grid, Roadmap
 
 FREE = frozenset(".GS")
 """Grid characters that a robot may stand on; every other one is blocked."""

@@ -9,8 +9,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 
-from rightofway.model.geometry import Point
-from rightofway.model.units import VertexId
+from rightofway.site.geometry import Point, VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

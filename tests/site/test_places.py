@@ -5,8 +5,9 @@ from fractions import Fraction
 import pytest
 
 from rightofway import InputError
-from rightofway.model import Roadmap, Units, roadmap_of_edges, roadmap_of_grid
-from rightofway.model.places import Spot, as_place, vertex_at
+from rightofway.quantities import Units
+from rightofway.site import Roadmap, roadmap_of_edges, roadmap_of_grid
+from rightofway.site.places import Spot, as_place, vertex_at
 
 GRID = roadmap_of_grid(["...", "@..", "..."], cell_size=Fraction(1, 2))
 UPWARDS = roadmap_of_grid(["...", "@..", "..."], y_up=True, origin=(Fraction(10), Fraction(20)))

@@ -7,10 +7,9 @@ from pathlib import Path
 import pytest
 
 from rightofway import InputError
-from rightofway.model import Quantities, Units, decimal
-from rightofway.model.quantities import TimeUnit
+from rightofway.quantities import Quantities, TimeUnit, Units, decimal
 
-CASES = json.loads((Path(__file__).parents[1] / "data" / "quantities.json").read_text())
+CASES = json.loads((Path(__file__).parent / "data" / "quantities.json").read_text())
 """Values and their texts; the page is tested with the same ones."""
 
 

@@ -16,7 +16,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model.roadmap import Roadmap
+from rightofway.site.roadmap import Roadmap
 
 
 @lru_cache(maxsize=8)

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError
-from rightofway.model.clustering import MAX_CELLS
-from rightofway.model.drawing import Picture
-from rightofway.model.geometry import Point
+from rightofway.site.clustering import MAX_CELLS
+from rightofway.site.drawing import Picture
+from rightofway.site.geometry import Point
 
 FREE, UNKNOWN, OCCUPIED = 0, 1, 2
 """What a pixel shows."""

@@ -11,12 +11,12 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from rightofway.errors import InputError, listed, nearest, shown
-from rightofway.model.drawing import Drawing, Picture
-from rightofway.model.edges import Edge, roadmap_of_edges
-from rightofway.model.geometry import Point
-from rightofway.model.roadmap import Roadmap
-from rightofway.model.spacing import SplitLanes, split_lanes
-from rightofway.model.zones import NamedZone
+from rightofway.site.drawing import Drawing, Picture
+from rightofway.site.edges import Edge, roadmap_of_edges
+from rightofway.site.geometry import Point
+from rightofway.site.roadmap import Roadmap
+from rightofway.site.spacing import SplitLanes, split_lanes
+from rightofway.site.zones import NamedZone
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -13,9 +13,10 @@ import rightofway
 from rightofway import FleetBuilder
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, scenario_of
-from rightofway.model import Edge, Scenario
-from rightofway.model.spacing import SplitLanes, split_lanes
+from rightofway.model import Scenario
 from rightofway.planners import registered
+from rightofway.site import Edge
+from rightofway.site.spacing import SplitLanes, split_lanes
 
 
 def limited() -> Scenario:

@@ -10,7 +10,6 @@ from numbers import Integral, Rational, Real
 from typing import Any, Literal, TypeVar, get_args
 
 from rightofway.errors import InputError, InputFault, shown
-from rightofway.model.units import VertexId
 
 T = TypeVar("T")
 
@@ -121,10 +120,10 @@ def optional(read: Callable[[object], T]) -> Callable[[object], T | None]:
     return lambda value: None if value is None else read(value)
 
 
-def vertex(value: object) -> VertexId:
+def vertex(value: object) -> int:
     """Return a vertex; a name is refused."""
     if isinstance(value, Integral) and not isinstance(value, bool):
-        return VertexId(int(value))
+        return int(value)
     raise ValueError(
         f"{shown(value)} is no vertex number"
         " (give roadmap.vertex(name), or build the fleet with FleetBuilder, which takes names)"

@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model.clustering import Obstacle
-from rightofway.model.drawing import Drawing
-from rightofway.model.geometry import Frame, Point
-from rightofway.model.units import VertexId
-from rightofway.model.zones import Zone
+from rightofway.site.clustering import Obstacle
+from rightofway.site.drawing import Drawing
+from rightofway.site.geometry import Frame, Point, VertexId
+from rightofway.site.zones import Zone
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
