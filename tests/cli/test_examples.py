@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from rightofway.cli.examples import example_names
 from rightofway.io import load_with_notes
+from rightofway.report.examples import example_names
 from tests.cli.conftest import EXAMPLES, Cli
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from rightofway import load
-from rightofway.cli.laps_report import comparison_lines
 from rightofway.cyclic import best_timetable
+from rightofway.report.laps import comparison_lines
 from tests.cli.conftest import EXAMPLES, Cli
 
 SLOWER = """

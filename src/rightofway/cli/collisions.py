@@ -11,7 +11,8 @@ from rightofway.cli.completion import SCENARIOS, files, planners
 from rightofway.cli.inputs import count_option, foreign_options, read_either
 from rightofway.cli.options import as_json_option, quantities_of, ticks_option, writable
 from rightofway.cli.tables import clock_data, put_lists
-from rightofway.cli.terminal import counted, progress, put_json
+from rightofway.cli.terminal import progress, put_json
+from rightofway.report.lines import counted
 
 if TYPE_CHECKING:
     from rightofway.metrics import NamedCollision

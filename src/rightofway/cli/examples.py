@@ -7,12 +7,12 @@ from pathlib import Path
 
 import click
 
-import rightofway
 from rightofway.cli.completion import words
 from rightofway.cli.options import writable
 from rightofway.cli.terminal import say
 from rightofway.errors import InputError, nearest
 from rightofway.files import write_whole
+from rightofway.report.examples import SUFFIXES, example_names, examples_folder, first_sentence
 
 NEW_EXAMPLES = """\b
 Examples:
@@ -26,9 +26,6 @@ Examples:
   rightofway examples door -o door.yaml
   rightofway examples --copy .
 """
-
-SUFFIXES = (".yaml", ".toml")
-"""Endings of the examples; what else is in their folder belongs to one of them."""
 
 
 def _write_commented(path: str) -> None:
@@ -61,20 +58,6 @@ def new(file: str) -> None:
         raise InputError.at("", "the file exists (give another name, or remove it)", file)
     TEMPLATES[Path(file).suffix.lower()](file)
     say(f"wrote {file} (edit it, then: rightofway plan {file} --page plan.html)")
-
-
-def examples_folder() -> Path:
-    """Return the folder of the examples: in the installed package, or in a clone at its top."""
-    package = Path(rightofway.__file__).parent
-    installed = package / "examples"
-    return installed if installed.is_dir() else package.parents[1] / "examples"
-
-
-def example_names() -> list[str]:
-    """Return the names of the examples, those of subfolders last."""
-    folder = examples_folder()
-    found = [path.relative_to(folder) for path in folder.rglob("*") if path.suffix in SUFFIXES]
-    return [str(path.with_suffix("")) for path in sorted(found, key=lambda p: (len(p.parts), p))]
 
 
 @click.command(epilog=EXAMPLES_EXAMPLES, short_help="List, print or copy the example files.")
@@ -121,13 +104,6 @@ def _list() -> None:
     formatter = click.HelpFormatter(width=80)
     formatter.write_dl(rows)
     click.echo(formatter.getvalue(), nl=False)
-
-
-def first_sentence(path: Path) -> str:
-    """Return the first sentence of the comment that an example begins with."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    comment = [line.removeprefix("#").strip() for line in lines[:5] if line.startswith("#")]
-    return " ".join(comment).partition(". ")[0].removesuffix(".")
 
 
 def _write(example: Path, target: Path) -> None:

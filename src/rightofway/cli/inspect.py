@@ -13,7 +13,8 @@ from rightofway.cli.completion import SCENARIOS, files
 from rightofway.cli.inputs import point_to_examples
 from rightofway.cli.options import as_json_option, writable
 from rightofway.cli.outputs import PAGE_SUFFIXES, put_text, refuse_outputs
-from rightofway.cli.terminal import file_title, json_text, put_json, put_report, say, wrapped
+from rightofway.cli.terminal import file_title, json_text, put_json, put_report, say
+from rightofway.report.lines import wrapped
 
 if TYPE_CHECKING:
     from rightofway.io.sites import Sites

@@ -96,10 +96,11 @@ def laps(
     Where a scenario names no unit of time, throughput_per_hour of --json is laps in 3600 time
     units.
     """
-    from rightofway.cli.laps_report import laps_data, laps_report
     from rightofway.cyclic import RULES, TIMETABLE, best_timetable, excerpt, plan_of, run_laps
     from rightofway.model.deadline import WorkLimit, limited_work
     from rightofway.model.steady_state import within
+    from rightofway.report.laps import laps_report
+    from rightofway.report.laps_data import laps_data
 
     refuse_outputs(scenario, output, as_json=as_json)
     if rule not in {*RULES, TIMETABLE}:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.examples import examples_folder, first_sentence
 from rightofway.cli.options import as_json_option, quantities_of
-from rightofway.cli.terminal import put_json, put_report, wrapped
+from rightofway.cli.terminal import put_json, put_report
+from rightofway.report.examples import examples_folder, first_sentence
+from rightofway.report.lines import wrapped
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -112,7 +113,7 @@ def _table(entry: dict[str, Any]) -> _Table:
 
 def _print(table: _Table, *, log: bool) -> None:
     from rightofway.check import check
-    from rightofway.cli.plan_report import decision_log
+    from rightofway.report.plan import decision_log
 
     title = first_sentence(examples_folder() / f"{table.scenario}.yaml")
     ticks = range(table.first_tick, table.first_tick + max(len(row.ours) for row in table.rows))

@@ -25,12 +25,10 @@ from rightofway.cli.outputs import page_option, plan_output_option, refuse_outpu
 from rightofway.cli.terminal import (
     complain,
     file_title,
-    measures,
     progress,
     put_json,
     put_report,
     say,
-    short,
     width,
 )
 from rightofway.errors import NoPlanExists
@@ -163,8 +161,10 @@ def bound(*, scenario: str, count: int | None, in_ticks: bool, as_json: bool) ->
     Both follow from the times at which the robots would be done if each drove alone. A SCENARIO of
     - is standard input.
     """
-    from rightofway.cli.plan_report import MAX_LINES
     from rightofway.metrics import alone_completions
+    from rightofway.report.lines import short
+    from rightofway.report.plan import MAX_LINES
+    from rightofway.report.plan_data import measures
 
     problem = read_scenario(scenario, count)
     alone, names = alone_completions(problem), [robot.name for robot in problem.robots]
@@ -285,7 +285,8 @@ def no_plan_shown(problem: Any, page: str | None, title: str, *, as_json: bool) 
 
 
 def _report(found: Plan, quantities: Quantities, *, log: bool, table: bool, as_json: bool) -> None:
-    from rightofway.cli.plan_report import decision_log, summary, summary_data
+    from rightofway.report.plan import decision_log, summary
+    from rightofway.report.plan_data import summary_data
 
     if as_json:
         put_json(summary_data(found))

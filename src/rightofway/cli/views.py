@@ -152,9 +152,9 @@ def show(
     page shows them side by side: figures, maps, diagrams, and which robots gain or lose. Robots are
     compared by their names, so the plans may be of different scenarios.
     """
-    from rightofway.cli.plan_report import planning
     from rightofway.metrics import MAX_COMPARED
     from rightofway.model import Scenario
+    from rightofway.report.plan import planning
     from rightofway.solve import solve
 
     if not (output or page):

@@ -16,7 +16,7 @@ import threading
 from pathlib import Path
 from typing import IO, Any
 
-from rightofway.cli.examples import examples_folder
+from rightofway.report.examples import examples_folder
 from rightofway.studio.messages import LENGTH, Blobs, as_error, packed
 
 SHARE_OF_MEMORY = 0.5

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Path, Query, Response
 
-from rightofway.cli.examples import example_names, examples_folder, first_sentence
+from rightofway.report.examples import example_names, examples_folder, first_sentence
 from rightofway.studio.errors import Refused, TaskFailed
 from rightofway.studio.routes.models import InStudio
 from rightofway.studio.session import Studio

@@ -6,12 +6,12 @@ from dataclasses import replace
 from typing import Any
 
 from rightofway.check import check
-from rightofway.cli.plan_report import Words, decision_in_words, reason_in_words, sentence_on
 from rightofway.errors import InputError, InvalidPlan, nearest
 from rightofway.io import plan_text
 from rightofway.metrics import lost_time
 from rightofway.model import Loss, Plan, Tick
 from rightofway.planners.flip import flipped
+from rightofway.report.sentences import Words, decision_in_words, reason_in_words, sentence_on
 from rightofway.studio.messages import Blobs, Emit, zipped
 from rightofway.studio.tasks.documents import figures
 from rightofway.studio.tasks.views import read

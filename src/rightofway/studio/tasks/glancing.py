@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from rightofway.cli.examples import examples_folder
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, is_layout, load_either, load_with_notes
 from rightofway.io.scenario.reader import read_scenario
@@ -13,6 +12,7 @@ from rightofway.io.sites import Choice, Sites, read_sites, sites_of
 from rightofway.metrics.site import extent
 from rightofway.model import Plan
 from rightofway.quantities import decimal
+from rightofway.report.examples import examples_folder
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import Result, plain, raw_document
 from rightofway.studio.tasks.editing import drawn_map, readable

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rightofway.cli.laps_report import laps_data, laps_report
-from rightofway.cli.simulate import report as simulation_report
-from rightofway.cli.terminal import measures
 from rightofway.errors import GaveUp, InputError
 from rightofway.io import plan_of, plan_text
 from rightofway.io.text import parse_json
 from rightofway.model import Scenario
+from rightofway.report.execution import report as simulation_report
+from rightofway.report.laps import laps_report
+from rightofway.report.laps_data import laps_data
+from rightofway.report.plan_data import measures
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import digest_of, figures, loaded_of
 from rightofway.studio.tasks.planning import Progress

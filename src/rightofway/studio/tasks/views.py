@@ -9,13 +9,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, NotRequired, TypedDict
 
-from rightofway.cli.plan_report import summary_data
 from rightofway.errors import InputError
 from rightofway.io import FOREIGN_FORMATS, foreign_text, plan_of, write_plan
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.text import parse_json
 from rightofway.metrics import changes, compare
 from rightofway.model import Plan
+from rightofway.report.plan_data import summary_data
 from rightofway.studio.messages import Blobs, Emit, zipped
 from rightofway.studio.tasks.documents import figures
 from rightofway.studio.tasks.drawings import Origin, as_drawn

@@ -4,24 +4,14 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from itertools import chain
-from typing import Any
 
-from rightofway.cli.terminal import COLUMNS, counted, further, measures, row, short, wrapped
-from rightofway.metrics import (
-    Metrics,
-    collisions,
-    free_running,
-    lost_time,
-    measure,
-    swaps,
-    waits,
-)
-from rightofway.model import Decision, Loss, LostTime, Plan, stays_of
-from rightofway.model.place_names import PlaceNames
+from rightofway.metrics import Metrics, collisions, free_running, lost_time, measure, swaps
+from rightofway.model import Loss, LostTime, Plan, stays_of
 from rightofway.quantities import Quantities, decimal
+from rightofway.report.lines import COLUMNS, counted, further, row, short, wrapped
+from rightofway.report.sentences import Words, decision_in_words, reason_in_words, sentence_on
 
 MAX_LINES = 10
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""
@@ -32,43 +22,8 @@ MAX_DETOURS = 8
 MAX_HOMES = 5
 """Homes on the way of other robots that a report names: those that cost most."""
 
-UNEXPLAINED = ", though no place on its way becomes free just then"
-"""What a report says about a wait that no other robot is the cause of."""
-
-MAY_BE_CLOSED = ", because something on its way is closed, or to let a robot pass later"
-"""The same where something is closed for a while."""
-
 COLUMNS_OF_TIMES = ("completes", "alone", "detours", "makes room", "waits")
 """Headings of the table of robots: the first is the sum of the others."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Words:
-    """How a report on one plan writes times, robots and places."""
-
-    plan: Plan
-    quantities: Quantities
-
-    def robot(self, robot: int | None) -> str:
-        """Return the name of a robot."""
-        return "" if robot is None else self.plan.scenario.robots[robot].name
-
-    def place(self, vertex: int | None) -> str:
-        """Return what a sentence calls a vertex."""
-        return "" if vertex is None else self.places(vertex)
-
-    @cached_property
-    def places(self) -> PlaceNames:
-        """What people call the vertices."""
-        return PlaceNames(self.plan.scenario, numbered=True)
-
-    def time(self, ticks: int) -> str:
-        """Return how long a number of ticks lasts."""
-        return self.quantities.duration(ticks)
-
-    def at(self, tick: int) -> str:
-        """Return when something happens."""
-        return f"at {self.quantities.moment(tick)}"
 
 
 def summary(plan: Plan, quantities: Quantities) -> str:
@@ -190,42 +145,6 @@ def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     yield from wrapped(f"Detours: {', '.join(listed)}{more}.")
 
 
-def sentence_on(words: Words, group: Sequence[Loss]) -> str:
-    """Return where and why a robot loses time to another one; all losses are of that pair."""
-    first, times = group[0], len(group)
-    robot, other = words.robot(first.robot), words.robot(first.for_robot)
-    place, freed = words.place(first.vertex), words.place(first.freed)
-    total, begin = words.time(sum(loss.ticks for loss in group)), words.at(first.tick)
-    if first.kind == "follows":
-        way = f"from {place} to {words.place(first.until_vertex)}"
-        if times > 1:
-            return f"{robot} follows {other} {times} times and loses {total}, first {way} {begin}."
-        return f"{robot} follows {other} {way} and loses {total}, beginning {begin}."
-    if first.kind == "makes room":
-        reason = "" if first.for_robot is None else f" for {other}"
-        moment = words.quantities.moment
-        away = f"away from {place} from {moment(first.tick)} to {moment(first.end)}"
-        if times > 1:
-            return f"{robot} makes room{reason} {times} times and loses {total}, first {away}."
-        return f"{robot} makes room{reason} and loses {total}, {away}."
-    where = f"in {place}"
-    unexplained = MAY_BE_CLOSED if words.plan.scenario.closures else UNEXPLAINED
-    if first.until_vertex != first.vertex:
-        where += f" to {words.place(first.until_vertex)}"
-    if times > 1:
-        reason = unexplained if first.for_robot is None else ""
-        awaited = "" if first.for_robot is None else f" for {other}"
-        how = f"waits {times} times{awaited}, {total} in all, first {where} {begin}"
-        return f"{robot} {how}{reason}."
-    if first.for_robot is None:
-        reason = unexplained
-    elif first.freed == first.towards:
-        reason = f", for {other} to leave {freed}"
-    else:
-        reason = f", so that {other} can leave {freed} first"
-    return f"{robot} waits {total} {where} {begin}{reason}."
-
-
 def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[str]:
     """Say where the last place of a robot that loses time is on the way of others.
 
@@ -264,44 +183,6 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[str]:
         )
 
 
-def summary_data(plan: Plan) -> dict[str, Any]:
-    """Return the same for programs, the planner as in a plan file; times in ticks."""
-    metrics, run = measure(plan), plan.run
-    names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
-    return {
-        "planner": {
-            "name": run.name,
-            "options": dict(run.options),
-            "seed": run.seed,
-            "status": run.status,
-            "seconds": _rounded(run.seconds),
-            "first_plan_seconds": _rounded(run.first_plan_seconds),
-            **({} if run.start is None else {"start": asdict(run.start)}),
-        },
-        **measures(plan.scenario),
-        "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},
-        "robots": [
-            {"name": names[lost.robot], **lost.as_dict(names.__getitem__, place)}
-            for lost in lost_time(plan)
-        ],
-        "waits": [
-            {
-                "robot": names[wait.robot],
-                "vertex": place(wait.vertex),
-                "tick": wait.tick,
-                "ticks": wait.ticks,
-                "for": None if wait.for_robot is None else names[wait.for_robot],
-            }
-            for wait in waits(plan)
-        ],
-        "rerouted": [names[reroute.robot] for reroute in run.reroutes],
-    }
-
-
-def _rounded(seconds: float | None) -> float | None:
-    return None if seconds is None else round(seconds, 6)
-
-
 def decision_log(plan: Plan, quantities: Quantities) -> str:
     """Return every decision of the planner with its reason, in the order they were taken."""
     words = Words(plan=plan, quantities=quantities)
@@ -320,54 +201,3 @@ def decision_log(plan: Plan, quantities: Quantities) -> str:
     remedy = "`--planner two-level` plans with a reason for each decision"
     waits_listed = "`rightofway table PLAN --events` lists each wait and the robot waited for"
     return "\n".join(wrapped(f"{records} ({remedy}; {waits_listed})."))
-
-
-def decision_in_words(words: Words, decision: Decision) -> str:
-    """Return which robot waits where, by a decision of the planner."""
-    vertices = decision.vertices
-    where = words.place(vertices[0])
-    if decision.kind != "vertex":
-        first, last = (words.places.where(vertices[end]) for end in (0, -1))
-        where = f"segment {first} to {last} ({len(vertices)} vertices)"
-    waits, first = words.robot(decision.waits), words.robot(_goes_first(decision))
-    how = f"{waits} waits {words.time(decision.ticks)} in {words.place(decision.waits_at)}"
-    if decision.kind == "following":
-        how = f"{how} and follows {first}" if decision.ticks else f"{waits} follows {first}"
-    else:
-        how = f"{how}, {first} goes first"
-    return f"At {words.quantities.moment(decision.tick)}, {where}: {how}."
-
-
-def _goes_first(decision: Decision) -> int:
-    one, other = decision.robots
-    return one if decision.waits == other else other
-
-
-def reason_in_words(words: Words, decision: Decision) -> str:
-    """Return why the planner decided so."""
-    i, j = map(words.robot, decision.robots)
-    if_i, if_j = decision.conflicts_left
-    left = f"conflicts left {if_i} if {i} waits, {if_j} if {j} does"
-    match decision.level:
-        case "only":
-            return f"only choice: {words.robot(_goes_first(decision))} cannot wait here."
-        case "priority":
-            return f"priority: {words.robot(_goes_first(decision))} has the higher one."
-        case "settled":
-            return f"node level: the other choice meets robots that are settled already ({left})."
-        case "node":
-            return f"node level: {left}."
-    sum_i, sum_j = decision.completion_sums or (None, None)
-    if sum_i is None or sum_j is None:
-        sums = f"Only with {j if sum_i is None else i} waiting do both get through."
-    elif sum_i == sum_j:
-        sums = (
-            f"A tie: either way they complete after {words.time(sum_i)} in sum, and"
-            f" {words.robot(decision.waits)} waits by rule."
-        )
-    else:
-        sums = (
-            f"They complete after {words.time(sum_i)} in sum if {i} waits, after"
-            f" {words.time(sum_j)} if {j} does."
-        )
-    return f"robot level: {left}. {sums}"

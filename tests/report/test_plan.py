@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from rightofway.cli.plan_report import decision_log, planning, summary
 from rightofway.model import Improvement, Plan, PlannerRun, Reroute, Rules, Tick, Track
 from rightofway.quantities import Units
+from rightofway.report.plan import decision_log, planning, summary
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import counter, door
 

@@ -9,30 +9,28 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import islice
-from typing import Any
 
-from rightofway.cli.terminal import COLUMNS, counted, further, measures, short, wrapped
 from rightofway.cyclic import (
-    Bottleneck,
     Comparison,
     CyclicResult,
     GroupResult,
     LapWait,
     ParameterEffect,
-    bottleneck_along,
     in_words,
-    parameter_curves,
     parameter_effects,
-    visits_along,
 )
-from rightofway.errors import GaveUp
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
 from rightofway.quantities import Quantities, decimal
-from rightofway.values import written
-
-HOUR = 3600
-"""Seconds in an hour; where the time unit is not known, laps are counted in as many time units."""
+from rightofway.report.laps_data import (
+    HOUR,
+    MAX_VISITS,
+    MAX_VISITS_OF_SENSITIVITY,
+    hour_of,
+    is_long,
+    names_in,
+)
+from rightofway.report.lines import COLUMNS, counted, further, short, wrapped
 
 MAX_GROUPS = 3
 """Groups in the report; --json has them all."""
@@ -46,192 +44,8 @@ MAX_TIMES = 4
 MAX_EFFECTS = 3
 """Changes in the report that would shorten the period; --json has more."""
 
-MAX_VISITS = 1_000_000
-"""Visits of a period in which waits and bottleneck are computed."""
-
-MAX_VISITS_OF_SENSITIVITY = 200_000
-"""Visits of a period whose sensitivity is computed; each parameter takes a search."""
-
-MAX_STEPS = 2_000
-"""Visits of a circuit that --json lists for curves; a longer one has no pieces there."""
-
-BY_VISIT = ("conflicts", "first_lap", "bottleneck", "sensitivity", "curves")
-"""Keys of --json that are computed visit by visit."""
-
 Sites = dict[tuple[int, int | None, int, int], list[Tick]]
 """Waits by vertex, the other robot's vertex, waiting and awaited robot: their times [ticks]."""
-
-
-def laps_data(run: CyclicResult, *, by_visit: bool = True) -> dict[str, Any]:
-    """Return a result for programs: plain data, exact times [time unit].
-
-    Parameters
-    ----------
-    run
-        The result.
-    by_visit
-        Whether waits, bottlenecks and curves are wanted, which take longest.
-    """
-    return {
-        "rule": run.rule,
-        "routes": run.routes,
-        **measures(run.scenario),
-        "throughput_per_hour": written(_hour(run.scenario) * run.throughput()),
-        "groups": [_group_data(run.scenario, group, by_visit=by_visit) for group in run.groups],
-    }
-
-
-def _hour(scenario: Scenario) -> Fraction:
-    """Return the time units of an hour, or 3600 where they are not known."""
-    return HOUR / (scenario.units.seconds or Fraction(1))
-
-
-def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> dict[str, Any]:
-    robots, place, clock = scenario.robots, scenario.roadmap.name, scenario.problem.clock
-    names, pattern, measured, time = _names(scenario, group), group.pattern, None, clock.time
-    means = [None if mean is None else written(mean * clock.tick) for mean in group.mean_laps()]
-    shares = [None if share is None else written(share) for share in group.waiting_shares()]
-    if pattern is None:
-        found = group.measured()
-        laps = dict(zip(names, found.laps, strict=True))
-        measured = {"from": written(time(found.warm_up)), "laps": laps}
-
-    def waits_data(waits: Sequence[LapWait], when: str) -> list[dict[str, Any]]:
-        return [
-            {
-                "vertex": place(wait.vertex),
-                **({} if wait.beside is None else {"beside": place(wait.beside)}),
-                "robots": [robots[robot].name for robot in wait.pair],
-                "waits": robots[wait.waits].name,
-                when: written(time(wait.tick)),
-                "for": written(time(wait.ticks)),
-            }
-            for wait in waits
-        ]
-
-    data: dict[str, Any] = {
-        "robots": names,
-        "ends": group.ends,
-        "why": group.why,
-        "transient": written(time(pattern.transient)) if pattern else None,
-        "begins": written(time(pattern.begins)) if pattern else None,
-        "period": written(time(pattern.period)) if pattern else None,
-        "laps_per_period": dict(zip(names, pattern.counts, strict=True)) if pattern else None,
-        "laps_made": dict(zip(names, group.laps_made(), strict=True)),
-        "mean_lap": dict(zip(names, means, strict=True)),
-        "measured": measured,
-        "waiting_share": dict(zip(names, shares, strict=True)),
-    }
-    if _is_long(group) or not by_visit:
-        data |= dict.fromkeys(BY_VISIT)
-    else:
-        bottleneck = group.bottleneck()
-        data |= {
-            "conflicts": waits_data(group.waits(), "offset"),
-            "first_lap": waits_data(group.first_waits(), "time"),
-            "bottleneck": _pieces_data(scenario, bottleneck),
-            "sensitivity": _sensitivity_data(scenario, group),
-            "curves": _curves_data(scenario, group),
-        }
-    if group.comparison is not None:
-        hour = _hour(scenario) / clock.tick
-        data |= {
-            "throughput_per_hour": written(group.comparison.throughput * hour),
-            "fairness": written(group.comparison.fairness),
-            "first_come": {
-                "ends": group.comparison.baseline_ends,
-                "throughput_per_hour": written(group.comparison.baseline * hour),
-            },
-        }
-    return data
-
-
-def _names(scenario: Scenario, group: GroupResult) -> list[str]:
-    return [scenario.robots[robot].name for robot in group.robots]
-
-
-def _is_long(group: GroupResult) -> bool:
-    """Return whether a period is too long to be computed visit by visit."""
-    return group.pattern is not None and group.pattern.n_visits > MAX_VISITS
-
-
-def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, Any]]:
-    graph, tick = group.graph(), scenario.problem.clock.tick
-    if graph is None or len(graph.vertex) > MAX_VISITS_OF_SENSITIVITY:
-        return []
-    return [
-        {
-            "kind": one.kind,
-            "robot": None if one.robot is None else scenario.robots[one.robot].name,
-            "stop": one.stop,
-            "gain": written(one.effect.gain * tick),
-            "loss": written(one.effect.loss * tick),
-            "until": written(one.effect.until),
-            "at_best": written(one.effect.at_best * tick),
-            "ten_per_cent": written(one.ten_per_cent * tick),
-        }
-        for one in parameter_effects(scenario, graph)
-    ]
-
-
-def _pieces_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
-    place, clock = scenario.roadmap.name, scenario.problem.clock
-    return [
-        {
-            "kind": piece.kind,
-            "robot": scenario.robots[piece.robot].name,
-            "vertices": [place(vertex) for vertex in piece.places],
-            "for": written(clock.time(piece.ticks)),
-        }
-        for piece in (bottleneck.pieces if bottleneck else ())
-    ]
-
-
-def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | None:
-    """Return the period as a function of each parameter, and the circuits that decide it.
-
-    The period is ``fixed + slope * value``; of a speed ``fixed + slope / value``.
-    """
-    graph, pattern = group.graph(), group.pattern
-    if graph is None or pattern is None or len(graph) > MAX_VISITS_OF_SENSITIVITY:
-        return None
-    data: dict[str, Any] = {"exact": scenario.problem.clock.exact, "why": ""}
-    try:
-        found = parameter_curves(scenario, graph)
-    except GaveUp as error:
-        return data | {"why": str(error), "curves": [], "circuits": []}
-    circuits: dict[tuple[int, ...], int] = {}
-    curves = [
-        {
-            "kind": curve.kind,
-            "robot": None if curve.robot is None else scenario.robots[curve.robot].name,
-            "stop": curve.stop,
-            "value": written(curve.value),
-            "pieces": [
-                {
-                    "from": written(piece.start),
-                    "to": written(piece.until),
-                    "fixed": written(piece.fixed),
-                    "slope": written(piece.slope),
-                    "circuit": circuits.setdefault(tuple(piece.arcs.tolist()), len(circuits)),
-                }
-                for piece in curve.pieces
-            ],
-        }
-        for curve in found
-    ]
-    listed = []
-    for arcs in circuits:
-        if len(arcs) > MAX_STEPS:
-            listed.append(
-                {"periods": int(graph.arcs.height[list(arcs)].sum()), "pieces": [], "visits": []}
-            )
-            continue
-        bottleneck = bottleneck_along(graph, arcs)
-        visits = [list(visit) for visit in visits_along(group, pattern, graph, arcs)]
-        pieces = _pieces_data(scenario, bottleneck)
-        listed.append({"periods": bottleneck.periods, "pieces": pieces, "visits": visits})
-    return data | {"curves": curves, "circuits": listed}
 
 
 def laps_report(run: CyclicResult, quantities: Quantities) -> str:
@@ -251,7 +65,7 @@ def laps_report(run: CyclicResult, quantities: Quantities) -> str:
     lines = [
         f"rule        {run.rule}, on {run.routes} routes",
         f"groups      {'; '.join(groups)}",
-        f"throughput  {decimal(_hour(run.scenario) * run.throughput())} laps {per}",
+        f"throughput  {decimal(hour_of(run.scenario) * run.throughput())} laps {per}",
     ]
     largest = sorted(together, key=lambda group: -len(group.robots))
     for group in largest[:MAX_GROUPS]:
@@ -283,7 +97,7 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
     yield from wrapped(f"{size}: {repeats}")
     yield from _robot_lines(scenario, quantities, group)
     yield from _stuck_lines(scenario, group)
-    if _is_long(group):
+    if is_long(group):
         yield f"waits and bottleneck: not computed for a period of more than {MAX_VISITS} visits"
         return
     yield from _wait_lines(scenario, quantities, group)
@@ -313,7 +127,7 @@ def _robot_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
     ]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     room = COLUMNS - sum(widths) - 2 * len(widths)
-    names = ["robot", *(short(name, room) for name in _names(scenario, group)[:MAX_LINES])]
+    names = ["robot", *(short(name, room) for name in names_in(scenario, group)[:MAX_LINES])]
     width = max(map(len, names))
     for name, cells in zip(names, rows, strict=True):
         line = "  ".join(f"{text:>{space}}" for text, space in zip(cells, widths, strict=True))

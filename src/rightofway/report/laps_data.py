@@ -1,0 +1,210 @@
+"""Reports on work that repeats for programs: exact times [time unit], sensitivity, curves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+from rightofway.cyclic import (
+    Bottleneck,
+    CyclicResult,
+    GroupResult,
+    LapWait,
+    bottleneck_along,
+    parameter_curves,
+    parameter_effects,
+    visits_along,
+)
+from rightofway.errors import GaveUp
+from rightofway.model import Scenario
+from rightofway.report.plan_data import measures
+from rightofway.values import written
+
+HOUR = 3600
+"""Seconds in an hour; where the time unit is not known, laps are counted in as many time units."""
+
+MAX_VISITS = 1_000_000
+"""Visits of a period in which waits and bottleneck are computed."""
+
+MAX_VISITS_OF_SENSITIVITY = 200_000
+"""Visits of a period whose sensitivity is computed; each parameter takes a search."""
+
+MAX_STEPS = 2_000
+"""Visits of a circuit that --json lists for curves; a longer one has no pieces there."""
+
+BY_VISIT = ("conflicts", "first_lap", "bottleneck", "sensitivity", "curves")
+"""Keys of --json that are computed visit by visit."""
+
+
+def laps_data(run: CyclicResult, *, by_visit: bool = True) -> dict[str, Any]:
+    """Return a result for programs: plain data, exact times [time unit].
+
+    Parameters
+    ----------
+    run
+        The result.
+    by_visit
+        Whether waits, bottlenecks and curves are wanted, which take longest.
+    """
+    return {
+        "rule": run.rule,
+        "routes": run.routes,
+        **measures(run.scenario),
+        "throughput_per_hour": written(hour_of(run.scenario) * run.throughput()),
+        "groups": [_group_data(run.scenario, group, by_visit=by_visit) for group in run.groups],
+    }
+
+
+def hour_of(scenario: Scenario) -> Fraction:
+    """Return the time units of an hour, or 3600 where they are not known."""
+    return HOUR / (scenario.units.seconds or Fraction(1))
+
+
+def names_in(scenario: Scenario, group: GroupResult) -> list[str]:
+    """Return the names of the robots of a group."""
+    return [scenario.robots[robot].name for robot in group.robots]
+
+
+def is_long(group: GroupResult) -> bool:
+    """Return whether a period is too long to be computed visit by visit."""
+    return group.pattern is not None and group.pattern.n_visits > MAX_VISITS
+
+
+def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> dict[str, Any]:
+    robots, place, clock = scenario.robots, scenario.roadmap.name, scenario.problem.clock
+    names, pattern, measured, time = names_in(scenario, group), group.pattern, None, clock.time
+    means = [None if mean is None else written(mean * clock.tick) for mean in group.mean_laps()]
+    shares = [None if share is None else written(share) for share in group.waiting_shares()]
+    if pattern is None:
+        found = group.measured()
+        laps = dict(zip(names, found.laps, strict=True))
+        measured = {"from": written(time(found.warm_up)), "laps": laps}
+
+    def waits_data(waits: Sequence[LapWait], when: str) -> list[dict[str, Any]]:
+        return [
+            {
+                "vertex": place(wait.vertex),
+                **({} if wait.beside is None else {"beside": place(wait.beside)}),
+                "robots": [robots[robot].name for robot in wait.pair],
+                "waits": robots[wait.waits].name,
+                when: written(time(wait.tick)),
+                "for": written(time(wait.ticks)),
+            }
+            for wait in waits
+        ]
+
+    data: dict[str, Any] = {
+        "robots": names,
+        "ends": group.ends,
+        "why": group.why,
+        "transient": written(time(pattern.transient)) if pattern else None,
+        "begins": written(time(pattern.begins)) if pattern else None,
+        "period": written(time(pattern.period)) if pattern else None,
+        "laps_per_period": dict(zip(names, pattern.counts, strict=True)) if pattern else None,
+        "laps_made": dict(zip(names, group.laps_made(), strict=True)),
+        "mean_lap": dict(zip(names, means, strict=True)),
+        "measured": measured,
+        "waiting_share": dict(zip(names, shares, strict=True)),
+    }
+    if is_long(group) or not by_visit:
+        data |= dict.fromkeys(BY_VISIT)
+    else:
+        bottleneck = group.bottleneck()
+        data |= {
+            "conflicts": waits_data(group.waits(), "offset"),
+            "first_lap": waits_data(group.first_waits(), "time"),
+            "bottleneck": _pieces_data(scenario, bottleneck),
+            "sensitivity": _sensitivity_data(scenario, group),
+            "curves": _curves_data(scenario, group),
+        }
+    if group.comparison is not None:
+        hour = hour_of(scenario) / clock.tick
+        data |= {
+            "throughput_per_hour": written(group.comparison.throughput * hour),
+            "fairness": written(group.comparison.fairness),
+            "first_come": {
+                "ends": group.comparison.baseline_ends,
+                "throughput_per_hour": written(group.comparison.baseline * hour),
+            },
+        }
+    return data
+
+
+def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, Any]]:
+    graph, tick = group.graph(), scenario.problem.clock.tick
+    if graph is None or len(graph.vertex) > MAX_VISITS_OF_SENSITIVITY:
+        return []
+    return [
+        {
+            "kind": one.kind,
+            "robot": None if one.robot is None else scenario.robots[one.robot].name,
+            "stop": one.stop,
+            "gain": written(one.effect.gain * tick),
+            "loss": written(one.effect.loss * tick),
+            "until": written(one.effect.until),
+            "at_best": written(one.effect.at_best * tick),
+            "ten_per_cent": written(one.ten_per_cent * tick),
+        }
+        for one in parameter_effects(scenario, graph)
+    ]
+
+
+def _pieces_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
+    place, clock = scenario.roadmap.name, scenario.problem.clock
+    return [
+        {
+            "kind": piece.kind,
+            "robot": scenario.robots[piece.robot].name,
+            "vertices": [place(vertex) for vertex in piece.places],
+            "for": written(clock.time(piece.ticks)),
+        }
+        for piece in (bottleneck.pieces if bottleneck else ())
+    ]
+
+
+def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | None:
+    """Return the period as a function of each parameter, and the circuits that decide it.
+
+    The period is ``fixed + slope * value``; of a speed ``fixed + slope / value``.
+    """
+    graph, pattern = group.graph(), group.pattern
+    if graph is None or pattern is None or len(graph) > MAX_VISITS_OF_SENSITIVITY:
+        return None
+    data: dict[str, Any] = {"exact": scenario.problem.clock.exact, "why": ""}
+    try:
+        found = parameter_curves(scenario, graph)
+    except GaveUp as error:
+        return data | {"why": str(error), "curves": [], "circuits": []}
+    circuits: dict[tuple[int, ...], int] = {}
+    curves = [
+        {
+            "kind": curve.kind,
+            "robot": None if curve.robot is None else scenario.robots[curve.robot].name,
+            "stop": curve.stop,
+            "value": written(curve.value),
+            "pieces": [
+                {
+                    "from": written(piece.start),
+                    "to": written(piece.until),
+                    "fixed": written(piece.fixed),
+                    "slope": written(piece.slope),
+                    "circuit": circuits.setdefault(tuple(piece.arcs.tolist()), len(circuits)),
+                }
+                for piece in curve.pieces
+            ],
+        }
+        for curve in found
+    ]
+    listed = []
+    for arcs in circuits:
+        if len(arcs) > MAX_STEPS:
+            listed.append(
+                {"periods": int(graph.arcs.height[list(arcs)].sum()), "pieces": [], "visits": []}
+            )
+            continue
+        bottleneck = bottleneck_along(graph, arcs)
+        visits = [list(visit) for visit in visits_along(group, pattern, graph, arcs)]
+        pieces = _pieces_data(scenario, bottleneck)
+        listed.append({"periods": bottleneck.periods, "pieces": pieces, "visits": visits})
+    return data | {"curves": curves, "circuits": listed}

@@ -1,0 +1,54 @@
+"""Reports on plans for programs: plain data, times in ticks."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+from rightofway.metrics import lost_time, measure, waits
+from rightofway.model import Plan, Scenario
+from rightofway.values import written
+
+
+def measures(scenario: Scenario) -> dict[str, Any]:
+    """Return what the numbers of a report for programs are measured in."""
+    tick = written(scenario.problem.clock.tick)
+    return {"tick": tick, "units": asdict(scenario.units)}
+
+
+def summary_data(plan: Plan) -> dict[str, Any]:
+    """Return the same for programs, the planner as in a plan file; times in ticks."""
+    metrics, run = measure(plan), plan.run
+    names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
+    return {
+        "planner": {
+            "name": run.name,
+            "options": dict(run.options),
+            "seed": run.seed,
+            "status": run.status,
+            "seconds": _rounded(run.seconds),
+            "first_plan_seconds": _rounded(run.first_plan_seconds),
+            **({} if run.start is None else {"start": asdict(run.start)}),
+        },
+        **measures(plan.scenario),
+        "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},
+        "robots": [
+            {"name": names[lost.robot], **lost.as_dict(names.__getitem__, place)}
+            for lost in lost_time(plan)
+        ],
+        "waits": [
+            {
+                "robot": names[wait.robot],
+                "vertex": place(wait.vertex),
+                "tick": wait.tick,
+                "ticks": wait.ticks,
+                "for": None if wait.for_robot is None else names[wait.for_robot],
+            }
+            for wait in waits(plan)
+        ],
+        "rerouted": [names[reroute.robot] for reroute in run.reroutes],
+    }
+
+
+def _rounded(seconds: float | None) -> float | None:
+    return None if seconds is None else round(seconds, 6)
