@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import base64
+import math
 import os
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from urllib.parse import quote, unquote, urljoin, urlsplit
 
 from tests.builders.browsers import Viewer
 
@@ -28,6 +31,15 @@ BROWSER: dict[str, Any] = {
 
 Point = tuple[float, float]
 
+SOURCES = {"draft": "drafts", "file": "documents", "example": "examples"}
+"""Which documents of the API an address of the page names."""
+
+OVER = ":not([data-state=queued], [data-state=running])"
+"""A row of a run that is over."""
+
+MOMENT = re.compile("^(Time|Zeit)$")
+"""What the slider of time is called."""
+
 DROP = """([files]) => {
   const transfer = new DataTransfer();
   for (const [name, content] of files) {
@@ -44,7 +56,7 @@ class StudioPage(Viewer):
     def __init__(self, page: Page, address: str) -> None:
         super().__init__(page)
         page.goto(address)
-        self.wait_for("Boolean(window.studio?.about.version)")
+        self.ready()
 
     def button(self, name: str) -> Locator:
         """Return the button of a name; that of the head where there are two."""
@@ -56,11 +68,9 @@ class StudioPage(Viewer):
 
     def where(self, place: Point) -> Point:
         """Return where a place of the site is on the page [pixels], as the map says."""
-        holder = self.page.locator(".holder")
-        view, box = holder.get_attribute("data-view"), holder.bounding_box()
-        assert view is not None
+        a, b, c, d, e, f = self.view()
+        box = self.page.locator(".holder").bounding_box()
         assert box is not None
-        a, b, c, d, e, f = map(float, view.split())
         x, y = place
         return box["x"] + a * x + c * y + e, box["y"] + b * x + d * y + f
 
@@ -107,16 +117,129 @@ class StudioPage(Viewer):
         if PICTURES:
             self.page.screenshot(path=Path(PICTURES, f"{name}.png"))
 
+    def ready(self) -> None:
+        """Wait until the page that was loaded has asked all that it asks by itself."""
+        self.page.locator("[aria-busy=false]").wait_for(state="attached")
+
+    def reload(self) -> None:
+        """Load the page again, and wait until it shows what it has shown before."""
+        self.page.reload()
+        self.opened()
+
+    def go(self, kind: str, name: str) -> None:
+        """Follow a bookmark of a ``file``, ``draft`` or ``example``, and wait until it is there."""
+        address = f"{self.page.url.partition('#')[0]}#{kind}={quote(name, safe='')}"
+        with self.page.expect_response(f"**/{SOURCES[kind]}/{quote(name)}"):
+            self.page.goto(address)
+        self.opened()
+
+    def start(self) -> None:
+        """Show the start page, whatever the language."""
+        self.page.locator(".file button").first.click()
+        self.page.locator(".start").wait_for()
+        self.ready()
+
+    def draw(self, document: Any, name: str = "drawn") -> None:
+        """Draw a document: keep it as a draft, and follow the bookmark of that."""
+        self.put(f"drafts/{name}", {"document": document})
+        self.go("draft", name)
+
+    def api(self, path: str) -> Any:
+        """Return what the API of the studio answers."""
+        return self.page.request.get(self._address(path)).json()
+
+    def put(self, path: str, data: Any) -> None:
+        """Put something by the API, as another program does."""
+        answer = self.page.request.put(self._address(path), data=data)
+        assert answer.ok, answer.text()
+
+    def post(self, path: str, data: Any) -> Any:
+        """Post something by the API, as another program does."""
+        answer = self.page.request.post(self._address(path), data=data)
+        assert answer.ok, answer.text()
+        return answer.json()
+
+    def _address(self, path: str) -> str:
+        return urljoin(self.page.url, f"/api/v1/{path}")
+
+    @property
+    def place(self) -> tuple[str, str]:
+        """What the address names, and its name: a ``draft`` that is changed, or a ``file``."""
+        kind, _, name = unquote(urlsplit(self.page.url).fragment).partition("=")
+        return kind, name
+
     @property
     def document(self) -> Any:
-        """The document that is drawn."""
-        return self.ask("studio.store.document")
+        """The document that is drawn, as the server keeps it once the page has settled."""
+        self.settle()
+        kind, name = self.place
+        found = self.api(f"{SOURCES[kind]}/{quote(name)}")
+        if "run" in found:  # a plan: what it was made from
+            found = self.api(f"runs/{found['run']['number']}/document")
+        return found["document"]
+
+    @property
+    def runs(self) -> list[Any]:
+        """All runs of the studio, the latest first."""
+        return list(self.api("runs")["runs"])
+
+    def run(self, number: int) -> Any:
+        """Return a run."""
+        return self.api(f"runs/{number}")
 
     def planned(self) -> None:
         """Wait until the run that was begun last is over, and its plan shown with all waits."""
-        self.wait_for(
-            "studio.runs.runs.length && !studio.runs.running && studio.runs.losses !== null"
-        )
+        self.settle()
+        self.shown(self.runs[0]["number"])
+
+    def shown(self, number: int) -> None:
+        """Wait until the list of plans marks a run that is over as the one that is shown."""
+        row = self.page.locator(f"[data-run='{number}']{OVER} [aria-pressed=true]")
+        row.wait_for()
+        self.settle()
+
+    def failed(self, number: int) -> None:
+        """Wait until a run is over, and the page knows it."""
+        self.page.locator(f"[data-run='{number}']{OVER}").wait_for()
+        self.settle()
+
+    def row(self, number: int) -> Locator:
+        """Return what the list of plans says of a run."""
+        return self.page.locator(f"[data-run='{number}']")
+
+    def chosen(self, robot: str) -> Locator:
+        """Return what asks about a robot of the plan, while that robot is chosen."""
+        return self.page.get_by_role("region", name=f"What if {robot} were different")
+
+    def is_plan(self) -> bool:
+        """Return whether a plan is shown, which can be played."""
+        return self.page.get_by_role("slider", name=MOMENT).is_visible()
+
+    def moment(self) -> float:
+        """Return the moment that is shown [ticks]."""
+        return float(self.page.get_by_role("slider", name=MOMENT).input_value())
+
+    def seek(self, tick: float) -> None:
+        """Go to a moment [ticks]."""
+        self.page.get_by_role("slider", name=MOMENT).fill(str(tick))
+        self.settle()
+
+    def lit(self) -> list[str]:
+        """Return the names of the places that are lit on the map."""
+        self.settle()
+        said = self.page.locator(".holder").get_attribute("data-lit") or ""
+        return [name for name in said.split(", ") if name]
+
+    def view(self) -> list[float]:
+        """Return how the map is shown: six numbers that lead from the site to pixels."""
+        said = self.page.locator(".holder").get_attribute("data-view")
+        assert said is not None, "the map is not painted yet"
+        return [float(number) for number in said.split()]
+
+    @property
+    def scale(self) -> float:
+        """How large a unit of length of the site is on the map [pixels]."""
+        return math.hypot(*self.view()[:2])
 
 
 @contextmanager

@@ -67,18 +67,19 @@ def _planning(studio: StudioPage) -> Iterator[str]:
     page = studio.page
     _open(studio, "crowd.yaml")
     _plan(studio, "lns", 600)
-    studio.wait_for("studio.stage.isPlan && Boolean(studio.runs.running)")
+    studio.page.locator("#slider").wait_for()  # the plan so far can be played
     yield "planning"
-    studio.ask("studio.runs.cancel()")
-    studio.wait_for("!studio.runs.running")
+    cancel = studio.page.locator(".settings .buttons button").last
+    assert cancel.is_enabled()
+    cancel.click()
+    studio.page.locator(".settings .buttons button:disabled").last.wait_for()
     _open(studio, "door.yaml")
     _plan(studio, "auto", 1)
     studio.planned()
     page.locator("#play").click()
-    studio.wait_for("studio.stage.clock.tick > 0")
+    studio.poll(studio.moment, "time goes on")
     yield "playing"
-    if studio.ask("studio.stage.clock.playing"):
-        page.locator("#play").click()
+    studio.page.locator("#slider").fill("0")  # that ends it
 
 
 def _asking(studio: StudioPage) -> Iterator[str]:
@@ -88,20 +89,20 @@ def _asking(studio: StudioPage) -> Iterator[str]:
     page.locator("#card").wait_for()
     yield "wait explained"
     page.locator(".waits .framed").first.click()
-    studio.wait_for("studio.runs.beside !== null && studio.runs.shown !== studio.runs.beside")
-    studio.wait_for("studio.runs.comparison !== null || studio.runs.changes !== undefined")
-    studio.ask("studio.stage.choice.chooseNothing()")
+    studio.page.locator(".change[aria-busy=false]").wait_for()
+    page.locator("#map").focus()
+    page.keyboard.press("Escape")  # no robot is chosen any more
     yield "compared"
     _unfold(studio, "laps")
     page.locator("details.laps [type=submit]").first.click()
-    studio.wait_for("!studio.runs.running && Boolean(studio.runs.report)")
+    studio.page.locator(".study .pace").wait_for()
     yield "laps"
-    studio.ask("studio.runs.show(studio.runs.runs.find((run) => run.kind === 'plan').number)")
-    studio.wait_for("studio.runs.run.kind === 'plan' && studio.runs.losses !== null")
+    plan = next(run["number"] for run in studio.runs if run["kind"] == "plan")
+    studio.row(plan).locator(".show").click()
+    studio.shown(plan)
     _unfold(studio, "delays")
     page.locator("details.delays [type=submit]").first.click()
-    studio.wait_for("!studio.runs.running && studio.runs.run.kind === 'simulate'")
-    studio.wait_for("Boolean(studio.runs.report)")
+    studio.page.locator(".study .ranks").wait_for()
     yield "delays"
     page.locator("#map").focus()
     page.keyboard.press("?")
@@ -126,8 +127,7 @@ def _back(studio: StudioPage) -> None:
 def _open(studio: StudioPage, name: str) -> None:
     """Open a file of the folder."""
     _back(studio)
-    studio.ask(f"studio.shelf.open('{name}')")
-    studio.wait_for("!studio.isStarting")
+    studio.page.locator(".shelf button.open").filter(has_text=name).last.click()
     studio.opened()
 
 

@@ -39,8 +39,8 @@ RUN = """async () => {
 
 def serious(viewer: Viewer) -> Any:
     """Return what axe calls serious or critical on a page, contrast included."""
-    if not viewer.ask("Boolean(window.axe)"):
-        viewer.ask(files(PACKAGE).joinpath("axe.min.js").read_text("utf-8"))
+    if not viewer.page.evaluate("Boolean(window.axe)"):
+        viewer.page.evaluate(files(PACKAGE).joinpath("axe.min.js").read_text("utf-8"))
     return viewer.page.evaluate(RUN)
 
 
@@ -69,11 +69,13 @@ def test_no_state_of_the_single_page_has_a_serious_fault(
     )  # fmt: skip
     viewer = Viewer(context.new_page())
     viewer.page.goto((tmp_path / "plan.html").as_uri())
-    viewer.wait_for("frames.count > 0")
+    viewer.page.locator("#slider").wait_for()
     found = {"overview": serious(viewer)}
-    viewer.ask("choice.chooseRobot(0)")
+    viewer.page.locator("#robots .row").first.click()
+    viewer.page.locator("#card").wait_for()
     found["robot"] = serious(viewer)
-    viewer.ask("choice.toggleHeat()")
+    viewer.page.locator("#heat").click()
+    viewer.page.locator("#heat-legend").wait_for()
     found["heat"] = serious(viewer)
     for tab in viewer.page.get_by_role("tab").all():
         tab.click()
@@ -109,7 +111,7 @@ def test_a_floor_is_drawn_planned_and_exported_with_the_keyboard_alone(
 
         def go_to(selector: str) -> None:
             for _ in range(200):
-                if studio.ask(f"document.activeElement.matches({selector!r})"):
+                if studio.page.locator(":focus").and_(studio.page.locator(selector)).count():
                     return
                 press("Tab")
             pytest.fail(f"Tab does not lead to {selector}")
@@ -130,7 +132,7 @@ def test_a_floor_is_drawn_planned_and_exported_with_the_keyboard_alone(
         assert len(studio.document["robots"]) == 2
         press("Control+Enter")
         studio.planned()
-        assert studio.ask("studio.stage.isPlan")
+        assert studio.is_plan()
         go_to("a[download][href*='export/html'], a[href*='export/html']")
         with studio.page.expect_download() as download:
             press("Enter")

@@ -153,18 +153,18 @@ def test_no_name_becomes_markup_on_any_page(browser: Browser, tmp_path: Path) ->
         context = browser.new_context(locale="en-GB", reduced_motion="reduce")
         studio = StudioPage(context.new_page(), root)
         studio.opened()
-        studio.ask(f"studio.showRun({number})")
-        studio.planned()
+        studio.tab("Plan")
+        studio.row(number).get_by_role("button", name=f"Play: {number}").click()
+        studio.shown(number)
         for tab in ("Map", "Robots", "Plan"):
             studio.tab(tab)
-        studio.ask("studio.toStart()")
-        studio.wait_for("studio.isStarting")
+        studio.start()
         page = Viewer(context.new_page())
         page.page.goto(f"{root}api/v1/runs/{number}/page")
-        page.wait_for("frames.count > 0")
+        page.page.get_by_role("slider", name="Time").wait_for()
         for seen in (studio, page):
-            assert seen.ask("window.injected") is None
-            assert seen.ask("document.querySelectorAll('img[src=x]').length") == 0
+            assert seen.page.evaluate("window.injected") is None
+            assert seen.page.locator("img[src=x]").count() == 0
             assert seen.complaints == []
         context.close()
 

@@ -42,9 +42,10 @@ def test_map_robots_and_help_are_german(german: StudioPage) -> None:
         german.settle()
         german.keep(f"german-{tab.lower()}")
         assert english_on(german) == [], tab
-    german.ask("studio.help(true)")
+    german.button("Hilfe und Tasten").click()
+    german.page.get_by_role("dialog").wait_for()
     assert not english_on(german), "\n".join(english_on(german))
-    german.ask("studio.help(false)")
+    german.page.keyboard.press("Escape")
     german.button("Dateien").click()
     german.page.get_by_text("Neuer Grundriss").wait_for()
     german.page.get_by_text("lässt sich nicht öffnen").wait_for()
@@ -54,12 +55,14 @@ def test_map_robots_and_help_are_german(german: StudioPage) -> None:
 def test_a_plan_its_robots_and_its_waits_are_german(german: StudioPage) -> None:
     plan(german)
     assert not english_on(german), "\n".join(english_on(german))
-    for robot in range(german.ask("studio.stage.plan.robots.length")):
-        german.ask(f"studio.stage.choice.chooseRobot({robot})")
-        german.settle()
+    for robot in german.document["robots"]:
+        german.press((robot["home"]["x"], robot["home"]["y"]))  # it is there at time 0
+        german.page.get_by_role(
+            "heading", name=f"Was wäre, wenn {robot['name']} anders wäre"
+        ).wait_for()
         assert english_on(german) == [], robot
-    german.ask("studio.stage.choice.toggleHeat(); studio.stage.clock.seek(9)")
-    german.settle()
+    german.button("Heatmap der Belegung").click()
+    german.seek(9)
     german.keep("german-heat")
     assert not english_on(german), "\n".join(english_on(german))
 

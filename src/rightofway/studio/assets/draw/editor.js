@@ -510,6 +510,9 @@ export class Editor extends Observable {
     paintRulers(context, this, over?.screen);
     const { measure } = this.tool;
     if (measure && over) paintReadout(context, this, measure, over.screen);
+    const readout = (over && measure) || "";
+    const { dataset } = this.stage.holder;
+    if ((dataset.readout ?? "") !== readout) dataset.readout = readout; // for whom does not see it
     if (!this.cursor) return;
     const side = this.ground?.side ?? 24 / scale;
     context.strokeStyle = theme.ink;
