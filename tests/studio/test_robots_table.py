@@ -208,13 +208,12 @@ def test_no_table_is_wider_than_its_place(table: StudioPage) -> None:
 
 def test_what_is_typed_stays_until_it_is_done_or_given_up(table: StudioPage) -> None:
     """Events write the page anew at any time: a plan that becomes better, an answer that comes."""
-    speed, plans = table.page.get_by_label("Speed, R1"), 0
-    for end, expected in (("Escape", 1), ("Enter", 2)):
+    speed = table.page.get_by_label("Speed, R1")
+    for plans, (end, expected) in enumerate((("Escape", 1), ("Enter", 2)), 1):
         speed.focus()
         speed.press("Control+a")
         table.page.keyboard.type("2")
         table.post("runs", {"document": DOOR, "source": table.place[1]})
-        plans += 1
         table.page.get_by_role("tab", name=f"Plan {plans}").wait_for()  # the page is written anew
         assert speed.input_value() == "2"
         speed.press(end)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.builders.browsers import needs_browser
+from tests.builders.browsers import expect, needs_browser
 from tests.builders.drawing import StudioPage, studio_page
 from tests.builders.studios import DOOR, Client, planned
 
@@ -26,7 +26,21 @@ BEGIN = """async (document) => {
 }"""
 
 ENDED = "Object.values(states).filter((state) => state === 'done').length === 10"
-LISTED = "studio.runs.runs.filter(({ state }) => state === 'done').map(({ name }) => name).sort()"
+
+
+def list_all(studio: StudioPage) -> None:
+    """Have the runs of all documents listed, beside a floor that has none."""
+    studio.opened()
+    studio.tab("Plan")
+    studio.page.get_by_label("Whose plans are listed").select_option("*")
+
+
+def listed(studio: StudioPage, count: int) -> str:
+    """Wait until so many runs that are done are listed, and return their names in order."""
+    done = studio.page.locator("[data-run][data-state=done]")
+    expect(done).to_have_count(count)
+    names = done.get_by_label("Name of the plan").all()
+    return "".join(sorted(name.input_value() for name in names))
 
 
 FAILS = """window.SharedWorker = class {
@@ -44,7 +58,7 @@ def test_ten_runs_at_once_are_heard_by_one_connection(
         studio.page.add_init_script(script)
         studio.page.reload()
         studio.page.evaluate(BEGIN, DOOR)
-        studio.wait_for(ENDED)
+        studio.poll(lambda: studio.page.evaluate(ENDED), "all runs are over")
         streams = [url for url in studio.requests if url.endswith("/events")]
         assert bool(streams) == bool(script)  # a shared worker asks for the others
         assert all(url.endswith("/api/v1/events") for url in streams)
@@ -54,15 +68,19 @@ def test_eight_pages_of_a_browser_hear_what_one_of_them_begins_and_deletes(
     browser: Browser, empty: Client
 ) -> None:
     with studio_page(browser, empty) as first:
+        first.button("Create the floor").click()
+        first.opened()
         others = [first.page.context.new_page() for _ in range(7)]
-        studios = [first, *(StudioPage(page, empty.address) for page in others)]
+        studios = [first, *(StudioPage(page, first.page.url) for page in others)]
         studios[3].page.evaluate(BEGIN, DOOR)
         for studio in studios:
-            studio.wait_for(f"{LISTED}.join('') === '0123456789'")
+            list_all(studio)
+            assert listed(studio, 10) == "0123456789"
         studios[3].page.reload()
+        list_all(studios[3])
         empty.delete(f"/runs/{empty.get('/runs').json()['runs'][0]['number']}")
         for studio in studios:
-            studio.wait_for(f"window.studio?.about.version && {LISTED}.length === 9")
+            assert len(listed(studio, 9)) == 9
             assert studio.complaints == []
 
 
@@ -72,4 +90,6 @@ def test_a_page_that_is_given_no_stream_lists_what_there_is(
     monkeypatch.setattr("rightofway.studio.events.MAX_LISTENERS", 0)
     planned(empty, name="0")
     with studio_page(browser, empty) as studio:
-        studio.wait_for(f"{LISTED}.join('') === '0'")
+        studio.button("Create the floor").click()
+        list_all(studio)
+        assert listed(studio, 1) == "0"
