@@ -252,7 +252,12 @@ void ExecutionTimetable::take_place(VisitId x, const DelaySample& sample, Actual
     const Tick drive_after = sample.drive[index(x)] - drive_before;
     const Tick ready = stoppages.busy_until(sum(from, sample.dwell[index(x - 1)] + drive_before));
     VisitId other = plan_.before(x);
-    Tick free = other == none ? 0 : sum(times.enter[index(other + 1)], plan_.headway());
+    // Of points it may be a visit of the same robot, which keeps no headway from itself.
+    Tick free = 0;
+    if (other != none) {
+        free =
+            sum(times.enter[index(other + 1)], plan_.robot(other) == robot ? 0 : plan_.headway());
+    }
     if (plan_.has_sizes()) {
         for (const VisitId one : plan_.all_before(x)) {
             if (const Tick end = sum(times.enter[index(one + 1)], plan_.headway()); end > free) {

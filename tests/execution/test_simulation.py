@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -29,6 +30,15 @@ def test_without_delays_everything_is_as_planned(plan: Plan) -> None:
     assert outcome.trace(2).tracks == plan.tracks
     assert outcome.collisions == outcome.deadlocks == outcome.by_clock.total == 0
     assert outcome.lateness.all.max == 0
+
+
+def test_a_robot_keeps_no_headway_from_itself() -> None:
+    """It books its home again for the drive back before the headway of its first stay is over."""
+    rules = Rules(occupancy="both", headway=Fraction(1), turn=Fraction(0))
+    plan = rightofway.solve(grid_fleet([".."], [("N0", "N1")], rules=rules), "prioritized")
+    assert plan.tracks[0].enter.tolist() == [0, 1, 2]
+    outcome = rightofway.simulate(plan, "uniform:0..0", runs=1)
+    assert outcome.trace(0).tracks == plan.tracks
 
 
 def test_a_robot_that_stops_is_run_into_by_the_clock_and_waited_for_by_right_of_way(

@@ -94,7 +94,9 @@ class _Run:
         if earlier >= 0:
             leaves = orders.robot[earlier] in leaving and at_once
             leaves &= self.robots[orders.robot[earlier]].visit == earlier
-            if not leaves and self.leave[earlier] + orders.headway > self.tick:
+            is_own = orders.robot[earlier] == orders.robot[visit]
+            headway = 0 if is_own else orders.headway
+            if not leaves and self.leave[earlier] + headway > self.tick:
                 return False
         here = orders.vertex[visit]
         inside = [
