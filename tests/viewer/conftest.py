@@ -12,14 +12,15 @@ import pytest
 from rightofway.errors import NoPlanExists
 from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.viz import Background, write_page
-from tests.builders.browsers import CHROMIUM, Viewer
+from tests.builders.browsers import CHROMIUM
+from tests.builders.players import Player
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 collect_ignore_glob = [] if CHROMIUM else ["test_*.py"]
 
-Opener = Callable[..., Viewer]
+Opener = Callable[..., Player]
 
 
 @contextmanager
@@ -38,7 +39,7 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
         title: str = "",
         others: Sequence[tuple[Plan, str]] = (),
         **context: Any,
-    ) -> Viewer:
+    ) -> Player:
         path = directory / "plan.html"
         write_page(
             plan,
@@ -51,9 +52,9 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
             others=others,
         )
         contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
-        viewer = Viewer(contexts[-1].new_page())
+        viewer = Player(contexts[-1].new_page())
         viewer.page.goto(f"{path.as_uri()}{fragment}")
-        viewer.wait_for("frames.count > 0")
+        viewer.painted()
         viewer.requests = [url for url in viewer.requests if not url.startswith(path.as_uri())]
         return viewer
 
@@ -68,14 +69,6 @@ def show(browser: Browser, tmp_path: Path) -> Iterator[Opener]:
         yield open_page
 
 
-PIXEL = """([canvas, x, y]) => {
-  const ratio = Math.min(devicePixelRatio, 2);
-  return Array.from(document.getElementById(canvas).getContext("2d")
-    .getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data);
-}"""
-
-
-def pixel(viewer: Viewer, canvas: str, x: float, y: float) -> list[int]:
+def pixel(viewer: Player, canvas: str, x: float, y: float) -> list[int]:
     """Return a colour as red, green, blue, opacity."""
-    found: list[int] = viewer.page.evaluate(PIXEL, [canvas, x, y])
-    return found
+    return list(viewer.pixel(canvas, x, y))

@@ -2,8 +2,8 @@
 
 import pytest
 
-from tests.builders.browsers import Viewer
 from tests.builders.plans import door, door_shifted, loop
+from tests.builders.players import Player
 from tests.viewer.conftest import Opener
 
 MINUS, NONE = "\u2212", "\u2013"
@@ -11,7 +11,7 @@ BESIDE = "comparison.beside[0]"
 
 
 @pytest.fixture
-def both(show: Opener) -> Viewer:
+def both(show: Opener) -> Player:
     """In the other plan R1 waits a tick longer than it must."""
     return show(
         door(),
@@ -22,7 +22,7 @@ def both(show: Opener) -> Viewer:
 
 
 @pytest.fixture
-def many(show: Opener) -> Viewer:
+def many(show: Opener) -> Player:
     """The third plan is of other robots on another map, in ticks of a half."""
     return show(
         door(),
@@ -32,13 +32,13 @@ def many(show: Opener) -> Viewer:
     )
 
 
-def rows(viewer: Viewer) -> list[list[str]]:
+def rows(viewer: Player) -> list[list[str]]:
     """Return the rows of robots as they are read: the name, the time in the base, the changes."""
     found = viewer.page.locator("#compared-list .row:visible").all_inner_texts()
     return [row.split("\n") for row in found]
 
 
-def figures(viewer: Viewer) -> dict[str, list[str]]:
+def figures(viewer: Player) -> dict[str, list[str]]:
     """Return the table of figures by the heads of its rows."""
     found = viewer.ask(
         "[...document.querySelectorAll('.compared-figures tbody tr')]"
@@ -47,7 +47,7 @@ def figures(viewer: Viewer) -> dict[str, list[str]]:
     return {head: cells for head, *cells in found}
 
 
-def test_the_head_compares_both_plans(both: Viewer) -> None:
+def test_the_head_compares_both_plans(both: Player) -> None:
     assert both.text("#headline").split() == ["A.json", "→", "B.json", "2", "robots"]
     assert both.text("#figures").split("\n") == [
         "All home at", "10 → 11", "Time lost", "1 → 2", "Earlier", "0", "Later", "1",
@@ -55,7 +55,7 @@ def test_the_head_compares_both_plans(both: Viewer) -> None:
     assert both.page.title() == "A.json, B.json"
 
 
-def test_all_maps_show_the_same_moment(many: Viewer) -> None:
+def test_all_maps_show_the_same_moment(many: Player) -> None:
     """At tick 3 R1 is in N4 in the first plan, in N1 in the second; both clocks of C go on."""
     many.page.fill("#slider", "3")
     many.wait_for(f"clock.tick === 3 && motion.y[0] === 1 && {BESIDE}.motion.y[0] === 0")
@@ -63,7 +63,7 @@ def test_all_maps_show_the_same_moment(many: Viewer) -> None:
     assert many.ask("comparison.plans.map(({ end }) => end)") == [11, 11, 22]
 
 
-def test_a_table_has_the_figures_and_marks_the_best(both: Viewer) -> None:
+def test_a_table_has_the_figures_and_marks_the_best(both: Player) -> None:
     found = figures(both)
     assert found["Sum of arrivals"] == ["19 (the best)", "20"]
     assert found["Last arrival"] == ["10 (the best)", "11"]
@@ -72,7 +72,7 @@ def test_a_table_has_the_figures_and_marks_the_best(both: Viewer) -> None:
     assert found["Planner"] == ["two-level", "two-level"]
 
 
-def test_the_list_says_which_robots_gain_or_lose_the_largest_change_first(both: Viewer) -> None:
+def test_the_list_says_which_robots_gain_or_lose_the_largest_change_first(both: Player) -> None:
     assert rows(both) == [["R1", "10", "+1"], ["R2", "9", "="]]
     said = both.page.locator("#compared-list .row:visible").first.get_attribute("aria-label")
     assert said == "R1: A.json 10, B.json 1 later"
@@ -83,13 +83,13 @@ def test_the_list_says_which_robots_gain_or_lose_the_largest_change_first(both: 
     assert bars == ["1", "0"]
 
 
-def test_another_plan_is_the_base(both: Viewer) -> None:
+def test_another_plan_is_the_base(both: Player) -> None:
     both.page.get_by_role("button", name="B.json", exact=True).first.click()
     assert rows(both) == [["R1", "11", f"{MINUS}1"], ["R2", "9", "="]]
     assert both.page.locator("thead [aria-pressed=true]").inner_text() == "B.json"
 
 
-def test_a_press_on_a_head_sorts(both: Viewer) -> None:
+def test_a_press_on_a_head_sorts(both: Player) -> None:
     both.page.get_by_role("button", name="Robot", exact=True).click()
     both.page.fill("#find-compared", "r")
     assert [name for name, *_ in rows(both)] == ["R1", "R2"]
@@ -99,7 +99,7 @@ def test_a_press_on_a_head_sorts(both: Viewer) -> None:
     assert rows(both) == [["R2", "9", "="]]
 
 
-def test_plans_of_different_scenarios_are_compared_by_names(many: Viewer) -> None:
+def test_plans_of_different_scenarios_are_compared_by_names(many: Player) -> None:
     assert [row for row in rows(many) if row[0] == "R1"] == [["R1", "10", "+1", NONE]]
     assert ["Cart", NONE, NONE, NONE] in rows(many)
     assert figures(many)["Robots"] == ["2", "2", "1"]
@@ -109,7 +109,7 @@ def test_plans_of_different_scenarios_are_compared_by_names(many: Viewer) -> Non
     assert many.complaints == []
 
 
-def test_each_plan_has_a_diagram_on_one_axis(many: Viewer) -> None:
+def test_each_plan_has_a_diagram_on_one_axis(many: Player) -> None:
     many.wait_for("!frames.asked && comparison.diagrams.at(-1).area !== undefined")
     captions = many.page.locator(".stack figcaption").all_inner_texts()
     assert captions == ["A.json", "B.json", "C.json"]
@@ -123,7 +123,7 @@ def test_each_plan_has_a_diagram_on_one_axis(many: Viewer) -> None:
     ]  # fmt: skip
 
 
-def test_paper_has_a_table_of_all_plans(both: Viewer) -> None:
+def test_paper_has_a_table_of_all_plans(both: Player) -> None:
     both.ask("paper.lay(true)")
     both.page.emulate_media(media="print")
     assert both.text("#paper-robots").splitlines() == [
@@ -133,7 +133,7 @@ def test_paper_has_a_table_of_all_plans(both: Viewer) -> None:
     ]
 
 
-def test_one_choice_holds_for_all(both: Viewer) -> None:
+def test_one_choice_holds_for_all(both: Player) -> None:
     both.page.click("#compared-list .row:has-text('R1')")
     assert both.ask(f"{BESIDE}.choice.robot.name") == "R1"
     assert "In B.json\n1 later" in both.text("#card")
@@ -141,13 +141,13 @@ def test_one_choice_holds_for_all(both: Viewer) -> None:
     assert both.ask("choice.robot.name") == "R2"
 
 
-def test_a_robot_of_one_plan_alone_is_chosen_there(many: Viewer) -> None:
+def test_a_robot_of_one_plan_alone_is_chosen_there(many: Player) -> None:
     many.page.click("#compared-list .row:has-text('Cart')")
     assert many.ask("comparison.beside[1].choice.robot.name") == "Cart"
     assert many.ask("[choice.robot, comparison.beside[0].choice.robot]") == [None, None]
 
 
-def test_maps_of_one_size_show_the_same_part(many: Viewer) -> None:
+def test_maps_of_one_size_show_the_same_part(many: Player) -> None:
     many.page.click("#zoom-in")
     scales = many.ask(
         "[mapView, ...comparison.views].map(({ viewport }) => [viewport.scale, viewport.fitted])"
@@ -164,7 +164,7 @@ def test_a_faulty_plan_gains_nothing(show: Opener) -> None:
     assert viewer.text(".map.other .map-title").split("\n") == ["bad.json", "6 faults"]
 
 
-def test_the_tip_of_each_map_stands_on_it(both: Viewer) -> None:
+def test_the_tip_of_each_map_stands_on_it(both: Player) -> None:
     box = both.page.locator(".map.other canvas").bounding_box()
     assert box
     left, top, scale = both.ask("(({left, top, scale}) => [left, top, scale])(mapView.viewport)")
@@ -177,7 +177,7 @@ def test_the_tip_of_each_map_stands_on_it(both: Viewer) -> None:
     assert at["x"] > box["x"]
 
 
-def test_titles_stand_above_the_maps(both: Viewer) -> None:
+def test_titles_stand_above_the_maps(both: Player) -> None:
     title = both.page.locator("#map-title").bounding_box()
     box = both.page.locator("#map").bounding_box()
     assert title
@@ -186,7 +186,7 @@ def test_titles_stand_above_the_maps(both: Viewer) -> None:
     assert title["y"] + title["height"] <= box["y"] + top
 
 
-def test_the_picture_has_all_maps_and_diagrams(many: Viewer) -> None:
+def test_the_picture_has_all_maps_and_diagrams(many: Player) -> None:
     many.wait_for("!frames.asked")
     made, map_width, heights = many.ask(
         "[(({ width, height }) => [width, height])(share.picture()), mapView.canvas.width,"
@@ -209,7 +209,7 @@ def test_maps_are_below_each_other_on_a_small_screen(show: Opener) -> None:
     assert viewer.ask("document.documentElement.scrollWidth") <= 420
 
 
-def test_three_plans_fit_at_1280_pixels(many: Viewer) -> None:
+def test_three_plans_fit_at_1280_pixels(many: Player) -> None:
     wide = "[...document.querySelectorAll('.compared-wide, #compared-list')]"
     assert many.ask(f"{wide}.map((box) => box.scrollWidth - box.clientWidth)") == [0, 0, 0]
     assert many.ask("document.documentElement.scrollWidth") == 1280

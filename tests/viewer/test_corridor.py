@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from tests.builders.browsers import Viewer
 from tests.builders.plans import crowd, door, loop, yard
+from tests.builders.players import Player
 from tests.viewer.conftest import Opener
 
 
-def entries(viewer: Viewer, route: list[int]) -> list[list[Any]]:
+def entries(viewer: Player, route: list[int]) -> list[list[Any]]:
     """Return the sections of a corridor: vertex and distance of each entry, from below."""
     found: list[list[Any]] = viewer.ask(
         f"new Corridor(plan.roadmap, {route}).sections"

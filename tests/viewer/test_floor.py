@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 
 from rightofway.model import ExecutionTrace, Tick, Track
-from tests.builders.browsers import Viewer
 from tests.builders.plans import counter, counter_late, counter_steady, crowd, delayed, door
+from tests.builders.players import Player
 from tests.viewer.conftest import Opener, pixel
 
 
 @pytest.fixture
-def late(show: Opener) -> Viewer:
+def late(show: Opener) -> Player:
     return show(counter(), "#tick=8", actual=counter_late())
 
 
-def test_robots_are_where_they_were_and_ghosts_where_the_plan_has_them(late: Viewer) -> None:
+def test_robots_are_where_they_were_and_ghosts_where_the_plan_has_them(late: Player) -> None:
     """At 8 R1 still works in N1, where R2 should be; R2 waits in N2, and R1 should be at home."""
     assert late.ask("[[...motion.x], [...ghosts.x]]") == [[1, 2], [0, 1]]
     viewport = "mapView.viewport.left + {} * mapView.viewport.scale"
@@ -28,7 +28,7 @@ def test_robots_are_where_they_were_and_ghosts_where_the_plan_has_them(late: Vie
     assert blue in ring
 
 
-def test_a_switch_shows_plan_floor_or_both(late: Viewer) -> None:
+def test_a_switch_shows_plan_floor_or_both(late: Player) -> None:
     assert late.ask("choice.mode") == "both"
     late.page.click("#mode label:has-text('Plan')")
     late.wait_for("!frames.asked")
@@ -73,7 +73,7 @@ def test_lateness_is_told_as_it_grows(show: Opener, tick: int, lateness: list[st
     assert rows[:2] == lateness
 
 
-def test_who_breaks_down_is_marked_and_who_is_stuck_is_told_why(late: Viewer) -> None:
+def test_who_breaks_down_is_marked_and_who_is_stuck_is_told_why(late: Player) -> None:
     late.ask("clock.seek(30)")
     late.wait_for("frames.written === 30")
     assert late.page.locator("#robot-list .state").all_inner_texts()[:2] == ["stuck", "broken down"]
@@ -106,7 +106,7 @@ def test_who_was_planned_anew_goes_another_way(show: Opener) -> None:
     assert viewer.complaints == []
 
 
-def test_what_holds_a_robot_up_interrupts_its_work(late: Viewer) -> None:
+def test_what_holds_a_robot_up_interrupts_its_work(late: Player) -> None:
     """R1 works from 1, stands still from 3 to 7, works on until 8, turns, and drives home at 9."""
     phases = late.ask(
         "(({ begin, activity }) => [[...begin], [...activity]])(plan.happened[0].phases)"
@@ -119,7 +119,7 @@ def test_what_holds_a_robot_up_interrupts_its_work(late: Viewer) -> None:
     assert found[-2:] == [(20, turn), (21, wait)]
 
 
-def test_waiting_for_a_late_robot_is_told_and_marked(late: Viewer) -> None:
+def test_waiting_for_a_late_robot_is_told_and_marked(late: Player) -> None:
     """R2 waits from 0 to 9 instead of 5: the last 4 ticks are not in the plan."""
     late.page.click("#robot-list .row:has-text('R2')")
     assert "waits 9 time units in N2 for R1 to leave N1, 4 more than planned" in late.text("#card")
@@ -132,7 +132,7 @@ def test_waiting_for_a_late_robot_is_told_and_marked(late: Viewer) -> None:
         assert (pixel(late, "diagram", x, y) == orange) is is_marked, tick
 
 
-def test_the_plan_is_drawn_thin_beside_what_happened(late: Viewer) -> None:
+def test_the_plan_is_drawn_thin_beside_what_happened(late: Player) -> None:
     """By plan R1 is at home from 6 on; the line of that is gone without the plan."""
     x, y = late.ask("[diagram.area.x(8), diagram.spaceTime.axis.spots(0)[0].y]")
 

@@ -15,7 +15,7 @@ from rightofway.io import scenario_of
 from rightofway.model import Plan
 from rightofway.solve import solve
 from rightofway.viz import Background
-from tests.builders.browsers import Viewer
+from tests.builders.players import Player
 from tests.viewer.conftest import Opener
 
 LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
@@ -37,7 +37,7 @@ def plan_on(shape: dict[str, Any], home: Any, target: Any, base: Path | None) ->
     return solve(scenario_of(document, base))
 
 
-def site_of_pixel(viewer: Viewer, column: float, row: float, columns: int) -> list[float]:
+def site_of_pixel(viewer: Player, column: float, row: float, columns: int) -> list[float]:
     found: list[float] = viewer.page.evaluate(SITE_OF_PIXEL, [column, row, columns])
     return found
 

@@ -8,33 +8,33 @@ from typing import Any
 import pytest
 
 from rightofway.model import SteadyState, Tick
-from tests.builders.browsers import Viewer
 from tests.builders.plans import counter, counter_late, counter_steady, door
+from tests.builders.players import Player
 from tests.viewer.conftest import Opener, pixel
 
 
-def lit(viewer: Viewer) -> list[int]:
+def lit(viewer: Player) -> list[int]:
     return [*viewer.ask("channels(theme.lit)"), 255]
 
 
 @pytest.fixture
-def steady(show: Opener) -> Viewer:
+def steady(show: Opener) -> Player:
     return show(counter(), "#tick=0", steady=[counter_steady()])
 
 
-def in_band(viewer: Viewer, tick: float) -> list[int]:
+def in_band(viewer: Player, tick: float) -> list[int]:
     """Return the colour of the band at a tick, above the letters in it."""
     x, top = viewer.ask(f"[diagram.area.x({tick}), diagram.area.top - 20]")
     return pixel(viewer, "diagram", x, top)
 
 
-def test_the_band_begins_where_everything_comes_again(steady: Viewer) -> None:
+def test_the_band_begins_where_everything_comes_again(steady: Player) -> None:
     nothing = [0, 0, 0, 0]
     assert in_band(steady, 5.6) == nothing
     assert nothing not in (in_band(steady, 6.4), in_band(steady, 35.6))
 
 
-def test_laps_are_shown_until_the_first_robot_makes_no_more(steady: Viewer) -> None:
+def test_laps_are_shown_until_the_first_robot_makes_no_more(steady: Player) -> None:
     """R1 comes home at 36 and stays there."""
     assert steady.ask("clock.end") == 36
 
@@ -45,12 +45,12 @@ def test_the_band_ends_where_the_repetition_does(show: Opener) -> None:
     assert in_band(viewer, 36.5) == [0, 0, 0, 0] != in_band(viewer, 35.5)
 
 
-def test_periods_can_be_told_apart(steady: Viewer) -> None:
+def test_periods_can_be_told_apart(steady: Player) -> None:
     first, second, third = (in_band(steady, tick) for tick in (8, 18, 28))
     assert first == third != second
 
 
-def test_the_first_period_is_played_for_ever(steady: Viewer) -> None:
+def test_the_first_period_is_played_for_ever(steady: Player) -> None:
     steady.page.keyboard.press("l")
     steady.ask("clock.pause(), clock.seek(15.5), clock.advance(1 / clock.rate)")  # one tick on
     assert steady.ask("clock.tick") == pytest.approx(6.5)
@@ -59,7 +59,7 @@ def test_the_first_period_is_played_for_ever(steady: Viewer) -> None:
     assert steady.page.get_attribute("#loop", "aria-pressed") == "true"
 
 
-def test_robots_are_where_the_next_period_has_them(steady: Viewer) -> None:
+def test_robots_are_where_the_next_period_has_them(steady: Player) -> None:
     places = "motion.moveTo({}), [...motion.x, ...motion.activity]"
     for tick in (6, 7.5, 10.25, 15.9):
         assert steady.ask(places.format(tick)) == pytest.approx(
@@ -67,7 +67,7 @@ def test_robots_are_where_the_next_period_has_them(steady: Viewer) -> None:
         )
 
 
-def test_the_loop_is_entered_from_the_transient_and_left_by_going_beyond(steady: Viewer) -> None:
+def test_the_loop_is_entered_from_the_transient_and_left_by_going_beyond(steady: Player) -> None:
     steady.page.click("#loop")
     steady.ask("clock.pause(), clock.seek(2), clock.advance(3 / clock.rate)")
     assert steady.ask("[clock.tick, clock.loop.from, clock.loop.to]") == [5, 6, 16]
@@ -75,7 +75,7 @@ def test_the_loop_is_entered_from_the_transient_and_left_by_going_beyond(steady:
     assert steady.ask("[clock.tick, clock.loop]") == [20, None]
 
 
-def test_laps_are_counted_and_go_on_in_the_loop(steady: Viewer) -> None:
+def test_laps_are_counted_and_go_on_in_the_loop(steady: Player) -> None:
     """R1 comes home at 6, 16, 26 and 36."""
     first = steady.page.locator("#robot-list .row").first
     for tick, lap in ((5, "lap 1"), (17, "lap 3"), (26, "lap 4")):
@@ -111,7 +111,7 @@ def test_a_plan_that_ends_within_the_first_period_cannot_be_looped(show: Opener)
     assert viewer.ask("clock.loop") is None
 
 
-def test_the_bottleneck_is_lit_in_every_period(steady: Viewer) -> None:
+def test_the_bottleneck_is_lit_in_every_period(steady: Player) -> None:
     """The time in N1 is critical, by turns of R1 and R2; the time at home between is not."""
     below_the_line = "diagram.spaceTime.axis.spots({})[0].y + 5"
     home, counter = 0, 1
@@ -121,7 +121,7 @@ def test_the_bottleneck_is_lit_in_every_period(steady: Viewer) -> None:
         assert (pixel(steady, "diagram", x, y) == lit(steady)) is is_lit, (tick, row)
 
 
-def test_the_bottleneck_is_lit_on_the_map_until_switched_off(steady: Viewer) -> None:
+def test_the_bottleneck_is_lit_on_the_map_until_switched_off(steady: Player) -> None:
     x, y = steady.ask(
         "(({left, top, scale}) => [left + 1.5 * scale, top + 0.12 * scale])(mapView.viewport)"
     )
@@ -135,12 +135,12 @@ def test_the_bottleneck_is_lit_on_the_map_until_switched_off(steady: Viewer) -> 
 
 
 @pytest.mark.parametrize(("tick", "robots"), [(5, []), (8, [1]), (12, [0]), (18, [1]), (28, [1])])
-def test_the_robot_on_the_circuit_is_lit(steady: Viewer, tick: int, robots: list[int]) -> None:
+def test_the_robot_on_the_circuit_is_lit(steady: Player, tick: int, robots: list[int]) -> None:
     """R2 is in N1 from 6 to 11 and R1 from 11 to 16."""
     assert steady.ask(f"bottleneck.robotsNow({tick})") == robots
 
 
-def test_the_circuit_takes_whole_periods(steady: Viewer) -> None:
+def test_the_circuit_takes_whole_periods(steady: Player) -> None:
     # R1 to N1 at 11, to N0 at 16, when R2 comes to N1; it goes to N2 at 21, when R1 comes to N1
     steps: Any = steady.ask("bottleneck.circuit.map(({begin, next}) => [begin, next])")
     assert steps == [[11, 16], [16, 16], [16, 21], [21, 21]]

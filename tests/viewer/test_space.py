@@ -10,8 +10,8 @@ import pytest
 from rightofway.io import scenario_of
 from rightofway.model import Plan, PlannerRun, Track
 from rightofway.solve import solve
-from tests.builders.browsers import Viewer
 from tests.builders.plans import crowd, door
+from tests.builders.players import Player
 from tests.viewer.conftest import Opener
 
 CROSS = {
@@ -48,7 +48,7 @@ def cross(**more: Any) -> Plan:
     )
 
 
-def held(viewer: Viewer, robot: int, time: float) -> dict[str, Any]:
+def held(viewer: Player, robot: int, time: float) -> dict[str, Any]:
     """Return the names of vertices and lanes that a robot books at a time."""
     viewer.ask(f"clock.seek({time} * clock.ticksPerUnit); frames.paint(0)")
     found: dict[str, Any] = viewer.page.evaluate(

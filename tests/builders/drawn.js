@@ -1,0 +1,93 @@
+// What a page draws on its canvases, by the interface of the browser: tests load this before the page.
+// A canvas that is drawn on another one brings along what it shows.
+globalThis.drawn = (() => {
+  const proto = CanvasRenderingContext2D.prototype;
+  const shown = new WeakMap(); // what a canvas shows since it was last cleared
+  const paths = new WeakMap(); // the arcs of the path that a context is drawing
+  let counts = {};
+  const on = (canvas) => shown.get(canvas) ?? (shown.set(canvas, []), shown.get(canvas));
+
+  const watch = (name, note) => {
+    const draw = proto[name];
+    proto[name] = function (...args) {
+      counts[name] = (counts[name] ?? 0) + 1;
+      note?.call(this, ...args);
+      return draw.apply(this, args);
+    };
+  };
+  const transform = (context, x, y) => {
+    const { a, b, c, d, e, f } = context.getTransform();
+    return [a * x + c * y + e, b * x + d * y + f];
+  };
+  const noteArcs = (isFilled) =>
+    function (path) {
+      if (typeof path === "object") return;
+      const colour = isFilled ? this.fillStyle : this.strokeStyle;
+      for (const arc of paths.get(this) ?? []) on(this.canvas).push({ ...arc, colour, isFilled });
+    };
+
+  watch("clearRect", function (x, y, width, height) {
+    if (width >= this.canvas.width && height >= this.canvas.height) shown.set(this.canvas, []);
+  });
+  watch("beginPath", function () {
+    paths.set(this, []);
+  });
+  watch("arc", function (x, y, radius) {
+    const [[left, top], [right, bottom]] = [transform(this, x, y), transform(this, x + radius, y)];
+    const arc = { at: [left, top], radius: Math.hypot(right - left, bottom - top) };
+    paths.get(this)?.push(arc);
+  });
+  watch("fill", noteArcs(true));
+  watch("stroke", noteArcs(false));
+  watch("fillText", function (text, x, y) {
+    const ink = this.measureText(text);
+    const [left, right] = [x - ink.actualBoundingBoxLeft, x + ink.actualBoundingBoxRight];
+    const [top, bottom] = [y - ink.actualBoundingBoxAscent, y + ink.actualBoundingBoxDescent];
+    const corners = [left, right].flatMap((u) => [top, bottom].map((v) => transform(this, u, v)));
+    on(this.canvas).push({ text, corners, moves: true });
+  });
+  watch("drawImage", function (source) {
+    const below = source instanceof HTMLCanvasElement ? on(source) : [];
+    on(this.canvas).push(...below.map((each) => ({ ...each, moves: false })));
+  });
+  for (const name of ["lineTo", "fillRect"]) watch(name);
+
+  const ratioOf = (canvas) => canvas.width / canvas.clientWidth;
+  const find = (id) => document.getElementById(id);
+  return {
+    texts(id) {
+      const canvas = find(id);
+      const ratio = ratioOf(canvas);
+      return on(canvas)
+        .filter(({ corners }) => corners)
+        .map(({ text, corners, moves }) => {
+          const [xs, ys] = [0, 1].map((axis) => corners.map((corner) => corner[axis] / ratio));
+          const box = [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+          return { text, box, moves };
+        });
+    },
+    discs(id) {
+      const canvas = find(id);
+      const ratio = ratioOf(canvas);
+      return on(canvas)
+        .filter(({ at }) => at)
+        .map(({ at: [x, y], radius, colour, isFilled }) => ({
+          x: x / ratio,
+          y: y / ratio,
+          radius: radius / ratio,
+          colour,
+          is_filled: isFilled,
+        }));
+    },
+    colour(id, x, y) {
+      const canvas = find(id);
+      const [column, row] = [x, y].map((pixels) => Math.round(pixels * ratioOf(canvas)));
+      return Array.from(canvas.getContext("2d").getImageData(column, row, 1, 1).data);
+    },
+    calls() {
+      const found = counts;
+      counts = {};
+      return found;
+    },
+  };
+})();
