@@ -270,3 +270,15 @@ def begin(studio: StudioPage, *, seconds: float = 1, planner: str = "auto") -> N
     studio.page.select_option("#planner", planner)
     studio.page.fill("#limit", str(seconds))
     studio.page.locator(".settings [type=submit]").click()
+
+
+USED: tuple[Any, ...] = (
+    "button", "link", "textbox", "checkbox", "combobox", "slider", "spinbutton", "tab",
+)  # fmt: skip
+"""Roles of what can be used."""
+
+
+def nameless(within: Page | Locator) -> list[str]:
+    """Return what can be used and has no name for a screen reader."""
+    found = [within.get_by_role(role, name=re.compile("^$")) for role in USED]
+    return [str(each.evaluate("(it) => it.outerHTML")) for kind in found for each in kind.all()]

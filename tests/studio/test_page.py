@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 from urllib.parse import urljoin
 
 import pytest
 
 from tests.builders.browsers import Viewer, needs_browser
-from tests.builders.drawing import StudioPage, studio_page
+from tests.builders.drawing import StudioPage, nameless, studio_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -124,19 +123,8 @@ def test_the_page_speaks_german_to_a_german_browser_and_english_on_request(
         page.get_by_text("New floor").wait_for()
 
 
-USED: tuple[Any, ...] = (
-    "button", "link", "textbox", "checkbox", "combobox", "slider", "spinbutton", "tab",
-)  # fmt: skip
-
-
-def nameless(studio: StudioPage) -> list[str]:
-    """Return what can be used and has no name for a screen reader."""
-    found = [studio.page.get_by_role(role, name=re.compile("^$")) for role in USED]
-    return [str(each.evaluate("(it) => it.outerHTML")) for kind in found for each in kind.all()]
-
-
 def test_every_button_and_field_has_a_name(studio: StudioPage) -> None:
     plan(studio)
     for tab in ("Map", "Robots", "Plan"):
         studio.tab(tab)
-        assert nameless(studio) == []
+        assert nameless(studio.page) == []

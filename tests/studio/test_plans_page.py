@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import json
 import random
+import re
 import shlex
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import urljoin
 
 import openpyxl  # type: ignore[import-untyped]  # it ships no types
 from PIL import Image
 
 from rightofway import load_plan
 from rightofway.io.text import parse_yaml
-from tests.builders.browsers import Viewer, needs_browser
-from tests.builders.drawing import Opener, StudioPage, begin
+from tests.builders.browsers import Viewer, expect, needs_browser
+from tests.builders.drawing import Opener, StudioPage, begin, nameless
 from tests.builders.studios import BAY
 
 if TYPE_CHECKING:
@@ -48,6 +51,32 @@ def crowd() -> str:
     return json.dumps({"format": "rightofway-scenario/1", "map": {"grid": rows}, "robots": robots})
 
 
+def listed(studio: StudioPage) -> list[int]:
+    """Return the numbers of the runs that are listed, in their order."""
+    rows = studio.page.locator("tr[data-run]").all()
+    return [int(row.get_attribute("data-run") or 0) for row in rows]
+
+
+def tab(studio: StudioPage) -> str:
+    """Return which tab is shown, with its count."""
+    return " ".join(studio.page.get_by_role("tab", selected=True).inner_text().split())
+
+
+def give(studio: StudioPage, column: str, text: str) -> None:
+    """Write a value of R1 into the table of robots, and go back to the plans."""
+    studio.tab("Robots")
+    field = studio.page.get_by_label(f"{column}, R1", exact=True)
+    field.fill(text)
+    field.press("Enter")
+    studio.settle()
+    studio.tab("Plan")
+
+
+def another(studio: StudioPage) -> None:
+    """Draw another floor, a copy with another unit of time, which has no name."""
+    studio.draw({**studio.document, "units": {"time": "s"}}, "new floor")
+
+
 def row(studio: StudioPage, number: int) -> str:
     """Return what the list says of a run."""
     return studio.text(f"[data-run='{number}']")
@@ -55,7 +84,7 @@ def row(studio: StudioPage, number: int) -> str:
 
 def test_planners_and_options_are_said_as_the_registry_says_them(opened: Opener) -> None:
     studio = opened(BAY)
-    for spec in studio.ask("studio.runs.planners.planners"):
+    for spec in studio.api("planners")["planners"]:
         studio.page.select_option("#planner", spec["name"])
         assert studio.text("#planner-summary") == spec["summary"]
         shown = studio.page.locator(".options .hint").all_text_contents()
@@ -65,48 +94,50 @@ def test_planners_and_options_are_said_as_the_registry_says_them(opened: Opener)
 def test_a_run_that_is_stopped_keeps_its_best_plan(opened: Opener) -> None:
     studio = opened(crowd())
     begin(studio, seconds=60)
-    studio.wait_for("Boolean(document.querySelector('.curve'))")
+    studio.page.locator(".curve").wait_for()
     before = studio.page.locator(".settings .buttons").bounding_box()
-    studio.wait_for("studio.runs.running?.points.length > 1")
-    studio.wait_for("Boolean(document.querySelector('.curve .reached'))")
-    studio.wait_for("studio.stage.isPlan")  # the plan so far is there to be played
+    studio.page.get_by_role("img", name=re.compile("Plan 1: from [0-9]+ at")).wait_for()
+    studio.page.locator(".curve .reached").wait_for(state="attached")
+    studio.poll(studio.is_plan, "the plan so far is there to be played")
     assert "Running" in studio.text(".curve")
     assert studio.page.locator(".settings .buttons").bounding_box() == before  # nothing moves
     studio.button("Stop, keep the best").click()
     studio.planned()
-    assert studio.ask("studio.runs.run.state") == "stopped"
     assert "stopped" in row(studio, 1)
-    flowtime, best = studio.ask("[studio.runs.run.figures.flowtime, studio.runs.run.points]")
-    assert flowtime == min(cost for _, cost in best)
+    run = studio.run(1)
+    assert run["state"] == "stopped"
+    assert run["figures"]["flowtime"] == min(cost for _, cost in run["points"])
 
 
 def test_a_run_that_is_cancelled_ends_at_once(opened: Opener) -> None:
     studio = opened(crowd())
     begin(studio, seconds=60)
-    studio.wait_for("studio.runs.running?.state === 'running'")
+    studio.page.locator(".curve").get_by_text("running").wait_for()
     studio.button("Cancel").click()
-    studio.wait_for("!studio.runs.running")
-    assert studio.ask("studio.runs.runs[0].state") == "cancelled"
+    expect(studio.button("Cancel")).to_be_disabled()
+    assert studio.run(1)["state"] == "cancelled"
 
 
 def test_what_is_proven_impossible_lights_its_places(opened: Opener) -> None:
     studio = opened(PARTS)
     begin(studio)
-    studio.wait_for("studio.runs.runs[0]?.state === 'failed'")
+    studio.failed(1)
+    assert studio.run(1)["state"] == "failed"
     assert "R1 has no way from N0 to N2" in studio.text("tr.why")
     assert "no plan exists" in studio.text(".status")
-    studio.ask("studio.light([])")
+    assert studio.lit() == ["N0", "N2"]
+    studio.reload()
+    studio.button("1 without a plan").click()
+    assert studio.lit() == []
     studio.page.locator("tr.why button").click()
-    lit = "studio.stage.choice.lit.map((vertex) => studio.stage.plan.roadmap.name(vertex))"
-    assert studio.ask(lit) == ["N0", "N2"]
+    assert studio.lit() == ["N0", "N2"]
 
 
 def planned_by(studio: StudioPage, *planners: str) -> None:
     """Plan with one planner after the other."""
     for count, planner in enumerate(planners, 1):
         begin(studio, planner=planner)
-        studio.wait_for(f"studio.runs.shown === {count}")
-        studio.planned()
+        studio.shown(count)
 
 
 def check(studio: StudioPage, *numbers: int, shift: bool = False) -> None:
@@ -122,7 +153,8 @@ def test_runs_are_named_in_place(opened: Opener) -> None:
     name = studio.page.get_by_label("Name of the plan 1")
     name.fill("first try")
     name.press("Tab")
-    studio.wait_for("studio.runs.find(1).name === 'first try'")
+    studio.settle()
+    assert studio.run(1)["name"] == "first try"
     assert "prioritized" in row(studio, 1)
     assert "%" in row(studio, 1)
     assert " s" in row(studio, 1)
@@ -135,14 +167,14 @@ def test_runs_that_are_selected_are_compared_and_shown_side_by_side(opened: Open
     check(studio, 1)
     assert "Select another plan" in studio.text(".selection")
     check(studio, 3, shift=True)
-    studio.wait_for("studio.runs.compared?.runs.length === 3")
+    studio.settle()
     heads = studio.page.locator(".compared-figures thead button").all_inner_texts()
     assert heads == ["#1", "#2", "#3"]
     robots = studio.page.locator(".robots-compared .row:visible").all_inner_texts()
     assert {text.split("\n")[0] for text in robots} == {"R1", "R2", "R3"}
     assert studio.page.locator(".plot .reached").count() >= 3
     studio.page.locator(".robots-compared .row", has_text="R2").click()
-    assert studio.ask("studio.stage.choice.robot.name") == "R2"
+    studio.chosen("R2").wait_for()
     studio.button("Show side by side").click()
     frame = studio.page.frame_locator("dialog.beside iframe")
     frame.get_by_role("tab", name="Compared").wait_for()
@@ -152,7 +184,8 @@ def test_runs_that_are_selected_are_compared_and_shown_side_by_side(opened: Open
     studio.page.keyboard.press("Escape")
     studio.page.locator("dialog.beside").wait_for(state="detached")
     check(studio, 2)
-    studio.wait_for("studio.runs.compared?.runs.length === 2")
+    studio.settle()
+    assert studio.page.locator(".compared-figures thead button").count() == 2
     studio.button("End").click()
     studio.page.locator(".comparison").wait_for(state="detached")
     assert studio.complaints == []
@@ -162,14 +195,13 @@ def test_a_what_if_with_another_speed_is_shown_side_by_side(opened: Opener) -> N
     """The ticks of both plans differ."""
     studio = opened(BAY)
     planned_by(studio, "auto")
-    studio.ask("studio.stage.choice.chooseRobot(0)")
-    speed = studio.page.locator(".ask").get_by_label("Speed", exact=True)
+    studio.press((0.5, 0.5))  # R1 at its home
+    speed = studio.chosen("R1").get_by_label("Speed", exact=True)
     speed.fill("1.5")
     speed.press("Tab")
-    studio.wait_for("studio.runs.shown === 2 && Boolean(studio.runs.comparison)")
-    changed = studio.page.locator(".comparison .compared-changes li").all_inner_texts
-    studio.wait_for("Boolean(document.querySelector('.compared-changes'))")
-    assert changed() == ["R1: speed 1 \u2192 1.5"]
+    studio.shown(2)
+    changed = studio.page.locator(".comparison .compared-changes li")
+    expect(changed).to_have_text(["R1: speed 1 \u2192 1.5"])
     studio.button("Show side by side").click()
     frame = studio.page.frame_locator("dialog.beside iframe")
     frame.get_by_role("tab", name="Compared").wait_for()
@@ -181,17 +213,18 @@ def test_a_run_that_is_deleted_is_had_back(opened: Opener) -> None:
     planned_by(studio, "prioritized", "auto")
     studio.page.get_by_role("button", name="Delete: 2 floor.yaml").click()
     assert studio.page.locator("[data-run]").count() == 1
-    assert studio.ask("studio.stage.isPlan") is False
+    assert not studio.is_plan()
     studio.page.locator(".notice").get_by_role("button", name="Undo").click()
-    studio.wait_for("studio.runs.shown === 2 && studio.stage.isPlan")
+    studio.shown(2)
+    assert studio.is_plan()
     assert studio.page.locator("[data-run]").count() == 2
     check(studio, 1, 2)
-    studio.wait_for("Boolean(studio.runs.compared)")
+    studio.settle()
     studio.page.locator(".selection").get_by_role("button", name="Delete").click()
     assert studio.page.locator("[data-run], .comparison").count() == 0
-    studio.page.reload()  # leaving the page ends the undo
-    studio.wait_for("Boolean(window.studio?.about.version)")
-    studio.wait_for("studio.runs.runs.length === 0")
+    studio.reload()  # leaving the page ends the undo
+    studio.poll(lambda: not studio.runs, "the server has forgotten them")
+    assert studio.page.locator("[data-run]").count() == 0
     assert studio.complaints == []
 
 
@@ -199,176 +232,157 @@ def test_runs_without_a_plan_are_no_plans_and_stand_behind_one_line(opened: Open
     studio = opened(PARTS)
     for count in (1, 2, 3):
         begin(studio)
-        studio.wait_for(f"studio.runs.runs.length === {count} && !studio.runs.running")
+        studio.failed(count)
     assert studio.text("#tab-plan").strip() == "Plan"
-    numbers = "[...document.querySelectorAll('tr[data-run]')].map((row) => Number(row.dataset.run))"
-    assert studio.ask(numbers) == [3]  # what has just failed says why
+    assert listed(studio) == [3]  # what has just failed says why
     assert "R1 has no way" in studio.text("tr.why")
     fold = studio.page.get_by_role("button", name="2 without a plan", exact=True)
     fold.click()
-    assert studio.ask(numbers) == [3, 2, 1]
-    studio.page.reload()
-    studio.wait_for("Boolean(document.querySelector('.runs .fold'))")
-    assert studio.ask(numbers) == []
+    assert listed(studio) == [3, 2, 1]
+    studio.reload()
+    studio.page.locator(".runs .fold").wait_for()
+    assert listed(studio) == []
     studio.button("Delete: 3 without a plan").click()
     assert studio.page.locator(".runs .fold").count() == 0
     studio.page.locator(".notice").get_by_role("button", name="Undo").click()
     studio.button("3 without a plan").click()
-    assert studio.ask(numbers) == [3, 2, 1]
+    assert listed(studio) == [3, 2, 1]
     assert studio.complaints == []
-
-
-def reloaded(studio: StudioPage) -> None:
-    studio.page.reload()
-    studio.wait_for("Boolean(window.studio?.about.version) && Boolean(studio.store.site)")
 
 
 def test_a_reload_shows_the_tab_and_the_latest_plan_of_the_document(opened: Opener) -> None:
     studio = opened(BAY)
     planned_by(studio, "prioritized", "auto")
     studio.requests.clear()
-    reloaded(studio)
-    studio.wait_for("studio.runs.shown === 2 && studio.stage.isPlan && studio.runs.losses !== null")
-    assert studio.ask("studio.tab") == "plan"
+    studio.reload()
+    studio.shown(2)
+    assert studio.is_plan()
+    assert tab(studio) == "Plan 2"
     assert studio.page.locator(".aside").count() == 0  # nothing has changed since
     assert [each for each in studio.requests if each.endswith("/payload")] == [
-        f"{studio.page.evaluate('origin')}/api/v1/runs/2/payload"
+        urljoin(studio.page.url, "/api/v1/runs/2/payload")
     ]
     studio.button("Files").click()
     studio.page.go_back()
-    studio.wait_for("studio.runs.shown === 2 && studio.stage.isPlan && studio.tab === 'plan'")
+    studio.shown(2)
+    assert studio.is_plan()
+    assert tab(studio) == "Plan 2"
     assert studio.complaints == []
 
 
 def test_a_draft_that_is_opened_again_has_its_plan_until_it_differs(opened: Opener) -> None:
     """A crash of the browser leaves the draft; another floor was looked at before."""
     studio = opened(BAY)
-    edit = (
-        "studio.store.change((document) => ({ ...document, robots: document.robots.map("
-        "(robot, i) => (i ? robot : { ...robot, work: WORK })) }))"
-    )
-    studio.ask(edit.replace("WORK", "7"))
-    studio.settle()
+    give(studio, "Work", "7")
     planned_by(studio, "prioritized")
     studio.tab("Map")
-    studio.ask("studio.open({ document: { ...studio.store.document, units: { time: 's' } } })")
-    studio.settle()
-    assert studio.ask("studio.runs.shown") is None  # another document has no plan
-    studio.ask("studio.shelf.list().then(() => studio.shelf.openDraft('floor.yaml'))")
-    studio.wait_for("studio.runs.shown === 1")
-    assert studio.ask("studio.tab") == "map"
-    assert not studio.ask("studio.stage.isPlan")
-    studio.ask(edit.replace("WORK", "8"))
-    studio.settle()
-    studio.wait_for("studio.store.isKept")
-    reloaded(studio)
-    studio.settle()
-    assert studio.ask("studio.runs.shown") is None
+    another(studio)
+    studio.tab("Plan")
+    assert not studio.is_plan()  # another document has no plan
+    studio.go("draft", "floor.yaml")
+    assert tab(studio).startswith("Map")
+    assert not studio.is_plan()
+    studio.tab("Plan")
+    studio.shown(1)
+    assert studio.is_plan()
+    give(studio, "Work", "8")
+    studio.reload()
+    studio.tab("Plan")
+    assert not studio.is_plan()
     assert studio.complaints == []
 
 
 def test_a_floor_that_was_planned_before_it_had_a_name_keeps_its_plans(opened: Opener) -> None:
     studio = opened(BAY)
-    studio.ask("studio.open({ document: { ...studio.store.document, units: { time: 's' } } })")
-    studio.settle()
+    another(studio)
     studio.tab("Plan")
     planned_by(studio, "prioritized", "auto")
     studio.button("Save").click()
-    studio.wait_for("location.hash === '#file=floor2.yaml'")
-    reloaded(studio)
-    studio.wait_for("studio.runs.shown === 2 && studio.stage.isPlan")
+    studio.saved()
+    assert studio.place == ("file", "floor2.yaml")
+    studio.reload()
+    studio.shown(2)
+    assert studio.is_plan()
     assert studio.page.locator("[data-run]").count() == 2
-    assert studio.ask("studio.tab") == "plan"
+    assert tab(studio) == "Plan 2"
 
 
 def test_a_run_of_another_document_goes_on_unseen(opened: Opener) -> None:
     studio = opened(crowd())
     begin(studio, seconds=60)
-    studio.wait_for("studio.runs.running?.has_plan")
-    reloaded(studio)
-    studio.wait_for(
-        "studio.runs.running && studio.stage.isPlan"
-    )  # whoever reloads goes on watching
-    studio.ask(f"studio.open({{ document: {json.dumps(parse_yaml(BAY))} }})")
-    studio.settle()
-    assert studio.ask("[studio.runs.running ?? null, studio.runs.shown]") == [None, None]
-    studio.ask("fetch('/api/v1/runs/1/stop', { method: 'POST',"
-               " headers: { 'content-type': 'application/json' }, body: '{}' })")  # fmt: skip
-    studio.wait_for("studio.runs.find(1).state === 'stopped'")
-    studio.settle()
-    assert studio.ask("studio.runs.shown") is None
+    studio.poll(studio.is_plan, "the plan so far is there to be played")
+    studio.reload()
+    studio.poll(studio.is_plan, "whoever reloads goes on watching")
+    expect(studio.button("Cancel")).to_be_enabled()
+    studio.draw(parse_yaml(BAY))
+    studio.tab("Plan")
+    expect(studio.button("Cancel")).to_be_disabled()
+    assert not studio.is_plan()
+    studio.page.get_by_label("Whose plans are listed").select_option("*")
+    studio.post("runs/1/stop", {})
+    studio.failed(1)
+    assert studio.run(1)["state"] == "stopped"
+    assert not studio.is_plan()
 
 
 def test_runs_are_sorted_and_say_what_is_new_in_each(opened: Opener) -> None:
     studio = opened(BAY)
     planned_by(studio, "prioritized", "prioritized")
-    studio.ask(
-        "studio.store.change((document) => ({ ...document, robots: document.robots.map("
-        "(robot, i) => (i ? robot : { ...robot, speed: 2 })) }))"
-    )
-    studio.settle()
+    give(studio, "Speed", "2")
     begin(studio, planner="prioritized")
-    studio.wait_for("studio.runs.shown === 3")
-    studio.planned()
-    studio.wait_for("studio.runs.notes.on({ number: 3 }).length > 0")
-    assert "as good as 1" in row(studio, 2)
-    assert "R1: speed 1 \u2192 2" in row(studio, 3)
-    order = "[...document.querySelectorAll('tr[data-run]')].map((row) => Number(row.dataset.run))"
-    assert studio.ask(order) == [3, 2, 1]
-    costs = studio.ask("studio.runs.runs.map(({ number, figures: { flowtime, tick } }) =>"
-                       " [flowtime * tick[0] / tick[1], -number]).sort((a, b) => a[0] - b[0] ||"
-                       " a[1] - b[1]).map(([, number]) => -number)")  # fmt: skip
+    studio.shown(3)
+    expect(studio.row(2)).to_contain_text("as good as 1")
+    expect(studio.row(3)).to_contain_text("R1: speed 1 \u2192 2")
+    assert listed(studio) == [3, 2, 1]
+    cost = {run["number"]: run["figures"]["flowtime"] * Fraction(*run["figures"]["tick"])
+            for run in studio.runs}  # fmt: skip
     studio.page.locator("th.flowtime button").click()
-    assert studio.ask(order) == costs
+    assert listed(studio) == sorted(cost, key=lambda number: (cost[number], -number))
 
 
 def test_the_list_is_of_this_floor_and_others_on_request(opened: Opener) -> None:
     studio = opened(BAY)
     planned_by(studio, "auto")
     assert studio.page.get_by_label("Whose plans are listed").count() == 0
-    studio.ask("studio.open({ document: { ...studio.store.document, units: { time: 's' } } })")
-    studio.settle()
+    another(studio)
     studio.tab("Plan")
     assert studio.page.locator("[data-run]").count() == 0
     assert studio.text("#tab-plan").strip() == "Plan"
     studio.page.get_by_label("Whose plans are listed").select_option("floor.yaml")
     assert studio.page.locator("[data-run]").count() == 1
     begin(studio)
-    studio.wait_for("studio.runs.shown === 2")
-    studio.planned()
     studio.page.get_by_label("Whose plans are listed").select_option("*")
+    studio.shown(2)
     check(studio, 1, 2)
-    studio.wait_for("studio.complaints.length > 0")
-    assert "times are in s, those of the first plan in no unit" in studio.text(".status")
+    alert = studio.page.get_by_role("alert")
+    expect(alert).to_contain_text("times are in s, those of the first plan in no unit")
 
 
 def test_a_plan_that_is_opened_is_in_the_list(opened: Opener, empty: Client) -> None:
     studio = opened(BAY)
     planned_by(studio, "auto")
     exported(studio, "Plan file", empty.folder)
-    studio.ask("studio.shelf.open('floor-plan-1.json')")
-    studio.wait_for("studio.runs.shown === 2 && studio.runs.losses !== null")
-    studio.wait_for(
-        "document.querySelectorAll('[data-run]').length === 2"
-    )  # it is of the same floor
+    studio.go("file", "floor-plan-1.json")
+    studio.shown(2)
+    expect(studio.page.locator("[data-run]")).to_have_count(2)  # it is of the same floor
     assert "opened" in row(studio, 2)
-    reloaded(studio)
-    studio.wait_for("studio.runs.shown === 2 && studio.stage.isPlan")
-    assert len(studio.ask("studio.runs.runs")) == 2  # the same file is the same plan
+    studio.reload()
+    studio.shown(2)
+    assert studio.is_plan()
+    assert len(studio.runs) == 2  # the same file is the same plan
 
 
 def test_the_curve_has_axes_and_says_the_same_in_words(opened: Opener) -> None:
     studio = opened(crowd())
     begin(studio, seconds=2)
-    studio.wait_for("studio.runs.shown === 1")
-    studio.planned()
-    plot = studio.page.locator(".plot")
-    first, best = studio.ask("[studio.runs.run.points[0][1], studio.runs.run.points.at(-1)[1]]")
+    studio.shown(1)
+    plot, run = studio.page.locator(".plot"), studio.run(1)
+    first, best = run["points"][0][1], run["points"][-1][1]
     assert best < first
     said = plot.get_attribute("aria-label") or ""
     assert f"from {first} at" in said
     assert f"to {best} at" in said
-    assert f"each alone {studio.ask('studio.runs.run.figures.lower_bound')}" in said
+    assert f"each alone {run['figures']['lower_bound']}" in said
     assert studio.text(".plot .label >> nth=0") == str(first)
     assert studio.text(".seconds.last").endswith(" s")
 
@@ -389,7 +403,7 @@ def test_what_is_exported_opens_in_the_programs_it_is_for(
     begin(studio)
     studio.planned()
     studio.page.locator(".exports summary").click()
-    flowtime = studio.ask("studio.runs.run.figures.flowtime")
+    flowtime = studio.run(1)["figures"]["flowtime"]
     plan = exported(studio, "Plan file", tmp_path)
     assert plan.name == "floor-plan-1.json"
     assert load_plan(plan).flowtime == flowtime
@@ -403,7 +417,8 @@ def test_what_is_exported_opens_in_the_programs_it_is_for(
         assert min(picture.size) > 100
     page = Viewer(browser.new_context(offline=True).new_page())
     page.page.goto(exported(studio, "Web page", tmp_path).as_uri())
-    page.wait_for("clock.playing && clock.tick > 0")
+    slider = page.page.get_by_role("slider", name="Time")
+    page.poll(lambda: float(slider.input_value()) > 0, "it plays by itself")
     assert "floor.yaml #1" in page.text("#headline")
     assert page.complaints == []
     page.page.context.close()
@@ -417,14 +432,14 @@ def test_the_command_line_gives_the_same_flowtime(opened: Opener, empty: Client)
     command = "rightofway plan floor.yaml --planner auto --seed 0 --time-limit 1"
     assert studio.text(".command code") == command
     studio.button("Copy the command line").click()
-    studio.wait_for("document.querySelector('.command button').textContent === 'Copied'")
-    copied = studio.ask("navigator.clipboard.readText()")
+    studio.page.locator(".command").get_by_text("Copied").wait_for()
+    copied = studio.page.evaluate("navigator.clipboard.readText()")
     assert copied == command
     program = Path(sys.executable).with_name("rightofway")
     words = [str(program), *shlex.split(copied)[1:], "--json", "-o", "again.json"]
     done = subprocess.run(words, cwd=empty.folder, capture_output=True, text=True, check=True)
     report = json.loads(done.stdout)
-    assert report["metrics"]["flowtime"] == studio.ask("studio.runs.run.figures.flowtime")
+    assert report["metrics"]["flowtime"] == studio.run(1)["figures"]["flowtime"]
 
 
 def test_the_page_of_a_comparison_is_a_file_too(
@@ -433,7 +448,7 @@ def test_the_page_of_a_comparison_is_a_file_too(
     studio = opened(BAY)
     planned_by(studio, "prioritized", "auto")
     check(studio, 1, 2)
-    studio.wait_for("Boolean(studio.runs.compared)")
+    studio.settle()
     with studio.page.expect_download() as download:
         studio.page.locator(".comparison").get_by_role("link", name="Web page").click()
     assert download.value.suggested_filename == "floor-plan-1-2.html"
@@ -441,7 +456,8 @@ def test_the_page_of_a_comparison_is_a_file_too(
     download.value.save_as(path)
     page = Viewer(browser.new_context(offline=True).new_page())
     page.page.goto(path.as_uri())
-    page.wait_for("clock.playing && comparison.plans.length === 2")
+    page.page.get_by_role("button", name="Pause").wait_for()  # it plays by itself
+    assert page.page.locator("section.map").count() == 2
     assert page.complaints == []
     page.page.context.close()
 
@@ -455,14 +471,7 @@ def test_everything_about_plans_has_a_name_and_is_reached_by_keys(opened: Opener
         left = closed.count()
         closed.first.press("Enter")
         assert closed.count() < left
-    nameless = studio.ask(
-        "[...document.querySelectorAll('#panel :is(button, input, select, a)')].filter((each) =>"
-        " !(each.ariaLabel || each.textContent.trim() || each.labels?.length))"
-        ".map((each) => each.outerHTML)"
-    )
-    assert nameless == []
-    out_of_reach = studio.ask(
-        "[...document.querySelectorAll('#panel :is(button, input, select, a, code, pre)')]"
-        ".filter((each) => each.tabIndex < 0).length"
-    )
-    assert out_of_reach == 0
+    panel = studio.page.get_by_role("tabpanel")
+    assert nameless(panel) == []
+    reached = panel.locator(":is(button, input, select, a, code, pre)")
+    assert {int(each.evaluate("(it) => it.tabIndex")) for each in reached.all()} == {0}
