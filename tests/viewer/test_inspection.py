@@ -128,7 +128,7 @@ def test_a_fleet_stands_at_its_homes_in_its_true_size(inspected: Open, tmp_path:
 @pytest.mark.parametrize("size", [(390, 844), (844, 390), (1280, 720), (3840, 2160)], ids=str)
 def test_the_page_fits_every_screen(inspected: Open, size: tuple[int, int]) -> None:
     viewer = inspected(LAYOUTS / "plant.xml", viewport={"width": size[0], "height": size[1]})
-    assert viewer.ask("document.documentElement.scrollWidth") == size[0]
+    assert viewer.page.locator("html").evaluate("(it) => it.scrollWidth") == size[0]
     assert viewer.page.is_visible("#map")
 
 

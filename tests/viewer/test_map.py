@@ -13,8 +13,8 @@ from PIL import Image
 from rightofway.model import Plan
 from rightofway.site import Obstacle
 from rightofway.viz import Background
-from tests.builders.labels import labels, overlap
 from tests.builders.plans import crowd, door, loop, yard
+from tests.builders.players import overlap
 from tests.viewer.conftest import Opener, pixel
 
 SIZES = [(1600, 1000), (1280, 720), (390, 844)]
@@ -25,36 +25,36 @@ SIZES = [(1600, 1000), (1280, 720), (390, 844)]
 def test_no_name_covers_another(show: Opener, plan: Plan, width: int, height: int) -> None:
     viewer = show(plan, viewport={"width": width, "height": height})
     for tick in (0, 3.5, 9, 17.25):
-        viewer.ask(f"clock.seek({tick})")
-        boxes = labels(viewer)
-        assert boxes
-        for one, other in combinations(boxes, 2):
-            assert not overlap(one["box"], other["box"]), (tick, one, other)
+        viewer.seek(min(tick, viewer.end))
+        names = viewer.names()
+        assert names
+        for one, other in combinations(names, 2):
+            assert not overlap(one.box, other.box), (tick, one, other)
 
 
 def test_fifty_robots_have_their_names_at_once(show: Opener) -> None:
     viewer = show(crowd(50), "#tick=80", viewport={"width": 1600, "height": 1000})
-    named = {label["name"] for label in labels(viewer)}
+    named = {name.text for name in viewer.names()}
     assert (
         len([name for name in named if name.startswith("Robot ")]) >= 40
     )  # some stand one on another
 
 
 def test_robots_and_places_of_a_roadmap_have_their_names(show: Opener) -> None:
-    assert {label["name"] for label in labels(show(yard()))} == {
+    assert {name.text for name in show(yard()).names()} == {
         "porter", "runner", "dock", "gate", "press", "paint",
     }  # fmt: skip
 
 
 def test_the_chosen_robot_has_its_name_in_any_crowd(show: Opener) -> None:
     viewer = show(crowd(1000), "#tick=20&robot=Robot 7")
-    assert "Robot 7" in [label["name"] for label in labels(viewer)]
+    assert "Robot 7" in [name.text for name in viewer.names()]
 
 
 def test_names_of_robots_that_meet_do_not_cover_each_other(show: Opener) -> None:
     """Robots 2 and 3 are shown while they drive through each other, others close by."""
     viewer = show(crowd(6), "#fault=1")
-    boxes = [label["box"] for label in labels(viewer)]
+    boxes = [name.box for name in viewer.names()]
     assert len(boxes) > 4
     assert not any(overlap(one, other) for one, other in combinations(boxes, 2))
 
@@ -68,13 +68,7 @@ def test_robots_can_be_seen_on_every_screen(show: Opener, width: int, height: in
 
 def test_a_small_grid_fills_the_height_of_its_pane(show: Opener) -> None:
     viewer = show(door(), viewport={"width": 1600, "height": 1000})
-    shown = viewer.ask("3 * mapView.viewport.scale / mapView.canvas.clientHeight")
-    assert shown > 0.8
-
-
-def test_lanes_for_one_way_and_for_both_are_told_apart(show: Opener) -> None:
-    lanes = show(yard()).ask("plan.roadmap.lanes")
-    assert lanes == {"oneWay": [[1, 2], [2, 3], [3, 0]], "bothWays": [[0, 1]]}
+    assert 3 * viewer.view[0] / viewer.box()["height"] > 0.8
 
 
 def test_routes_along_one_way_lie_side_by_side(show: Opener) -> None:
@@ -99,9 +93,7 @@ def test_what_is_at_the_pointer_stands_beside_it(show: Opener) -> None:
     viewer = show(yard(), "#tick=2")
     box = viewer.page.locator("#map").bounding_box()
     assert box
-    left, top, scale = viewer.ask("(({left, top, scale}) => [left, top, scale])(mapView.viewport)")
-    unit = viewer.ask("plan.roadmap.unit")
-    x, y = box["x"] + left + 4 / unit * scale, box["y"] + top + 3 / unit * scale  # the press
+    x, y = viewer.at((4, 3))  # the press
     viewer.page.mouse.move(x, y)
     tip = viewer.page.locator("#hover")
     assert tip.inner_text().splitlines() == [
@@ -113,18 +105,10 @@ def test_what_is_at_the_pointer_stands_beside_it(show: Opener) -> None:
     assert at
     near = min(abs(at["x"] - x), abs(at["x"] + at["width"] - x))
     assert near < 40
-    viewer.page.mouse.move(box["x"] + left + 2 / unit * scale, box["y"] + top)
+    viewer.page.mouse.move(*viewer.at((2, 0)))
     assert tip.inner_text().splitlines()[:2] == ["runner", "driving to dock, 0 s to 4 s"]
     viewer.page.mouse.move(box["x"] + box["width"] + 30, 5)
     assert not tip.is_visible()
-
-
-def test_coordinates_are_those_of_the_site(show: Opener) -> None:
-    viewer = show(yard())
-    assert viewer.ask("plan.roadmap.toSite(0, 0)") == [0, 0]
-    unit = viewer.ask("plan.roadmap.unit")
-    viewer.ask(f"plan.roadmap.frame = {{ x: 10, y: 5, yUp: true, unit: {unit} }}")
-    assert viewer.ask(f"plan.roadmap.toSite(4 / {unit}, 3 / {unit})") == [14, 2]
 
 
 def test_a_heat_map_leaves_tools_and_map_where_they_are(show: Opener) -> None:
@@ -174,11 +158,8 @@ def test_obstacles_have_their_names_on_the_map_and_at_the_pointer(show: Opener) 
     plan = door()
     roadmap = replace(plan.scenario.roadmap, obstacles=(table,))
     viewer = show(replace(plan, scenario=replace(plan.scenario, roadmap=roadmap)))
-    assert "table" in [label["name"] for label in labels(viewer)]
-    left, top, scale = viewer.ask("(({left, top, scale}) => [left, top, scale])(mapView.viewport)")
-    box = viewer.page.locator("#map").bounding_box()
-    assert box
-    viewer.page.mouse.move(box["x"] + left, box["y"] + top + scale)
+    assert "table" in [name.text for name in viewer.names()]
+    viewer.page.mouse.move(*viewer.at((0.5, 1.5)))
     assert viewer.text("#hover").splitlines()[0] == "table"
     assert viewer.complaints == []
 
