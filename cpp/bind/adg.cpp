@@ -6,9 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "bindings.hpp"
-#include "core/reject.hpp"
 #include "execution/runs.hpp"
+#include "objects.hpp"
 
 namespace rightofway::bind {
 namespace {
@@ -17,38 +16,45 @@ constexpr auto class_doc = R"(A plan that is executed with delays.
 
 Parameters
 ----------
-first_visit : int32[R + 1]
-    Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
-vertex, planned : int32[N], int64[N]
-    The vertex of each visit, and when it begins by the plan. [ticks]
-dwell, drive : int64[N]
-    The least duration of each visit without the drive after it, and the drive into it. [ticks]
-before : int32[N]
-    The visit that goes directly before at the same vertex, -1 for none.
+rules : BookingRules
+    How visits are booked.
+routes : Routes
+    The visits.
+order : Order
+    When visits begin by the plan, and what each waits for.
+delays : DelayModel
+    What the robots may meet.
+rows : VisitRows or None
+    Where robots have sizes: what the visits book.
+closures : VisitClosures or None
+    When the places of visits are closed.)";
+
+constexpr auto order_doc = R"(The order of the visits of a plan.
+
+Parameters
+----------
+planned : int64[N]
+    When each visit begins by the plan. [ticks]
+first_right, rights : int32[N + 1], int32[M]
+    Visit ``x`` starts when the visits ``rights[first_right[x]:first_right[x + 1]]`` have ended.
 since : int64[N]
-    When the right of way of each visit was given; it begins no sooner. [ticks]
-headway : int
-    Ticks from one robot's leave to the next one's enter, or start to drive there.
-books_ahead : bool
-    Whether a robot books a vertex from when it starts to drive there.
+    When the rights of way of each visit were given; it begins no sooner. [ticks])";
+
+constexpr auto delays_doc = R"(The delays that a fleet may meet.
+
+Parameters
+----------
 pace : float64[R]
     The factor of all durations of each robot, 1 as planned.
-delay_kind : int32[D]
+kind : int32[D]
     0 exponential, 1 uniform, 2 normal, 3 stops, 4 breaks.
-delay_a, delay_b : float64[D]
+a, b : float64[D]
     Mean and nothing; bounds; mean and deviation, all as parts of a visit's time; chance and
     ticks; chance and nothing.
 first_stoppage : int32[R + 1]
     Robot ``r`` has the stoppages ``first_stoppage[r] .. first_stoppage[r + 1] - 1``.
 stoppage_tick, stoppage_ticks : int64[S]
-    When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.
-first_right, rights : int32[N + 1], int32[M] or None
-    Where robots have sizes: visit ``x`` starts when the visits ``rights[first_right[x]] ..`` have
-    ended; ``before`` is then -1.
-vertex_row, edge_row, first_excluded, excluded : int32 or None
-    Where robots have sizes: as ``PrecedenceGraph`` takes them.
-first_closed, closed_from, closed_until : int32[2 N + 1], int64[K], int64[K] or None
-    When the places of visits are closed: as ``PrecedenceGraph`` takes them. [ticks])";
+    When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.)";
 
 constexpr auto runs_doc = R"(Run the plan many times by right of way, and by the clock.
 
@@ -112,9 +118,6 @@ collisions : int64[4]
 is_caught : uint8[R]
     Whether each robot books something while it is closed.)";
 
-// Of a stay or a drive, however late: the sum of two stays below `never`.
-constexpr Tick longest = Tick{1} << 60;
-
 constexpr std::size_t most_runs = std::size_t{1} << 31;
 
 std::vector<Stoppage> stoppages_of(const ArrayIn<Tick>& tick, const ArrayIn<Tick>& ticks) {
@@ -132,8 +135,8 @@ DelaySample sample_of(const ActionDependencyGraph& plan, const ArrayIn<Tick>& dw
     const auto n_visits = static_cast<std::size_t>(plan.n_visits());
     require_length("dwell", dwell.size(), n_visits);
     require_length("drive", drive.size(), n_visits);
-    require_ranges("dwell", view(dwell), 0, longest);
-    require_ranges("drive", view(drive), 0, longest);
+    require_ranges("dwell", view(dwell), 0, longest_duration);
+    require_ranges("drive", view(drive), 0, longest_duration);
     DelaySample out;
     out.dwell.assign(view(dwell).begin(), view(dwell).end());
     out.drive.assign(view(drive).begin(), view(drive).end());
@@ -249,69 +252,63 @@ class BoundAdg {
     ExecutedConflicts conflicts_;
 };
 
-void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<VertexId>& vertex,
-          const ArrayIn<Tick>& planned, const ArrayIn<Tick>& dwell, const ArrayIn<Tick>& drive,
-          const ArrayIn<VisitId>& before, const ArrayIn<Tick>& since, Tick headway,
-          bool books_ahead, const ArrayIn<double>& pace, const ArrayIn<std::int32_t>& delay_kind,
-          const ArrayIn<double>& delay_a, const ArrayIn<double>& delay_b,
-          const ArrayIn<std::int32_t>& first_stoppage, const ArrayIn<Tick>& stoppage_tick,
-          const ArrayIn<Tick>& stoppage_ticks,
-          const std::optional<ArrayIn<std::int32_t>>& first_right,
-          const std::optional<ArrayIn<VisitId>>& rights,
-          const std::optional<ArrayIn<std::int32_t>>& vertex_row,
-          const std::optional<ArrayIn<std::int32_t>>& edge_row,
-          const std::optional<ArrayIn<std::int32_t>>& first_excluded,
-          const std::optional<ArrayIn<std::int32_t>>& excluded,
-          const std::optional<ArrayIn<std::int32_t>>& first_closed,
-          const std::optional<ArrayIn<Tick>>& closed_from,
-          const std::optional<ArrayIn<Tick>>& closed_until) {
-    are_given("first_right, rights, vertex_row, edge_row, first_excluded, excluded", first_right,
-              rights, vertex_row, edge_row, first_excluded, excluded);
-    are_given("first_closed, closed_from, closed_until", first_closed, closed_from, closed_until);
-    require_not_empty("first_excluded", first_excluded);
-    require_not_empty("first_closed", first_closed);
-    require_length("since", since.size(), vertex.size());
-    require_length("delay_a", delay_a.size(), delay_kind.size());
-    require_length("delay_b", delay_b.size(), delay_kind.size());
-    std::vector<Delay> delays;
-    require_ids("delay_kind", view(delay_kind), 5);
-    for (std::size_t k = 0; k < delay_kind.size(); ++k) {
-        delays.push_back(
-            {static_cast<DelayKind>(view(delay_kind)[k]), view(delay_a)[k], view(delay_b)[k]});
+struct BoundOrder {
+    Ticks planned;
+    Ints first_right;
+    Ints rights;
+    Ticks since;
+};
+
+struct BoundDelays {
+    ArrayIn<double> pace;
+    Ints kind;
+    ArrayIn<double> a;
+    ArrayIn<double> b;
+    Ints first_stoppage;
+    Ticks stoppage_tick;
+    Ticks stoppage_ticks;
+
+    std::vector<Delay> delays() const {
+        require_length("a", a.size(), kind.size());
+        require_length("b", b.size(), kind.size());
+        require_ids("kind", view(kind), 5);
+        std::vector<Delay> delays;
+        for (std::size_t k = 0; k < kind.size(); ++k) {
+            delays.push_back({static_cast<DelayKind>(view(kind)[k]), view(a)[k], view(b)[k]});
+        }
+        return delays;
     }
-    const auto first = view(first_stoppage);
-    new (self) BoundAdg({view(first_visit),
-                         view(vertex),
-                         view(planned),
-                         view(dwell),
-                         view(drive),
-                         view(before),
-                         headway,
-                         books_ahead,
-                         view(since),
-                         view_or_empty(first_right),
-                         view_or_empty(rights),
-                         {view_or_empty(vertex_row), view_or_empty(edge_row),
-                          view_or_empty(first_excluded), view_or_empty(excluded)},
-                         {view_or_empty(first_closed), view_or_empty(closed_from),
-                          view_or_empty(closed_until), view(drive)}},
-                        view(pace), std::move(delays), {first.begin(), first.end()},
-                        stoppages_of(stoppage_tick, stoppage_ticks));
+};
+
+void init(BoundAdg* self, const BookingRules& rules, const BoundRoutes& routes,
+          const BoundOrder& order, const BoundDelays& model, const BoundVisitRows* rows,
+          const BoundVisitClosures* closures) {
+    require_length("since", order.since.size(), routes.vertex.size());
+    const auto first = view(model.first_stoppage);
+    new (self)
+        BoundAdg({view(routes.first_visit), view(routes.vertex), view(order.planned),
+                  view(routes.dwell), view(routes.drive), view(order.first_right),
+                  view(order.rights), rules.headway, rules.books_ahead, view(order.since),
+                  BoundVisitRows::rows(rows), BoundVisitClosures::closures(closures, routes)},
+                 view(model.pace), model.delays(), {first.begin(), first.end()},
+                 stoppages_of(model.stoppage_tick, model.stoppage_ticks));
 }
 
 }  // namespace
 
 void bind_adg(nb::module_& module) {
+    nb::class_<BoundOrder>(module, "Order", order_doc)
+        .def(nb::init<Ticks, Ints, Ints, Ticks>(), array("planned"), array("first_right"),
+             array("rights"), array("since"));
+    nb::class_<BoundDelays>(module, "DelayModel", delays_doc)
+        .def(
+            nb::init<ArrayIn<double>, Ints, ArrayIn<double>, ArrayIn<double>, Ints, Ticks, Ticks>(),
+            array("pace"), array("kind"), array("a"), array("b"), array("first_stoppage"),
+            array("stoppage_tick"), array("stoppage_ticks"));
     nb::class_<BoundAdg>(module, "ActionDependencyGraph", class_doc)
-        .def("__init__", &init, array("first_visit"), array("vertex"), array("planned"),
-             array("dwell"), array("drive"), array("before"), array("since"), nb::arg("headway"),
-             nb::arg("books_ahead"), array("pace"), array("delay_kind"), array("delay_a"),
-             array("delay_b"), array("first_stoppage"), array("stoppage_tick"),
-             array("stoppage_ticks"), array("first_right").none() = nb::none(),
-             array("rights").none() = nb::none(), array("vertex_row").none() = nb::none(),
-             array("edge_row").none() = nb::none(), array("first_excluded").none() = nb::none(),
-             array("excluded").none() = nb::none(), array("first_closed").none() = nb::none(),
-             array("closed_from").none() = nb::none(), array("closed_until").none() = nb::none())
+        .def("__init__", &init, nb::arg("rules"), nb::arg("routes"), nb::arg("order"),
+             nb::arg("delays"), nb::arg("rows").none() = nb::none(),
+             nb::arg("closures").none() = nb::none())
         .def("runs", &BoundAdg::runs, nb::arg("seed"), nb::arg("first"), nb::arg("count"),
              nb::arg("time_limit").none(), runs_doc)
         .def("delay_sample", &BoundAdg::sample, nb::arg("seed"), nb::arg("run"), sample_doc)

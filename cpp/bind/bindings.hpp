@@ -127,6 +127,7 @@ void bind_problem(nb::module_& module);
 void bind_fleet(nb::module_& module);
 void bind_adg(nb::module_& module);
 void bind_graph(nb::module_& module);
+void bind_routes(nb::module_& module);
 void bind_sipp(nb::module_& module);
 
 }  // namespace rightofway::bind

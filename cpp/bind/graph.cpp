@@ -3,8 +3,9 @@
 
 #include <optional>
 #include <tuple>
+#include <vector>
 
-#include "bindings.hpp"
+#include "objects.hpp"
 #include "precedence/precedence_graph.hpp"
 
 namespace rightofway::bind {
@@ -20,33 +21,18 @@ robots exchange two vertices at that tick, without such an overlap; it counts 1.
 
 Parameters
 ----------
-first_visit : int32[R + 1]
-    Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
-vertex : int32[N]
-    The vertex of each visit; consecutive visits of a robot are at different vertices.
-least : int64[N]
-    Least time from this enter to the next, above 0; not used on last visits. [ticks]
-approach : int64[N]
-    How long before its enter a visit books its vertex; 0 on first visits. [ticks]
-headway : int
-    How long after its leave a visit still books its vertex. [ticks]
+rules : BookingRules
+    How visits are booked.
+routes : Routes
+    The visits; the drives into first visits are 0 where robots book ahead.
 swaps_conflict : bool
     Whether swaps are conflicts.
-active : uint8[R]
-    Robots with 0 here have times, but no conflicts and no rights of way.
-vertex_row, edge_row : int32[N] or None
-    Where robots have sizes: the rows of ``Problem`` that each visit books, at its vertex and along
-    the edge driven out of it; -1 for the edge of last visits.
-first, excluded : int32[S + 1], int32[M] or None
-    A booking of row ``r`` excludes others from the rows ``excluded[first[r]] ..``. Conflicts and
-    rights of way are then between incompatible visits: ``precede(a, b)`` lets the drive into ``b``
-    start after ``a`` has ended, wherever both are.
-first_closed, closed_from, closed_until : int32[2 N + 1], int64[K], int64[K] or None
-    When the vertex of visit ``x`` is closed: entries ``first_closed[2 x] ..``; and the edge driven
-    into it: ``first_closed[2 x + 1] ..``. Times are the earliest that keep clear of closures.
-    [ticks]
-drive : int64[N] or None
-    Ticks of the drive into each visit, with closures. [ticks])";
+rows : VisitRows or None
+    Where robots have sizes: what the visits book. Conflicts and rights of way are then between
+    incompatible visits: ``precede(a, b)`` lets the drive into ``b`` start after ``a`` has ended,
+    wherever both are.
+closures : VisitClosures or None
+    When the places of visits are closed: times are the earliest that keep clear of closures.)";
 
 constexpr auto keep_order_doc =
     R"(Give the rights of way of all visits to a vertex in an order, all at once.
@@ -180,34 +166,21 @@ std::optional<ConflictTuple> to_tuple(const std::optional<Conflict>& found) {
                          found->visit_b};
 }
 
-void init(PrecedenceGraph* self, const ArrayIn<VisitId>& first_visit,
-          const ArrayIn<VertexId>& vertex, const ArrayIn<Tick>& least,
-          const ArrayIn<Tick>& approach, Tick headway, bool swaps_conflict,
-          const ArrayIn<std::uint8_t>& active,
-          const std::optional<ArrayIn<std::int32_t>>& vertex_row,
-          const std::optional<ArrayIn<std::int32_t>>& edge_row,
-          const std::optional<ArrayIn<std::int32_t>>& first,
-          const std::optional<ArrayIn<std::int32_t>>& excluded,
-          const std::optional<ArrayIn<std::int32_t>>& first_closed,
-          const std::optional<ArrayIn<Tick>>& closed_from,
-          const std::optional<ArrayIn<Tick>>& closed_until,
-          const std::optional<ArrayIn<Tick>>& drive) {
-    are_given("vertex_row, edge_row, first, excluded", vertex_row, edge_row, first, excluded);
-    are_given("first_closed, closed_from, closed_until, drive", first_closed, closed_from,
-              closed_until, drive);
-    require_not_empty("first", first);
-    require_not_empty("first_closed", first_closed);
-    const RouteArrays arrays{view(first_visit),
-                             view(vertex),
-                             view(least),
-                             view(approach),
-                             headway,
+void init(PrecedenceGraph* self, const BookingRules& rules, const BoundRoutes& routes,
+          bool swaps_conflict, const BoundVisitRows* rows, const BoundVisitClosures* closures) {
+    const std::vector<Tick> leasts = routes.leasts();
+    const std::vector<Tick> approaches = routes.approaches(rules);
+    const std::vector<std::uint8_t> active(std::max<std::size_t>(routes.first_visit.size(), 1) - 1,
+                                           1);
+    const RouteArrays arrays{view(routes.first_visit),
+                             view(routes.vertex),
+                             leasts,
+                             approaches,
+                             rules.headway,
                              swaps_conflict,
-                             view(active),
-                             {view_or_empty(vertex_row), view_or_empty(edge_row),
-                              view_or_empty(first), view_or_empty(excluded)},
-                             {view_or_empty(first_closed), view_or_empty(closed_from),
-                              view_or_empty(closed_until), view_or_empty(drive)}};
+                             active,
+                             BoundVisitRows::rows(rows),
+                             BoundVisitClosures::closures(closures, routes)};
     const nb::gil_scoped_release released;
     new (self) PrecedenceGraph(arrays);
 }
@@ -293,12 +266,8 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
 
 void bind_graph(nb::module_& module) {
     nb::class_<PrecedenceGraph> graph(module, "PrecedenceGraph", class_doc);
-    graph.def("__init__", &init, array("first_visit"), array("vertex"), array("least"),
-              array("approach"), nb::arg("headway"), nb::arg("swaps_conflict"), array("active"),
-              array("vertex_row").none() = nb::none(), array("edge_row").none() = nb::none(),
-              array("first").none() = nb::none(), array("excluded").none() = nb::none(),
-              array("first_closed").none() = nb::none(), array("closed_from").none() = nb::none(),
-              array("closed_until").none() = nb::none(), array("drive").none() = nb::none());
+    graph.def("__init__", &init, nb::arg("rules"), nb::arg("routes"), nb::arg("swaps_conflict"),
+              nb::arg("rows").none() = nb::none(), nb::arg("closures").none() = nb::none());
     bind_queries(graph);
     bind_changes(graph);
 }

@@ -27,12 +27,13 @@ NB_MODULE(_core, module) {
     module.attr("CONFLICT_CAP") = rightofway::conflict_cap;
     module.attr("NEVER") = rightofway::never;
     module.def("compiler", &compiler, "Return the name and version of what compiled this module.");
+    rightofway::bind::bind_problem(module);
+    rightofway::bind::bind_routes(module);
     rightofway::bind::bind_periodic_bookings(module);
     rightofway::bind::bind_distances(module);
     rightofway::bind::bind_simulator(module);
     rightofway::bind::bind_timed_event_graph(module);
     rightofway::bind::bind_lacam(module);
-    rightofway::bind::bind_problem(module);
     rightofway::bind::bind_fleet(module);
     rightofway::bind::bind_adg(module);
     rightofway::bind::bind_graph(module);

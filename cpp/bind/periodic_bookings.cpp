@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "bindings.hpp"
-#include "core/reject.hpp"
+#include "objects.hpp"
 #include "search/periodic_search.hpp"
 
 namespace rightofway::bind {
@@ -23,17 +22,14 @@ constexpr auto class_doc =
 
 Parameters
 ----------
-n_vertices : int
+rules : BookingRules
+    How visits are booked.
+n_rows : int
     The number of vertices; where robots have sizes, of rows.
 period : int or None
     All bookings come again after it; None for a line of time. [ticks]
-headway : int
-    How long a vertex stays booked after it was left. [ticks]
-books_ahead : bool
-    Whether a vertex is booked from when a robot starts to drive there.
-first, excluded : int32[n_vertices + 1], int32[M] or None
-    Where robots have sizes: a booking of row ``r`` excludes others from the rows
-    ``excluded[first[r]:first[r + 1]]``, which rise.)";
+lists : ExcludedRows or None
+    Where robots have sizes: the lists of all rows.)";
 
 constexpr auto add_doc =
     R"(Book consecutive visits of a robot, with a period all those of one period.
@@ -102,15 +98,11 @@ until, leave : int
 edge : int32[N] or None
     As for `add`.)";
 
-constexpr auto find_route_doc =
-    R"(Find a route for a round trip, and when to take it, among the bookings of others.
+constexpr auto trip_doc =
+    R"(What a robot has to do in one lap, whose route is not chosen yet.
 
 Parameters
 ----------
-indptr, indices : int32[V + 1], int32[E]
-    The directed graph in compressed rows.
-length_class : int32[E]
-    The length class of each edge.
 pace : int32[C]
     What an edge of each length class takes. [ticks]
 stage_vertex : int32[S]
@@ -118,7 +110,18 @@ stage_vertex : int32[S]
 stage_work, stage_turn : int64[S], int64[S]
     How long the robot works there, and then turns. [ticks]
 stage_tables : list of int32[V]
-    For each stage, the least ticks from each vertex to its vertex; -1 where the robot must not go.
+    For each stage, the least ticks from each vertex to its vertex; -1 where the robot must not
+    go.)";
+
+constexpr auto find_route_doc =
+    R"(Find a route for a round trip, and when to take it, among the bookings of others.
+
+Parameters
+----------
+roads : Roads
+    The graph to drive on.
+trip : RoundTrip
+    What the robot has to do.
 phase : int
     The tick from which on starts are tried. [ticks]
 time_limit : float or None
@@ -134,21 +137,31 @@ tuple of (int32[N], int64[N], int64[N], int64[N]) or None
 
 using Route = std::tuple<ArrayOut<VertexId>, ArrayOut<Tick>, ArrayOut<Tick>, ArrayOut<Tick>>;
 
-std::optional<Route> find_route(const PeriodicBookings& self, const ArrayIn<EdgeId>& indptr,
-                                const ArrayIn<VertexId>& indices,
-                                const ArrayIn<std::int32_t>& length_class,
-                                const ArrayIn<std::int32_t>& pace,
-                                const ArrayIn<VertexId>& stage_vertex,
-                                const ArrayIn<Tick>& stage_work, const ArrayIn<Tick>& stage_turn,
-                                const std::vector<ArrayIn<std::int32_t>>& stage_tables, Tick phase,
+struct BoundTrip {
+    Ints pace;
+    Ints stage_vertex;
+    Ticks stage_work;
+    Ticks stage_turn;
+    std::vector<Ints> stage_tables;
+};
+
+std::optional<Route> find_route(const PeriodicBookings& self, const BoundRoads& bound,
+                                const BoundTrip& given, Tick phase,
                                 std::optional<double> time_limit, std::int32_t first_row) {
-    const Roads roads{{view(indptr), view(indices)}, view(length_class)};
-    const VertexId home = stage_vertex.size() == 0 ? 0 : view(stage_vertex).back();
-    Trip trip{home, view(stage_vertex), view(stage_work), view(stage_turn), view(pace), {}, {}, {}};
-    for (std::size_t k = 0; k < stage_tables.size(); ++k) {
-        require_length("stage_tables[" + std::to_string(k) + "]", stage_tables[k].size(),
-                       indptr.size() == 0 ? 0 : indptr.size() - 1);
-        trip.to_stage.emplace_back(stage_tables[k].data(), 1);
+    const Roads roads = bound.roads();
+    const VertexId home = given.stage_vertex.size() == 0 ? 0 : view(given.stage_vertex).back();
+    Trip trip{home,
+              view(given.stage_vertex),
+              view(given.stage_work),
+              view(given.stage_turn),
+              view(given.pace),
+              {},
+              {},
+              {}};
+    for (std::size_t k = 0; k < given.stage_tables.size(); ++k) {
+        require_length("stage_tables[" + std::to_string(k) + "]", given.stage_tables[k].size(),
+                       bound.indptr.size() == 0 ? 0 : bound.indptr.size() - 1);
+        trip.to_stage.emplace_back(given.stage_tables[k].data(), 1);
     }
     const Deadline deadline(time_limit);
     PeriodicRoundTrip found;
@@ -171,12 +184,10 @@ Visits visits_of(const ArrayIn<VertexId>& vertex, const ArrayIn<Tick>& dwell,
     return {view(vertex), view(dwell), view(drive), view_or_empty(edge)};
 }
 
-void init(PeriodicBookings* self, std::int32_t n_rows, std::optional<Tick> period, Tick headway,
-          bool books_ahead, const Rows& first, const Rows& excluded) {
-    are_given("first, excluded", first, excluded);
-    require_not_empty("first", first);
-    const ExcludedRows rows{view_or_empty(first), view_or_empty(excluded)};
-    new (self) PeriodicBookings(n_rows, period, headway, books_ahead, rows);
+void init(PeriodicBookings* self, const BookingRules& rules, std::int32_t n_rows,
+          std::optional<Tick> period, const BoundExcludedRows* lists) {
+    new (self) PeriodicBookings(n_rows, period, rules.headway, rules.books_ahead,
+                                lists == nullptr ? ExcludedRows{} : lists->rows());
 }
 
 std::optional<ArrayOut<Tick>> search(PeriodicBookings& self, const ArrayIn<VertexId>& vertex,
@@ -211,10 +222,13 @@ std::optional<ArrayOut<Tick>> connect(PeriodicBookings& self, const ArrayIn<Vert
 }  // namespace
 
 void bind_periodic_bookings(nb::module_& module) {
+    nb::class_<BoundTrip>(module, "RoundTrip", trip_doc)
+        .def(nb::init<Ints, Ints, Ticks, Ticks, std::vector<Ints>>(), array("pace"),
+             array("stage_vertex"), array("stage_work"), array("stage_turn"),
+             nb::arg("stage_tables"));
     nb::class_<PeriodicBookings>(module, "PeriodicBookings", class_doc)
-        .def("__init__", &init, nb::arg("n_vertices"), nb::arg("period").none(), nb::arg("headway"),
-             nb::arg("books_ahead"), array("first").none() = nb::none(),
-             array("excluded").none() = nb::none())
+        .def("__init__", &init, nb::arg("rules"), nb::arg("n_rows"), nb::arg("period").none(),
+             nb::arg("lists").none() = nb::none())
         .def_prop_ro("reached", &PeriodicBookings::reached,
                      "The last visit that the latest search could enter; it got stuck at the next.")
         .def(
@@ -243,10 +257,8 @@ robot : int
         .def("connect", &connect, array("vertex"), array("dwell"), array("drive"),
              nb::arg("begins"), nb::arg("until"), nb::arg("leave"),
              array("edge").none() = nb::none(), connect_doc)
-        .def("find_route", &find_route, array("indptr"), array("indices"), array("length_class"),
-             array("pace"), array("stage_vertex"), array("stage_work"), array("stage_turn"),
-             nb::arg("stage_tables"), nb::arg("phase"), nb::arg("time_limit").none(),
-             nb::arg("first_row") = 0, find_route_doc);
+        .def("find_route", &find_route, nb::arg("roads"), nb::arg("trip"), nb::arg("phase"),
+             nb::arg("time_limit").none(), nb::arg("first_row") = 0, find_route_doc);
 }
 
 }  // namespace rightofway::bind

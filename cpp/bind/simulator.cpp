@@ -8,8 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "bindings.hpp"
-#include "core/reject.hpp"
+#include "objects.hpp"
 
 namespace rightofway::bind {
 namespace {
@@ -19,36 +18,21 @@ constexpr auto class_doc =
 
 Parameters
 ----------
-first_place : int32[R + 1]
-    Robot ``r`` has the places ``first_place[r]`` up to ``first_place[r + 1]`` of a lap.
-vertex : int32[N]
-    The vertex of each place; the first place of a lap is home.
-least : int64[N]
-    The least ticks from the enter of a place to that of the next, round the lap.
-approach : int64[N]
-    How long before its enter a visit books its vertex. [ticks]
+rules : BookingRules
+    How visits are booked.
+laps : Routes
+    One lap of each robot; its first visit is at home, and the drive into it leads from the last.
 first_least : int64[R]
     The least ticks of the very first visit, in which no robot turns.
-headway : int
-    How long after its leave a visit books its vertex. [ticks]
-pacemaker, lag : int
-    Cuts are made where this robot is home; conflicts up to the lag (above 0) after a cut are
-    resolved before all visits up to it are frozen. [ticks]
-most_lag, patience : int
-    The longest lag, and how long a pacemaker may stay away. [ticks]
-reach : int
-    Visits left so long before a cut still matter. [ticks]
-memory : int
-    How many cuts can be undone, above 0.
+horizon : Horizon
+    Where cuts are made.
 rule : int
     The robot that goes first: the one that would enter the segment first (0), the one listed first
     (1), or (2) the one that would lose more by waiting.
 loss : int64[R]
     The cost of a tick of waiting for each robot, above 0, with rule 2; else unused.
-vertex_row, edge_row : int32[N] or None
-    Where robots have sizes: the rows of each place's vertex and of the edge driven out of it.
-first, excluded : int32[M + 1], int32[K], or None
-    A booking of row ``r`` excludes other robots from ``excluded[first[r]:first[r + 1]]``.
+rows : VisitRows or None
+    Where robots have sizes: what the visits of a lap book.
 
 Raises
 ------
@@ -58,6 +42,21 @@ ValueError
 Notes
 -----
 Exact and deterministic. The GIL is released by ``advance``; Ctrl-C is obeyed.)";
+
+constexpr auto horizon_doc =
+    R"(Where a simulation cuts time.
+
+Parameters
+----------
+pacemaker, lag : int
+    Cuts are made where this robot is home; conflicts up to the lag (above 0) after a cut are
+    resolved before all visits up to it are frozen. [ticks]
+most_lag, patience : int
+    The longest lag, and how long a pacemaker may stay away. [ticks]
+reach : int
+    Visits left so long before a cut still matter. [ticks]
+memory : int
+    How many cuts can be undone, above 0.)";
 
 constexpr auto advance_doc =
     R"(Simulate until a state recurs (returns 1), a deadlock (2), or time is over (0; may be continued).
@@ -89,31 +88,33 @@ tuple of (int, int, int, int, int32[K])
     The two robots, the vertex, the tick (0 for a booking that would begin before the simulation),
     and the robots that would each wait for the next.)";
 
-using Rows = std::optional<ArrayIn<std::int32_t>>;
+// The least ticks from each enter to the next one, round the lap.
+std::vector<Tick> leasts_of(const BoundRoutes& laps) {
+    std::vector<Tick> leasts = laps.leasts();
+    const auto first = view(laps.first_visit);
+    for (std::size_t r = 0; r + 1 < first.size(); ++r) {
+        const auto begin = index(first[r]);
+        const auto end = index(first[r + 1]);
+        if (first[r] >= 0 && begin < end && end <= leasts.size()) {
+            leasts[end - 1] = view(laps.dwell)[end - 1] + view(laps.drive)[begin];
+        }
+    }
+    return leasts;
+}
 
-void init(CyclicSimulator* self, const ArrayIn<std::int32_t>& first_place,
-          const ArrayIn<VertexId>& vertex, const ArrayIn<Tick>& least,
-          const ArrayIn<Tick>& approach, const ArrayIn<Tick>& first_least, Tick headway,
-          RobotId pacemaker, Tick lag, Tick most_lag, Tick patience, Tick reach,
-          std::int32_t memory, std::int32_t rule, const ArrayIn<std::int64_t>& loss,
-          const Rows& vertex_row, const Rows& edge_row, const Rows& first, const Rows& excluded) {
-    are_given("vertex_row, edge_row, first, excluded", vertex_row, edge_row, first, excluded);
-    require_not_empty("first", first);
-    const LapArrays laps{view(first_place),
-                         view(vertex),
-                         view(least),
-                         view(approach),
-                         view(first_least),
-                         headway,
-                         view_or_empty(vertex_row),
-                         view_or_empty(edge_row),
-                         view_or_empty(first),
-                         view_or_empty(excluded)};
-    const Horizon horizon{pacemaker, lag, most_lag, patience, reach, memory};
+void init(CyclicSimulator* self, const BookingRules& rules, const BoundRoutes& laps,
+          const Ticks& first_least, const Horizon& horizon, std::int32_t rule,
+          const ArrayIn<std::int64_t>& loss, const BoundVisitRows* rows) {
+    const std::vector<Tick> leasts = leasts_of(laps);
+    const std::vector<Tick> approaches = laps.approaches(rules);
+    const BookedRows booked = BoundVisitRows::rows(rows);
+    const LapArrays arrays{view(laps.first_visit), view(laps.vertex), leasts,        approaches,
+                           view(first_least),      rules.headway,     booked.vertex, booked.edge,
+                           booked.first,           booked.excluded};
     require_id("rule", rule, n_cyclic_rules);
     std::vector<std::int64_t> losses(loss.data(), loss.data() + loss.size());
     const nb::gil_scoped_release released;
-    new (self) CyclicSimulator(laps, horizon, static_cast<CyclicRule>(rule), std::move(losses));
+    new (self) CyclicSimulator(arrays, horizon, static_cast<CyclicRule>(rule), std::move(losses));
 }
 
 std::int32_t advance(CyclicSimulator& self, std::optional<double> time_limit) {
@@ -154,13 +155,14 @@ std::tuple<RobotId, RobotId, VertexId, Tick, ArrayOut<RobotId>> deadlock(
 }  // namespace
 
 void bind_simulator(nb::module_& module) {
-    nb::class_<CyclicSimulator>(module, "CyclicSimulator", class_doc)
-        .def("__init__", &init, array("first_place"), array("vertex"), array("least"),
-             array("approach"), array("first_least"), nb::kw_only(), nb::arg("headway"),
+    nb::class_<Horizon>(module, "Horizon", horizon_doc)
+        .def(nb::init<RobotId, Tick, Tick, Tick, Tick, std::int32_t>(), nb::kw_only(),
              nb::arg("pacemaker"), nb::arg("lag"), nb::arg("most_lag"), nb::arg("patience"),
-             nb::arg("reach"), nb::arg("memory"), nb::arg("rule"), array("loss"),
-             array("vertex_row").none() = nb::none(), array("edge_row").none() = nb::none(),
-             array("first").none() = nb::none(), array("excluded").none() = nb::none())
+             nb::arg("reach"), nb::arg("memory"));
+    nb::class_<CyclicSimulator>(module, "CyclicSimulator", class_doc)
+        .def("__init__", &init, nb::arg("rules"), nb::arg("laps"), array("first_least"),
+             nb::arg("horizon"), nb::arg("rule"), array("loss"),
+             nb::arg("rows").none() = nb::none())
         .def("advance", &advance, nb::arg("time_limit") = nb::none(), advance_doc)
         .def("reset_states", &CyclicSimulator::reset_states,
              "Forget the states seen, to advance beyond one that has recurred.")

@@ -26,7 +26,6 @@ ActionDependencyGraph::ActionDependencyGraph(const AdgArrays& arrays)
       planned_(arrays.planned.begin(), arrays.planned.end()),
       dwell_(arrays.dwell.begin(), arrays.dwell.end()),
       drive_(arrays.drive.begin(), arrays.drive.end()),
-      before_(arrays.before.begin(), arrays.before.end()),
       since_(arrays.since.begin(), arrays.since.end()),
       first_right_(arrays.first_right.begin(), arrays.first_right.end()),
       rights_(arrays.rights.begin(), arrays.rights.end()),
@@ -35,7 +34,6 @@ ActionDependencyGraph::ActionDependencyGraph(const AdgArrays& arrays)
     require_length("planned", planned_.size(), vertex_.size());
     require_length("dwell", dwell_.size(), vertex_.size());
     require_length("drive", drive_.size(), vertex_.size());
-    require_length("before", before_.size(), vertex_.size());
     if (!since_.empty()) {
         require_length("since", since_.size(), vertex_.size());
     }
@@ -63,18 +61,9 @@ void ActionDependencyGraph::check() const {
     if (headway_ < 0 || headway_ >= longest) {
         reject("headway", headway_, "is not in 0.." + std::to_string(longest - 1));
     }
-    for (VisitId x = 0; x < n_visits(); ++x) {
-        const VisitId other = before_[index(x)];
-        if (other < none || other >= n_visits()) {
-            reject_entry("before", index(x), other, "is not a visit");
-        }
-        if (other != none && (vertex_[index(other)] != vertex_[index(x)] || is_first(x))) {
-            reject_entry("before", index(x), other,
-                         "is at another vertex, or before a first visit");
-        }
-    }
-    if (has_sizes()) {
-        check_rights();
+    check_rights();
+    if (has_sizes() && !books_ahead_) {
+        throw std::invalid_argument("books_ahead: robots with sizes book ahead");
     }
 }
 
@@ -82,9 +71,13 @@ void ActionDependencyGraph::check_rights() const {
     require_length("first_right", first_right_.size(), vertex_.size() + 1);
     require_lists("first_right", first_right_, rights_.size(), "rights");
     require_ids("rights", rights_, n_visits());
-    require_ranges<VisitId>("before", before_, none, none);
-    if (!books_ahead_) {
-        throw std::invalid_argument("books_ahead: robots with sizes book ahead");
+    for (VisitId x = 0; x < n_visits() && !has_sizes(); ++x) {
+        for (const VisitId& other : before(x)) {
+            if (vertex_[index(other)] != vertex_[index(x)] || is_first(x)) {
+                reject_entry("rights", static_cast<std::size_t>(&other - rights_.data()), other,
+                             "is at another vertex, or before a first visit");
+            }
+        }
     }
 }
 

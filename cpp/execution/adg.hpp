@@ -1,6 +1,6 @@
 // The action dependency graph (ADG) of a plan: visits with least durations, and for each visit the
-// previous visit to its vertex. Where robots have sizes, a visit can have several visits before it,
-// at any vertices, which have to end before the drive into it starts.
+// visits that have to end before the drive into it starts. For points this is the visit before it
+// at its vertex; where robots have sizes, there can be several, at any vertices.
 //
 // W. Hoenig et al., Persistent and robust execution of MAPF schedules in warehouses, IEEE Robotics
 // and Automation Letters 4, 2019.
@@ -22,14 +22,12 @@ struct AdgArrays {
     std::span<const Tick> planned;         // n: planned enter of each visit
     std::span<const Tick> dwell;           // n: least ticks of a visit, without the next drive
     std::span<const Tick> drive;           // n: ticks on the edge into the visit; first visits: 0
-    std::span<const VisitId> before;       // n: the previous visit to the same vertex
+    // n + 1, and all visits before others: visit x has rights[first_right[x]] .. before it.
+    std::span<const std::int32_t> first_right;
+    std::span<const VisitId> rights;
     Tick headway = 0;
     bool books_ahead = false;
     std::span<const Tick> since = {};  // n: earliest start of each visit; or empty
-    // Where robots have sizes, `before` is `none`, and visit x has the visits rights[k]
-    // before it, for k from first_right[x] to first_right[x + 1] - 1.
-    std::span<const std::int32_t> first_right = {};
-    std::span<const VisitId> rights = {};
     BookedRows rows = {};
     VisitClosureArrays closures = {};
 };
@@ -54,21 +52,11 @@ class ActionDependencyGraph {
     Tick headway() const { return headway_; }
     bool books_ahead() const { return books_ahead_; }
 
-    // The visit before `visit` at its vertex, which has to leave first; or `none`. If it is a last
-    // visit, which never ends, `visit` cannot take place.
-    VisitId before(VisitId visit) const { return before_[index(visit)]; }
-    // Only where robots have sizes: all visits that have to leave before `visit` starts.
-    std::span<const VisitId> all_before(VisitId visit) const {
+    // The visits that have to leave before `visit` starts. If one of them is a last visit, which
+    // never ends, `visit` cannot take place.
+    std::span<const VisitId> before(VisitId visit) const {
         return {rights_.data() + first_right_[index(visit)],
                 rights_.data() + first_right_[index(visit + 1)]};
-    }
-    // The number of visits before a visit, and the k-th of them.
-    int n_before(VisitId visit) const {
-        return has_sizes() ? static_cast<int>(all_before(visit).size())
-                           : before_[index(visit)] != none;
-    }
-    VisitId before(VisitId visit, int k) const {
-        return has_sizes() ? all_before(visit)[index(k)] : before_[index(visit)];
     }
 
     bool has_sizes() const { return incompatible_.is_known(); }
@@ -96,7 +84,6 @@ class ActionDependencyGraph {
     std::vector<Tick> planned_;
     std::vector<Tick> dwell_;
     std::vector<Tick> drive_;
-    std::vector<VisitId> before_;
     std::vector<Tick> since_;
     std::vector<std::int32_t> first_right_;
     std::vector<VisitId> rights_;

@@ -104,7 +104,7 @@ void ExecutionTimetable::order_events() {
         if (which == 0) {
             return plan_.is_first(x) ? none : x - 1;
         }
-        const VisitId other = plan_.before(x, which - 1);
+        const VisitId other = plan_.before(x)[static_cast<std::size_t>(which) - 1];
         return plan_.is_last(other) ? none : other + 1;
     };
     const auto begin = [&](VisitId x) {
@@ -119,7 +119,7 @@ void ExecutionTimetable::order_events() {
         }
         while (!path.empty()) {
             const VisitId x = path.back().visit;
-            if (path.back().next <= plan_.n_before(x)) {
+            if (path.back().next <= static_cast<int>(plan_.before(x).size())) {
                 const VisitId other = waits_for(x, path.back().next++);
                 if (other != none && number[index(other)] < 0) {
                     begin(other);
@@ -169,13 +169,10 @@ bool ExecutionTimetable::is_possible(std::span<const VisitId> group) const {
         if (has_length || !can_take_place(x - 1)) {
             return false;
         }
-        for (int k = 0; k < plan_.n_before(x); ++k) {
-            const VisitId other = plan_.before(x, k);
-            if (plan_.is_last(other) || other + 1 == x || !can_take_place(other + 1)) {
-                return false;
-            }
-        }
-        return true;
+        const auto before = plan_.before(x);
+        return std::all_of(before.begin(), before.end(), [&](VisitId other) {
+            return !plan_.is_last(other) && other + 1 != x && can_take_place(other + 1);
+        });
     });
 }
 
@@ -251,19 +248,14 @@ void ExecutionTimetable::take_place(VisitId x, const DelaySample& sample, Actual
     const Tick drive_before = plan_.books_ahead() ? 0 : sample.drive[index(x)];
     const Tick drive_after = sample.drive[index(x)] - drive_before;
     const Tick ready = stoppages.busy_until(sum(from, sample.dwell[index(x - 1)] + drive_before));
-    VisitId other = plan_.before(x);
-    // Of points it may be a visit of the same robot, which keeps no headway from itself.
+    VisitId other = none;
     Tick free = 0;
-    if (other != none) {
-        free =
-            sum(times.enter[index(other + 1)], plan_.robot(other) == robot ? 0 : plan_.headway());
-    }
-    if (plan_.has_sizes()) {
-        for (const VisitId one : plan_.all_before(x)) {
-            if (const Tick end = sum(times.enter[index(one + 1)], plan_.headway()); end > free) {
-                other = one;
-                free = end;
-            }
+    for (const VisitId one : plan_.before(x)) {
+        // A point keeps no headway from itself.
+        const Tick headway = plan_.robot(one) == robot ? 0 : plan_.headway();
+        if (const Tick end = sum(times.enter[index(one + 1)], headway); end > free) {
+            other = one;
+            free = end;
         }
     }
     Tick start = stoppages.waits_until(std::max({ready, free, plan_.since(x)}));

@@ -55,7 +55,7 @@ PeriodicBookings::PeriodicBookings(std::int32_t n_rows, std::optional<Tick> peri
       books_ahead_(books_ahead),
       first_(rows.first.begin(), rows.first.end()),
       excluded_(rows.excluded.begin(), rows.excluded.end()) {
-    require_range("n_vertices", n_rows, 0, most_rows);
+    require_range("n_rows", n_rows, 0, most_rows);
     if (period && (*period <= 0 || *period > longest)) {
         reject("period", *period, "is not above 0, or too long");
     }

@@ -16,7 +16,7 @@ PeriodicSearch::PeriodicSearch(const Roads& roads, const PeriodicBookings& circl
     : roads_(roads),
       circle_(circle),
       at_(roads.graph.indptr.empty() ? 0 : roads.graph.indptr.size() - 1, none) {
-    require_graph(roads.graph);
+    require_graph(roads.graph, "heads");
     if (!circle.has_sizes()) {
         require_length("indptr", roads.graph.indptr.size(),
                        static_cast<std::size_t>(circle.n_rows()) + 1);

@@ -22,26 +22,241 @@ NEVER: int = 4611686018427387904
 def compiler() -> str:
     """Return the name and version of what compiled this module."""
 
+class Roads:
+    """
+    The directed graph of a roadmap. The arrays are not copied: they must not change.
+
+    Parameters
+    ----------
+    indptr, heads : int32[V + 1], int32[E]
+        The edges that leave vertex ``v`` are ``indptr[v] .. indptr[v + 1] - 1``, and edge ``e`` ends
+        at ``heads[e]``.
+    length_class : int32[E]
+        The length class of each edge.
+    n_classes : int
+        The number of length classes, C.
+    """
+
+    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], heads: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_classes: int) -> None: ...
+
+class Robots:
+    """
+    The robots of a fleet. The arrays are not copied: they must not change.
+
+    Parameters
+    ----------
+    paces : int32[P * C]
+        Ticks for an edge of each of the C length classes, one row for each pace; -1 where it is barred.
+    pace_of : int32[R]
+        The pace of each robot.
+    home : int32[R]
+        Where each robot is at tick 0.
+    first_stage : int32[R + 1]
+        Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one; it stays at
+        the last one.
+    stage_vertex, stage_work, stage_turn : int32[S], int64[S], int64[S]
+        Where each stage is, and how long it takes to work and then to turn. [ticks]
+    size_of : int32[R] or None
+        The size class of each robot; None where no robot has a size.
+    """
+
+    def __init__(self, paces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], size_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
+
+class BookingRules:
+    """
+    The rules that turn visits into bookings.
+
+    Parameters
+    ----------
+    headway : int
+        How long a vertex stays booked after it was left. [ticks]
+    books_ahead : bool
+        Whether a vertex is booked from when a robot starts to drive there.
+    rotations : bool
+        Whether three or more robots may move round a circle at one instant, where bookings allow it.
+    """
+
+    def __init__(self, headway: int, books_ahead: bool, rotations: bool = True) -> None: ...
+
+class ExcludedRows:
+    """
+    The rows from which a booking of each row excludes other robots.
+
+    Parameters
+    ----------
+    first, excluded : int32[rows + 1], int32[n]
+        A booking of row ``r`` excludes other robots from ``excluded[first[r]:first[r + 1]]``, which
+        rise.
+
+    Raises
+    ------
+    ValueError
+        If the lists are none; names the array, the index and the value.
+    """
+
+    def __init__(self, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+class Turning:
+    """
+    How long robots turn on the spot between two edges.
+
+    Parameters
+    ----------
+    offset, kind : int64[E], int32[n]
+        The angle from edge ``e`` to edge ``f`` is of kind ``kind[offset[e] + f]``.
+    class_of, ticks : int32[R], int32[T * K]
+        A robot of turning class t turns it in ``ticks[t * K + kind]`` ticks, and in no time where its
+        class is -1.
+    n_kinds : int
+        K.
+    """
+
+    def __init__(self, offset: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], kind: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], class_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_kinds: int) -> None: ...
+
+class Closures:
+    """
+    Bookings of nobody.
+
+    Parameters
+    ----------
+    row, start, end : int32[K], int64[K], int64[K]
+        Rows of the booking table that are closed, and when. Where no robot has a size, row ``V + e``
+        is edge ``e``. [ticks]
+    """
+
+    def __init__(self, row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], end: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+class Problem:
+    """
+    A scenario in ticks: roads, robots and booking rules.
+
+    Immutable; searches are given one.
+
+    Parameters
+    ----------
+    roads : Roads
+        The graph.
+    robots : Robots
+        Paces, homes, stages.
+    rules : BookingRules
+        How visits are booked.
+    lists : ExcludedRows or None
+        Where robots have sizes: the excluded rows of all rows. Row ``size * (V + E) + resource`` is a vertex
+        or an edge as robots of one size class book it; the vertices come first.
+    turning : Turning or None
+        How long robots turn; None where turning takes no time.
+    surcharges : int64[C] or None
+        What an edge of each length class adds to costs, not to durations; None where all are 0. [ticks]
+    closures : Closures or None
+        What is closed for a while.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together; names the array, the index and the value.
+    """
+
+    def __init__(self, roads: Roads, robots: Robots, rules: BookingRules, lists: ExcludedRows | None = None, turning: Turning | None = None, surcharges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closures: Closures | None = None) -> None: ...
+
+    @property
+    def n_robots(self) -> int:
+        """The number of robots, R."""
+
+    @property
+    def n_vertices(self) -> int:
+        """The number of vertices, V."""
+
+    @property
+    def rules(self) -> BookingRules:
+        """How visits are booked."""
+
+class Routes:
+    """
+    Fixed visits of robots, robot by robot.
+
+    Parameters
+    ----------
+    first_visit : int32[R + 1]
+        Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
+    vertex : int32[N]
+        The vertex of each visit; consecutive visits of a robot are at different vertices.
+    dwell, drive : int64[N]
+        The least duration of each visit without the drive after it, and the drive into it. [ticks]
+
+    Raises
+    ------
+    ValueError
+        If the durations do not fit; names the array, the index and the value.
+    """
+
+    def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+class VisitRows:
+    """
+    What visits book, where robots have sizes.
+
+    Parameters
+    ----------
+    lists : ExcludedRows
+        The rows that each row excludes.
+    vertex, edge : int32[N]
+        The row that each visit books at its vertex, and along the edge driven out of it; -1 for the
+        edge of last visits.
+    """
+
+    def __init__(self, lists: ExcludedRows, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+class VisitClosures:
+    """
+    When the places of visits are closed.
+
+    Parameters
+    ----------
+    first : int32[2 N + 1]
+        The vertex of visit ``x`` has the entries ``first[2 x] .. first[2 x + 1] - 1``, the edge driven
+        into it those from ``first[2 x + 1]`` on.
+    start, end : int64[K]
+        When each entry is closed. [ticks]
+    """
+
+    def __init__(self, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], end: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+class RoundTrip:
+    """
+    What a robot has to do in one lap, whose route is not chosen yet.
+
+    Parameters
+    ----------
+    pace : int32[C]
+        What an edge of each length class takes. [ticks]
+    stage_vertex : int32[S]
+        The vertex of each stage, in order; the trip begins and ends at the last one.
+    stage_work, stage_turn : int64[S], int64[S]
+        How long the robot works there, and then turns. [ticks]
+    stage_tables : list of int32[V]
+        For each stage, the least ticks from each vertex to its vertex; -1 where the robot must not
+        go.
+    """
+
+    def __init__(self, pace: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]]) -> None: ...
+
 class PeriodicBookings:
     """
     Bookings of vertices with a period or none, and when one more robot can make given visits.
 
     Parameters
     ----------
-    n_vertices : int
+    rules : BookingRules
+        How visits are booked.
+    n_rows : int
         The number of vertices; where robots have sizes, of rows.
     period : int or None
         All bookings come again after it; None for a line of time. [ticks]
-    headway : int
-        How long a vertex stays booked after it was left. [ticks]
-    books_ahead : bool
-        Whether a vertex is booked from when a robot starts to drive there.
-    first, excluded : int32[n_vertices + 1], int32[M] or None
-        Where robots have sizes: a booking of row ``r`` excludes others from the rows
-        ``excluded[first[r]:first[r + 1]]``, which rise.
+    lists : ExcludedRows or None
+        Where robots have sizes: the lists of all rows.
     """
 
-    def __init__(self, n_vertices: int, period: int | None, headway: int, books_ahead: bool, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
+    def __init__(self, rules: BookingRules, n_rows: int, period: int | None, lists: ExcludedRows | None = None) -> None: ...
 
     @property
     def reached(self) -> int:
@@ -134,24 +349,16 @@ class PeriodicBookings:
             As for `add`.
         """
 
-    def find_route(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], phase: int, time_limit: float | None, first_row: int = 0) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]] | None:
+    def find_route(self, roads: Roads, trip: RoundTrip, phase: int, time_limit: float | None, first_row: int = 0) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]] | None:
         """
         Find a route for a round trip, and when to take it, among the bookings of others.
 
         Parameters
         ----------
-        indptr, indices : int32[V + 1], int32[E]
-            The directed graph in compressed rows.
-        length_class : int32[E]
-            The length class of each edge.
-        pace : int32[C]
-            What an edge of each length class takes. [ticks]
-        stage_vertex : int32[S]
-            The vertex of each stage, in order; the trip begins and ends at the last one.
-        stage_work, stage_turn : int64[S], int64[S]
-            How long the robot works there, and then turns. [ticks]
-        stage_tables : list of int32[V]
-            For each stage, the least ticks from each vertex to its vertex; -1 where the robot must not go.
+        roads : Roads
+            The graph to drive on.
+        trip : RoundTrip
+            What the robot has to do.
         phase : int
             The tick from which on starts are tried. [ticks]
         time_limit : float or None
@@ -246,24 +453,12 @@ class Congestion:
             What it costs to go against the robot. [shares per tick]
         """
 
-class CyclicSimulator:
+class Horizon:
     """
-    Robots that repeat their laps under a rule that considers two of them, until a state recurs.
+    Where a simulation cuts time.
 
     Parameters
     ----------
-    first_place : int32[R + 1]
-        Robot ``r`` has the places ``first_place[r]`` up to ``first_place[r + 1]`` of a lap.
-    vertex : int32[N]
-        The vertex of each place; the first place of a lap is home.
-    least : int64[N]
-        The least ticks from the enter of a place to that of the next, round the lap.
-    approach : int64[N]
-        How long before its enter a visit books its vertex. [ticks]
-    first_least : int64[R]
-        The least ticks of the very first visit, in which no robot turns.
-    headway : int
-        How long after its leave a visit books its vertex. [ticks]
     pacemaker, lag : int
         Cuts are made where this robot is home; conflicts up to the lag (above 0) after a cut are
         resolved before all visits up to it are frozen. [ticks]
@@ -273,15 +468,31 @@ class CyclicSimulator:
         Visits left so long before a cut still matter. [ticks]
     memory : int
         How many cuts can be undone, above 0.
+    """
+
+    def __init__(self, *, pacemaker: int, lag: int, most_lag: int, patience: int, reach: int, memory: int) -> None: ...
+
+class CyclicSimulator:
+    """
+    Robots that repeat their laps under a rule that considers two of them, until a state recurs.
+
+    Parameters
+    ----------
+    rules : BookingRules
+        How visits are booked.
+    laps : Routes
+        One lap of each robot; its first visit is at home, and the drive into it leads from the last.
+    first_least : int64[R]
+        The least ticks of the very first visit, in which no robot turns.
+    horizon : Horizon
+        Where cuts are made.
     rule : int
         The robot that goes first: the one that would enter the segment first (0), the one listed first
         (1), or (2) the one that would lose more by waiting.
     loss : int64[R]
         The cost of a tick of waiting for each robot, above 0, with rule 2; else unused.
-    vertex_row, edge_row : int32[N] or None
-        Where robots have sizes: the rows of each place's vertex and of the edge driven out of it.
-    first, excluded : int32[M + 1], int32[K], or None
-        A booking of row ``r`` excludes other robots from ``excluded[first[r]:first[r + 1]]``.
+    rows : VisitRows or None
+        Where robots have sizes: what the visits of a lap book.
 
     Raises
     ------
@@ -293,7 +504,7 @@ class CyclicSimulator:
     Exact and deterministic. The GIL is released by ``advance``; Ctrl-C is obeyed.
     """
 
-    def __init__(self, first_place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], *, headway: int, pacemaker: int, lag: int, most_lag: int, patience: int, reach: int, memory: int, rule: int, loss: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, edge_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
+    def __init__(self, rules: BookingRules, laps: Routes, first_least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], horizon: Horizon, rule: int, loss: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], rows: VisitRows | None = None) -> None: ...
 
     def advance(self, time_limit: float | None = None) -> int:
         """
@@ -447,70 +658,6 @@ def untimed_lacam(problem: Problem, ends_anywhere: Annotated[NDArray[numpy.uint8
         How it ended (0: found, 1: proven that there is none, 2: stopped) and where every robot is
         after each step, the start included.
     """
-
-class Problem:
-    """
-    A scenario in ticks: roads, robots and booking rules.
-
-    Immutable; searches are given one. The arrays are not copied: they must not change.
-
-    Parameters
-    ----------
-    indptr, heads : int32[V + 1], int32[E]
-        The directed graph in compressed rows: the edges that leave vertex ``v`` are
-        ``indptr[v] .. indptr[v + 1] - 1``, and edge ``e`` ends at ``heads[e]``.
-    length_class : int32[E]
-        The length class of each edge.
-    paces : int32[P * C]
-        Ticks for an edge of each of the C length classes, one row for each pace; -1 where it is barred.
-    pace_of : int32[R]
-        The pace of each robot.
-    home : int32[R]
-        Where each robot is at tick 0.
-    first_stage : int32[R + 1]
-        Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one; it stays at
-        the last one.
-    stage_vertex, stage_work, stage_turn : int32[S], int64[S], int64[S]
-        Where each stage is, and how long it takes to work and then to turn. [ticks]
-    n_classes : int
-        C.
-    headway : int
-        How long a vertex stays booked after it was left. [ticks]
-    books_ahead : bool
-        Whether a vertex is booked from when a robot starts to drive there.
-    rotations : bool
-        Whether three or more robots may move round a circle at one instant, where bookings allow it.
-    size_of, first, excluded : int32[R], int32[rows + 1], int32[n]
-        Size class of each robot, and for each row the rows from which a booking of it excludes other
-        robots; None where no robot has a size. Row ``size * (V + E) + resource`` is a vertex or an
-        edge as robots of one size class book it; the vertices come first.
-    turn_offset, turn_kind, turn_class, turn_ticks : int64[E], int32[n], int32[R], int32[T * K]
-        How long robots turn on the spot; None where turning takes no time. The angle from edge ``e`` to
-        edge ``f`` is of kind ``turn_kind[turn_offset[e] + f]``; a robot of turning class t turns it in
-        ``turn_ticks[t * K + kind]`` ticks, and in no time where its class is -1.
-    n_turn_kinds : int
-        K.
-    surcharges : int64[C]
-        What an edge of each length class adds to costs, not to durations; None where all are 0. [ticks]
-    closed_row, closed_from, closed_until : int32[K], int64[K], int64[K]
-        Rows of the booking table that are closed, and when; None without closures. Where no robot has
-        a size, row ``V + e`` is edge ``e``. [ticks]
-
-    Raises
-    ------
-    ValueError
-        If the arrays do not fit together; names the array, the index and the value.
-    """
-
-    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], heads: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], paces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], n_classes: int, headway: int, books_ahead: bool, rotations: bool, size_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, turn_offset: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, turn_kind: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, turn_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, turn_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, n_turn_kinds: int = 0, surcharges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_from: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_until: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
-
-    @property
-    def n_robots(self) -> int:
-        """The number of robots, R."""
-
-    @property
-    def n_vertices(self) -> int:
-        """The number of vertices, V."""
 
 class FleetSearch:
     """
@@ -669,47 +816,64 @@ class FleetSearch:
     def n_expanded(self) -> int:
         """States expanded by `improve`."""
 
-class ActionDependencyGraph:
+class Order:
     """
-    A plan that is executed with delays.
+    The order of the visits of a plan.
 
     Parameters
     ----------
-    first_visit : int32[R + 1]
-        Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
-    vertex, planned : int32[N], int64[N]
-        The vertex of each visit, and when it begins by the plan. [ticks]
-    dwell, drive : int64[N]
-        The least duration of each visit without the drive after it, and the drive into it. [ticks]
-    before : int32[N]
-        The visit that goes directly before at the same vertex, -1 for none.
+    planned : int64[N]
+        When each visit begins by the plan. [ticks]
+    first_right, rights : int32[N + 1], int32[M]
+        Visit ``x`` starts when the visits ``rights[first_right[x]:first_right[x + 1]]`` have ended.
     since : int64[N]
-        When the right of way of each visit was given; it begins no sooner. [ticks]
-    headway : int
-        Ticks from one robot's leave to the next one's enter, or start to drive there.
-    books_ahead : bool
-        Whether a robot books a vertex from when it starts to drive there.
+        When the rights of way of each visit were given; it begins no sooner. [ticks]
+    """
+
+    def __init__(self, planned: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_right: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], rights: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], since: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+class DelayModel:
+    """
+    The delays that a fleet may meet.
+
+    Parameters
+    ----------
     pace : float64[R]
         The factor of all durations of each robot, 1 as planned.
-    delay_kind : int32[D]
+    kind : int32[D]
         0 exponential, 1 uniform, 2 normal, 3 stops, 4 breaks.
-    delay_a, delay_b : float64[D]
+    a, b : float64[D]
         Mean and nothing; bounds; mean and deviation, all as parts of a visit's time; chance and
         ticks; chance and nothing.
     first_stoppage : int32[R + 1]
         Robot ``r`` has the stoppages ``first_stoppage[r] .. first_stoppage[r + 1] - 1``.
     stoppage_tick, stoppage_ticks : int64[S]
         When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.
-    first_right, rights : int32[N + 1], int32[M] or None
-        Where robots have sizes: visit ``x`` starts when the visits ``rights[first_right[x]] ..`` have
-        ended; ``before`` is then -1.
-    vertex_row, edge_row, first_excluded, excluded : int32 or None
-        Where robots have sizes: as ``PrecedenceGraph`` takes them.
-    first_closed, closed_from, closed_until : int32[2 N + 1], int64[K], int64[K] or None
-        When the places of visits are closed: as ``PrecedenceGraph`` takes them. [ticks]
     """
 
-    def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], planned: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], before: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], since: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, pace: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_kind: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_a: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_b: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stoppage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_right: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, rights: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, vertex_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, edge_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first_excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first_closed: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_from: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_until: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
+    def __init__(self, pace: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], kind: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], a: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], b: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stoppage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+class ActionDependencyGraph:
+    """
+    A plan that is executed with delays.
+
+    Parameters
+    ----------
+    rules : BookingRules
+        How visits are booked.
+    routes : Routes
+        The visits.
+    order : Order
+        When visits begin by the plan, and what each waits for.
+    delays : DelayModel
+        What the robots may meet.
+    rows : VisitRows or None
+        Where robots have sizes: what the visits book.
+    closures : VisitClosures or None
+        When the places of visits are closed.
+    """
+
+    def __init__(self, rules: BookingRules, routes: Routes, order: Order, delays: DelayModel, rows: VisitRows | None = None, closures: VisitClosures | None = None) -> None: ...
 
     def runs(self, seed: int, first: int, count: int, time_limit: float | None) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.uint8], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.uint8], dict(shape=(None, None))]]:
         """
@@ -796,36 +960,21 @@ class PrecedenceGraph:
 
     Parameters
     ----------
-    first_visit : int32[R + 1]
-        Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
-    vertex : int32[N]
-        The vertex of each visit; consecutive visits of a robot are at different vertices.
-    least : int64[N]
-        Least time from this enter to the next, above 0; not used on last visits. [ticks]
-    approach : int64[N]
-        How long before its enter a visit books its vertex; 0 on first visits. [ticks]
-    headway : int
-        How long after its leave a visit still books its vertex. [ticks]
+    rules : BookingRules
+        How visits are booked.
+    routes : Routes
+        The visits; the drives into first visits are 0 where robots book ahead.
     swaps_conflict : bool
         Whether swaps are conflicts.
-    active : uint8[R]
-        Robots with 0 here have times, but no conflicts and no rights of way.
-    vertex_row, edge_row : int32[N] or None
-        Where robots have sizes: the rows of ``Problem`` that each visit books, at its vertex and along
-        the edge driven out of it; -1 for the edge of last visits.
-    first, excluded : int32[S + 1], int32[M] or None
-        A booking of row ``r`` excludes others from the rows ``excluded[first[r]] ..``. Conflicts and
-        rights of way are then between incompatible visits: ``precede(a, b)`` lets the drive into ``b``
-        start after ``a`` has ended, wherever both are.
-    first_closed, closed_from, closed_until : int32[2 N + 1], int64[K], int64[K] or None
-        When the vertex of visit ``x`` is closed: entries ``first_closed[2 x] ..``; and the edge driven
-        into it: ``first_closed[2 x + 1] ..``. Times are the earliest that keep clear of closures.
-        [ticks]
-    drive : int64[N] or None
-        Ticks of the drive into each visit, with closures. [ticks]
+    rows : VisitRows or None
+        Where robots have sizes: what the visits book. Conflicts and rights of way are then between
+        incompatible visits: ``precede(a, b)`` lets the drive into ``b`` start after ``a`` has ended,
+        wherever both are.
+    closures : VisitClosures or None
+        When the places of visits are closed: times are the earliest that keep clear of closures.
     """
 
-    def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, swaps_conflict: bool, active: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, edge_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first_closed: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_from: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_until: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
+    def __init__(self, rules: BookingRules, routes: Routes, swaps_conflict: bool, rows: VisitRows | None = None, closures: VisitClosures | None = None) -> None: ...
 
     def enter_of(self, visit: int) -> int:
         """

@@ -10,7 +10,7 @@ import os
 import random
 from collections.abc import Callable, Iterator
 from importlib.util import module_from_spec, spec_from_file_location
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,11 +25,50 @@ else:
     from rightofway import _core
 
 __all__ = [
-    "CALLS", "EXCLUDED", "FIRST", "TRACKS", "Arguments", "_core", "callables", "int32", "int64",
-    "real",
+    "CALLS", "EXCLUDED", "FIRST", "TRACKS", "Arguments", "Part", "_core", "build", "callables",
+    "int32", "int64", "made_of", "problem_arguments", "real", "with_changes",
 ]  # fmt: skip
 
 Arguments = dict[str, Any]
+
+
+class Part(NamedTuple):
+    """An object among the arguments of a call: its class, and the arguments that make it."""
+
+    name: str
+    arguments: Arguments
+
+
+def build(name: str, arguments: Arguments) -> Any:
+    """Call what a name says, with arguments whose parts are made first."""
+    return getattr(_core, name)(**made_of(arguments))
+
+
+def made_of(arguments: Arguments) -> Arguments:
+    """Return arguments whose parts are objects."""
+    return {
+        name: build(*value) if isinstance(value, Part) else value
+        for name, value in arguments.items()
+    }
+
+
+def with_changes(arguments: Arguments, **changes: Any) -> Arguments:
+    """Return arguments with other values, those of a part too; a name that no part has is added."""
+    left = dict(changes)
+
+    def changed(some: Arguments) -> Arguments:
+        own = {name: left.pop(name) for name in some if name in left}
+        return {
+            name: own[name]
+            if name in own
+            else Part(value.name, changed(value.arguments))
+            if isinstance(value, Part)
+            else value
+            for name, value in some.items()
+        }
+
+    return changed(arguments) | left
+
 
 ROWS, COLUMNS = 3, 4
 KINDS = ("points", "ahead", "sizes", "turns", "closures", "closed edges", "barred", "surcharges")
@@ -97,10 +136,7 @@ def graph() -> Arguments:
 def problem_arguments(kind: str) -> Arguments:
     """Return the arguments of a problem: three robots that go to a stop and come home."""
     stages = [vertex for pair in zip(STOPS, HOMES, strict=True) for vertex in pair]
-    arguments: Arguments = {
-        "indptr": int32(*INDPTR),
-        "heads": int32(*HEADS),
-        "length_class": int32(*CLASSES),
+    robots: Arguments = {
         "paces": int32(1, 2, 3, 2),
         "pace_of": int32(0, 1, 0),
         "home": int32(*HOMES),
@@ -108,35 +144,53 @@ def problem_arguments(kind: str) -> Arguments:
         "stage_vertex": int32(*stages),
         "stage_work": int64(2, 0, 3, 0, 1, 0),
         "stage_turn": int64(1, 0, 1, 0, 0, 0),
-        "n_classes": 2,
-        "headway": 0,
-        "books_ahead": False,
-        "rotations": True,
+        "size_of": None,
     }
+    arguments: Arguments = {"roads": _roads(), "robots": Part("Robots", robots), "rules": _rules()}
     if kind == "ahead":
-        arguments |= {"headway": 1, "books_ahead": True}
+        arguments["rules"] = _rules(headway=1, books_ahead=True)
     elif kind == "sizes":
-        arguments |= {"books_ahead": True, "size_of": int32(0, 1, 0)}
-        arguments |= {"first": FIRST, "excluded": EXCLUDED}
+        robots["size_of"] = int32(0, 1, 0)
+        arguments |= {"rules": _rules(books_ahead=True), "lists": _lists()}
     elif kind == "turns":
-        kinds = [CLASSES[one] ^ CLASSES[other] for one in range(E) for other in range(E)]
-        arguments |= {"turn_offset": int64(*range(0, E * E, E)), "n_turn_kinds": 2}
-        arguments |= {"turn_kind": int32(*kinds), "turn_class": int32(0, -1, 1)}
-        arguments |= {"turn_ticks": int32(0, 2, 0, 5)}
+        arguments["turning"] = _turning()
     elif kind.startswith("clos"):
-        edge = V + EDGE[0, 1] if kind == "closed edges" else 1
-        arguments |= {"closed_row": int32(6, edge), "closed_from": int64(2, 0)}
-        arguments |= {"closed_until": int64(5, 4)}
+        arguments["closures"] = _closures(V + EDGE[0, 1] if kind == "closed edges" else 1)
     elif kind == "barred":
-        arguments |= {"paces": int32(1, 2, 3, -1), "pace_of": int32(0, 0, 0)}
+        robots |= {"paces": int32(1, 2, 3, -1), "pace_of": int32(0, 0, 0)}
     elif kind == "surcharges":
-        arguments |= {"surcharges": int64(0, 7)}
+        arguments["surcharges"] = int64(0, 7)
     return arguments
 
 
-def problem(rng: random.Random, kind: str | None = None) -> _core.Problem:
-    """Return a problem of a kind, of any where none is given."""
-    return _core.Problem(**problem_arguments(kind or rng.choice(KINDS)))
+def _roads() -> Part:
+    graph = {"indptr": int32(*INDPTR), "heads": int32(*HEADS)}
+    return Part("Roads", {**graph, "length_class": int32(*CLASSES), "n_classes": 2})
+
+
+def _rules(*, headway: int = 0, books_ahead: bool = False) -> Part:
+    arguments = {"headway": headway, "books_ahead": books_ahead, "rotations": True}
+    return Part("BookingRules", arguments)
+
+
+def _lists() -> Part:
+    return Part("ExcludedRows", {"first": FIRST, "excluded": EXCLUDED})
+
+
+def _turning() -> Part:
+    kinds = [CLASSES[one] ^ CLASSES[other] for one in range(E) for other in range(E)]
+    return Part("Turning", {
+        "offset": int64(*range(0, E * E, E)), "kind": int32(*kinds),
+        "class_of": int32(0, -1, 1), "ticks": int32(0, 2, 0, 5), "n_kinds": 2,
+    })  # fmt: skip
+
+
+def _closures(row: int) -> Part:
+    return Part("Closures", {"row": int32(6, row), "start": int64(2, 0), "end": int64(5, 4)})
+
+
+def _problem(rng: random.Random, kind: str | None = None) -> Part:
+    return Part("Problem", problem_arguments(kind or rng.choice(KINDS)))
 
 
 def tables() -> _core.DistanceTables:
@@ -151,7 +205,7 @@ def to_stop(vertex: int) -> NDArray[np.int32]:
 
 def tracks(*, late: int = 0) -> Arguments:
     """Return tracks of the problem of points; they do not overlap."""
-    search = _core.FleetSearch(_core.Problem(**problem_arguments("points")), 0, 1)
+    search = _core.FleetSearch(build("Problem", problem_arguments("points")), 0, 1)
     search.prioritize(int32(0, 1, 2), 100, None, None)
     first_visit, vertices, enter = search.tracks()
     enter[np.arange(len(enter)) >= first_visit[2] + 1] += late
@@ -179,11 +233,11 @@ def _bookings(rng: random.Random) -> Arguments:
     kinds: tuple[Arguments, ...] = (
         {"period": 40},
         {"period": None},
-        {"period": 60, "headway": 1, "books_ahead": True},
-        {"period": 60, "books_ahead": True, "n_vertices": 2 * (V + E), "first": FIRST,
-         "excluded": EXCLUDED},
+        {"period": 60, "rules": _rules(headway=1, books_ahead=True)},
+        {"period": 60, "rules": _rules(books_ahead=True), "n_rows": 2 * (V + E),
+         "lists": _lists()},
     )  # fmt: skip
-    return {"n_vertices": V, "headway": 0, "books_ahead": False} | rng.choice(kinds)
+    return {"rules": _rules(), "n_rows": V} | rng.choice(kinds)
 
 
 def _add(rng: random.Random) -> Arguments:
@@ -197,15 +251,17 @@ def _sized(rng: random.Random, arguments: Arguments) -> Arguments:
     return _with_edges(arguments, rng.randrange(3)) if rng.random() < 1 / 3 else arguments
 
 
+def _trip() -> Part:
+    return Part("RoundTrip", {
+        "pace": int32(1, 2), "stage_vertex": int32(11, 0), "stage_work": int64(2, 1),
+        "stage_turn": int64(1, 0), "stage_tables": [to_stop(11), to_stop(0)],
+    })  # fmt: skip
+
+
 def _find_route(rng: random.Random) -> Arguments:
     return {
-        **graph(),
-        "length_class": int32(*CLASSES),
-        "pace": int32(1, 2),
-        "stage_vertex": int32(11, 0),
-        "stage_work": int64(2, 1),
-        "stage_turn": int64(1, 0),
-        "stage_tables": [to_stop(11), to_stop(0)],
+        "roads": _roads(),
+        "trip": _trip(),
         "phase": rng.randrange(50),
         "time_limit": 0.2,
         "first_row": 0,
@@ -213,88 +269,104 @@ def _find_route(rng: random.Random) -> Arguments:
 
 
 def _simulator(rng: random.Random) -> Arguments:
+    vertex = int32(*(vertex for lap in LAPS for vertex in lap))
+    laps: Arguments = {
+        "first_visit": int32(0, 4, 8, 12),
+        "vertex": vertex,
+        "dwell": int64(3, 0, 2, 0, 4, 1, 2, 1, 3, 0, 3, 0),
+        "drive": np.ones(12, np.int64),
+    }
     arguments: Arguments = {
-        "first_place": int32(0, 4, 8, 12),
-        "vertex": int32(*(vertex for lap in LAPS for vertex in lap)),
-        "least": int64(4, 1, 3, 1, 5, 2, 3, 2, 4, 1, 4, 1),
-        "approach": np.zeros(12, np.int64),
+        "rules": _rules(books_ahead=rng.random() < 1 / 2),
+        "laps": Part("Routes", laps),
         "first_least": int64(3, 4, 3),
-        "headway": 0,
-        "pacemaker": 0,
-        "lag": 9,
-        "most_lag": 48,
-        "patience": 96,
-        "reach": 12,
-        "memory": 8,
+        "horizon": _horizon(),
         "rule": rng.randrange(3),
         "loss": int64(5, 3, 2),
     }
     if rng.random() < 1 / 3:
         edges = [V + EDGE.get((lap[k - 1], lap[k]), 0) for lap in LAPS for k in (1, 2, 3, 0)]
-        arguments |= {"vertex_row": arguments["vertex"].copy(), "edge_row": int32(*edges)}
-        arguments |= {"first": FIRST, "excluded": EXCLUDED, "approach": np.ones(12, np.int64)}
+        arguments |= {"rules": _rules(books_ahead=True), "rows": _rows(vertex, edges)}
     return arguments
 
 
-def _routes() -> Arguments:
-    return {"first_visit": int32(0, 4, 8, 12), "vertex": int32(0, 1, 2, 3, 5, 1, 4, 8, 6, 2, 1, 0)}
+def _horizon() -> Part:
+    return Part("Horizon", {
+        "pacemaker": 0, "lag": 9, "most_lag": 48, "patience": 96, "reach": 12, "memory": 8
+    })  # fmt: skip
 
 
-def _rows() -> Arguments:
+VISITED = (0, 1, 2, 3, 5, 1, 4, 8, 6, 2, 1, 0)
+"""Vertices of three routes of four visits."""
+
+
+def _routes(*dwell: int) -> Part:
+    return Part("Routes", {
+        "first_visit": int32(0, 4, 8, 12), "vertex": int32(*VISITED), "dwell": int64(*dwell),
+        "drive": int64(*([0, 1, 1, 1] * 3)),
+    })  # fmt: skip
+
+
+def _rows(vertex: NDArray[np.int32], edges: list[int]) -> Part:
+    return Part("VisitRows", {"lists": _lists(), "vertex": vertex, "edge": int32(*edges)})
+
+
+def _rows_of_routes() -> Part:
     """Return the rows of the visits of `_routes`."""
-    vertex = _routes()["vertex"]
-    edges = [-1 if k % 4 == 3 else V + EDGE.get((vertex[k], vertex[k + 1]), 0) for k in range(12)]
-    return {"vertex_row": vertex, "edge_row": int32(*edges), "excluded": EXCLUDED}
+    ends = [(VISITED[k], VISITED[(k + 1) % 12]) for k in range(12)]
+    edges = [-1 if k % 4 == 3 else V + EDGE.get(pair, 0) for k, pair in enumerate(ends)]
+    return _rows(int32(*VISITED), edges)
 
 
 def _precedence_graph(rng: random.Random) -> Arguments:
     kind = rng.choice(("points", "ahead", "sizes", "closures"))
     arguments: Arguments = {
-        **_routes(),
-        "least": int64(2, 1, 1, 0, 1, 3, 1, 0, 1, 1, 2, 0),
-        "approach": np.zeros(12, np.int64),
-        "headway": 0,
+        "rules": _rules(),
+        "routes": _routes(1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0),
         "swaps_conflict": True,
-        "active": np.ones(3, np.uint8),
     }
     if kind in {"ahead", "sizes"}:
-        arguments |= {"headway": 1, "approach": int64(*([0, 1, 1, 1] * 3))}
+        arguments["rules"] = _rules(headway=1, books_ahead=True)
     if kind == "sizes":
-        arguments |= {**_rows(), "first": FIRST}
+        arguments["rows"] = _rows_of_routes()
     if kind == "closures":
-        arguments |= _closed() | {"drive": int64(*([0, 1, 1, 1] * 3))}
+        arguments["closures"] = _closed()
     return arguments
 
 
-def _closed() -> Arguments:
+def _closed() -> Part:
     """Return closures of the second visit, and of the edge into the last one."""
     first = [0, 0, 0, *([2] * 20), 2, 3]
-    return {"first_closed": int32(*first), "closed_from": int64(0, 9, 4),
-            "closed_until": int64(3, 12, 8)}  # fmt: skip
+    closed = {"start": int64(0, 9, 4), "end": int64(3, 12, 8)}
+    return Part("VisitClosures", {"first": int32(*first), **closed})
+
+
+def _order(first_right: list[int], rights: list[int]) -> Part:
+    return Part("Order", {
+        "planned": int64(0, 2, 3, 4, 0, 5, 8, 9, 0, 6, 9, 11), "first_right": int32(*first_right),
+        "rights": int32(*rights), "since": np.zeros(12, np.int64),
+    })  # fmt: skip
+
+
+def _delays() -> Part:
+    return Part("DelayModel", {
+        "pace": real(1, 1.5, 1), "kind": int32(0, 1, 2, 3, 4), "a": real(0.2, 0, 0.1, 0.1, 0.05),
+        "b": real(0, 0.5, 0.05, 4, 0), **_stoppages(),
+    })  # fmt: skip
 
 
 def _adg(rng: random.Random) -> Arguments:
     arguments: Arguments = {
-        **_routes(),
-        "planned": int64(0, 2, 3, 4, 0, 5, 8, 9, 0, 6, 9, 11),
-        "dwell": int64(1, 0, 0, 2, 0, 2, 0, 1, 0, 0, 1, 0),
-        "drive": int64(*([0, 1, 1, 1] * 3)),
-        "before": int32(-1, -1, -1, -1, -1, 1, -1, -1, -1, 2, 5, 0),
-        "since": np.zeros(12, np.int64),
-        "headway": 0,
-        "books_ahead": rng.random() < 1 / 2,
-        "pace": real(1, 1.5, 1),
-        "delay_kind": int32(0, 1, 2, 3, 4),
-        "delay_a": real(0.2, 0, 0.1, 0.1, 0.05),
-        "delay_b": real(0, 0.5, 0.05, 4, 0),
-        **_stoppages(),
+        "rules": _rules(books_ahead=rng.random() < 1 / 2),
+        "routes": _routes(1, 0, 0, 2, 0, 2, 0, 1, 0, 0, 1, 0),
+        "order": _order([0] * 6 + [1] * 4 + [2, 3, 4], [1, 2, 5, 0]),
+        "delays": _delays(),
     }
     if rng.random() < 1 / 3:
-        arguments |= {**_rows(), "first_excluded": FIRST, "books_ahead": True}
-        arguments |= {"before": np.full(12, -1, np.int32), "rights": int32(1, 2, 5)}
-        arguments |= {"first_right": int32(*[0] * 6, 1, 1, 1, 1, 2, 3, 3)}
+        arguments |= {"rows": _rows_of_routes(), "rules": _rules(books_ahead=True)}
+        arguments["order"] = _order([0] * 6 + [1] * 4 + [2, 3, 3], [1, 2, 5])
     if rng.random() < 1 / 3:
-        arguments |= _closed()
+        arguments["closures"] = _closed()
     return arguments
 
 
@@ -325,7 +397,7 @@ def _earliest_track(rng: random.Random) -> Arguments:
     for row in rng.sample(range(rows), 5):
         table.mark(row, 3, 9, 7)
     return {
-        "problem": problem(rng, kind),
+        "problem": _problem(rng, kind),
         "robot": robot,
         "bookings": table,
         "stage_tables": [to_stop(STOPS[robot]), to_stop(HOMES[robot])],
@@ -341,9 +413,18 @@ def _always(**arguments: Any) -> Callable[[random.Random], Arguments]:
     return lambda rng: dict(arguments)  # noqa: ARG005
 
 
+PARTS = (
+    _roads(), problem_arguments("sizes")["robots"], _rules(), _lists(), _turning(), _closures(1),
+    _trip(), _horizon(), _routes(*[1] * 12), _rows_of_routes(), _closed(), _order([0] * 13, []),
+    _delays(),
+)  # fmt: skip
+"""Objects that others are made of; what is wrong in them is found by those, or at once."""
+
 CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "compiler": _always(),
+    **{name: _always(**arguments) for name, arguments in PARTS},
     "Problem": lambda rng: problem_arguments(rng.choice(KINDS)),
+    "Problem.rules": _always(),
     "Problem.n_robots": _always(),
     "Problem.n_vertices": _always(),
     "PeriodicBookings": _bookings,
@@ -365,7 +446,7 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
         "target": rng.randrange(V), "edge_ticks": int32(*(rng.choice((1, 1, 2)) for _ in HEADS))
     },
     "Congestion": lambda rng: {
-        "problem": problem(rng), "shares": 16, "station": np.full(V, rng.randrange(99), np.int64)
+        "problem": _problem(rng), "shares": 16, "station": np.full(V, rng.randrange(99), np.int64)
     },
     "Congestion.path": lambda rng: {
         "robot": rng.randrange(3), "start": rng.randrange(V), "target": 11, "to_go": to_stop(11)
@@ -383,15 +464,15 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "critical_circuit": _arcs,
     "earliest_times": lambda rng: {**_arcs(rng), "period": rng.randrange(9, 30), "parts": 1},
     "plan_by_lacam": lambda rng: {
-        "problem": problem(rng), "spreads": rng.random() < 1 / 2, "seed": rng.randrange(99),
+        "problem": _problem(rng), "spreads": rng.random() < 1 / 2, "seed": rng.randrange(99),
         "most_effort": rng.choice((10, 1000, 10**5)), "time_limit": 0.2,
     },
     "untimed_lacam": lambda rng: {
-        "problem": problem(rng), "ends_anywhere": np.ones(rng.choice((0, 3)), np.uint8),
+        "problem": _problem(rng), "ends_anywhere": np.ones(rng.choice((0, 3)), np.uint8),
         "seed": rng.randrange(99), "most_steps": rng.choice((None, 1000)), "time_limit": 0.2,
     },
     "FleetSearch": lambda rng: {
-        "problem": problem(rng), "seed": rng.randrange(99), "n_threads": rng.randrange(1, 4),
+        "problem": _problem(rng), "seed": rng.randrange(99), "n_threads": rng.randrange(1, 4),
         "alone": rng.choice((None, int64(14, 17, 7))),
     },
     "FleetSearch.alone": _timed(),

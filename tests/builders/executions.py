@@ -69,7 +69,7 @@ def oracle_of(adg: ActionDependencyGraph, delay_sample: DelaySample) -> executio
         vertex=adg.vertex.tolist(),
         planned=adg.planned.tolist(),
         nominal_drive=adg.drive.tolist(),
-        before=adg.order.tolist(),
+        before=[(*adg.comes_after(visit), -1)[0] for visit in range(len(adg.vertex))],
         since=adg.since.tolist(),
         headway=int(adg.scenario.problem.headway),
         books_ahead=adg.scenario.rules.books_ahead,

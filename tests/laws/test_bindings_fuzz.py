@@ -15,7 +15,7 @@ from contextlib import suppress
 import pytest
 from hypothesis import strategies as st
 
-from tests.builders.binding_calls import CALLS, _core, callables
+from tests.builders.binding_calls import CALLS, _core, build, callables, made_of
 from tests.builders.broken_calls import Child, run_case
 from tests.builders.laws import law
 
@@ -40,9 +40,9 @@ def test_every_callable_of_the_native_core_is_in_the_table_of_calls() -> None:
 
 @pytest.mark.parametrize("name", [name for name in CALLS if "." not in name])
 def test_calls_of_the_table_are_valid(name: str) -> None:
-    function, rng = getattr(_core, name), random.Random(name)  # noqa: S311 - the same each time
+    rng = random.Random(name)  # noqa: S311 - the same each time
     for _ in range(20):
-        function(**CALLS[name](rng))
+        build(name, CALLS[name](rng))
 
 
 @pytest.mark.parametrize("name", [name for name in CALLS if "." in name])
@@ -53,9 +53,9 @@ def test_calls_of_the_table_give_all_arguments(name: str) -> None:
     if isinstance(method, property):
         return
     rng = random.Random(name)  # noqa: S311 - the same each time
-    target = getattr(_core, owner)(**CALLS[owner](rng))
+    target = build(owner, CALLS[owner](rng))
     with suppress(ValueError):
-        getattr(target, own)(**CALLS[name](rng))
+        getattr(target, own)(**made_of(CALLS[name](rng)))
 
 
 @law(st.integers(0, 10**8))

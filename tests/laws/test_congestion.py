@@ -36,10 +36,13 @@ def kernel_of(floor: Congestion) -> _core.Congestion:
     """Return the kernel for one robot and a length class for each edge."""
     starts = [edge.start for edge in floor.edges]
     zero = np.zeros(1, np.int32)
-    problem = _core.Problem(
+    roads = _core.Roads(
         indptr=np.searchsorted(starts, np.arange(floor.n_vertices + 1)).astype(np.int32),
         heads=np.array([edge.end for edge in floor.edges], np.int32),
         length_class=np.arange(len(floor.edges), dtype=np.int32),
+        n_classes=len(floor.edges),
+    )
+    robots = _core.Robots(
         paces=np.array([edge.ticks for edge in floor.edges], np.int32),
         pace_of=zero,
         home=zero,
@@ -47,11 +50,8 @@ def kernel_of(floor: Congestion) -> _core.Congestion:
         stage_vertex=zero,
         stage_work=np.zeros(1, np.int64),
         stage_turn=np.zeros(1, np.int64),
-        n_classes=len(floor.edges),
-        headway=0,
-        books_ahead=False,
-        rotations=True,
     )
+    problem = _core.Problem(roads, robots, _core.BookingRules(0, False))
     return _core.Congestion(problem, floor.shares, np.array(floor.station, np.int64))
 
 

@@ -76,18 +76,20 @@ def test_robots_in_a_wrong_order_deadlock_just_where_the_kernel_says(
     firsts = set(adg.first_visit.tolist())
     swappable = [
         visit
-        for visit, other in enumerate(adg.order.tolist())
-        if other >= 0 and other not in firsts and adg.robot_of(other) != adg.robot_of(visit)
+        for other, visit in adg.order.tolist()
+        if other not in firsts and adg.robot_of(other) != adg.robot_of(visit)
     ]
     if not swappable:
         leave("no robots share a vertex")
-    before = adg.order.copy()
+    before = np.full(len(adg.vertex), -1, np.int32)
+    before[adg.order[:, 1]] = adg.order[:, 0]
     visit = draw.choice(swappable)
     other = int(before[visit])
     after = np.flatnonzero(before == visit)
     before[visit], before[other] = before[other], visit
     before[after] = other
-    adg = adg.reordered(before)
+    second = np.flatnonzero(before >= 0).astype(np.int32)
+    adg = adg.reordered(np.column_stack((before[second], second)))
     delay_sample = adg.delay_sample(0, 0)
     found, expected = (
         adg.execute(delay_sample),

@@ -24,18 +24,20 @@ def line() -> DistanceTables:
     return DistanceTables(int32(0, 1, 2, 2), int32(1, 2))
 
 
-def crossing(**changes: Any) -> PrecedenceGraph:
+def int64(*values: int) -> NDArray[np.int64]:
+    return np.array(values, np.int64)
+
+
+def crossing(*, headway: int = 0, **changes: Any) -> PrecedenceGraph:
     """Return two robots, 0 9 1 and 2 9 3, that are both at 9 during [1, 2)."""
     arrays: dict[str, Any] = {
         "first_visit": int32(0, 3, 6),
         "vertex": int32(0, 9, 1, 2, 9, 3),
-        "least": np.ones(6, np.int64),
-        "approach": np.zeros(6, np.int64),
-        "headway": 0,
-        "swaps_conflict": True,
-        "active": np.ones(2, np.uint8),
+        "dwell": np.ones(6, np.int64),
+        "drive": np.zeros(6, np.int64),
     }
-    return PrecedenceGraph(**(arrays | changes))
+    rules, routes = _core.BookingRules(headway, True), _core.Routes(**(arrays | changes))
+    return PrecedenceGraph(rules, routes, swaps_conflict=True)
 
 
 def test_read_only_arrays_are_taken() -> None:
@@ -52,7 +54,7 @@ def test_arrays_of_another_type_are_refused_and_not_converted() -> None:
     with pytest.raises(TypeError, match="int32"):
         line().to(2, np.array([3, 4], np.int64))
     with pytest.raises(TypeError, match="int64"):
-        crossing(least=np.ones(6))
+        crossing(dwell=np.ones(6))
 
 
 def test_arrays_with_gaps_are_refused() -> None:
@@ -61,10 +63,10 @@ def test_arrays_with_gaps_are_refused() -> None:
 
 
 def test_arrays_are_read_and_not_kept() -> None:
-    least = np.full(6, 5, np.int64)
-    graph = crossing(least=least)
+    dwell = np.full(6, 5, np.int64)
+    graph = crossing(dwell=dwell)
 
-    least[:] = 1
+    dwell[:] = 1
 
     assert graph.precede(1, 4)
     assert graph.enter().tolist() == [0, 5, 10, 0, 10, 15]
@@ -133,11 +135,12 @@ def test_two_robots_that_stay_at_one_vertex_count_forever() -> None:
         ({"first_visit": int32(0, 3, 7)}, r"first_visit\[2\]: 7 is not the number of visits, 6"),
         ({"vertex": int32(0, 9, 1, 2, 2, 3)}, r"vertex\[4\]: 2 is the vertex of the visit before"),
         ({"vertex": int32(0, 9, 1, 2, -9, 3)}, r"vertex\[4\]: -9 is negative"),
-        ({"least": np.array([1, 0, 1, 1, 1, 1])}, r"least\[1\]: 0 is not positive"),
-        ({"least": np.ones(5, np.int64)}, "least: its length is 5, but must be 6"),
-        ({"approach": np.array([0, 0, 0, 2, 0, 0])}, r"approach\[3\]: 2 must be 0 on a first"),
+        ({"dwell": int64(1, 0, 1, 1, 1, 1)}, r"least\[1\]: 0 is not positive"),
+        ({"dwell": int64(1, -1, 1, 1, 1, 1)}, r"least\[1\]: -1 is not positive"),
+        ({"drive": int64(0, 2**62, 1, 1, 1, 1)}, r"drive\[1\]: 4611686018427387904 is not in 0"),
+        ({"dwell": np.ones(5, np.int64)}, "dwell: its length is 5, but must be 6"),
+        ({"drive": int64(0, 0, 0, 2, 0, 0)}, r"approach\[3\]: 2 must be 0 on a first"),
         ({"headway": -1}, "headway: -1 is not in 0"),
-        ({"active": np.ones(3, np.uint8)}, "active: its length is 3, but must be 2"),
     ],
 )
 def test_bad_routes_are_value_errors_with_index_and_value(
@@ -153,8 +156,10 @@ def test_bad_questions_are_value_errors_with_the_value() -> None:
         graph.precede(1, 6)
     with pytest.raises(ValueError, match="b: 3 is at vertex 2, but a, 1, is at vertex 9"):
         graph.precede(1, 3)
+    withdrawn = crossing()
+    withdrawn.withdraw(1)
     with pytest.raises(ValueError, match="not active"):
-        crossing(active=np.array([1, 0], np.uint8)).precede(1, 4)
+        withdrawn.precede(1, 4)
     with pytest.raises(ValueError, match=r"robot: 2 is not in 0\.\.1"):
         graph.completion(2)
     with pytest.raises(ValueError, match=r"mark: 1 is not in 0\.\.0"):

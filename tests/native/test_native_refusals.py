@@ -10,7 +10,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.builders.binding_calls import CALLS, EXCLUDED, FIRST, TRACKS, _core, int32, int64, real
+from tests.builders.binding_calls import (
+    CALLS,
+    EXCLUDED,
+    FIRST,
+    TRACKS,
+    _core,
+    build,
+    int32,
+    int64,
+    made_of,
+    problem_arguments,
+    real,
+    with_changes,
+)
 
 Arguments = dict[str, Any]
 
@@ -18,32 +31,20 @@ Arguments = dict[str, Any]
 def valid(name: str, **changes: Any) -> Arguments:
     """Return arguments of a valid call, and some others."""
     rng = random.Random(0)  # noqa: S311 - the same each time
-    return CALLS[name](rng) | changes
+    return with_changes(CALLS[name](rng), **changes)
 
 
 def made(name: str, **changes: Any) -> Any:
-    return getattr(_core, name)(**valid(name, **changes))
+    return build(name, valid(name, **changes))
+
+
+def problem(kind: str, **changes: Any) -> Any:
+    return build("Problem", with_changes(problem_arguments(kind), **changes))
 
 
 def fleet(**changes: Any) -> _core.FleetSearch:
     """Return a search for the fleet of points, whose tracks are `TRACKS`."""
-    points = _core.Problem(**valid("Problem", **changes))
-    return _core.FleetSearch(points, seed=0, n_threads=1)
-
-
-POINTS: Arguments = dict.fromkeys(
-    ("size_of", "first", "excluded", "closed_row", "closed_from", "closed_until", "surcharges",
-     "turn_offset", "turn_kind", "turn_class", "turn_ticks")
-) | {
-    "headway": 0, "books_ahead": False, "paces": int32(1, 2, 3, 2), "pace_of": int32(0, 1, 0)
-}  # fmt: skip
-SIZES: Arguments = POINTS | {
-    "size_of": int32(0, 1, 0), "first": FIRST, "excluded": EXCLUDED, "books_ahead": True
-}  # fmt: skip
-TURNS: Arguments = POINTS | {
-    "turn_offset": np.zeros(34, np.int64), "turn_kind": np.zeros(34, np.int32),
-    "turn_class": int32(0, 0, 0), "turn_ticks": int32(2), "n_turn_kinds": 1,
-}  # fmt: skip
+    return _core.FleetSearch(problem("points", **changes), seed=0, n_threads=1)
 
 
 def with_entry(array: Any, index: int, value: float) -> Any:
@@ -52,42 +53,48 @@ def with_entry(array: Any, index: int, value: float) -> Any:
     return changed
 
 
+HEADS = problem_arguments("points")["roads"].arguments["heads"]
+
 PROBLEMS = [
-    (SIZES | {"excluded": None}, "size_of, first, excluded: 2 of 3 arrays are given"),
-    (SIZES | {"first": int32()}, "first: its length is 0, but must be at least 1"),
-    (SIZES | {"first": FIRST[:-1]}, "first: 91 rows are no multiple of the number of .*, 46"),
-    (SIZES | {"first": with_entry(FIRST, 3, 0)}, r"first\[3\]: 0 is less than the entry before it"),
-    (SIZES | {"excluded": with_entry(EXCLUDED, 1, 0)}, r"excluded\[1\]: 0 is not above the entry"),
-    (SIZES | {"excluded": with_entry(EXCLUDED, 2, 92)}, r"excluded\[2\]: 92 is not in 0\.\.91"),
-    (SIZES | {"size_of": int32(0, 2, 0)}, r"size_of\[1\]: 2 is not in 0\.\.1"),
-    (TURNS | {"n_turn_kinds": -1}, "n_turn_kinds: -1 is negative"),
-    (TURNS | {"turn_class": int32()}, "turn_class: its length is 0, but must be 3"),
+    ("sizes", {"lists": None}, "size_of, lists: one of them is given alone"),
+    ("sizes", {"first": int32()}, "first: its length is 0, but must be at least 1"),
+    ("sizes", {"first": int32(0, 0), "excluded": int32()}, "first: 1 rows are no multiple .*, 46"),
+    ("sizes", {"first": with_entry(FIRST, 3, 0)}, r"first\[3\]: 0 is less than the entry"),
+    ("sizes", {"excluded": with_entry(EXCLUDED, 1, 0)}, r"excluded\[1\]: 0 is not above the entry"),
+    ("sizes", {"excluded": with_entry(EXCLUDED, 2, 92)}, r"excluded\[2\]: 92 is not in 0\.\.91"),
+    ("sizes", {"size_of": int32(0, 2, 0)}, r"size_of\[1\]: 2 is not in 0\.\.1"),
+    ("turns", {"n_kinds": -1}, "n_turn_kinds: -1 is negative"),
+    ("turns", {"class_of": int32()}, "class_of: its length is 0, but must be 3"),
     (
-        TURNS | {"turn_offset": np.full(34, 2**63 - 1)},
+        "turns",
+        {"offset": np.full(34, 2**63 - 1)},
         r"turn_offset\[0\]: 9223372036854775807 leads out of turn_kind",
     ),
-    (POINTS | {"surcharges": int64()}, "surcharges: its length is 0, but must be 2"),
-    (POINTS | {"first_stage": int32(0, 2, 2, 6)}, r"first_stage\[2\]: 2 is not at least 1 above"),
-    (POINTS | {"heads": with_entry(valid("Problem")["heads"], 4, 12)}, r"heads\[4\]: 12 is not in"),
+    ("surcharges", {"surcharges": int64()}, "surcharges: its length is 0, but must be 2"),
+    ("points", {"first_stage": int32(0, 2, 2, 6)}, r"first_stage\[2\]: 2 is not at least 1 above"),
+    ("points", {"heads": with_entry(HEADS, 4, 12)}, r"heads\[4\]: 12 is not in"),
     (
-        SIZES | {name: int32(0) if name in {"indptr", "first"} else int32()
-                 for name in ("indptr", "heads", "length_class", "first", "excluded", "home",
-                              "pace_of", "stage_vertex", "size_of")}
+        "sizes",
+        {name: int32(0) if name in {"indptr", "first"} else int32()
+         for name in ("indptr", "heads", "length_class", "first", "excluded", "home",
+                      "pace_of", "stage_vertex", "size_of")}
         | {"first_stage": int32(0), "stage_work": int64(), "stage_turn": int64()},
         "first: 0 rows are no multiple of the number of vertices and edges, 0",
     ),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("arguments", "message"), PROBLEMS)
-def test_problems_whose_arrays_do_not_fit_are_refused(arguments: Arguments, message: str) -> None:
+@pytest.mark.parametrize(("kind", "changes", "message"), PROBLEMS)
+def test_problems_whose_arrays_do_not_fit_are_refused(
+    kind: str, changes: Arguments, message: str
+) -> None:
     with pytest.raises(ValueError, match=message):
-        _core.Problem(**valid("Problem", **arguments))
+        problem(kind, **changes)
 
 
 def test_the_problems_that_are_broken_here_are_fine_otherwise() -> None:
-    for arguments in (POINTS, SIZES, TURNS):
-        assert _core.Problem(**valid("Problem", **arguments)).n_robots == 3
+    for kind in ("points", "sizes", "turns", "surcharges"):
+        assert problem(kind).n_robots == 3
 
 
 FIRST_VISIT, VERTICES, ENTER = TRACKS["first_visit"], TRACKS["vertices"], TRACKS["enter"]
@@ -114,14 +121,14 @@ TRACKS_REFUSED = [
 @pytest.mark.parametrize("method", ["start", "restore"])
 @pytest.mark.parametrize(("changes", "message"), TRACKS_REFUSED)
 def test_tracks_that_are_none_are_refused(method: str, changes: Arguments, message: str) -> None:
-    search = fleet(**POINTS)
+    search = fleet()
     search.start(**TRACKS)
     with pytest.raises(ValueError, match=message):
         getattr(search, method)(**TRACKS | changes)
 
 
 def test_a_restore_needs_tracks_of_all_robots_that_do_not_overlap() -> None:
-    search = fleet(**POINTS)
+    search = fleet()
     with pytest.raises(ValueError, match="restore: 0 is a robot without a track"):
         search.restore(**TRACKS)
     search.start(**TRACKS)
@@ -136,7 +143,7 @@ def test_a_restore_needs_tracks_of_all_robots_that_do_not_overlap() -> None:
 
 
 def test_what_needs_a_plan_is_refused_without_one() -> None:
-    search = fleet(**POINTS)
+    search = fleet()
     with pytest.raises(ValueError, match="improve: 0 is a robot without a track"):
         search.improve(n_tasks=3, patience=3, time_limit=None, pause=None)
     with pytest.raises(ValueError, match="retime: 0 is a robot without a track"):
@@ -160,11 +167,11 @@ def test_orders_that_are_none_are_refused(method: str, order: Any, message: str)
     if method == "prioritize":
         limits |= {"with_net": None}
     with pytest.raises(ValueError, match=message):
-        getattr(fleet(**POINTS), method)(order, **limits)
+        getattr(fleet(), method)(order, **limits)
 
 
 def test_a_robot_with_a_track_needs_no_repair() -> None:
-    search = fleet(**POINTS)
+    search = fleet()
     search.start(**TRACKS)
     with pytest.raises(ValueError, match=r"order\[0\]: 1 is a robot that has a track"):
         search.repair(int32(1), 9, None)
@@ -177,7 +184,7 @@ def test_a_fleet_of_nobody_is_planned() -> None:
         for name in ("heads", "length_class", "pace_of", "home", "stage_vertex", "stage_work",
                      "stage_turn")
     }  # fmt: skip
-    search = fleet(**POINTS | empty)
+    search = fleet(**empty)
     alone = search.alone()
     assert alone is not None
     assert alone.tolist() == []
@@ -192,8 +199,7 @@ def test_a_fleet_of_nobody_is_planned() -> None:
         ("FleetSearch", {"n_threads": 2**40}, r"n_threads: 1099511627776 is not in 1\.\.1024"),
         ("FleetSearch", {"alone": int64(1, -2, 1)}, r"alone\[1\]: -2 is not in -1\.\."),
         ("BookingTable", {"n_vertices": 2**31 - 1}, "n_vertices: 2147483647 is not in 0"),
-        ("PeriodicBookings", {"n_vertices": 2**31 - 1}, "n_vertices: 2147483647 is not in 0"),
-        ("PeriodicBookings", {"first": None, "excluded": int32()}, "first, excluded: 1 of 2"),
+        ("PeriodicBookings", {"n_rows": 2**31 - 1}, "n_rows: 2147483647 is not in 0"),
         ("CyclicSimulator", {"pacemaker": 3}, r"pacemaker: 3 is not in 0\.\.2"),
         ("CyclicSimulator", {"lag": 0}, r"lag: 0 is not in 1\.\."),
         ("CyclicSimulator", {"memory": 0}, "memory: 0 is not above 0"),
@@ -224,7 +230,7 @@ def test_arguments_of_constructors_and_functions_are_refused(
         ("search", {"phase": 2**62}, "phase: 4611686018427387904 is not in"),
         ("find_route", {"first_row": 1}, r"first_row: 1 is not in 0\.\.0"),
         ("find_route", {"pace": int32(1, 0)}, r"pace\[1\]: 0 is neither positive nor -1"),
-        ("find_route", {"indices": int32(*range(34))}, r"indices\[12\]: 12 is not in 0\.\.11"),
+        ("find_route", {"heads": int32(*range(34))}, r"heads\[12\]: 12 is not in 0\.\.11"),
         ("find_route", {"stage_work": int64(2, -1)}, r"stage_work\[1\]: -1 is not in 0"),
         ("find_route", {"time_limit": math.nan}, "time_limit: nan is no number of seconds"),
     ],
@@ -232,11 +238,12 @@ def test_arguments_of_constructors_and_functions_are_refused(
 def test_arguments_of_periodic_bookings_are_refused(
     name: str, changes: Arguments, message: str
 ) -> None:
-    bookings = _core.PeriodicBookings(12, 40, 0, False)
-    arguments = valid(f"PeriodicBookings.{name}") | {"edge": None, "leave": None} | changes
-    taken = set(valid(f"PeriodicBookings.{name}")) | set(changes)
+    bookings = _core.PeriodicBookings(_core.BookingRules(0, False), 12, 40)
+    arguments = valid(f"PeriodicBookings.{name}", **changes)
+    if name in {"add", "search"}:
+        arguments |= {"edge": None}
     with pytest.raises(ValueError, match=message):
-        getattr(bookings, name)(**{key: arguments[key] for key in taken})
+        getattr(bookings, name)(**made_of(arguments))
 
 
 def test_a_table_that_hides_the_target_is_refused() -> None:
@@ -252,7 +259,7 @@ def test_a_simulation_without_a_deadlock_has_none_to_tell() -> None:
 
 
 def alone_in(seconds: float | None) -> Any:
-    return fleet(**POINTS).alone(seconds)
+    return fleet().alone(seconds)
 
 
 @pytest.mark.parametrize("seconds", [None, 1e10, 1e300, math.inf, 60.0])
@@ -275,7 +282,7 @@ def test_a_limit_of_nothing_or_less_is_over_at_once(seconds: float) -> None:
     ],
 )
 def test_a_limit_that_is_no_number_is_refused(call: Callable[[Any, float], object]) -> None:
-    search = fleet(**POINTS)
+    search = fleet()
     search.start(**TRACKS)
     with pytest.raises(
         ValueError, match=r"^(time_limit|with_net|pause): nan is no number of seconds"

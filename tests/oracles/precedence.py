@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from rightofway._core import CONFLICT_CAP, PrecedenceGraph
+from rightofway._core import CONFLICT_CAP, BookingRules, PrecedenceGraph, Routes
 from rightofway.model import NEVER
 
 if TYPE_CHECKING:
@@ -84,15 +84,23 @@ class System:
 
     def kernel(self) -> PrecedenceGraph:
         """Return the native kernel for this system."""
-        return PrecedenceGraph(
-            np.array(self.first_visit, np.int32),
-            np.array(self.vertex, np.int32),
-            np.array(self.least, np.int64),
-            np.array(self.approach, np.int64),
-            self.headway,
+        ends = [self.is_last(visit) for visit in range(len(self.vertex))]
+        drives = [0 if end else self.approach[x + 1] for x, end in enumerate(ends)]
+        dwells = [least - drive for least, drive in zip(self.least, drives, strict=True)]
+        graph = PrecedenceGraph(
+            BookingRules(self.headway, True),
+            Routes(
+                np.array(self.first_visit, np.int32),
+                np.array(self.vertex, np.int32),
+                np.array(dwells, np.int64),
+                np.array(self.approach, np.int64),
+            ),
             self.swaps_conflict,
-            np.array(self.active, np.uint8),
         )
+        for robot, is_active in enumerate(self.active):
+            if not is_active:
+                graph.withdraw(robot)
+        return graph
 
 
 def arcs(system: System, rights: Sequence[Right]) -> list[Arc]:

@@ -15,8 +15,8 @@ ActionDependencyGraph long_way() {
     static const std::vector<Tick> planned{0, 200};
     static const std::vector<Tick> dwell{100, 0};
     static const std::vector<Tick> drive{0, 100};
-    static const std::vector<VisitId> before{-1, -1};
-    return ActionDependencyGraph({first, vertex, planned, dwell, drive, before, 0, false});
+    static const std::vector<std::int32_t> first_right{0, 0, 0};
+    return ActionDependencyGraph({first, vertex, planned, dwell, drive, first_right, {}, 0, false});
 }
 
 double mean_of_dwell(const Delays& delays) {
@@ -58,12 +58,12 @@ TEST_CASE("what befalls a robot does not depend on what others do") {
     const std::vector<VertexId> vertex{0, 1, 2, 3};
     const std::vector<Tick> planned{0, 200, 0, 200};
     const std::vector<Tick> drive{0, 100, 0, 100};
-    const std::vector<VisitId> before{-1, -1, -1, -1};
+    const std::vector<std::int32_t> first_right(5, 0);
     const std::vector<double> pace{1, 1};
     const auto second = [&](const std::vector<VisitId>& first_visit) {
         const std::vector<Tick> dwell(4, 100);
         const ActionDependencyGraph plan(
-            {first_visit, vertex, planned, dwell, drive, before, 0, false});
+            {first_visit, vertex, planned, dwell, drive, first_right, {}, 0, false});
         DelaySample out;
         Delays(plan, pace, {{DelayKind::exponential, 0.2, 0}}, {0, 0, 0}, {}).draw(1, 7, out);
         return out.dwell[index(first_visit[1])];
@@ -78,8 +78,9 @@ TEST_CASE("parts of a tick are carried, not lost") {
     const std::vector<Tick> planned{0, 1, 2};
     const std::vector<Tick> dwell{0, 0, 0};
     const std::vector<Tick> drive{0, 1, 1};
-    const std::vector<VisitId> before{-1, -1, -1};
-    const ActionDependencyGraph plan({first, vertex, planned, dwell, drive, before, 0, false});
+    const std::vector<std::int32_t> first_right(4, 0);
+    const ActionDependencyGraph plan(
+        {first, vertex, planned, dwell, drive, first_right, {}, 0, false});
     const std::vector<double> pace{1.5};
     const Delays delays(plan, pace, {}, {0, 0}, {});
     DelaySample out;
@@ -134,8 +135,8 @@ TEST_CASE("lists of visits that do not rise are refused before any visit is numb
     const std::vector<VisitId> first{0, 100, 2};
     const std::vector<VertexId> vertex{0, 1};
     const std::vector<Tick> ticks{0, 0};
-    const std::vector<VisitId> before{-1, -1};
-    const AdgArrays arrays{first, vertex, ticks, ticks, ticks, before, 0, false};
+    const std::vector<std::int32_t> first_right(3, 0);
+    const AdgArrays arrays{first, vertex, ticks, ticks, ticks, first_right, {}, 0, false};
     CHECK_THROWS_WITH(ActionDependencyGraph{arrays},
                       "first_visit[2]: 2 is not at least 1 above the entry before it");
 }

@@ -23,8 +23,14 @@ struct Late {
     Ticks since = {};
 
     ActionDependencyGraph plan() const {
-        return ActionDependencyGraph(
-            {first_visit, vertex, planned, dwell, drive, before, headway, books_ahead, since});
+        std::vector<std::int32_t> first_right{0};
+        std::vector<VisitId> rights;
+        for (const VisitId visit : before) {
+            rights.insert(rights.end(), visit != none, visit);
+            first_right.push_back(static_cast<std::int32_t>(rights.size()));
+        }
+        return ActionDependencyGraph({first_visit, vertex, planned, dwell, drive, first_right,
+                                      rights, headway, books_ahead, since});
     }
     DelaySample sample() const {
         return {dwell, drive, std::vector<std::int32_t>(first_visit.size(), 0), {}};

@@ -17,7 +17,7 @@ from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.rules import NATIVE_RULES
 from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick
-from rightofway.native import BookedRows
+from rightofway.native import BookedRows, native_rows
 from rightofway.planners import Deadline
 from rightofway.site import VertexId
 
@@ -76,28 +76,27 @@ class CyclicSimulator:
         self.context = context
         laps, longest = context.laps, context.longest
         pacemaker = choose_pacemaker(laps, -(-longest // params.pacemaker_part))
-        drive = np.array([ticks for lap in laps for ticks in lap.drive], np.int64)
-        one_each = [1] * len(laps)
-        rows = BookedRows.of_laps(context.scenario, context.robots, laps, one_each)
+        rows = BookedRows.of_laps(context.scenario, context.robots, laps, [1] * len(laps))
         self._kernel = _core.CyclicSimulator(
-            np.cumsum([0, *map(len, laps)], dtype=np.int32),
-            np.array([vertex for lap in laps for vertex in lap.vertices], np.int32),
-            np.array([ticks for lap in laps for ticks in lap.leasts()], np.int64),
-            drive if context.books_ahead else np.zeros_like(drive),
+            _core.BookingRules(int(context.headway), context.books_ahead),
+            _core.Routes(
+                np.cumsum([0, *map(len, laps)], dtype=np.int32),
+                np.array([vertex for lap in laps for vertex in lap.vertices], np.int32),
+                np.array([ticks for lap in laps for ticks in lap.dwell], np.int64),
+                np.array([ticks for lap in laps for ticks in lap.drive], np.int64),
+            ),
             np.array([route.first_least for route in context.routes], np.int64),
-            headway=int(context.headway),
-            pacemaker=pacemaker,
-            lag=laps[pacemaker].duration,
-            most_lag=params.most_lag * longest,
-            patience=params.patience * longest,
-            reach=context.reach,
-            memory=params.memory,
+            _core.Horizon(
+                pacemaker=pacemaker,
+                lag=laps[pacemaker].duration,
+                most_lag=params.most_lag * longest,
+                patience=params.patience * longest,
+                reach=context.reach,
+                memory=params.memory,
+            ),
             rule=NATIVE_RULES.index(rule),
             loss=np.array([max(LAP_LOSS // lap.duration, 1) for lap in laps], np.int64),
-            vertex_row=None if rows is None else rows.vertex,
-            edge_row=None if rows is None else rows.edge,
-            first=None if rows is None else rows.first,
-            excluded=None if rows is None else rows.excluded,
+            rows=native_rows(rows),
         )
 
     @property

@@ -20,7 +20,6 @@ from rightofway.precedence import (
     DelaySample,
     Execution,
     graph_on,
-    rights_in,
 )
 
 Times = NDArray[np.int64]  # a time for each visit [ticks]; shape (N,)
@@ -99,7 +98,7 @@ class Forecast:
         """Yield the unused rights of way, in the order of planned times."""
         lengths = np.diff(self.adg.first_visit)
         robot = np.repeat(np.arange(len(lengths)), lengths)
-        first, second = rights_in(self.adg.order).T
+        first, second = self.adg.order.T
         unused = ~self.booked[second] & (robot[first] != robot[second])
         first, second = first[unused], second[unused]
         in_order = np.argsort(self.adg.planned[second], kind="stable")

@@ -24,7 +24,7 @@ from rightofway.model import NEVER, ExecutionTrace
 from rightofway.planners import Deadline
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.task import Task
-from rightofway.precedence import ActionDependencyGraph, RunBatch, rights_in
+from rightofway.precedence import ActionDependencyGraph, RunBatch
 
 HORIZON = 2
 """Delays later than this multiple of the makespan, planned or actual, are ignored."""
@@ -198,7 +198,7 @@ def _switched(forecast: Forecast) -> ActionDependencyGraph | None:
     LocalSearch(task, forecast.graph, lambda visit: not booked[visit]).descend()
     order = adg.order_at(forecast.times())
     # A visit that has begun must not wait for one that has not.
-    first, second = rights_in(order).T
+    first, second = order.T
     is_allowed = booked[first[booked[second]]].all()
     if np.array_equal(order, adg.order) or not is_allowed:
         forecast.graph.rollback(mark)

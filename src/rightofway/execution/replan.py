@@ -99,9 +99,9 @@ def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Co
     is_driving = forecast.is_driving(robot)
     if is_driving and forecast.broken:
         # Towards a free vertex, the robot continues as if it had a booking; else it may turn back.
-        other = int(adg.order[first + index + 1])
+        before = adg.comes_after(first + index + 1)
         is_driving = False
-        index += other < 0 or bool(forecast.entered[other + 1])
+        index += all(forecast.entered[other + 1] for other in before)
     ends = forecast.graph.enter(first + index) + forecast.graph.routes[robot].dwell[index]
     begun = sum(at <= index for at in route.serves)
     return Commitment(

@@ -1,6 +1,16 @@
 """The waist of the native core: its twin of a problem, and what it takes beside."""
 
-from rightofway.native.bookings import BookedRows, ClosedPlaces
-from rightofway.native.problem import bound, compiler, tracks_of
+from rightofway.native.bookings import BookedRows, ClosedPlaces, native_closures, native_rows
+from rightofway.native.problem import bound, compiler, roads_of, rules_of, tracks_of
 
-__all__ = ["BookedRows", "ClosedPlaces", "bound", "compiler", "tracks_of"]
+__all__ = [
+    "BookedRows",
+    "ClosedPlaces",
+    "bound",
+    "compiler",
+    "native_closures",
+    "native_rows",
+    "roads_of",
+    "rules_of",
+    "tracks_of",
+]

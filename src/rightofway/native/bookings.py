@@ -9,6 +9,7 @@ from itertools import accumulate
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway import _core
 from rightofway.model import Lap, Route, Scenario, Tick
 from rightofway.model.passed_zones import visit_rows
 
@@ -88,10 +89,6 @@ class BookedRows:
             excluded=resources.excluded,
         )
 
-    def arrays(self) -> tuple[NDArray[np.int32], ...]:
-        """Return the arrays as kernels take them: the rows, and the lists of excluded rows."""
-        return self.vertex, self.edge, self.first, self.excluded
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ClosedPlaces:
@@ -104,14 +101,11 @@ class ClosedPlaces:
         entries ``first[k]`` to ``first[k + 1]`` (exclusive); int32, shape (2 N + 1,).
     start, end
         When each entry is closed [ticks]; int64, shape (K,).
-    drive
-        Ticks of the drive into each visit; int64, shape (N,).
     """
 
     first: NDArray[np.int32]
     start: NDArray[np.int64]
     end: NDArray[np.int64]
-    drive: NDArray[np.int64]
 
     @classmethod
     def of(cls, scenario: Scenario, routes: Sequence[Route]) -> ClosedPlaces | None:
@@ -139,9 +133,17 @@ class ClosedPlaces:
             first=np.array([0, *accumulate(map(len, lists))], np.int32),
             start=np.array([start for start, _ in times], np.int64),
             end=np.array([end for _, end in times], np.int64),
-            drive=np.array([ticks for route in routes for ticks in route.drive], np.int64),
         )
 
-    def arrays(self) -> tuple[NDArray[np.int32] | NDArray[np.int64], ...]:
-        """Return the arrays as kernels take them."""
-        return self.first, self.start, self.end, self.drive
+
+def native_rows(rows: BookedRows | None) -> _core.VisitRows | None:
+    """Return what visits book as kernels take it."""
+    if rows is None:
+        return None
+    lists = _core.ExcludedRows(rows.first, rows.excluded)
+    return _core.VisitRows(lists, rows.vertex, rows.edge)
+
+
+def native_closures(closed: ClosedPlaces | None) -> _core.VisitClosures | None:
+    """Return when the places of visits are closed as kernels take it."""
+    return None if closed is None else _core.VisitClosures(closed.first, closed.start, closed.end)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import atexit
 from itertools import accumulate, chain, pairwise
-from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -14,6 +13,7 @@ from rightofway import _core
 from rightofway.errors import InputError, shown
 from rightofway.model import Problem, Tick, Track
 from rightofway.model.turning import Turning
+from rightofway.site import Roadmap
 
 _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
 atexit.register(_BOUND.clear)  # a problem that lives to the end takes no native object along
@@ -45,35 +45,44 @@ def bound(problem: Problem) -> _core.Problem:
         number: dict[tuple[Tick, ...], int] = {}
         pace_of = [number.setdefault(robot.edge_ticks, len(number)) for robot in robots]
         stages = [stage for robot in robots for stage in robot.stages]
-        turning = _turning(problem)
         native = _BOUND[problem] = _core.Problem(
-            indptr=roadmap.indptr,
-            heads=roadmap.heads,
-            length_class=roadmap.length_class,
-            paces=np.array(list(chain.from_iterable(number)), np.int32),
-            pace_of=np.array(pace_of, np.int32),
-            home=np.array([robot.home for robot in robots], np.int32),
-            first_stage=np.array([0, *accumulate(len(robot.stages) for robot in robots)], np.int32),
-            stage_vertex=np.array([stage.vertex for stage in stages], np.int32),
-            stage_work=np.array([stage.work for stage in stages], np.int64),
-            stage_turn=np.array([stage.turn for stage in stages], np.int64),
-            n_classes=len(roadmap.lengths),
-            headway=problem.headway,
-            books_ahead=problem.books_ahead,
-            rotations=problem.rotations,
-            size_of=None if sizes is None else sizes.size_of,
-            first=None if sizes is None else sizes.first,
-            excluded=None if sizes is None else sizes.excluded,
+            roads_of(roadmap),
+            _core.Robots(
+                paces=np.array(list(chain.from_iterable(number)), np.int32),
+                pace_of=np.array(pace_of, np.int32),
+                home=np.array([robot.home for robot in robots], np.int32),
+                first_stage=np.array(
+                    [0, *accumulate(len(robot.stages) for robot in robots)], np.int32
+                ),
+                stage_vertex=np.array([stage.vertex for stage in stages], np.int32),
+                stage_work=np.array([stage.work for stage in stages], np.int64),
+                stage_turn=np.array([stage.turn for stage in stages], np.int64),
+                size_of=None if sizes is None else sizes.size_of,
+            ),
+            rules_of(problem),
+            lists=None if sizes is None else _core.ExcludedRows(sizes.first, sizes.excluded),
+            turning=_turning(problem),
             surcharges=np.array(robots[0].surcharges, np.int64) if robots[0].surcharges else None,
-            closed_row=None if closed is None else closed.row,
-            closed_from=None if closed is None else closed.start,
-            closed_until=None if closed is None else closed.end,
-            **turning,
+            closures=(
+                None if closed is None else _core.Closures(closed.row, closed.start, closed.end)
+            ),
         )
     return native
 
 
-def _turning(problem: Problem) -> dict[str, Any]:
+def rules_of(problem: Problem) -> _core.BookingRules:
+    """Return how the visits of a problem are booked."""
+    return _core.BookingRules(int(problem.headway), problem.books_ahead, problem.rotations)
+
+
+def roads_of(roadmap: Roadmap) -> _core.Roads:
+    """Return the graph of a roadmap."""
+    return _core.Roads(
+        roadmap.indptr, roadmap.heads, roadmap.length_class, n_classes=len(roadmap.lengths)
+    )
+
+
+def _turning(problem: Problem) -> _core.Turning | None:
     """Return how long robots turn; robots of one turn rate are a class."""
     robots = problem.itineraries
     number: dict[Turning, int] = {}
@@ -82,16 +91,15 @@ def _turning(problem: Problem) -> dict[str, Any]:
     ]
     classes = list(number)
     if not classes or not len(classes[0].ticks):
-        return {}  # or no edge follows another
+        return None  # or no edge follows another
     angles = classes[0].angles
-    ticks = np.concatenate([one.ticks for one in classes])
-    return {
-        "turn_offset": angles.offset,
-        "turn_kind": angles.kind,
-        "turn_class": np.array(class_of, np.int32),
-        "turn_ticks": ticks.astype(np.int32),
-        "n_turn_kinds": len(angles.angles),
-    }
+    return _core.Turning(
+        angles.offset,
+        angles.kind,
+        np.array(class_of, np.int32),
+        np.concatenate([one.ticks for one in classes]).astype(np.int32),
+        n_kinds=len(angles.angles),
+    )
 
 
 def tracks_of(

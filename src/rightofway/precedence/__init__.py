@@ -8,7 +8,6 @@ from rightofway.precedence.adg import (
     RunBatch,
     Stoppage,
     order_of,
-    rights_in,
 )
 from rightofway.precedence.graph import (
     Meeting,
@@ -56,7 +55,6 @@ __all__ = [
     "graph_on",
     "order_of",
     "period_curve",
-    "rights_in",
     "sensitivity",
     "shared_segment",
     "tight_arcs",

@@ -15,14 +15,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate, chain, pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import NEVER, Route, Scenario, Tick, Track, route_of
-from rightofway.native import BookedRows, ClosedPlaces
+from rightofway.native import (
+    BookedRows,
+    ClosedPlaces,
+    native_closures,
+    native_rows,
+    rules_of,
+)
 from rightofway.precedence.graph import Pairs, graph_on
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
@@ -165,9 +171,9 @@ class ActionDependencyGraph:
     routes
         The routes of the tracks, if known already.
     order
-        For each visit the one directly before it at its vertex, -1 for none; int32[N]. Where robots
-        have a size, all pairs (first, second): the second starts when the first has ended;
-        int32[M, 2], sorted by the second. Without, the order of the plan.
+        Pairs (first, second): the second visit starts when the first has ended; int32[M, 2], sorted
+        by the second. For points, the visits that follow each other at a vertex. Without, the order
+        of the plan.
     since
         When each visit was given its right of way; it begins no sooner [ticks]; int64[N]. Without,
         tick 0.
@@ -189,7 +195,7 @@ class ActionDependencyGraph:
         delay_model: DelayModel,
         *,
         routes: Sequence[Route] | None = None,
-        order: NDArray[np.int32] | None = None,
+        order: Pairs | None = None,
         since: NDArray[np.int64] | None = None,
     ) -> None:
         itineraries = scenario.problem.itineraries
@@ -208,29 +214,19 @@ class ActionDependencyGraph:
         self.since = np.zeros(len(self.vertex), np.int64) if since is None else since
         self.dwell = np.array([ticks for route in self.routes for ticks in route.dwell], np.int64)
         self.drive = np.array([ticks for route in self.routes for ticks in route.drive], np.int64)
+        first, second = (column.copy() for column in self.order.T)
+        begins = np.searchsorted(second, np.arange(len(self.vertex) + 1)).astype(np.int32)
         self._kernel = _core.ActionDependencyGraph(
-            self.first_visit,
-            self.vertex,
-            self.planned,
-            self.dwell,
-            self.drive,
-            self._before(),
-            self.since,
-            int(scenario.problem.headway),
-            scenario.rules.books_ahead,
-            np.array(delay_model.pace, np.float64),
-            np.array([KINDS.index(kind) for kind, _, _ in delay_model.random], np.int32),
-            np.array([a for _, a, _ in delay_model.random], np.float64),
-            np.array([b for _, _, b in delay_model.random], np.float64),
-            np.array([0, *accumulate(map(len, delay_model.stoppages))], np.int32),
-            np.array([one.tick for one in chain(*delay_model.stoppages)], np.int64),
-            np.array([one.ticks for one in chain(*delay_model.stoppages)], np.int64),
-            *self._rows_and_rights(),
-            *self._closed(),
+            rules_of(scenario.problem),
+            _core.Routes(self.first_visit, self.vertex, self.dwell, self.drive),
+            _core.Order(self.planned, begins, first, self.since),
+            _kernel_of(delay_model),
+            native_rows(BookedRows.of(scenario, [route.vertices for route in self.routes])),
+            native_closures(ClosedPlaces.of(scenario, self.routes)),
         )
 
-    def order_at(self, when: NDArray[np.int64]) -> NDArray[np.int32]:
-        """Return the order of visits, as above, that take place at some times; int64[N].
+    def order_at(self, when: NDArray[np.int64]) -> Pairs:
+        """Return the order, as above, of visits that take place at some times; int64[N].
 
         Raises
         ------
@@ -245,25 +241,8 @@ class ActionDependencyGraph:
         rights = graph.rights()
         return rights[np.lexsort((rights[:, 0], rights[:, 1]))]
 
-    def _before(self) -> NDArray[np.int32]:
-        return self.order if self.order.ndim == 1 else np.full(len(self.vertex), -1, np.int32)
-
-    def _rows_and_rights(self) -> tuple[Any, ...]:
-        """Return what the kernel takes where robots have a size."""
-        rows = BookedRows.of(self.scenario, [route.vertices for route in self.routes])
-        if rows is None:
-            return (None,) * 6
-        first, second = (column.copy() for column in self.order.T)
-        begins = np.searchsorted(second, np.arange(len(self.vertex) + 1)).astype(np.int32)
-        return begins, first, *rows.arrays()
-
-    def _closed(self) -> tuple[Any, ...]:
-        """Return what the kernel takes where something is closed for a while."""
-        closed = ClosedPlaces.of(self.scenario, self.routes)
-        return () if closed is None else (closed.first, closed.start, closed.end)
-
     def reordered(
-        self, order: NDArray[np.int32], since: NDArray[np.int64] | None = None
+        self, order: Pairs, since: NDArray[np.int64] | None = None
     ) -> ActionDependencyGraph:
         """Return the same routes with another order of visits; `order` and `since` as above."""
         return ActionDependencyGraph(
@@ -295,6 +274,11 @@ class ActionDependencyGraph:
         """Run the plan once, by right of way or by the clock."""
         return Execution(*self._kernel.execute(*delay_sample, clock))
 
+    def comes_after(self, visit: int) -> list[int]:
+        """Return the visits that have to end before a visit starts."""
+        first, second = self.order.T
+        return list(map(int, first[slice(*np.searchsorted(second, [visit, visit + 1]))]))
+
     def robot_of(self, visit: int) -> int:
         """Return the robot of a visit."""
         return int(np.searchsorted(self.first_visit, visit, side="right")) - 1
@@ -310,8 +294,8 @@ class ActionDependencyGraph:
         return tuple(tracks)
 
 
-def order_of(vertex: NDArray[np.int32], when: NDArray[np.int64]) -> NDArray[np.int32]:
-    """Return for each visit the one directly before it at its vertex, -1 for none; int32[N].
+def order_of(vertex: NDArray[np.int32], when: NDArray[np.int64]) -> Pairs:
+    """Return pairs of visits that follow each other at a vertex; int32[M, 2], sorted by the second.
 
     Parameters
     ----------
@@ -321,21 +305,20 @@ def order_of(vertex: NDArray[np.int32], when: NDArray[np.int64]) -> NDArray[np.i
         A time for each visit; visits at one vertex take place in its order; int64[N].
     """
     order = np.lexsort((when, vertex)).astype(np.int32)
-    before = np.full(len(vertex), -1, np.int32)
     follows = vertex[order[1:]] == vertex[order[:-1]]
-    before[order[1:][follows]] = order[:-1][follows]
-    return before
+    first, second = order[:-1][follows], order[1:][follows]
+    by_second = np.argsort(second)
+    return np.column_stack((first[by_second], second[by_second]))
 
 
-def rights_in(order: NDArray[np.int32]) -> Pairs:
-    """Return an order of visits as pairs (first, second); int32[M, 2], sorted by the second.
-
-    Parameters
-    ----------
-    order
-        As `ActionDependencyGraph` takes it.
-    """
-    if order.ndim > 1:
-        return order
-    second = np.flatnonzero(order >= 0).astype(np.int32)
-    return np.column_stack((order[second], second))
+def _kernel_of(delays: DelayModel) -> _core.DelayModel:
+    stoppages = list(chain(*delays.stoppages))
+    return _core.DelayModel(
+        np.array(delays.pace, np.float64),
+        np.array([KINDS.index(kind) for kind, _, _ in delays.random], np.int32),
+        np.array([a for _, a, _ in delays.random], np.float64),
+        np.array([b for _, _, b in delays.random], np.float64),
+        np.array([0, *accumulate(map(len, delays.stoppages))], np.int32),
+        np.array([one.tick for one in stoppages], np.int64),
+        np.array([one.ticks for one in stoppages], np.int64),
+    )

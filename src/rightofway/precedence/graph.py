@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import Route, Scenario, Tick, Track, route_of
-from rightofway.native import BookedRows, ClosedPlaces
+from rightofway.native import BookedRows, ClosedPlaces, native_closures, native_rows
 from rightofway.precedence.segments import (
     IncompatiblePair,
     Segment,
@@ -110,18 +110,17 @@ class PrecedenceGraph:
         self._first = np.concatenate(([0], np.cumsum(lengths))).astype(np.int32)
         self._robot = np.repeat(np.arange(len(routes)), lengths).tolist()
         self._last_dwells: int = sum(route.dwell[-1] for route in routes)
-        dwell = np.array([ticks for route in routes for ticks in route.dwell], np.int64)
-        drive = np.array([ticks for route in routes for ticks in route.drive], np.int64)
         self._kernel = _core.PrecedenceGraph(
-            self._first,
-            np.array([vertex for route in routes for vertex in route.vertices], np.int32),
-            dwell + np.append(drive[1:], 0),
-            drive if books_ahead else np.zeros_like(drive),
-            int(headway),
+            _core.BookingRules(int(headway), books_ahead),
+            _core.Routes(
+                self._first,
+                np.array([vertex for route in routes for vertex in route.vertices], np.int32),
+                np.array([ticks for route in routes for ticks in route.dwell], np.int64),
+                np.array([ticks for route in routes for ticks in route.drive], np.int64),
+            ),
             forbid_swaps,
-            np.ones(len(routes), np.uint8),
-            *((None,) * 4 if rows is None else rows.arrays()),
-            *((None,) * 4 if closed is None else closed.arrays()),
+            native_rows(rows),
+            native_closures(closed),
         )
 
     def visit(self, robot: int, index: int) -> Visit:

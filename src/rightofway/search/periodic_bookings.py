@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import NEVER, Itinerary, Lap, Resources, Stage, Tick, visits_of_laps
+from rightofway.native import roads_of
 from rightofway.search.distances import Distances
 from rightofway.site import Roadmap, VertexId
 
@@ -142,12 +143,12 @@ class PeriodicBookings:
     ) -> None:
         self.period = NEVER if period is None else period
         self._rows = rows
-        if rows is None:
-            self._kernel = _core.PeriodicBookings(n_vertices, period, int(headway), books_ahead)
-            return
-        first, excluded = rows.resources.first, rows.resources.excluded
+        lists = None if rows is None else rows.resources
         self._kernel = _core.PeriodicBookings(
-            len(first) - 1, period, int(headway), books_ahead, first, excluded
+            _core.BookingRules(int(headway), books_ahead),
+            n_vertices if lists is None else len(lists.first) - 1,
+            period,
+            None if lists is None else _core.ExcludedRows(lists.first, lists.excluded),
         )
 
     def _visits(self, robot: int, lap: Lap, count: int) -> tuple[Visits, NDArray[np.int32] | None]:
@@ -231,14 +232,14 @@ class PeriodicBookings:
         """
         rows = self._rows
         found = self._kernel.find_route(
-            trip.roadmap.indptr,
-            trip.roadmap.heads,
-            trip.roadmap.length_class,
-            trip.pace,
-            np.array([stage.vertex for stage in trip.stages], np.int32),
-            np.array([stage.work for stage in trip.stages], np.int64),
-            np.array([stage.turn for stage in trip.stages], np.int64),
-            list(trip.tables),
+            roads_of(trip.roadmap),
+            _core.RoundTrip(
+                trip.pace,
+                np.array([stage.vertex for stage in trip.stages], np.int32),
+                np.array([stage.work for stage in trip.stages], np.int64),
+                np.array([stage.turn for stage in trip.stages], np.int64),
+                list(trip.tables),
+            ),
             phase,
             time_limit,
             0 if rows is None else rows.resources.vertex_row(rows.robots[robot], 0),
