@@ -177,7 +177,7 @@ def test_numbers_are_those_that_a_user_meant(tmp_path: Path) -> None:
     path = edited(
         tmp_path / "numbers.xlsx",
         put("robots", "E2", 0.333333333333333), put("robots", "E3", "0.25"),
-        put("robots", "H3", "2"), put("robots", "A3", 7),
+        put("robots", "J3", "2"), put("robots", "A3", 7),
     )  # fmt: skip
     first, second = rightofway.load(path).robots
     assert (first.speed, second.speed) == (Fraction(1, 3), Fraction(1, 4))
@@ -187,8 +187,8 @@ def test_numbers_are_those_that_a_user_meant(tmp_path: Path) -> None:
 def test_rules_hold_rules_units_and_what_belongs_to_the_map(tmp_path: Path) -> None:
     path = edited(
         tmp_path / "rules.xlsx",
-        put("rules", "B2", "both"), put("rules", "B7", False), put("rules", "B8", 2),
-        put("rules", "B11", "m"), put("rules", "B12", "s"),
+        put("rules", "B2", "both"), put("rules", "B7", False), put("rules", "B11", 2),
+        put("rules", "B14", "m"), put("rules", "B15", "s"),
     )  # fmt: skip
     scenario = rightofway.load(path)
     assert (scenario.rules.occupancy, scenario.rules.rotations) == ("both", False)
@@ -240,11 +240,11 @@ BROKEN: dict[str, tuple[list[Edit], list[str]]] = {
         ["map!A1:B1: these cells are merged (unmerge them)"],
     ),
     "a heading": (
-        [put("robots", "E1", "sped"), put("robots", "I1", "name"), put("robots", "K2", "x")],
+        [put("robots", "E1", "sped"), put("robots", "M1", "name"), put("robots", "N2", "x")],
         [
             "robots!E1: 'sped' is no key of a robot (did you mean speed?)",
-            "robots!I1: the column 'name' is given twice (take one out)",
-            "robots!K2: a value without a heading (take it out)",
+            "robots!M1: the column 'name' is given twice (take one out)",
+            "robots!N2: a value without a heading (take it out)",
         ],
     ),
     "a rule": ([put("rules", "A3", "hedway")], ["rules!A3: 'hedway' is no rule (did you mean"]),

@@ -1,10 +1,14 @@
 """What is written is read back the same, whatever it is."""
 
+import csv
 import tempfile
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
+import pytest
 from hypothesis import reject
 from hypothesis import strategies as st
 
@@ -32,10 +36,12 @@ from rightofway.model import (
     Tick,
     Track,
 )
+from rightofway.model.attributes import Attribute
+from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
 from rightofway.values import exact, written
 from tests.builders.any_fleet import any_fleet
-from tests.builders.laws import law
+from tests.builders.laws import law, leave
 
 names = st.one_of(
     st.text(min_size=1, max_size=8).filter(str.isprintable),
@@ -177,6 +183,91 @@ def test_scenario_documents(scenario: Scenario) -> None:
 @law(any_fleet())
 def test_fleets_of_any_kind(scenario: Scenario) -> None:
     assert scenario_of(dump_scenario(scenario)) == scenario
+
+
+VALUES: dict[str, st.SearchStrategy[Any]] = {
+    "positive": lengths,
+    "not negative": times,
+    "turning": times,
+    "count": st.integers(1, 3),
+    "name": names,
+    "truth": st.booleans(),
+}
+"""Values of each kind of attribute."""
+
+
+def attributes(draw: st.DrawFn, table: Sequence[Attribute]) -> dict[str, Any]:
+    """Return values of some of the attributes of a table."""
+    some = draw(st.sets(st.sampled_from(table), max_size=3))
+    return {
+        it.name: draw(
+            VALUES[it.kind] if isinstance(it.kind, str) else st.sampled_from(sorted(it.words))
+        )
+        for it in some
+    }
+
+
+@st.composite
+def with_attributes(draw: st.DrawFn) -> Scenario:
+    """Return a fleet of any kind whose robots and rules have any attributes of the tables."""
+    fleet = draw(any_fleet())
+    robots = (replace(it, **attributes(draw, ROBOT_ATTRIBUTES)) for it in fleet.robots)
+    rules = replace(fleet.rules, **attributes(draw, RULE_ATTRIBUTES))
+    try:
+        return replace(fleet, robots=tuple(robots), rules=rules)
+    except InputError:  # laps without a way back, a clearance for points, homes too near
+        reject()
+        raise
+
+
+def reread(scenario: Scenario, name: str) -> Scenario:
+    """Return what a file of a scenario says; a CSV file is the table of its robots."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, name)
+        if not name.endswith(".csv"):
+            write_scenario(scenario, path)
+            return load(path)
+        document = dump_scenario(scenario)
+        keys = sorted({key for robot in document["robots"] for key in robot})
+        stops = range(1, 1 + max(len(robot.stops) for robot in scenario.robots))
+        heads = [key for key in keys if key not in {"stops", "target", "work"}]
+        heads += [f"{what} {k}" for k in stops for what in ("stop", "work")]
+        with path.open("w", encoding="utf-8", newline="") as file:
+            table = csv.writer(file)
+            table.writerow(heads)
+            for robot in document["robots"]:
+                row = dict(robot)
+                trip = row.pop("stops", None) or [{"at": row["target"], "work": row["work"]}]
+                for k, stop in enumerate(trip, 1):
+                    row |= {f"stop {k}": stop["at"], f"work {k}": stop["work"]}
+                table.writerow([row.get(head, "") for head in heads])
+        return scenario_of({**document, "robots": {"table": name}}, Path(folder))
+
+
+def has_a_sheet_for_all(scenario: Scenario) -> bool:
+    """Return whether a workbook takes the map: it has no sheet for zones and named places."""
+    document = dump_scenario(scenario)["map"]
+    return not {*document, *document.get("roadmap", ())} & {
+        "zones", "stations", "parking", "charging", "sides", "obstacles", "picture"
+    }  # fmt: skip
+
+
+def fits_into_cells(name: str) -> bool:
+    """Return whether a cell of a table holds a name: not one that begins or ends with a blank."""
+    return name == name.strip()
+
+
+@law(with_attributes(), st.sampled_from(["a.yaml", "a.json", "a.xlsx", "a.csv"]))
+def test_no_format_loses_an_attribute(scenario: Scenario, name: str) -> None:
+    """A format that cannot hold a part of a scenario refuses it; none drops an attribute."""
+    if name == "a.xlsx" and not has_a_sheet_for_all(scenario):
+        with pytest.raises(InputError, match="a workbook has no place for"):
+            reread(scenario, name)
+        return
+    types = [robot.type for robot in scenario.robots if robot.type is not None]
+    if name in {"a.xlsx", "a.csv"} and not all(map(fits_into_cells, types)):
+        leave("blanks at the ends of cells")
+    assert reread(scenario, name) == scenario
 
 
 @law(scenarios(), st.sampled_from(["a.yaml", "a.json"]))

@@ -17,7 +17,8 @@ from rightofway.io import dump_scenario, load, scenario_of
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT, checked_format
 from rightofway.io.text import parse_toml, read_text
-from rightofway.model import Scenario
+from rightofway.model import Rules, Scenario
+from rightofway.model.robot import RULE_ATTRIBUTES
 from rightofway.planners import find
 from rightofway.values import written
 
@@ -257,12 +258,11 @@ def _with_rows(document: MapCasesDocument, index: int, counts: tuple[int, ...], 
 
 def _fleet(document: SuiteFleetDocument) -> _Fleet:
     """Return the name and the data of a fleet."""
-    given = document.given("occupancy", "headway", "turn", "laps", "rotations", "turn_rate")
-    if document.ends is not None:
-        given["return"] = document.ends
+    given = document.own(Rules)
     rules = {
-        key: written(value) if isinstance(value, Fraction) else value
-        for key, value in sorted(given.items())
+        it.key: written(own) if isinstance(own := given[it.name], Fraction) else own
+        for it in sorted(RULE_ATTRIBUTES, key=lambda it: it.key)
+        if it.name in given
     }
     speeds = tuple(document.speeds or (Fraction(1),))
     _try_out(speeds, rules)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import (
     AfterValidator,
@@ -20,10 +20,12 @@ from pydantic import (
     PlainValidator,
     ValidationInfo,
     WithJsonSchema,
+    create_model,
 )
 from pydantic_core import CoreSchema, core_schema
 
 from rightofway.errors import is_printable, shown
+from rightofway.model.attributes import attributes_of
 from rightofway.site import VertexId
 from rightofway.site.places import as_place
 from rightofway.values import COORDINATE_DIGITS, PATTERN, coordinate, exact
@@ -76,6 +78,10 @@ class Document(BaseModel):
     def given(self, *fields: str) -> dict[str, Any]:
         """Return those of the fields that were written."""
         return {name: getattr(self, name) for name in fields if name in self.model_fields_set}
+
+    def own(self, owner: type) -> dict[str, Any]:
+        """Return those of the attributes of robots or rules that were written."""
+        return self.given(*(it.name for it in attributes_of(owner)))
 
 
 def optional(description: str, **limits: Any) -> Any:
@@ -213,3 +219,38 @@ Place = Annotated[
 Lines = Annotated[
     list[str], BeforeValidator(_lines), WithJsonSchema({"anyOf": [{"type": "string"}, _TEXTS]})
 ]
+
+KINDS: dict[str, Any] = {
+    "positive": Positive,
+    "not negative": NotNegative,
+    "turning": Turning,
+    "count": Count,
+    "name": Name,
+    "truth": bool,
+}
+"""How files hold the kinds of values of attributes; words are a ``Literal`` of their own."""
+
+D = TypeVar("D", bound=type[Document])
+
+
+def with_attributes(owner: type, but: str = "") -> Callable[[D], D]:
+    """Return a decorator that adds the attributes of robots or rules to a document, ``but`` one."""
+
+    def add(document: D) -> D:
+        fields: dict[str, Any] = {
+            it.name: (
+                KINDS.get(it.kind, it.kind),
+                optional(it.description, **({} if it.key == it.name else {"alias": it.key})),
+            )
+            for it in attributes_of(owner)
+            if it.name != but
+        }
+        return create_model(  # type: ignore[return-value]
+            document.__name__,
+            __base__=document,
+            __module__=document.__module__,
+            __doc__=document.__doc__,
+            **fields,
+        )
+
+    return add

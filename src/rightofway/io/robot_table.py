@@ -17,6 +17,7 @@ from typing import Any
 from rightofway.errors import InputError, InputFault, nearest, shown
 from rightofway.io.faults import Faults, blaming
 from rightofway.io.text import parse_yaml, read_text
+from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 
 NOTES = {"note", "notes", "hint", "comment", "remark"}
 """Columns that are not read."""
@@ -27,7 +28,7 @@ STOP = re.compile(r"(stop|work) ?([1-9][0-9]?)")
 PLACE_KEYS = {"home", "target", "at"}
 """Keys whose values are places."""
 
-WORD_KEYS = {"name", "type", "return"}
+WORD_KEYS = {"name", *(it.key for it in (*ROBOT_ATTRIBUTES, *RULE_ATTRIBUTES) if it.is_text)}
 """Keys whose values are text, also where they look like numbers."""
 
 DECIMAL_COMMA = re.compile(r"[+-]?(0,[0-9]+|[0-9]+,([0-9]{1,2}|[0-9]{4,}))")

@@ -6,7 +6,7 @@ different sizes, where they lie within a cell of each other.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import Any
@@ -14,8 +14,10 @@ from typing import Any
 import numpy as np
 
 from rightofway.model import Robot, Scenario
+from rightofway.model.attributes import Attribute
 from rightofway.model.closures import Closure
 from rightofway.model.place_names import PlaceNames
+from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 from rightofway.quantities import Quantities, decimal
 from rightofway.site import Roadmap
 
@@ -125,10 +127,7 @@ def _robot(
     ]
     if works[0] != works[1]:
         yield "work", works[0], works[1]
-    for key, write in ROBOT.items():
-        values = [write(before, getattr(old, key)), write(after, getattr(new, key))]
-        if values[0] != values[1]:
-            yield key.replace("_", " "), values[0], values[1]
+    yield from _attributes(ROBOT_ATTRIBUTES, before, old, after, new)
 
 
 def _time(scenario: Scenario, value: Fraction) -> str:
@@ -138,48 +137,35 @@ def _time(scenario: Scenario, value: Fraction) -> str:
     return text.removesuffix(" time units").removesuffix(" time unit")
 
 
-def _value(scenario: Scenario, value: Any) -> str:
-    """Return a value of a rule, or of a robot that may leave it to the rules."""
+def _value(scenario: Scenario, attribute: Attribute, value: Any) -> str:
+    """Return a value of a robot or a rule as people read it."""
     if value is None:
-        return "as the rules say"
+        return attribute.unset
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if isinstance(value, Fraction):
-        return _time(scenario, value)
-    return str(value)
+    if attribute.measure == "speed":
+        return scenario.quantities.speed(value)
+    if attribute.measure == "length":
+        return scenario.quantities.length(value)
+    if isinstance(value, str):
+        return value
+    return _time(scenario, value) if attribute.measure == "time" else decimal(value)
 
 
-def _number(_scenario: Scenario, value: Any) -> str:
-    return "as the rules say" if value is None else decimal(value)
-
-
-ROBOT: dict[str, Callable[[Scenario, Any], str]] = {
-    "speed": lambda scenario, value: scenario.quantities.speed(value),
-    "radius": lambda scenario, value: scenario.quantities.length(value),
-    "turn": _value,
-    "ends": _value,
-    "laps": _number,
-    "type": lambda _scenario, value: value or "none",
-    "turn_rate": _number,
-}
-"""How the values of a robot are written, apart from its places."""
-
-RULES: dict[str, Callable[[Scenario, Any], str]] = {
-    "clearance": lambda scenario, value: scenario.quantities.length(value),
-    "laps": _number,
-    "turn_rate": lambda _scenario, value: "none" if value is None else decimal(value),
-    "turn": lambda scenario, value: "as usual" if value is None else _value(scenario, value),
-}
-"""How the values of rules are written that are no times, yes or no, or words."""
+def _attributes(
+    attributes: Iterable[Attribute], before: Scenario, old: Any, after: Scenario, new: Any
+) -> Iterator[tuple[str, str, str]]:
+    """Yield what differs between two robots or rules: name and both values in words."""
+    for it in attributes:
+        was = _value(before, it, getattr(old, it.name))
+        now = _value(after, it, getattr(new, it.name))
+        if was != now:
+            yield it.name.replace("_", " "), was, now
 
 
 def _rules(before: Scenario, after: Scenario) -> Iterator[Change]:
-    for field in fields(before.rules):
-        write = RULES.get(field.name, _value)
-        old = write(before, getattr(before.rules, field.name))
-        new = write(after, getattr(after.rules, field.name))
-        if old != new:
-            yield Change(what="rules", key=field.name.replace("_", " "), before=old, after=new)
+    for key, was, now in _attributes(RULE_ATTRIBUTES, before, before.rules, after, after.rules):
+        yield Change(what="rules", key=key, before=was, after=now)
 
 
 def _map(before: Scenario, after: Scenario) -> Iterator[Change]:

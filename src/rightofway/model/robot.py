@@ -2,23 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
 from rightofway.errors import shown
+from rightofway.model.attributes import attribute, attributes_of, readers_of
 from rightofway.site import VertexId
-from rightofway.values import (
-    coerced,
-    number,
-    optional,
-    text,
-    truth,
-    turning,
-    vertex,
-    whole_number,
-    word_of,
-)
+from rightofway.values import coerced, number, text, vertex
 
 Turn = Literal["cell"] | Fraction
 """Turning time at a stop: one cell's crossing time of the robot, or a time [time unit]."""
@@ -32,6 +23,10 @@ Occupancy = Literal["one", "both"]
 
 Walls = Literal["free", "strict"]
 """Whether robots wider than a cell keep out of the walls of a grid."""
+
+
+TURNING = "turning time at a stop [time unit], or cell: one cell's crossing time"
+RETURN = "home, or none: robots stay at their last stop"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,16 +67,16 @@ class Robot:
         The places to work at, in order; at least one.
     speed
         Length units per time unit, positive; any `Number`, kept exactly.
+    radius
+        Radius of the circle that it needs [length unit], not negative; 0 for a point.
+    type
+        The name of its type, by which edges and vertices may be barred; None for none.
     turn
         Turning time at each stop, if it differs from the rules.
     ends
         Whether it returns home, if that differs from the rules.
     laps
         How often it makes its round trip, if that differs from the rules.
-    radius
-        Radius of the circle that it needs [length unit], not negative; 0 for a point.
-    type
-        The name of its type, by which edges and vertices may be barred; None for none.
     turn_rate
         How fast it turns on the spot [degrees per time unit], positive, if that differs from the
         rules.
@@ -95,13 +90,43 @@ class Robot:
     name: str
     home: VertexId
     stops: tuple[Stop, ...]
-    speed: Fraction = Fraction(1)
-    turn: Turn | None = None
-    ends: TripEnd | None = None
-    laps: int | None = None
-    radius: Fraction = Fraction(0)
-    type: str | None = None
-    turn_rate: Fraction | None = None
+    speed: Fraction = field(
+        default=Fraction(1),
+        metadata=attribute(
+            "positive",
+            "length units per time unit, above 0; 1 by default",
+            measure="speed",
+            always=True,
+        ),
+    )
+    radius: Fraction = field(
+        default=Fraction(0),
+        metadata=attribute(
+            "not negative",
+            "radius of the circle that it needs [length unit]",
+            measure="length",
+        ),
+    )
+    type: str | None = field(
+        default=None,
+        metadata=attribute(
+            "name",
+            "the name of its type, for edges and vertices that are barred for types",
+            unset="none",
+        ),
+    )
+    turn: Turn | None = field(default=None, metadata=attribute("turning", TURNING, measure="time"))
+    ends: TripEnd | None = field(default=None, metadata=attribute(TripEnd, RETURN, key="return"))
+    laps: int | None = field(
+        default=None, metadata=attribute("count", "how often it makes its round trip, 1 or more")
+    )
+    turn_rate: Fraction | None = field(
+        default=None,
+        metadata=attribute(
+            "positive",
+            "how fast it turns on the spot [degrees per time unit]; by default in no time",
+        ),
+    )
 
     def __post_init__(self) -> None:
         coerced(
@@ -110,13 +135,7 @@ class Robot:
             name=text,
             home=vertex,
             stops=_stops,
-            speed=number,
-            turn=optional(turning),
-            ends=optional(word_of(TripEnd)),
-            laps=optional(whole_number),
-            radius=number,
-            type=optional(text),
-            turn_rate=optional(number),
+            **readers_of(Robot),
         )
 
     def __repr__(self) -> str:
@@ -152,12 +171,12 @@ class Rules:
         Whether three or more robots may move round a circle all at one instant.
     clearance
         Least distance between two robots of which one has a radius [length unit].
-    turn_rate
-        How fast robots turn on the spot [degrees per time unit], positive. None: a change of
-        heading takes no time.
     walls
         ``strict``: on a grid, robots do not drive where they reach into a blocked cell or over the
         border. ``free``: robots with a radius above half a cell may.
+    turn_rate
+        How fast robots turn on the spot [degrees per time unit], positive. None: a change of
+        heading takes no time.
 
     Raises
     ------
@@ -165,32 +184,75 @@ class Rules:
         With every value of a wrong kind; the ranges are checked by `Scenario`.
     """
 
-    occupancy: Occupancy | None = None
-    headway: Fraction = Fraction(0)
-    turn: Turn | None = None
-    ends: TripEnd = "home"
-    laps: int = 1
-    rotations: bool = True
-    clearance: Fraction = Fraction(0)
-    turn_rate: Fraction | None = None
-    walls: Walls = "free"
+    occupancy: Occupancy | None = field(
+        default=None,
+        metadata=attribute(
+            Occupancy,
+            "one, or both: a robot books the next place before it starts to drive there",
+            always=True,
+        ),
+    )
+    headway: Fraction = field(
+        default=Fraction(0),
+        metadata=attribute(
+            "not negative",
+            "least time between two robots at a vertex [time unit]",
+            measure="time",
+            always=True,
+        ),
+    )
+    turn: Turn | None = field(
+        default=None, metadata=attribute("turning", TURNING, measure="time", unset="as usual")
+    )
+    ends: TripEnd = field(
+        default="home", metadata=attribute(TripEnd, RETURN, key="return", always=True)
+    )
+    laps: int = field(
+        default=1,
+        metadata=attribute(
+            "count", "how often each robot makes its round trip, 1 or more", always=True
+        ),
+    )
+    rotations: bool = field(
+        default=True,
+        metadata=attribute(
+            "truth", "true or false: may a ring of robots move on at one instant?", always=True
+        ),
+    )
+    clearance: Fraction = field(
+        default=Fraction(0),
+        metadata=attribute(
+            "not negative",
+            "least distance between two robots of which one has a radius [length unit]",
+            measure="length",
+        ),
+    )
+    walls: Walls = field(
+        default="free",
+        metadata=attribute(
+            Walls, "free, or strict: robots wider than a cell keep out of walls of a grid"
+        ),
+    )
+    turn_rate: Fraction | None = field(
+        default=None,
+        metadata=attribute(
+            "positive",
+            "how fast robots turn on the spot [degrees per time unit]; by default in no time",
+            unset="none",
+        ),
+    )
 
     def __post_init__(self) -> None:
-        coerced(
-            self,
-            "rules",
-            occupancy=optional(word_of(Occupancy)),
-            headway=number,
-            turn=optional(turning),
-            ends=word_of(TripEnd),
-            laps=whole_number,
-            rotations=truth,
-            clearance=number,
-            turn_rate=optional(number),
-            walls=word_of(Walls),
-        )
+        coerced(self, "rules", **readers_of(Rules))
 
     @property
     def books_ahead(self) -> bool:
         """Whether a robot books a vertex from when it starts to drive there."""
         return self.occupancy == "both"
+
+
+ROBOT_ATTRIBUTES = attributes_of(Robot)
+"""What a robot has beside its name and its trip."""
+
+RULE_ATTRIBUTES = attributes_of(Rules)
+"""What holds for the whole fleet."""

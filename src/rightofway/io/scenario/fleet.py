@@ -18,11 +18,13 @@ from rightofway.io.scenario.homes import HOMELESS, housed
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.maps import file_beside
 from rightofway.model import Robot, Rules, Stop
+from rightofway.model.robot import ROBOT_ATTRIBUTES
 from rightofway.site import VertexId
 from rightofway.site.places import kinds_of_places
 
 if TYPE_CHECKING:
-    from rightofway.io.scenario.shape import FleetDocument, TripDocument
+    from rightofway.io.fields import Document
+    from rightofway.io.scenario.shape import FleetDocument
 
 DEFAULT_SPEED = Fraction(1)
 
@@ -95,7 +97,7 @@ def largest_radius(robots: Sequence[Any] | FleetRows) -> Fraction:
     from rightofway.io.scenario.shape import RobotDocument
 
     if isinstance(robots, FleetRows):
-        return robots.document.radius or Fraction(0)
+        return Fraction(robots.document.given("radius").get("radius", 0))
     found = Fraction(0)
     for robot in robots:
         try:
@@ -109,16 +111,16 @@ def largest_radius(robots: Sequence[Any] | FleetRows) -> Fraction:
 def types_of(robots: Sequence[Any] | FleetRows) -> frozenset[str | None]:
     """Return the types of the fleet; None stands for a robot without one."""
     if isinstance(robots, FleetRows):
-        return frozenset([None])
+        return frozenset([robots.document.given("type").get("type")])
     found = (robot.get("type") for robot in robots if isinstance(robot, dict))
     return frozenset(name if isinstance(name, str) else None for name in found)
 
 
-def _place_of_laps(document: TripDocument, place: str) -> str:
+def _place_of_laps(document: Document, place: str) -> str:
     """Return where the document asks a robot without a way back for several laps."""
-    if document.laps is not None:
+    if document.given("laps"):
         return f"{place}.laps"
-    return "rules.laps" if document.ends is None else f"{place}.return"
+    return f"{place}.return" if document.given("ends") else "rules.laps"
 
 
 def placed_robots(
@@ -150,13 +152,12 @@ def _listed(
         document = faults.attempt(place, checked, RobotDocument, data, on)
         if document is None or on is None or (document.home is None and not deals):
             continue
-        keys = ("speed", "turn", "ends", "laps", "type", "turn_rate")
-        own = {**document.given(*keys), **document.space()}
+        own = {**document.own(Robot), **document.space()}
         stops = tuple(Stop(at=at, work=work or Fraction(0)) for at, work in document.trip())
         home = HOMELESS if document.home is None else document.home
         robot = Robot(name=document.name, home=home, stops=stops, **own)
         aliases = {"laps": _place_of_laps(document, place)}
-        if document.turn_rate is None:
+        if "turn_rate" not in own:
             aliases["turn_rate"] = "rules.turn_rate"
         if document.target is not None:
             aliases["stops[0].at"] = f"{place}.target"
@@ -180,10 +181,11 @@ def _dealt(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[Placed]:
     document, placed = robots.document, list[Placed]()
     ends = faults.attempt("robots.scen", _starts_and_goals, robots, on) or []
     speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
-    own = document.given("turn", "ends", "laps", "radius", "turn_rate")
-    rate = "rules.turn_rate" if document.turn_rate is None else "robots.turn_rate"
-    laps = _place_of_laps(document, "robots")
-    aliases = {"turn": "robots.turn", "laps": laps, "turn_rate": rate}
+    own = document.own(Robot)
+    aliases = {it.name: f"robots.{it.key}" for it in ROBOT_ATTRIBUTES if it.name in own}
+    aliases |= {"laps": _place_of_laps(document, "robots")}
+    if "turn_rate" not in own:
+        aliases["turn_rate"] = "rules.turn_rate"
     dealt = zip(ends, speeds, works, strict=False)
     for number, ((home, goal), speed, work) in enumerate(dealt, start=1):
         stops = (Stop(at=goal, work=work),)

@@ -150,9 +150,7 @@ def _rules_of(data: Any) -> Rules:
     if isinstance(data, str):
         remedy = "give classic, or a mapping like {headway: 1}"
         raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
-    given = checked(RulesDocument, data).given
-    keys = ("occupancy", "headway", "turn", "ends", "laps", "rotations", "clearance")
-    return Rules(**given(*keys, "turn_rate", "walls"))
+    return Rules(**checked(RulesDocument, data).own(Rules))
 
 
 def _units_of(data: Any) -> Units:

@@ -25,25 +25,21 @@ from rightofway.io.fields import (
     RobotSize,
     Share,
     Size,
-    Turning,
     Words,
     described,
     exactly_one_of,
     optional,
+    with_attributes,
 )
-from rightofway.model import Occupancy, TripEnd, Walls
+from rightofway.model import Robot, Rules
 from rightofway.model.resources import circle_around
 from rightofway.quantities import LengthUnit, TimeUnit
 from rightofway.site import VertexId
 from rightofway.site.places import kinds_of_places
 
 PLACES = kinds_of_places(None)
-TURNING = "turning time at a stop [time unit], or cell: one cell's crossing time"
-RETURN = "home, or none"
 BARRED = "a list of types of robots that may not use it"
 WORK = "work time there [time unit], 0 by default"
-LAPS = "how often it makes its round trip, 1 or more"
-TURN_RATE = "how fast it turns on the spot [degrees per time unit]; by default in no time"
 
 YAxis = Literal["down", "up"]
 
@@ -302,15 +298,8 @@ class StopDocument(Document):
     work: NotNegative = optional(WORK)
 
 
-class TripDocument(Document):
-    """What a robot may decide for itself; the rules stand where it does not."""
-
-    turn: Turning = optional(TURNING)
-    ends: TripEnd = optional(RETURN, alias="return")
-    laps: Count = optional(LAPS)
-
-
-class RobotDocument(TripDocument):
+@with_attributes(Robot)
+class RobotDocument(Document):
     """A robot and its trip: target and work, or stops."""
 
     model_config = ConfigDict(
@@ -327,13 +316,9 @@ class RobotDocument(TripDocument):
     target: Place = optional(f"the place to work at: {PLACES}")
     work: NotNegative = optional(WORK)
     stops: list[StopDocument] = optional("one or more {at, work}, in order", min_length=1)
-    speed: Positive = optional("length units per time unit, above 0; 1 by default")
-    radius: NotNegative = optional("radius of the circle that it needs [length unit]")
     size: RobotSize = optional(
         "[length, width] instead of a radius: the circle around it [length unit]"
     )
-    type: Name = optional("the name of its type, for edges and vertices that are barred for types")
-    turn_rate: Positive = optional(TURN_RATE)
 
     @model_validator(mode="after")
     def _check_one_trip(self) -> Self:
@@ -343,7 +328,7 @@ class RobotDocument(TripDocument):
             raise ValueError("has both target and stops (give one of them)")
         if self.stops is not None and self.work is not None:
             raise ValueError("has work beside stops (write it at each stop)")
-        if self.radius is not None and self.size is not None:
+        if "radius" in self.model_fields_set and self.size is not None:
             raise ValueError("has both radius and size (give one of them)")
         if self.size is not None and min(self.size) <= 0:
             raise ValueError("size: length and width are not both positive (give two above 0)")
@@ -360,7 +345,8 @@ class RobotDocument(TripDocument):
         return [(stop.at, stop.work) for stop in self.stops or ()] or [(self.target, self.work)]
 
 
-class FleetDocument(TripDocument):
+@with_attributes(Robot, but="speed")
+class FleetDocument(Document):
     """Robots R1, R2, ... from the rows of a MovingAI .scen file."""
 
     scen: Name = Field(description="a .scen file, relative to the scenario's own")
@@ -369,8 +355,6 @@ class FleetDocument(TripDocument):
         "speeds to deal out in turn: first, second, ...", min_length=1
     )
     work: list[NotNegative] = optional("work times to deal out in turn", min_length=1)
-    radius: NotNegative = optional("radius of the circle that each of them needs [length unit]")
-    turn_rate: Positive = optional(TURN_RATE)
 
 
 class RobotTableDocument(Document):
@@ -379,17 +363,9 @@ class RobotTableDocument(Document):
     table: Name = Field(description="a .csv file, relative to the scenario's own")
 
 
-class RulesDocument(TripDocument):
+@with_attributes(Rules)
+class RulesDocument(Document):
     """What holds for the whole fleet."""
-
-    occupancy: Occupancy = optional("one, or both")
-    headway: NotNegative = optional("least time between two robots at a vertex [time unit]")
-    rotations: bool = optional("true or false")
-    clearance: NotNegative = optional(
-        "least distance between two robots of which one has a radius [length unit]"
-    )
-    walls: Walls = optional("free, or strict: robots wider than a cell keep out of walls of a grid")
-    turn_rate: Positive = optional(TURN_RATE)
 
 
 class ClosureDocument(Document):

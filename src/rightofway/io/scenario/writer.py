@@ -10,7 +10,8 @@ from rightofway.errors import InputError
 from rightofway.files import path_of, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.text import json_text
-from rightofway.model import Robot, Rules, Scenario, Turn
+from rightofway.model import Robot, Scenario
+from rightofway.model.attributes import plain_attributes
 from rightofway.model.given import checked_scenario
 from rightofway.quantities import Units
 from rightofway.site import Roadmap, VertexId
@@ -37,7 +38,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
         "map": _map(roadmap),
         **_units(scenario.units),
         "robots": [_robot(robot, roadmap) for robot in scenario.robots],
-        "rules": _rules(scenario.rules),
+        "rules": plain_attributes(scenario.rules),
         **_closures(scenario),
     }
 
@@ -242,37 +243,9 @@ def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
         if len(stops) == 1
         else {"stops": stops}
     )
-    own = {"turn": _turn(robot.turn), "return": robot.ends, "laps": robot.laps}
     return {
         "name": robot.name,
         "home": roadmap.name(robot.home),
         **trip,
-        "speed": written(robot.speed),
-        **({"radius": written(robot.radius)} if robot.radius else {}),
-        **({} if robot.type is None else {"type": robot.type}),
-        **{key: value for key, value in own.items() if value is not None},
-        **_turn_rate(robot),
+        **plain_attributes(robot),
     }
-
-
-def _turn(turn: Turn | None) -> int | str | None:
-    return turn if turn is None or isinstance(turn, str) else written(turn)
-
-
-def _rules(rules: Rules) -> dict[str, Any]:
-    turn = {} if rules.turn is None else {"turn": _turn(rules.turn)}
-    return {
-        "occupancy": rules.occupancy,
-        "headway": written(rules.headway),
-        **turn,
-        "return": rules.ends,
-        "laps": rules.laps,
-        "rotations": rules.rotations,
-        **({"clearance": written(rules.clearance)} if rules.clearance else {}),
-        **({"walls": rules.walls} if rules.walls != "free" else {}),
-        **_turn_rate(rules),
-    }
-
-
-def _turn_rate(of: Robot | Rules) -> dict[str, Any]:
-    return {} if of.turn_rate is None else {"turn_rate": written(of.turn_rate)}

@@ -12,6 +12,7 @@ from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.robot_table import NOTES, Located, heading_key, robots_of_rows, value_of
 from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.io.workbook.sheets import Sheet, read_sheets, reference
+from rightofway.model.robot import RULE_ATTRIBUTES
 
 SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures")
 """Sheets that are read, by lower-case name."""
@@ -20,6 +21,9 @@ VERTEX_KEYS = ("name", "x", "y", "barred", "surcharge")
 
 MAX_CELLS = 1_000_000
 """Cells of a map, at most."""
+
+TRUTHS = {it.key for it in RULE_ATTRIBUTES if it.kind == "truth"}
+"""Rules that are true or false."""
 
 YES_NO = {"true": True, "yes": True, "false": False, "no": False}
 
@@ -206,7 +210,7 @@ def _add_rules(
             faults.attempt(sheet.cell(row, 2), value_of, key, value) if value is not None else None
         )
         if read is not None:
-            is_word = isinstance(read, str) and key in {"rotations", "both_ways"}
+            is_word = isinstance(read, str) and key in TRUTHS
             parts[part][UNIT_KEYS.get(key, key)] = (
                 YES_NO.get(read.lower(), read) if is_word else read
             )

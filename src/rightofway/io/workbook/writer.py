@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,8 @@ from typing import Any
 from rightofway.errors import InputError
 from rightofway.files import archive_of, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
+from rightofway.model.attributes import Attribute
+from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 
 WALL, HEAD = "404040", "D9E2EF"
 """Fills of blocked cells and of headings."""
@@ -21,29 +23,29 @@ ROWS = 1000
 Hint = tuple[str, str, str]
 """A key, what it is, and the choices with commas between, if it has a few."""
 
+
+def _hints_of(attributes: Sequence[Attribute]) -> Iterator[Hint]:
+    for it in attributes:
+        yield it.key, it.description, ",".join(it.words)
+
+
 ROBOT_HINTS: tuple[Hint, ...] = (
     ("name", "a name of its own", ""),
     ("home", "where it begins and ends: a cell of the map like map!A1, or N0, [0, 2], a name", ""),
     ("target", "where it works, written like home; for several places use stop 1, stop 2, …", ""),
     ("work", "how long it works there; empty is 0", ""),
-    ("speed", "length units in a time unit; empty is 1", ""),
-    ("turn", "how long it turns at a stop: cell, or a time; empty: as the rules say", ""),
-    ("return", "whether it drives home; empty: as the rules say", "home,none"),
-    ("laps", "how often it makes its round trip; empty: as the rules say", ""),
+    *_hints_of(ROBOT_ATTRIBUTES),
+    ("size", "[length, width] instead of a radius: the circle around it [length unit]", ""),
 )
+"""Empty cells of a robot follow the rules."""
 
 RULE_HINTS: tuple[Hint, ...] = (
-    ("occupancy", "both: a robot books the next place before it starts to drive there", "one,both"),
-    ("headway", "least time between two robots at one place", ""),
-    ("turn", "how long robots turn at a stop: cell (the time to drive one cell), or a time", ""),
-    ("return", "none: robots stay at their last stop", "home,none"),
-    ("laps", "how often each robot makes its round trip", ""),
-    ("rotations", "whether a ring of robots may move on at one instant", "true,false"),
+    *_hints_of(RULE_ATTRIBUTES),
     ("cell_size", "side of a cell of the map", ""),
-    ("y", "which way y grows", "down,up"),
+    ("y", "down, or up: which way y grows", "down,up"),
     ("origin", "[x, y] of the map's lower left corner on the site", ""),
-    ("length unit", "what lengths are measured in", "mm,cm,m"),
-    ("time unit", "what times are measured in", "ms,s,min,h"),
+    ("length unit", "what lengths are measured in: mm, cm or m", "mm,cm,m"),
+    ("time unit", "what times are measured in: ms, s, min or h", "ms,s,min,h"),
 )
 
 HELP = (
@@ -166,14 +168,11 @@ def _write_grid(sheet: Any, lines: Sequence[str]) -> None:
 
 
 def _write_robots(sheet: Any, robots: Sequence[dict[str, Any]]) -> None:
-    from rightofway.io.scenario.shape import RobotDocument
-
     most = max((len(robot.get("stops", ())) for robot in robots), default=0)
     stops = [f"{what} {number}" for number in range(1, most + 1) for what in ("stop", "work")]
     hints = {key: (text, choices) for key, text, choices in ROBOT_HINTS}
     usual = [key for key in hints if not (stops and key in {"target", "work"})]
     keys = [*usual[:2], *stops, *usual[2:]]
-    keys += sorted({key for robot in robots for key in robot} - {*keys, "stops", "target", "work"})
     rows = []
     for robot in robots:
         cells = {key: _cell(value) for key, value in robot.items() if key != "stops"}
@@ -185,21 +184,21 @@ def _write_robots(sheet: Any, robots: Sequence[dict[str, Any]]) -> None:
     hints |= {"stop": ("a place to work at, in order", "")}
     for column, key in enumerate(keys, 1):
         kind = key.rstrip(" 0123456789")
-        text, choices = hints[kind] if kind in hints else (_described(RobotDocument, key), "")
+        text, choices = hints[kind]
         letter = sheet.cell(1, column).column_letter
         _add_hint(sheet, f"{letter}2:{letter}{ROWS}", key, text, choices)
 
 
 def _write_rules(sheet: Any, given: dict[str, Any]) -> None:
-    from rightofway.io.scenario.shape import RulesDocument
+    from rightofway.io.scenario.shape import MapDocument
 
     _write_table(sheet, ["rule", "value", "what it is"], [])
     more = [key for key in given if key not in {hint[0] for hint in RULE_HINTS}]
-    hints = (*RULE_HINTS, *((key, _described(RulesDocument, key), "") for key in more))
+    hints = (*RULE_HINTS, *((key, _described(MapDocument, key), "") for key in more))
     for row, (key, text, choices) in enumerate(hints, 2):
         sheet.cell(row, 1, key)
         sheet.cell(row, 2, _cell(given.get(key))).number_format = "@"
-        sheet.cell(row, 3, f"{text} ({choices.replace(',', ', ')})" if choices else text)
+        sheet.cell(row, 3, text)
         _add_hint(sheet, f"B{row}", key, text, choices)
     for letter, width in zip("ABC", (14, 14, 80), strict=True):
         sheet.column_dimensions[letter].width = width

@@ -72,8 +72,11 @@ export interface RobotData {
   stops?: Stop[];
   speed?: Numeral;
   radius?: Numeral;
+  type?: string;
   turn?: Numeral;
+  return?: string;
   laps?: Numeral;
+  turn_rate?: Numeral;
 }
 
 export interface ClosureData {

@@ -43,7 +43,7 @@ function textOfWork(robot) {
 }
 
 /**
- * @param {"speed" | "radius" | "turn" | "laps"} key
+ * @param {"speed" | "radius" | "turn" | "laps" | "turn_rate"} key
  * @returns {Column}
  */
 const number = (key) => ({
@@ -51,6 +51,16 @@ const number = (key) => ({
   text: (robot) => (robot[key] === undefined ? "" : String(robot[key])),
   value: (robot) => numberOf(robot[key], -1),
   set: (robot, text) => withKey(robot, key, written(text)),
+});
+
+/**
+ * @param {"type" | "return"} key
+ * @returns {Column}
+ */
+const word = (key) => ({
+  key,
+  text: (robot) => robot[key] ?? "",
+  set: (robot, text) => withKey(robot, key, text.trim() || undefined),
 });
 
 /** @type {Column[]} */
@@ -97,8 +107,11 @@ export const COLUMNS = [
   },
   number("speed"),
   number("radius"),
+  word("type"),
   number("turn"),
+  word("return"),
   number("laps"),
+  number("turn_rate"),
 ];
 
 /**
