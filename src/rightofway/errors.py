@@ -14,6 +14,7 @@ A message says where, what (with the value) and what to do.
 from __future__ import annotations
 
 import difflib
+import re
 from contextlib import contextmanager
 from dataclasses import dataclass
 from decimal import Decimal
@@ -50,6 +51,9 @@ FEW = 4
 MANY = 500
 """Known words that are searched for the one that was meant."""
 
+STEP = re.compile(r"\[(\d+)\]|([^.\[]+)")
+"""A list index or a key of a place in a document."""
+
 LONGEST = 60
 """Characters of a value that a message shows."""
 
@@ -68,12 +72,15 @@ class InputFault:
         The line of the file, from 1, where that is known.
     named
         The place with the names of its list items: ``robots[3] (R4): speed``, where that is known.
+    about
+        The place as a list of faults has it: ``R4: speed``, where that is known.
     """
 
     place: str
     message: str
     line: int | None = None
     named: str = ""
+    about: str = ""
 
     def __post_init__(self) -> None:
         if not self.message.isprintable():
@@ -81,6 +88,12 @@ class InputFault:
 
     def __str__(self) -> str:
         return self.after("")
+
+    @property
+    def path(self) -> tuple[str | int, ...]:
+        """The keys and list indices that lead to it: ``("robots", 3, "speed")``."""
+        steps = STEP.findall(self.place)
+        return tuple(int(index) if index else key for index, key in steps)
 
     def after(self, source: str) -> str:
         """Return the fault with the name of its file: ``fleet.yaml:31: robots[3]: …``."""

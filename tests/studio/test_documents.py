@@ -93,9 +93,11 @@ def test_faults_are_the_words_of_the_library(client: httpx.Client) -> None:
     assert verdict["faults"] == [
         {
             "place": "robots[0].sped",
+            "path": ["robots", 0, "sped"],
             "message": "unknown key (did you mean speed?)",
             "line": None,
             "named": "robots[0] (R1): sped",
+            "about": "R1: sped",
         }
     ]
 

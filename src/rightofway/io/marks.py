@@ -87,6 +87,7 @@ def _root(text: str) -> yaml.Node | None:
 def _marked(fault: InputFault, root: yaml.Node) -> InputFault:
     """Follow a fault's place from the root of the document, as far as there are values."""
     node, line, named, reached = root, root.start_mark.line, "", 0
+    robot = whole = ""  # the name of the robot that it is about; what is named up to there
     for step in _STEP.finditer(fault.place):
         found = _child(node, step) if step.start() == reached else None
         if found is None:
@@ -96,9 +97,13 @@ def _marked(fault: InputFault, root: yaml.Node) -> InputFault:
         named += step[0].removeprefix(".") if named.endswith(": ") else step[0]
         name = _name(node) if step["index"] else ""
         named += f" ({name}): " if name else ""
+        if name and not robot and fault.path[0] == "robots":
+            robot, whole = name, named
     rest = fault.place[reached:]
     named += rest.removeprefix(".") if named.endswith(": ") else rest
-    return replace(fault, line=line + 1, named=named.removesuffix(": "))
+    about = f"{robot}: {named[len(whole) :]}" if robot else named
+    named, about = named.removesuffix(": "), about.removesuffix(": ")
+    return replace(fault, line=line + 1, named=named, about=about)
 
 
 def _child(node: yaml.Node, step: re.Match[str]) -> tuple[yaml.Node, int] | None:

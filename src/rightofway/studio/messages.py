@@ -85,7 +85,9 @@ def fault_data(fault: InputFault) -> dict[str, Any]:
     """
     return {
         "place": fault.place,
+        "path": list(fault.path),
         "message": fault.message,
         "line": fault.line,
         "named": fault.named,
+        "about": fault.about or fault.place,
     }

@@ -46,7 +46,7 @@ test("cells say stops and work, and are read as they are written", () => {
   const written = STOPS.set({ name: "R3" }, "N4 (2,5); 1.5, 2");
   assert.deepEqual(written.stops, [{ at: "N4", work: 2.5 }, { at: { x: 1.5, y: 2 } }]);
   assert.equal(WORK.text(DOCUMENT.robots[1]), ""); // they differ
-  assert.equal(columnOf("robots[2].target"), "stops");
+  assert.equal(columnOf({ path: ["robots", 2, "target"] }), "stops");
 });
 
 test("a pasted block adds robots and leaves its headings out", () => {

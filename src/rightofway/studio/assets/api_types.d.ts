@@ -227,12 +227,14 @@ export interface FactAndRemedy {
   remedy: Array<string | Record<string, unknown>>;
 }
 
-/** One thing wrong with a document. */
+/** One thing wrong with a document: where, as text, as keys and indices, and for people. */
 export interface Fault {
   place: string;
+  path: Array<string | number>;
   message: string;
   line: number | null;
   named: string;
+  about: string;
 }
 
 /** Figures as people read them. */

@@ -11,11 +11,21 @@ const FIRST = 3; // findings, the worst first; the others on request
 
 /**
  * What a fault is about, for people: "R1: home", not "robots[0] (R1): home".
- * @param {{named?: string, place?: string}} fault
+ * @param {{about?: string, place?: string}} fault
  * @returns {string}
  */
-export const nameOf = ({ named, place }) =>
-  (named || place || "").replace(/^robots\[\d+\] \((.*?)\)/, "$1");
+export const nameOf = ({ about, place }) => about || place || "";
+
+/**
+ * The index of the item of a list in which a fault lies; -1 where it lies elsewhere.
+ * @param {{path?: (string | number)[]}} fault
+ * @param {...string} list The keys that lead to the list.
+ * @returns {number}
+ */
+export function itemOf({ path = [] }, ...list) {
+  const index = path[list.length];
+  return list.every((key, i) => path[i] === key) && typeof index === "number" ? index : -1;
+}
 
 /** @param {Props} props */
 export function Findings({ studio }) {
@@ -35,7 +45,7 @@ export function Findings({ studio }) {
         store.faults.length > 0 &&
         html`<div role="alert"><ul class="findings">${store.faults.map(
           (fault) => html`
-        <li><button type="button" onClick=${() => studio.goTo(fault.place)}><${Sign} severity="error" /><span><b>${nameOf(fault)}</b> <span lang="en">${fault.message}</span></span></button></li>`,
+        <li><button type="button" onClick=${() => studio.goTo(fault)}><${Sign} severity="error" /><span><b>${nameOf(fault)}</b> <span lang="en">${fault.message}</span></span></button></li>`,
         )}</ul></div>`
       }
       ${

@@ -6,6 +6,7 @@ import { Backdrop } from "./draw/backdrop.js";
 import { Clipboard } from "./draw/clipboard.js";
 import { Editor } from "./draw/editor.js";
 import { PlaceDrag } from "./draw/place_drag.js";
+import { itemOf } from "./findings.js";
 import { Notices } from "./notices.js";
 import { PlaceInAddress } from "./place.js";
 import { FormerRoute } from "./runs/former.js";
@@ -171,16 +172,16 @@ export class Studio extends Observable {
 
   /**
    * Go to where a fault can be mended.
-   * @param {string} place
+   * @param {Complaint} fault
    * @returns {void}
    */
-  goTo(place) {
-    const robot = /^robots\[(\d+)\]/.exec(place);
-    if (!robot) return;
+  goTo(fault) {
+    const robot = itemOf(fault, "robots");
+    if (robot < 0) return;
     this.showTab("robots");
-    this.editor.select([{ kind: "robot", id: Number(robot[1]) }]);
+    this.editor.select([{ kind: "robot", id: robot }]);
     requestAnimationFrame(() => {
-      const row = document.querySelector(`table.robots tr[data-row="${robot[1]}"]`); // once it is drawn
+      const row = document.querySelector(`table.robots tr[data-row="${robot}"]`); // once it is drawn
       /** @type {HTMLElement | null | undefined} */
       const wrong = row?.querySelector("[aria-invalid=true]");
       (wrong ?? row?.querySelector("input"))?.focus();

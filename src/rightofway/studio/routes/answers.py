@@ -41,12 +41,14 @@ Ratio = tuple[int, int]
 
 
 class Fault(TypedDict):
-    """One thing wrong with a document."""
+    """One thing wrong with a document: where, as text, as keys and indices, and for people."""
 
     place: str
+    path: list[str | int]
     message: str
     line: int | None
     named: str
+    about: str
 
 
 class Reason(TypedDict):

@@ -1,6 +1,7 @@
 /** What an editor shows above the map: what is selected, and what the library says about places. */
 
 import { ring } from "../../../viz/page/assets/shapes.js";
+import { itemOf } from "../findings.js";
 import { cellOf } from "./ground.js";
 import { present } from "../given.js";
 /** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
@@ -48,20 +49,18 @@ export function paintSelection(context, editor, scale) {
 export function paintFaults(context, { store, hits, roadmap, stage }, scale) {
   /** @type {[number, string][]} */
   const signs = [];
-  for (const { place } of store.faults) {
-    const robot = /^robots\[(\d+)\]/.exec(place);
-    if (robot && hits.robots[Number(robot[1])]) {
-      const { home, stops } = hits.robots[Number(robot[1])];
+  for (const fault of store.faults) {
+    const robot = hits.robots[itemOf(fault, "robots")];
+    if (robot) {
+      const { home, stops } = robot;
       signs.push([home >= 0 ? home : (stops.find((stop) => stop >= 0) ?? -1), "fault"]);
     }
-    const lane = /^map\.roadmap\.edges\[(\d+)\]/.exec(place);
+    const lane = hits.lanes[itemOf(fault, "map", "roadmap", "edges")];
     context.strokeStyle = stage.theme.held;
-    if (lane && hits.lanes[Number(lane[1])])
-      band(context, hits.lanes[Number(lane[1])].points, 4 / scale);
-    const box = /^map\.floor\.obstacles\[(\d+)\]/.exec(place);
+    if (lane) band(context, lane.points, 4 / scale);
+    const box = hits.obstacles[itemOf(fault, "map", "floor", "obstacles")];
     context.lineWidth = 2.5 / scale;
-    if (box && hits.obstacles[Number(box[1])])
-      context.strokeRect(...hits.obstacles[Number(box[1])]);
+    if (box) context.strokeRect(...box);
   }
   for (const { severity, vertices } of store.survey.findings) {
     if (SIGNS[severity] && vertices.length <= MOST_OF_ONE)

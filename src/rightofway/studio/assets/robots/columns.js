@@ -2,6 +2,7 @@
 
 import { numberOf, placeOfText, textOfPlace } from "../draw/places.js";
 import { stopsOf, textOfStops, withKey, withStops } from "./fleet.js";
+/** @import { Fault } from "../api_types.js" */
 /** @import { Column, Numeral, RobotData, Stop } from "../types.js" */
 
 /**
@@ -115,11 +116,11 @@ export const COLUMNS = [
 ];
 
 /**
- * The column of the place of a fault: "robots[2].target" is of the stops.
- * @param {string} place
+ * The column of a fault of a robot: "target" is of the stops.
+ * @param {Fault} fault
  * @returns {string}
  */
-export function columnOf(place) {
-  const key = /^robots\[\d+\]\.(\w+)/.exec(place)?.[1] ?? "name";
+export function columnOf({ path }) {
+  const key = String(path[2] ?? "name");
   return { target: "stops", size: "radius" }[key] ?? key;
 }

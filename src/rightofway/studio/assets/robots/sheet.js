@@ -1,6 +1,6 @@
 /** The robots as a spreadsheet: typed, pasted, filled, sorted with the keyboard; faults stand at their cells and below. */
 
-import { nameOf } from "../findings.js";
+import { itemOf, nameOf } from "../findings.js";
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
 import { words } from "../words.js";
@@ -197,7 +197,7 @@ export function Sheet({ studio, columns, wanted }) {
    */
   const cell = (robot, row, column, at) => {
     const place = { row, column: at };
-    const fault = faults.get(row)?.find(({ place: where }) => columnOf(where) === column.key);
+    const fault = faults.get(row)?.find((each) => columnOf(each) === column.key);
     const [title, , usual = ""] = words.columns[column.key];
     return html`<td key=${column.key} class=${`${column.key} ${holds(block, row, at) && !isSingle(/** @type {Block} */ (block)) ? "in" : ""}`}>
       <${Field} value=${robot ? column.text(robot) : ""} data-cell=${`${row} ${at}`} spellcheck="false"
@@ -244,7 +244,7 @@ export function Sheet({ studio, columns, wanted }) {
         .slice(0, MOST_FAULTS)
         .map(
           (fault) =>
-            html`<li><button type="button" onClick=${() => studio.goTo(fault.place)}><b>${nameOf(fault)}</b> <span lang="en">${fault.message}</span></button></li>`,
+            html`<li><button type="button" onClick=${() => studio.goTo(fault)}><b>${nameOf(fault)}</b> <span lang="en">${fault.message}</span></button></li>`,
         )}</ul></div>`
     }
     ${rows.length > most && html`<button type="button" class="framed" onClick=${() => setMost(most + MOST_ROWS)}>${words.moreRows(rows.length - most)}</button>`}`;
@@ -289,10 +289,10 @@ function stepFrom({ key, shiftKey, target }) {
 function faultsByRow(faults) {
   const found = new Map();
   for (const fault of faults) {
-    const row = /^robots\[(\d+)\]/.exec(fault.place)?.[1];
-    if (row === undefined) continue;
-    if (!found.has(Number(row))) found.set(Number(row), []);
-    found.get(Number(row)).push(fault);
+    const row = itemOf(fault, "robots");
+    if (row < 0) continue;
+    if (!found.has(row)) found.set(row, []);
+    found.get(row).push(fault);
   }
   return found;
 }

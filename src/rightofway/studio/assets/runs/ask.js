@@ -34,7 +34,7 @@ export function Ask({ studio, children }) {
    * @param {Column} column
    * @returns {boolean}
    */
-  const isWrong = ({ key }) => faults.some(({ place }) => columnOf(place) === key);
+  const isWrong = ({ key }) => faults.some((fault) => columnOf(fault) === key);
   /**
    * @param {Column} column
    * @param {string} text
