@@ -204,7 +204,7 @@ def _run(
     # These load the native core: not for help.
     from rightofway.planners.impossible import refuse_closed_ways, refuse_stranded
     from rightofway.planners.warm_start import kept_of
-    from rightofway.search import alone_completions
+    from rightofway.search import least_completions
 
     seconds_per_visit = at("seconds_per_visit", between(0, 3600), seconds_per_visit)
     _refuse_unknown(spec, task.scenario.problem)
@@ -215,7 +215,7 @@ def _run(
         with_plan.append(time.perf_counter() - began)
 
     with kernel_limits(), limited_work(WorkLimit(deadline=deadline)):
-        alone = alone_completions(task.scenario, time_limit=deadline.seconds_left())
+        alone = least_completions(task.scenario, time_limit=deadline.seconds_left())
         if alone is None:
             raise GaveUp("time ran out while measuring distances (give a longer time limit)")
         refuse_stranded(task.scenario, np.flatnonzero(alone < 0).tolist())

@@ -7,7 +7,7 @@ from functools import partial
 from hypothesis import strategies as st
 
 from rightofway.model import Scenario, route_of
-from rightofway.search import Distances, alone_completions, earliest_track
+from rightofway.search import Distances, earliest_track, least_completions
 from tests.builders.any_fleet import any_fleet
 from tests.builders.booked import booked_on, table_of
 from tests.builders.laws import law, leave
@@ -30,7 +30,7 @@ def test_the_search_finds_the_earliest_completion(drawn: tuple[Scenario, list[Bo
     scenario, booked = drawn
     problem = scenario.problem
     itinerary = problem.itineraries[0]
-    alone = alone_completions(scenario)
+    alone = least_completions(scenario)
     if alone is None or alone[0] < 0:
         leave("no way leads to a stop")
     track = earliest_track(0, table_of(problem, booked), Distances(scenario.roadmap))

@@ -30,8 +30,8 @@ from rightofway.search import (
     FleetSearch,
     PeriodicBookings,
     RoundTrip,
-    alone_completions,
     earliest_track,
+    least_completions,
     plan_by_lacam,
     untimed_lacam,
 )
@@ -157,7 +157,7 @@ def runs(_: Scenario, limit: float) -> None:
 CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "ActionDependencyGraph.runs": runs,
     "CyclicSimulator.advance": lambda one, limit: rightofway.run_laps(one, time_limit=limit),
-    "FleetSearch.alone": lambda one, limit: alone_completions(one, time_limit=limit),
+    "FleetSearch.alone": lambda one, limit: least_completions(one, time_limit=limit),
     "FleetSearch.go_on": go_on,
     "FleetSearch.improve": improve,
     "FleetSearch.prioritize": prioritize,

@@ -69,7 +69,7 @@ def test_planning_ends_early_enough_for_what_is_done_with_the_plan(crowd: Scenar
 
 
 def test_distances_are_not_measured_beyond_the_time_limit(scenario: Scenario) -> None:
-    assert search.alone_completions(scenario, time_limit=0) is None
+    assert search.least_completions(scenario, time_limit=0) is None
     with pytest.raises(GaveUp, match="time ran out while measuring distances"):
         rightofway.solve(scenario, time_limit=0)
 

@@ -15,7 +15,6 @@ from rightofway.model import Lap, Resources, Robot, Route, Scenario, Tick, lap_o
 from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.native import BookedRows
 from rightofway.planners import planning_headway
-from rightofway.planners.impossible import reaches_its_places
 from rightofway.planners.routing import (
     clear_routes,
     direct_routes,
@@ -24,6 +23,7 @@ from rightofway.planners.routing import (
 )
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from rightofway.search import Distances
+from rightofway.search.missing_ways import reaches_its_places
 from rightofway.site import Roadmap, VertexId
 
 NOTHING_REPEATS = "'none' leaves nothing to repeat (set return: home)"

@@ -13,16 +13,26 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import groupby, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.metrics.alone import least_dwell_of_trip
 from rightofway.metrics.collisions import Bookings, bookings_of
 from rightofway.metrics.measure import measure
 from rightofway.metrics.waits import NOBODY, freed_by
-from rightofway.model import Loss, LostTime, Plan, Scenario, Stays, Tick, Track, stays_of
+from rightofway.model import (
+    Itinerary,
+    Loss,
+    LostTime,
+    Plan,
+    Scenario,
+    Stays,
+    Tick,
+    Track,
+    least_dwell,
+    stays_of,
+)
 from rightofway.model.given import checked_plan
 from rightofway.model.turning import Turning
 from rightofway.site import VertexId
@@ -69,7 +79,7 @@ def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
         waiting = sum(loss.ticks for loss in own)
         driven = stay.completion - alone[robot] - waiting  # beyond the shortest trip
         itinerary = scenario.problem.itineraries[robot]
-        turning = int((stay.dwell - stay.turns).sum()) - least_dwell_of_trip(itinerary)
+        turning = int((stay.dwell - stay.turns).sum()) - _least_dwell_of_trip(itinerary)
         room = list(_room_made(robot, track, stay, bookings, turning)) if driven else []
         if itinerary.turning is not None:
             edges = scenario.roadmap.edges(track.vertices[:-1], track.vertices[1:])
@@ -245,3 +255,16 @@ def _visitor(bookings: Bookings, robot: int, vertex: int, leave: int, until: int
         & (bookings.start[first:after] < until)
     )
     return int(bookings.robot[first:after][inside][0]) if inside.any() else None
+
+
+def _least_dwell_of_trip(itinerary: Itinerary) -> int:
+    """Return how long all visits of a trip last at least, without drives and turns to them [ticks].
+
+    Parameters
+    ----------
+    itinerary
+        The trip; stages that follow each other at one vertex share a visit.
+    """
+    visits = [list(stages) for _, stages in groupby(itinerary.stages, lambda stage: stage.vertex)]
+    moving = sum(least_dwell(stages, leaves=True) for stages in visits[:-1])
+    return moving + least_dwell(visits[-1], leaves=False)

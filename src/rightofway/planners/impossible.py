@@ -13,15 +13,12 @@ on Computing 3, 1991 (the deletion filter).
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import cached_property
 from itertools import pairwise
 
-import numpy as np
-
 from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists, listed
-from rightofway.model import Itinerary, Plan, PlannerRun, Scenario, Tick, Track
+from rightofway.model import Plan, PlannerRun, Scenario, Tick, Track
 from rightofway.model.closures import Closure
 from rightofway.model.deadline import Deadline
 from rightofway.model.place_names import PlaceNames
@@ -29,11 +26,17 @@ from rightofway.model.resources import are_nearer, distance
 from rightofway.search import (
     Bookings,
     Distances,
-    alone_completions,
     earliest_track,
+    least_completions,
     untimed_lacam,
 )
-from rightofway.site import Roadmap, VertexId
+from rightofway.search.missing_ways import (
+    RoadmapParts,
+    missing_ways,
+    reached_vertices,
+    reaches_its_places,
+)
+from rightofway.site import VertexId
 
 EFFORT = 4_000_000
 """Steps of robots in all trials of the deletion filter."""
@@ -71,23 +74,9 @@ def refuse_stranded(scenario: Scenario, stranded: Iterable[int]) -> None:
     stranded
         The robots that have no way to a place.
     """
-    found = [*_missing_ways(scenario, stranded), *_shared_ends(scenario), *_clashes(scenario)]
+    found = [*missing_ways(scenario, stranded), *_shared_ends(scenario), *_clashes(scenario)]
     if found:
         raise NoPlanExists(found)
-
-
-def reaches_its_places(itinerary: Itinerary, distances: Distances) -> bool:
-    """Return whether a robot has a way from each place of its trip to the next."""
-    return next(_legs_without_a_way(itinerary, distances), None) is None
-
-
-def _legs_without_a_way(
-    itinerary: Itinerary, distances: Distances
-) -> Iterator[tuple[VertexId, VertexId]]:
-    places = [itinerary.home, *(stage.vertex for stage in itinerary.stages)]
-    for tail, head in dict.fromkeys(pairwise(places)):
-        if distances.to(head, itinerary.edge_ticks)[tail] < 0:
-            yield tail, head
 
 
 def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
@@ -164,98 +153,6 @@ def refuse_passed_zones(scenario: Scenario) -> None:
             here, there = (PlaceNames(scenario).where(places[robot]) for robot in (i, j))
             message = f"{one} at {here} and {other} at {there} stand where robots pass a zone"
             raise GaveUp(f"{message} (let one of them stand elsewhere)")
-
-
-class _Parts:
-    """The parts of a map that no edge joins, and its edges in both directions."""
-
-    def __init__(self, roadmap: Roadmap) -> None:
-        self.roadmap = roadmap
-        self.searches = 0
-        self._of: dict[int, frozenset[int]] = {}
-
-    def of(self, vertex: int) -> frozenset[int]:
-        """Return the part that holds a vertex."""
-        if vertex not in self._of:
-            ends = [*self.ends, *((head, tail) for tail, head in self.ends)]
-            part = frozenset(_reached(vertex, ends))
-            self._of.update(dict.fromkeys(part, part))
-        return self._of[vertex]
-
-    @cached_property
-    def ends(self) -> list[tuple[int, int]]:
-        """Tail and head of each edge."""
-        roadmap = self.roadmap
-        tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
-        return list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
-
-    def opening(self, tail: int, head: int) -> tuple[int, int] | None:
-        """Return a one-way edge that, driven both ways, would lead from ``tail`` to ``head``.
-
-        None if there is none, or after as many searches as a message has lines.
-        """
-        self.searches += 1
-        if self.searches > MAX_REASONS:
-            return None
-        ends = self.ends
-        before = _reached(tail, ends)
-        after = _reached(head, [(end, begin) for begin, end in ends])
-        return next((edge for edge in ends if edge[0] in after and edge[1] in before), None)
-
-
-def _reached(start: int, ends: Iterable[tuple[int, int]], closed: Collection[int] = ()) -> set[int]:
-    """Return the vertices that can be reached along edges, none of them closed."""
-    heads: defaultdict[int, list[int]] = defaultdict(list)
-    for tail, head in ends:
-        heads[tail].append(head)
-    found, waiting = {start}, [start]
-    while waiting:
-        for head in heads[waiting.pop()]:
-            if head not in found and head not in closed:
-                found.add(head)
-                waiting.append(head)
-    return found
-
-
-def _missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blockage]:
-    """Yield where robots have no way, and whether parts of the map or one-way edges are why."""
-    place, parts, distances = PlaceNames(scenario), _Parts(scenario.roadmap), None
-    name_of = scenario.roadmap.name
-    for robot in stranded:
-        name, itinerary = scenario.robots[robot].name, scenario.problem.itineraries[robot]
-        home_part = parts.of(itinerary.home)
-        stages = dict.fromkeys(stage.vertex for stage in itinerary.stages)
-        elsewhere = [vertex for vertex in stages if vertex not in home_part]
-        if elsewhere:
-            others = listed(list(map(place, elsewhere)))
-            reason = (
-                f"{name} has no way from {place(itinerary.home)} to {others}: the map is"
-                " in parts that no edge joins (join them, or give the robot other places)"
-            )
-            yield Blockage(reason, (name,), tuple(map(name_of, (itinerary.home, *elsewhere))))
-            continue
-        distances = distances or Distances(scenario.roadmap)
-        for tail, head in _legs_without_a_way(itinerary, distances):
-            if distances.to(head, _unbarred(itinerary))[tail] >= 0:
-                kind = scenario.robots[robot].type
-                reason = f"{name} has no way from {place(tail)} to {place(head)}: edges are barred"
-                reason += f" for robots of type {kind} (open one, or give the robot other places)"
-                yield Blockage(reason, (name,), (name_of(tail), name_of(head)))
-                continue
-            opening = parts.opening(tail, head)
-            if opening:
-                first, last = map(place, opening)
-                why = f"the edge from {first} to {last} is one way (let robots drive it both ways"
-            else:
-                why = "one-way edges are the reason (let robots drive more of them both ways"
-            reason = f"{name} has no way from {place(tail)} to {place(head)}: {why},"
-            reason += " or give the robot other places)"
-            yield Blockage(reason, (name,), (name_of(tail), name_of(head)))
-
-
-def _unbarred(itinerary: Itinerary) -> tuple[Tick, ...]:
-    """Return ticks of edges, each at least 1 also where the robot is barred."""
-    return tuple(max(ticks, Tick(1)) for ticks in itinerary.edge_ticks)
 
 
 def refuse_closed_ways(
@@ -357,7 +254,7 @@ def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -
     NoPlanExists
         With a small set of robots that block each other.
     """
-    parts, groups = _Parts(scenario.roadmap), defaultdict[frozenset[int], list[int]](list)
+    parts, groups = RoadmapParts(scenario.roadmap), defaultdict[frozenset[int], list[int]](list)
     for robot, itinerary in enumerate(scenario.problem.itineraries):
         groups[parts.of(itinerary.home)].append(robot)
     for robots in sorted(groups.values(), key=len) if len(groups) > 1 else ():
@@ -407,7 +304,7 @@ def fleet_at_home(scenario: Scenario) -> Plan:
     scenario
         A fleet that has no plan.
     """
-    alone = alone_completions(scenario)
+    alone = least_completions(scenario)
     assert alone is not None, "no time limit was given"
     return Plan(
         scenario=scenario,
@@ -457,7 +354,7 @@ def _narrow_places(scenario: Scenario, robots: Sequence[int]) -> list[VertexId]:
     """Return the vertices that each of some robots has to pass or to go to, in their order."""
     if len(robots) > LARGEST_SET or scenario.roadmap.n_vertices > LARGEST_MAP:
         return []
-    distances, ends = Distances(scenario.roadmap), _Parts(scenario.roadmap).ends
+    distances, ends = Distances(scenario.roadmap), RoadmapParts(scenario.roadmap).ends
     common: dict[VertexId, None] | None = None
     for robot in robots:
         itinerary = scenario.problem.itineraries[robot]
@@ -465,7 +362,7 @@ def _narrow_places(scenario: Scenario, robots: Sequence[int]) -> list[VertexId]:
         passed = dict.fromkeys(places)
         for tail, head in dict.fromkeys(pairwise(places)):
             for vertex in distances.path(tail, head, itinerary.edge_ticks):
-                if vertex not in passed and head not in _reached(tail, ends, {vertex}):
+                if vertex not in passed and head not in reached_vertices(tail, ends, {vertex}):
                     passed[vertex] = None
         common = passed if common is None else dict.fromkeys(v for v in common if v in passed)
     return sorted(common or ())

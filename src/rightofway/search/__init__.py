@@ -2,7 +2,7 @@
 
 from rightofway.search.congestion import Congestion
 from rightofway.search.distances import Distances, Path
-from rightofway.search.fleet import FleetSearch, alone_completions
+from rightofway.search.fleet import FleetSearch, least_completions
 from rightofway.search.lacam import plan_by_lacam, untimed_lacam
 from rightofway.search.periodic_bookings import PeriodicBookings, RoundTrip, RowsOfLaps
 from rightofway.search.sipp import Booking, Bookings, earliest_track
@@ -17,8 +17,8 @@ __all__ = [
     "PeriodicBookings",
     "RoundTrip",
     "RowsOfLaps",
-    "alone_completions",
     "earliest_track",
+    "least_completions",
     "plan_by_lacam",
     "untimed_lacam",
 ]

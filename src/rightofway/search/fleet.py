@@ -16,7 +16,7 @@ from rightofway.model.given import checked_index, checked_number, checked_scenar
 from rightofway.native import bound, tracks_of
 
 
-def alone_completions(
+def least_completions(
     scenario: Scenario, *, time_limit: float | None = None
 ) -> NDArray[np.int64] | None:
     """Return each robot's least completion without the others.
@@ -49,7 +49,7 @@ class FleetSearch:
     threads
         How many threads improve the plan; the plan does not depend on it. None or 0: all cores.
     alone
-        What `alone_completions` returned for the same trips [ticks], where that is known.
+        What `least_completions` returned for the same trips [ticks], where that is known.
     """
 
     def __init__(

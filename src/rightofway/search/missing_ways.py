@@ -1,0 +1,132 @@
+"""Robots that have no way to a place of their trip, where and why: proofs that no plan exists."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from rightofway.errors import MAX_REASONS, Blockage, listed
+from rightofway.model import Itinerary, Scenario, Tick
+from rightofway.model.place_names import PlaceNames
+from rightofway.search.distances import Distances
+from rightofway.site import Roadmap, VertexId
+
+
+def reaches_its_places(itinerary: Itinerary, distances: Distances) -> bool:
+    """Return whether a robot has a way from each place of its trip to the next."""
+    return next(_legs_without_a_way(itinerary, distances), None) is None
+
+
+def _legs_without_a_way(
+    itinerary: Itinerary, distances: Distances
+) -> Iterator[tuple[VertexId, VertexId]]:
+    places = [itinerary.home, *(stage.vertex for stage in itinerary.stages)]
+    for tail, head in dict.fromkeys(pairwise(places)):
+        if distances.to(head, itinerary.edge_ticks)[tail] < 0:
+            yield tail, head
+
+
+def missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blockage]:
+    """Yield where robots have no way, and whether parts of the map or one-way edges are why.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    stranded
+        The robots that have no way to a place.
+    """
+    place, parts, distances = PlaceNames(scenario), RoadmapParts(scenario.roadmap), None
+    name_of = scenario.roadmap.name
+    for robot in stranded:
+        name, itinerary = scenario.robots[robot].name, scenario.problem.itineraries[robot]
+        home_part = parts.of(itinerary.home)
+        stages = dict.fromkeys(stage.vertex for stage in itinerary.stages)
+        elsewhere = [vertex for vertex in stages if vertex not in home_part]
+        if elsewhere:
+            others = listed(list(map(place, elsewhere)))
+            reason = (
+                f"{name} has no way from {place(itinerary.home)} to {others}: the map is"
+                " in parts that no edge joins (join them, or give the robot other places)"
+            )
+            yield Blockage(reason, (name,), tuple(map(name_of, (itinerary.home, *elsewhere))))
+            continue
+        distances = distances or Distances(scenario.roadmap)
+        for tail, head in _legs_without_a_way(itinerary, distances):
+            if distances.to(head, _unbarred(itinerary))[tail] >= 0:
+                kind = scenario.robots[robot].type
+                reason = f"{name} has no way from {place(tail)} to {place(head)}: edges are barred"
+                reason += f" for robots of type {kind} (open one, or give the robot other places)"
+                yield Blockage(reason, (name,), (name_of(tail), name_of(head)))
+                continue
+            opening = parts.opening(tail, head)
+            if opening:
+                first, last = map(place, opening)
+                why = f"the edge from {first} to {last} is one way (let robots drive it both ways"
+            else:
+                why = "one-way edges are the reason (let robots drive more of them both ways"
+            reason = f"{name} has no way from {place(tail)} to {place(head)}: {why},"
+            reason += " or give the robot other places)"
+            yield Blockage(reason, (name,), (name_of(tail), name_of(head)))
+
+
+def _unbarred(itinerary: Itinerary) -> tuple[Tick, ...]:
+    """Return ticks of edges, each at least 1 also where the robot is barred."""
+    return tuple(max(ticks, Tick(1)) for ticks in itinerary.edge_ticks)
+
+
+class RoadmapParts:
+    """The parts of a map that no edge joins, and its edges in both directions."""
+
+    def __init__(self, roadmap: Roadmap) -> None:
+        self.roadmap = roadmap
+        self.searches = 0
+        self._of: dict[int, frozenset[int]] = {}
+
+    def of(self, vertex: int) -> frozenset[int]:
+        """Return the part that holds a vertex."""
+        if vertex not in self._of:
+            ends = [*self.ends, *((head, tail) for tail, head in self.ends)]
+            part = frozenset(reached_vertices(vertex, ends))
+            self._of.update(dict.fromkeys(part, part))
+        return self._of[vertex]
+
+    @cached_property
+    def ends(self) -> list[tuple[int, int]]:
+        """Tail and head of each edge."""
+        roadmap = self.roadmap
+        tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+        return list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
+
+    def opening(self, tail: int, head: int) -> tuple[int, int] | None:
+        """Return a one-way edge that, driven both ways, would lead from ``tail`` to ``head``.
+
+        None if there is none, or after as many searches as a message has lines.
+        """
+        self.searches += 1
+        if self.searches > MAX_REASONS:
+            return None
+        ends = self.ends
+        before = reached_vertices(tail, ends)
+        after = reached_vertices(head, [(end, begin) for begin, end in ends])
+        return next((edge for edge in ends if edge[0] in after and edge[1] in before), None)
+
+
+def reached_vertices(
+    start: int, ends: Iterable[tuple[int, int]], closed: Collection[int] = ()
+) -> set[int]:
+    """Return the vertices that can be reached along edges, none of them closed."""
+    heads: defaultdict[int, list[int]] = defaultdict(list)
+    for tail, head in ends:
+        heads[tail].append(head)
+    found, waiting = {start}, [start]
+    while waiting:
+        for head in heads[waiting.pop()]:
+            if head not in found and head not in closed:
+                found.add(head)
+                waiting.append(head)
+    return found
