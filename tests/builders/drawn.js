@@ -1,3 +1,4 @@
+/* global CanvasRenderingContext2D, HTMLCanvasElement, document */
 // What a page draws on its canvases, by the interface of the browser: tests load this before the page.
 // A canvas that is drawn on another one brings along what it shows.
 globalThis.drawn = (() => {
