@@ -9,6 +9,8 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, load, load_with_notes, scenario_of, write_scenario
+from rightofway.io.scenario.fleet import ListedFleet, written_robots
+from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.model import Rules, Scenario, Stop
 from tests.builders.fleets import grid_fleet
 
@@ -338,3 +340,24 @@ def test_a_robot_may_name_a_station_of_a_roadmap() -> None:
     scenario = scenario_of(document)
     assert scenario.roadmap.name(scenario.robots[0].stops[0].at) == "B"
     assert dump_scenario(scenario)["map"]["roadmap"]["stations"] == {"Press": "B"}
+
+
+def test_robots_are_read_before_the_map_with_places_as_written() -> None:
+    """A robot with a fault still has the attributes that a map depends on."""
+    listed = [
+        {"name": "R1", "home": "N0", "target": [0, 2], "speed": "1/2", "size": [6, 8]},
+        {"name": "R2", "home": "N1", "target": "N4", "laps": 0, "radius": 7, "type": "wide"},
+    ]
+    fleet = written_robots(listed, None)
+    assert isinstance(fleet, ListedFleet)
+    first, second = fleet.robots
+    assert first.document is not None
+    places: tuple[Any, Any] = (first.document.home, first.document.target)
+    assert places == ("N0", [0, 2])
+    assert second.document is None
+    assert [fault.place for fault in second.faults] == ["laps"]
+    # The circle round 6 x 8 has radius 5; the speed of R2 is the usual one.
+    assert first.own["radius"] == 5
+    assert fleet.traits == FleetTraits(
+        speeds=[Fraction(1, 2), Fraction(1)], radius=Fraction(7), types=frozenset([None, "wide"])
+    )

@@ -47,6 +47,10 @@ class Faults:
         """Note one fault."""
         self._faults.append(InputFault(place, message))
 
+    def add(self, faults: Iterable[InputFault]) -> None:
+        """Note faults that were found elsewhere."""
+        self._faults += faults
+
     @property
     def found(self) -> tuple[InputFault, ...]:
         """The faults noted so far."""

@@ -27,7 +27,6 @@ from pydantic_core import CoreSchema, core_schema
 from rightofway.errors import is_printable, shown
 from rightofway.model.attributes import attributes_of
 from rightofway.site import VertexId
-from rightofway.site.places import as_place
 from rightofway.values import COORDINATE_DIGITS, PATTERN, coordinate, exact
 
 MAX_TICK = 2**53 - 1
@@ -191,10 +190,9 @@ def _words(value: str) -> str:
     return value
 
 
-def _place(value: object, info: ValidationInfo) -> VertexId:
-    """Return the vertex at a place of the map in the context; without one, any vertex."""
-    place = as_place(value, info.context and info.context.roadmap)
-    return info.context.find(place) if info.context else VertexId(0)
+def _place(value: object, info: ValidationInfo) -> Any:
+    """Return the vertex at a place of the map in the context; without one, the place as written."""
+    return info.context.find(value) if info.context else value
 
 
 def _lines(value: object) -> object:

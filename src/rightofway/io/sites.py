@@ -151,7 +151,7 @@ def _of_cells(path: Path, found: Any, choice: Choice) -> Sites:
     from rightofway.io.scenario.shape import MapDocument
 
     document = checked(MapDocument, {"layout": str(path.resolve()), **choice.keys()})
-    loaded = map_of(document, None, Path(), Units(), lambda: Fraction(0))
+    loaded = map_of(document, Path(), Units())
     assert loaded, "only a floor needs speeds"
     site = Site(roadmap=loaded.roadmap, units=loaded.units)
     return Sites(what=described(found), notes=loaded.notes, sites=(("", site),))

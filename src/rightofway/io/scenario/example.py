@@ -12,7 +12,7 @@ from rightofway.errors import InputError
 from rightofway.io.faults import checked
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import read_layout
-from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.writer import yaml_of
 from rightofway.io.text import json_text
@@ -79,7 +79,7 @@ def example_of_layout(path: Path | str, target: Path | str, radius: Fraction = F
         shape["cell_size"] = _cell_size(found, radius)
     from rightofway.io.scenario.shape import MapDocument
 
-    loaded = map_of(checked(MapDocument, shape), None, beside, Units(), lambda: radius)
+    loaded = map_of(checked(MapDocument, shape), beside, Units(), FleetTraits(radius=radius))
     assert loaded, "only a floor needs speeds"
     document = {
         "format": SCENARIO_FORMAT,

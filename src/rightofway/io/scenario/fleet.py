@@ -3,28 +3,29 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, InputFault, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.homes import HOMELESS, housed
-from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
 from rightofway.io.scenario.maps import file_beside
 from rightofway.model import Robot, Rules, Stop
 from rightofway.model.robot import ROBOT_ATTRIBUTES
 from rightofway.site import VertexId
-from rightofway.site.places import kinds_of_places
+from rightofway.site.places import as_place, kinds_of_places
 
 if TYPE_CHECKING:
     from rightofway.io.fields import Document
-    from rightofway.io.scenario.shape import FleetDocument
+    from rightofway.io.scenario.shape import FleetDocument, RobotDocument
 
 DEFAULT_SPEED = Fraction(1)
 
@@ -50,6 +51,90 @@ class FleetRows:
     file: Path
     rows: Sequence[ScenRow]
 
+    @property
+    def traits(self) -> FleetTraits:
+        """What a map depends on."""
+        own = self.document.own(Robot)
+        speeds = (self.document.speeds or [DEFAULT_SPEED])[: len(self.rows)]
+        types = frozenset([own.get("type")])
+        return FleetTraits(speeds=speeds, radius=own.get("radius", Fraction(0)), types=types)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ListedRobot:
+    """A robot of a list, read before the map is known.
+
+    Attributes
+    ----------
+    index
+        Its number in the list, from 0.
+    data, document
+        What is written; and that as a document with places as written, None where it has faults.
+    own
+        The attributes that can be read.
+    faults
+        What is wrong with it, apart from its places.
+    """
+
+    index: int
+    data: Any
+    document: RobotDocument | None
+    own: Mapping[str, Any]
+    faults: Sequence[InputFault] = ()
+
+    @property
+    def place(self) -> str:
+        """Where it stands in the document."""
+        return f"robots[{self.index}]"
+
+    def find(self, on: LoadedMap | None, faults: Faults) -> dict[str, VertexId]:
+        """Return the vertices of its places by their keys, or note why there are none."""
+        if not isinstance(self.data, dict):
+            return {}
+        stops = self.data.get("stops")
+        written = {key: self.data[key] for key in ("home", "target") if key in self.data}
+        for index, stop in enumerate(stops if isinstance(stops, list) else ()):
+            if isinstance(stop, dict) and "at" in stop:
+                written[f"stops[{index}].at"] = stop["at"]
+        find: Callable[[Any], Any] = on.find if on else as_place
+        found = {key: faults.attempt(key, find, place) for key, place in written.items()}
+        return {key: vertex for key, vertex in found.items() if on and vertex is not None}
+
+
+def listed_robot(index: int, data: Any) -> ListedRobot:
+    """Return a robot of a list; of one with faults the attributes that have none."""
+    from rightofway.io.scenario.shape import RobotAttributes, RobotDocument
+
+    try:
+        document = checked(RobotDocument, data)
+    except InputError as error:
+        faults, own = error.faults, dict[str, Any]()
+        for it in ROBOT_ATTRIBUTES:
+            if isinstance(data, dict) and it.key in data:
+                with suppress(InputError):
+                    own |= checked(RobotAttributes, {it.key: data[it.key]}).own(Robot)
+        return ListedRobot(index=index, data=data, document=None, own=own, faults=faults)
+    return ListedRobot(index=index, data=data, document=document, own=document.own(Robot))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ListedFleet:
+    """Robots of a list."""
+
+    robots: Sequence[ListedRobot] = ()
+
+    @property
+    def traits(self) -> FleetTraits:
+        """What a map depends on."""
+        known = all(
+            isinstance(it.data, dict) and ("speed" in it.own or "speed" not in it.data)
+            for it in self.robots
+        )
+        speeds = [it.own.get("speed", DEFAULT_SPEED) for it in self.robots]
+        radius = max((it.own.get("radius", Fraction(0)) for it in self.robots), default=Fraction(0))
+        types = frozenset(it.own.get("type") for it in self.robots if isinstance(it.data, dict))
+        return FleetTraits(speeds=speeds if known else None, radius=radius, types=types)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Placed:
@@ -60,12 +145,12 @@ class Placed:
     aliases: Mapping[str, str]
 
 
-def written_robots(data: Any, base: Path | None) -> Sequence[Any] | FleetRows:
-    """Return robots as they are listed, or the rows of a file that they stand on."""
+def written_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
+    """Return robots with their places as written, or the rows of a file that they stand on."""
     from rightofway.io.scenario.shape import FleetDocument
 
     if isinstance(data, list) and data:
-        return data
+        return ListedFleet(robots=[listed_robot(index, each) for index, each in enumerate(data)])
     if not isinstance(data, dict):
         remedy = "give a list of robots, {scen: a file} or {table: a file}"
         message = f"{shown(data)} is no fleet ({remedy})"
@@ -80,42 +165,6 @@ def written_robots(data: Any, base: Path | None) -> Sequence[Any] | FleetRows:
     return FleetRows(document=document, file=file, rows=rows[: document.count])
 
 
-def speeds_of(robots: Sequence[Any] | FleetRows) -> list[Fraction] | None:
-    """Return the speeds of all robots, or None if some cannot be read."""
-    from rightofway.io.fields import positive
-
-    if isinstance(robots, FleetRows):
-        return (robots.document.speeds or [DEFAULT_SPEED])[: len(robots.rows)]
-    try:
-        return [positive(robot.get("speed", DEFAULT_SPEED)) for robot in robots]
-    except (AttributeError, ValueError):
-        return None
-
-
-def largest_radius(robots: Sequence[Any] | FleetRows) -> Fraction:
-    """Return the largest radius of the fleet; a radius that cannot be read is a fault elsewhere."""
-    from rightofway.io.scenario.shape import RobotDocument
-
-    if isinstance(robots, FleetRows):
-        return Fraction(robots.document.given("radius").get("radius", 0))
-    found = Fraction(0)
-    for robot in robots:
-        try:
-            space = checked(RobotDocument, robot).space()
-        except InputError:
-            continue
-        found = max(found, space.get("radius", Fraction(0)))
-    return found
-
-
-def types_of(robots: Sequence[Any] | FleetRows) -> frozenset[str | None]:
-    """Return the types of the fleet; None stands for a robot without one."""
-    if isinstance(robots, FleetRows):
-        return frozenset([robots.document.given("type").get("type")])
-    found = (robot.get("type") for robot in robots if isinstance(robot, dict))
-    return frozenset(name if isinstance(name, str) else None for name in found)
-
-
 def _place_of_laps(document: Document, place: str) -> str:
     """Return where the document asks a robot without a way back for several laps."""
     if document.given("laps"):
@@ -124,7 +173,7 @@ def _place_of_laps(document: Document, place: str) -> str:
 
 
 def placed_robots(
-    robots: Sequence[Any] | FleetRows,
+    fleet: ListedFleet | FleetRows,
     on: LoadedMap | None,
     rules: Rules,
     faults: Faults,
@@ -132,37 +181,41 @@ def placed_robots(
     deals: bool,
 ) -> tuple[Sequence[Placed], Sequence[str]]:
     """Return the robots at their homes, and notes on homes that were dealt out."""
-    if isinstance(robots, FleetRows):
-        return (_dealt(robots, on, faults) if on else ()), ()
-    placed = _listed(robots, on, faults, deals=deals)
+    if isinstance(fleet, FleetRows):
+        return (_dealt(fleet, on, faults) if on else ()), ()
+    placed = list[Placed]()
+    for robot in fleet.robots:
+        if not deals and isinstance(robot.data, dict) and "home" not in robot.data:
+            message = f"is missing (give {HOME}, or homes: parking for all)"
+            faults.note(f"{robot.place}.home", message)
+        found = faults.attempt(robot.place, _placed, robot, on)
+        if found and (deals or found.robot.home != HOMELESS):
+            placed.append(found)
     return _housed(placed, on, rules, faults) if deals and on and placed else (placed, ())
 
 
-def _listed(
-    robots: Sequence[Any], on: LoadedMap | None, faults: Faults, *, deals: bool
-) -> list[Placed]:
-    """Return robots that are listed; note the faults of others. Without a map, only note faults."""
+def _placed(robot: ListedRobot, on: LoadedMap | None) -> Placed | None:
+    """Return a robot of a list at its places, or raise its faults; without a map, None."""
     from rightofway.io.scenario.shape import RobotDocument
 
-    placed = list[Placed]()
-    for index, data in enumerate(robots):
-        place = f"robots[{index}]"
-        if not deals and isinstance(data, dict) and "home" not in data:
-            faults.note(f"{place}.home", f"is missing (give {HOME}, or homes: parking for all)")
-        document = faults.attempt(place, checked, RobotDocument, data, on)
-        if document is None or on is None or (document.home is None and not deals):
-            continue
-        own = {**document.own(Robot), **document.space()}
-        stops = tuple(Stop(at=at, work=work or Fraction(0)) for at, work in document.trip())
-        home = HOMELESS if document.home is None else document.home
-        robot = Robot(name=document.name, home=home, stops=stops, **own)
-        aliases = {"laps": _place_of_laps(document, place)}
-        if "turn_rate" not in own:
-            aliases["turn_rate"] = "rules.turn_rate"
-        if document.target is not None:
-            aliases["stops[0].at"] = f"{place}.target"
-        placed.append(Placed(robot=robot, place=place, aliases=aliases))
-    return placed
+    faults, document, place = Faults(), robot.document, robot.place
+    faults.add(robot.faults)
+    found = robot.find(on, faults)
+    faults.stop(it.alias or name for name, it in RobotDocument.model_fields.items())
+    if document is None or on is None:
+        return None
+    trip = [("target", document.work)] if document.stops is None else [
+        (f"stops[{index}].at", stop.work) for index, stop in enumerate(document.stops)
+    ]  # fmt: skip
+    stops = tuple(Stop(at=found[at], work=work or Fraction(0)) for at, work in trip)
+    home = found.get("home", HOMELESS)
+    aliases = {"laps": _place_of_laps(document, place)}
+    if "turn_rate" not in robot.own:
+        aliases["turn_rate"] = "rules.turn_rate"
+    if document.target is not None:
+        aliases["stops[0].at"] = f"{place}.target"
+    made = Robot(name=document.name, home=home, stops=stops, **robot.own)
+    return Placed(robot=made, place=place, aliases=aliases)
 
 
 def _housed(

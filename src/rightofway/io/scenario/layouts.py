@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING
 from rightofway.errors import InputError
 from rightofway.io.faults import under
 from rightofway.io.layouts import read_layout
-from rightofway.io.scenario.loaded_map import LoadedMap, curve_note, joined_note
+from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap, curve_note, joined_note
 from rightofway.quantities import Units
 from rightofway.site import roadmap_of_grid
 from rightofway.site.drawing import Drawing
@@ -30,8 +29,7 @@ def laid_out(
     document: MapDocument,
     file: Path,
     units: Units,
-    radius: Callable[[], Fraction],
-    types: Callable[[], frozenset[str | None]],
+    fleet: FleetTraits,
 ) -> LoadedMap:
     """Return the map of a layout's file.
 
@@ -51,11 +49,11 @@ def laid_out(
         made = roadmap_of_level(
             level,
             vehicle_type=document.vehicle_type,
-            robot_types=types(),
+            robot_types=fleet.types,
             metre=1 / metres,
             second=1 / seconds,
             spacing=document.spacing,
-            cuts_curves=radius() > 0,
+            cuts_curves=fleet.radius > 0,
         )
         roadmap = made.roadmap
         stations = {name: roadmap.name(at) for name, at in roadmap.drawing.stations}
@@ -68,7 +66,7 @@ def laid_out(
             notes=notes,
         )
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
-    return _cut(document, found, units, metres, radius())
+    return _cut(document, found, units, metres, fleet.radius)
 
 
 def _cut(

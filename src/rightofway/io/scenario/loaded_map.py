@@ -2,14 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
 from rightofway.quantities import Units, decimal
 from rightofway.site import Floor, Grid, Roadmap, VertexId
-from rightofway.site.places import Place, vertex_at
+from rightofway.site.places import as_place, vertex_at
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FleetTraits:
+    """What a map depends on of the fleet that drives there.
+
+    Attributes
+    ----------
+    speeds
+        The speeds of all robots, for node clustering [length units per time unit]; None if some
+        are not known.
+    radius
+        The largest radius, for maps that are pictures and for curves [length unit].
+    types
+        The types of all robots, for layouts whose lanes are reserved for types; None stands for a
+        robot without one.
+    """
+
+    speeds: Sequence[Fraction] | None = None
+    radius: Fraction = Fraction(0)
+    types: frozenset[str | None] = frozenset()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,8 +49,9 @@ class LoadedMap:
     keeps_clear: bool = False  # blocked cells have grown by what the largest radius is wider
     notes: tuple[str, ...] = ()  # of a layout's reader
 
-    def find(self, place: Place) -> VertexId:
-        """Return the vertex at a place, or raise an InputError that says what is there."""
+    def find(self, written: object) -> VertexId:
+        """Return the vertex at a place as written; an InputError says what is there instead."""
+        place = as_place(written, self.roadmap)
 
         def what_blocks(row: int, column: int) -> str:
             grid, floor = self.roadmap.grid, self.floor

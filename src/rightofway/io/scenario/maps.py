@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -13,7 +13,7 @@ from rightofway.io.faults import Faults, under
 from rightofway.io.movingai import load_map
 from rightofway.io.scenario.curves import LaneCurve, lane_curve, spaced
 from rightofway.io.scenario.layouts import laid_out
-from rightofway.io.scenario.loaded_map import LoadedMap, curve_note, joined_note
+from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap, curve_note, joined_note
 from rightofway.io.text import refuse_special
 from rightofway.quantities import Units, decimal
 from rightofway.site import (
@@ -50,31 +50,26 @@ if TYPE_CHECKING:
 
 def map_of(
     document: MapDocument,
-    speeds: Sequence[Fraction] | None,
     base: Path | None,
     units: Units,
-    radius: Callable[[], Fraction],
-    *,
-    types: Callable[[], frozenset[str | None]] = frozenset,
+    fleet: FleetTraits = FleetTraits(),  # noqa: B008 (it cannot change)
 ) -> LoadedMap | None:
     """Make the roadmap of a map document; None where a floor's cells depend on unknown speeds.
 
-    The speeds of the whole fleet [length units per time unit] are for node clustering, the largest
-    radius [length unit] is for maps that are pictures, the types of all robots (None for a robot
-    without one) for layouts whose lanes are reserved for types. Files are relative to the directory
-    ``base``; without one, none may be read. Units are those that the scenario names.
+    Files are relative to the directory ``base``; without one, none may be read. Units are those
+    that the scenario names.
     """
     if document.layout is not None:
         with under("layout"):
             file = file_beside(base, document.layout)
-        return laid_out(document, file, units, radius, types)
+        return laid_out(document, file, units, fleet)
     if document.roadmap is not None:
         with under("roadmap"):
-            return _drawn(document.roadmap, document, units, has_sizes=radius() > 0)
+            return _drawn(document.roadmap, document, units, has_sizes=fleet.radius > 0)
     if document.floor is not None:
         if document.cell_size == "adaptive":
-            return _joined_floor(document, speeds, radius(), units)
-        return _clustered(document, speeds, keeps_names=units != Units())
+            return _joined_floor(document, fleet.speeds, fleet.radius, units)
+        return _clustered(document, fleet.speeds, keeps_names=units != Units())
     cell_size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
     frame = {
         "y_up": document.y_up,

@@ -18,12 +18,10 @@ from rightofway.io.faults import Faults, blaming, checked
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
 from rightofway.io.scenario.crossings import crossing_note
 from rightofway.io.scenario.fleet import (
+    ListedFleet,
     Placed,
-    largest_radius,
     placed_robots,
     robots_in_table,
-    speeds_of,
-    types_of,
     written_robots,
 )
 from rightofway.io.scenario.loaded_map import LoadedMap
@@ -100,14 +98,7 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
             placed_robots(robots, None, rules, wrong, deals=deals)
             if wrong.found:
                 return None
-        found = map_of(
-            drawn,
-            speeds,
-            base,
-            units,
-            lambda: largest_radius(robots),
-            types=lambda: types_of(robots),
-        )
+        found = map_of(drawn, base, units, robots.traits)
         found = found and with_picture(found, drawn.picture, pictures or base)
         return found if found is None or found.units.length else replace(found, units=units)
 
@@ -121,9 +112,8 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     faults.attempt("", checked, ScenarioFrame, document)
     rules = faults.part(document, "rules", _rules_of) or Rules()
     units = faults.part(document, "units", _units_of) or Units()
-    robots = faults.part(document, "robots", written_robots, base) or []
+    robots = faults.part(document, "robots", written_robots, base) or ListedFleet()
     deals = document.get("homes") == "parking"
-    speeds = speeds_of(robots)
     loaded = faults.part(document, "map", loaded_map_of)
     if loaded:
         rules = replace(rules, clearance=rules.clearance + 2 * loaded.chord_error)

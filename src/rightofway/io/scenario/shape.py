@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import Any, Literal, Self
 
 from pydantic import ConfigDict, Field, GetJsonSchemaHandler, field_validator, model_validator
@@ -34,7 +33,6 @@ from rightofway.io.fields import (
 from rightofway.model import Robot, Rules
 from rightofway.model.resources import circle_around
 from rightofway.quantities import LengthUnit, TimeUnit
-from rightofway.site import VertexId
 from rightofway.site.places import kinds_of_places
 
 PLACES = kinds_of_places(None)
@@ -299,6 +297,11 @@ class StopDocument(Document):
 
 
 @with_attributes(Robot)
+class RobotAttributes(Document):
+    """What a robot has beside its name and its trip."""
+
+
+@with_attributes(Robot)
 class RobotDocument(Document):
     """A robot and its trip: target and work, or stops."""
 
@@ -334,15 +337,10 @@ class RobotDocument(Document):
             raise ValueError("size: length and width are not both positive (give two above 0)")
         return self
 
-    def space(self) -> dict[str, Fraction]:
-        """Return the radius [length unit], if it is written or follows from the size."""
-        if self.size is not None:
-            return {"radius": circle_around(*self.size)}
-        return self.given("radius")
-
-    def trip(self) -> list[tuple[VertexId, Fraction | None]]:
-        """Return where the robot works, and how long [time unit] if that is written."""
-        return [(stop.at, stop.work) for stop in self.stops or ()] or [(self.target, self.work)]
+    def own(self, owner: type) -> dict[str, Any]:
+        """Return the attributes that were written; a size as the radius of the circle around it."""
+        size = {} if self.size is None else {"radius": circle_around(*self.size)}
+        return super().own(owner) | size
 
 
 @with_attributes(Robot, but="speed")

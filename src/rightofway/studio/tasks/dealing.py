@@ -12,6 +12,7 @@ from typing import Any
 from rightofway.errors import InputError
 from rightofway.io.faults import checked, under
 from rightofway.io.fields import positive
+from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.shape import MapDocument, UnitsDocument
 from rightofway.metrics.connectivity import strong_parts, ways_of
@@ -86,7 +87,7 @@ def _roadmap(document: dict[str, Any], folder: str, speeds: list[Fraction]) -> R
         units = checked(UnitsDocument, document.get("units") or {}).given("length", "time")
     with under("map"):
         shape = checked(MapDocument, document.get("map"))
-        found = map_of(shape, speeds, Path(folder), Units(**units), lambda: Fraction(0))
+        found = map_of(shape, Path(folder), Units(**units), FleetTraits(speeds=speeds))
     assert found is not None, "speeds are given"
     return found.roadmap
 

@@ -14,6 +14,7 @@ from typing import Any
 from rightofway.errors import InputError, InputFault
 from rightofway.io import Loaded, dump_scenario
 from rightofway.io.faults import checked
+from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.picture import with_picture
 from rightofway.io.sites import sites_of
@@ -196,7 +197,7 @@ def drawn_map(document: dict[str, Any], folder: str) -> Site | None:
     try:
         given = checked(UnitsDocument, document.get("units") or {}).given("length", "time")
         shape = checked(MapDocument, drawn)
-        loaded = map_of(shape, [Fraction(1)], Path(folder), Units(**given), lambda: Fraction(0))
+        loaded = map_of(shape, Path(folder), Units(**given), FleetTraits(speeds=[Fraction(1)]))
     except InputError:
         return None
     if loaded is None:
