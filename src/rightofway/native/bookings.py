@@ -137,7 +137,13 @@ class ClosedPlaces:
 
 
 def native_rows(rows: BookedRows | None) -> _core.VisitRows | None:
-    """Return what visits book as kernels take it."""
+    """Return what visits book as kernels take it.
+
+    Parameters
+    ----------
+    rows
+        The rows of resources that the visits book; None where robots are points.
+    """
     if rows is None:
         return None
     lists = _core.ExcludedRows(rows.first, rows.excluded)
@@ -145,5 +151,11 @@ def native_rows(rows: BookedRows | None) -> _core.VisitRows | None:
 
 
 def native_closures(closed: ClosedPlaces | None) -> _core.VisitClosures | None:
-    """Return when the places of visits are closed as kernels take it."""
+    """Return when the places of visits are closed as kernels take it.
+
+    Parameters
+    ----------
+    closed
+        The closed times of the visits' places; None where nothing is closed.
+    """
     return None if closed is None else _core.VisitClosures(closed.first, closed.start, closed.end)

@@ -71,12 +71,24 @@ def bound(problem: Problem) -> _core.Problem:
 
 
 def rules_of(problem: Problem) -> _core.BookingRules:
-    """Return how the visits of a problem are booked."""
+    """Return how the visits of a problem are booked.
+
+    Parameters
+    ----------
+    problem
+        The scenario in ticks.
+    """
     return _core.BookingRules(int(problem.headway), problem.books_ahead, problem.rotations)
 
 
 def roads_of(roadmap: Roadmap) -> _core.Roads:
-    """Return the graph of a roadmap."""
+    """Return the graph of a roadmap.
+
+    Parameters
+    ----------
+    roadmap
+        Its vertices and directed edges, in rows by tail.
+    """
     return _core.Roads(
         roadmap.indptr, roadmap.heads, roadmap.length_class, n_classes=len(roadmap.lengths)
     )
@@ -105,7 +117,15 @@ def _turning(problem: Problem) -> _core.Turning | None:
 def tracks_of(
     first_visit: NDArray[np.int32], vertices: NDArray[np.int32], enter: NDArray[np.int64]
 ) -> list[Track]:
-    """Return a track for each robot, whose visits begin at ``first_visit`` (int32[R + 1])."""
+    """Return a track for each robot.
+
+    Parameters
+    ----------
+    first_visit
+        Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``; int32[R + 1].
+    vertices, enter
+        Where each visit is, and when it begins [ticks]; int32[N], int64[N].
+    """
     return [
         Track(vertices=vertices[first:last].copy(), enter=enter[first:last].copy())
         for first, last in pairwise(first_visit.tolist())

@@ -1,6 +1,10 @@
 /** Types that modules of the studio share: documents as they are written, and what is on their map. */
 
-import type { ComparisonData, Payload, RobotData as PlayedRobot } from "../../viz/page/assets/payload.js";
+import type {
+  ComparisonData,
+  Payload,
+  RobotData as PlayedRobot,
+} from "../../viz/page/assets/payload.js";
 import type { Fraction } from "../../viz/page/assets/quantities.js";
 import type { Roadmap } from "../../viz/page/assets/roadmap.js";
 import type { Theme } from "../../viz/page/assets/theme.js";
@@ -167,7 +171,9 @@ export interface ScenarioDocument {
 export type Edit = (document: ScenarioDocument) => ScenarioDocument;
 
 /** What the map shows of a document, as the library has drawn it. */
-export type SitePayload = Omit<Payload, "robots"> & { robots: (PlayedRobot & { index?: number })[] };
+export type SitePayload = Omit<Payload, "robots"> & {
+  robots: (PlayedRobot & { index?: number })[];
+};
 
 /** Figures of plans that are compared. */
 export type ComparisonPayload = ComparisonData;
