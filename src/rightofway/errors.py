@@ -157,16 +157,22 @@ class Blockage:
     Attributes
     ----------
     reason
-        Which robots are blocked, where and why, with a remedy in brackets.
+        Which robots are blocked, where and why.
     robots
         Names of the robots that it concerns.
     vertices
         Names of the vertices that it concerns.
+    remedy
+        What to do; empty where nothing is known to help.
     """
 
     reason: str
     robots: tuple[str, ...]
     vertices: tuple[str, ...]
+    remedy: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.reason} ({self.remedy})" if self.remedy else self.reason
 
 
 class NoPlanExists(RightOfWayError):
@@ -184,7 +190,7 @@ class NoPlanExists(RightOfWayError):
         super().__init__(self.blockages)
 
     def __str__(self) -> str:
-        listed = [blockage.reason for blockage in self.blockages[:MAX_REASONS]]
+        listed = [str(blockage) for blockage in self.blockages[:MAX_REASONS]]
         more = len(self.blockages) - len(listed)
         return "\n".join([*listed, *([f"and {more} more"] if more else [])])
 
@@ -202,7 +208,7 @@ class NoPlanExists(RightOfWayError):
         """Return the blockages as plain data for JSON."""
         return {
             "reasons": [
-                {"reason": one.reason, "robots": list(one.robots), "vertices": list(one.vertices)}
+                {"reason": str(one), "robots": list(one.robots), "vertices": list(one.vertices)}
                 for one in self.blockages
             ],
             "robots": list(self.robots),

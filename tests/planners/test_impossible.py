@@ -52,9 +52,9 @@ def test_shared_ends_are_reported_beside_missing_ways() -> None:
         fleet.add_robot(name, home=home, target=target)
     way, end = no_plan(fleet.scenario()).blockages
     assert way.robots == ("R3",)
-    assert end.reason == (
-        "R1, R2 and R3 would all have to stay at N2 for ever (let others end elsewhere)"
-    )
+    assert end.reason == "R1, R2 and R3 would all have to stay at N2 for ever"
+    assert end.remedy == "let others end elsewhere"
+    assert str(end) == f"{end.reason} ({end.remedy})"
 
 
 def test_two_robots_that_block_each_other_are_named_among_others() -> None:

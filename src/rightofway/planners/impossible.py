@@ -31,6 +31,7 @@ from rightofway.search import (
     untimed_lacam,
 )
 from rightofway.search.missing_ways import (
+    OTHER_PLACES,
     RoadmapParts,
     missing_ways,
     reached_vertices,
@@ -89,10 +90,10 @@ def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
             place = PlaceNames(scenario)(vertex)
             all_of_them, others = ("both", "one of them") if len(names) == 2 else ("all", "others")  # noqa: PLR2004
             yield Blockage(
-                f"{listed(names)} would {all_of_them} have to stay at {place} for ever"
-                f" (let {others} end elsewhere)",
+                f"{listed(names)} would {all_of_them} have to stay at {place} for ever",
                 tuple(names),
                 (scenario.roadmap.name(vertex),),
+                f"let {others} end elsewhere",
             )
 
 
@@ -111,11 +112,12 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
             one, other = (scenario.robots[robot] for robot in pair)
             ends_of_pair = roadmap.name(here), roadmap.name(there)
             at = PlaceNames(scenario).where(here), PlaceNames(scenario).where(there)
+            remedy = f"let one of them {when} elsewhere"
             zone = next((z for z in roadmap.zones if {here, there} <= {*z.vertices}), None)
             if zone is not None:
                 message = f"{one.name} at {at[0]} and {other.name} at {at[1]} would both {when} in"
-                message += f" zone {zone.name} (let one of them {when} elsewhere)"
-                yield Blockage(message, (one.name, other.name), ends_of_pair)
+                message += f" zone {zone.name}"
+                yield Blockage(message, (one.name, other.name), ends_of_pair, remedy)
                 continue
             needed = one.radius + other.radius
             needed += clearance if needed else 0
@@ -124,10 +126,10 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
             yield Blockage(
                 f"{one.name} at {at[0]} and {other.name} at {at[1]} would {when}"
                 f" {length(distance(roadmap, here, there))} apart, but need"
-                f" {length(needed)} (let one of them {when}"
-                " elsewhere)",
+                f" {length(needed)}",
                 (one.name, other.name),
                 ends_of_pair,
+                remedy,
             )
 
 
@@ -215,10 +217,10 @@ def _closed_in(
     places = dict.fromkeys([itinerary.home, *(stage.vertex for stage in itinerary.stages)])
     which = "it" if len(left) == 1 else "one of them"
     return Blockage(
-        f"{name} cannot make its trip, even alone: {listed(closed)}"
-        f" (open {which} earlier, or give the robot other places)",
+        f"{name} cannot make its trip, even alone: {listed(closed)}",
         (name,),
         tuple(map(scenario.roadmap.name, places)),
+        f"open {which} earlier, or {OTHER_PLACES}",
     )
 
 
@@ -343,11 +345,11 @@ def _described(scenario: Scenario, robots: Sequence[int]) -> Blockage:
     if narrow:
         subject = "both" if len(names) == 2 else "all of them"  # noqa: PLR2004
         passing = f"{subject} have to pass {listed(list(map(PlaceNames(scenario), narrow)))}"
-        reason = f"{blocked}: {passing} (give more room there)"
-        return Blockage(reason, names, tuple(map(roadmap.name, narrow)))
+        places = tuple(map(roadmap.name, narrow))
+        return Blockage(f"{blocked}: {passing}", names, places, "give more room there")
     itineraries = [scenario.problem.itineraries[robot] for robot in robots]
     ends = dict.fromkeys(roadmap.name(end) for one in itineraries for end in (one.home, one.last))
-    return Blockage(f"{blocked} (give more room, or other places)", names, tuple(ends))
+    return Blockage(blocked, names, tuple(ends), "give more room, or other places")
 
 
 def _narrow_places(scenario: Scenario, robots: Sequence[int]) -> list[VertexId]:

@@ -251,8 +251,7 @@ def _blockage(task: Task) -> Blockage:
     what = "have no room to pass each other"
     if task.scenario.problem.closures is not None:
         what += " at the times that closures leave them"
-    message = f"{who} {what} (give more room, or other places)"
-    return Blockage(message, names, ())
+    return Blockage(f"{who} {what}", names, (), "give more room, or other places")
 
 
 class _Floor:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.errors import Blockage, GaveUp, NoPlanExists
 from rightofway.model import Problem, Track
 from rightofway.model.given import checked_index, checked_seed
 from rightofway.native import bound, tracks_of
@@ -68,7 +68,13 @@ def plan_by_lacam(
         bound(problem), spreads, checked_seed(seed), most_effort, time_limit
     )
     if end == PROVEN_NONE:
-        raise NoPlanExists("a robot has no way to one of its places (join the parts of the map)")
+        raise NoPlanExists(
+            [
+                Blockage(
+                    "a robot has no way to one of its places", (), (), "join the parts of the map"
+                )
+            ]
+        )
     return tracks_of(first_visit, vertices, enter) if end == FOUND else None
 
 
@@ -121,7 +127,16 @@ def untimed_lacam(
     anywhere = np.array([robot in ends_anywhere for robot in robots], np.uint8)
     end, steps = _core.untimed_lacam(native, anywhere, checked_seed(seed), most_steps, time_limit)
     if end == PROVEN_NONE:
-        raise NoPlanExists("no order of moves brings every robot through its trip (give more room)")
+        raise NoPlanExists(
+            [
+                Blockage(
+                    "no order of moves brings every robot through its trip",
+                    (),
+                    (),
+                    "give more room",
+                )
+            ]
+        )
     if end != FOUND:
         raise GaveUp("time ran out in the search for the whole fleet (give a longer time limit)")
     return steps

@@ -15,6 +15,9 @@ from rightofway.model.place_names import PlaceNames
 from rightofway.search.distances import Distances
 from rightofway.site import Roadmap, VertexId
 
+OTHER_PLACES = "give the robot other places"
+"""A remedy that is always left."""
+
 
 def reaches_its_places(itinerary: Itinerary, distances: Distances) -> bool:
     """Return whether a robot has a way from each place of its trip to the next."""
@@ -51,27 +54,29 @@ def missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blocka
             others = listed(list(map(place, elsewhere)))
             reason = (
                 f"{name} has no way from {place(itinerary.home)} to {others}: the map is"
-                " in parts that no edge joins (join them, or give the robot other places)"
+                " in parts that no edge joins"
             )
-            yield Blockage(reason, (name,), tuple(map(name_of, (itinerary.home, *elsewhere))))
+            vertices = tuple(map(name_of, (itinerary.home, *elsewhere)))
+            yield Blockage(reason, (name,), vertices, f"join them, or {OTHER_PLACES}")
             continue
         distances = distances or Distances(scenario.roadmap)
         for tail, head in _legs_without_a_way(itinerary, distances):
             if distances.to(head, _unbarred(itinerary))[tail] >= 0:
                 kind = scenario.robots[robot].type
                 reason = f"{name} has no way from {place(tail)} to {place(head)}: edges are barred"
-                reason += f" for robots of type {kind} (open one, or give the robot other places)"
-                yield Blockage(reason, (name,), (name_of(tail), name_of(head)))
+                reason += f" for robots of type {kind}"
+                remedy = f"open one, or {OTHER_PLACES}"
+                yield Blockage(reason, (name,), (name_of(tail), name_of(head)), remedy)
                 continue
             opening = parts.opening(tail, head)
             if opening:
                 first, last = map(place, opening)
-                why = f"the edge from {first} to {last} is one way (let robots drive it both ways"
+                why, which = f"the edge from {first} to {last} is one way", "it"
             else:
-                why = "one-way edges are the reason (let robots drive more of them both ways"
-            reason = f"{name} has no way from {place(tail)} to {place(head)}: {why},"
-            reason += " or give the robot other places)"
-            yield Blockage(reason, (name,), (name_of(tail), name_of(head)))
+                why, which = "one-way edges are the reason", "more of them"
+            reason = f"{name} has no way from {place(tail)} to {place(head)}: {why}"
+            remedy = f"let robots drive {which} both ways, or {OTHER_PLACES}"
+            yield Blockage(reason, (name,), (name_of(tail), name_of(head)), remedy)
 
 
 def _unbarred(itinerary: Itinerary) -> tuple[Tick, ...]:

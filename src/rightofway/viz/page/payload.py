@@ -189,6 +189,7 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> FaultsData:
             {
                 "kind": "no plan",
                 "reason": blockage.reason,
+                "remedy": blockage.remedy,
                 "tick": 0,
                 "robots": [robot_of[name] for name in blockage.robots],
                 "vertices": [int(scenario.roadmap.vertex(name)) for name in blockage.vertices],

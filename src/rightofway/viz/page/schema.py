@@ -152,6 +152,7 @@ class FaultData(TypedDict):
 
     kind: str
     reason: NotRequired[str]
+    remedy: NotRequired[str]
     tick: int
     robots: list[int]
     vertices: list[int]

@@ -102,6 +102,7 @@ export interface DrivenData {
 export interface FaultData {
   kind: string;
   reason?: string;
+  remedy?: string;
   tick: number;
   robots: number[];
   vertices: number[];

@@ -293,7 +293,7 @@ export class Words {
    * @param {FaultData} options
    */
   fault({ kind, robots, vertices, reason }) {
-    if (reason) return reason.replace(/ \([^()]*\)$/, "");
+    if (reason) return reason;
     const names = robots.map((robot) => this.robot(robot));
     const places = vertices.map((vertex) => this.vertex(vertex));
     const [who, where] = [several(names), several(places) || texts.offTheMap];
@@ -304,11 +304,10 @@ export class Words {
   /**
    * What would be right, in a sentence.
    *
-   * @param {Pick<FaultData, "kind" | "reason">} options
+   * @param {Pick<FaultData, "kind" | "remedy">} options
    */
-  remedy({ kind, reason }) {
-    const [, advice] = reason?.match(/ \(([^()]*)\)$/) ?? [];
-    if (advice) return `${advice[0].toUpperCase()}${advice.slice(1)}.`;
+  remedy({ kind, remedy }) {
+    if (remedy) return `${upperFirst(remedy)}.`;
     return texts.faultKinds[kind]?.remedy ?? "";
   }
 
