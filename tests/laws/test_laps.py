@@ -163,7 +163,7 @@ def test_a_chosen_timetable_has_no_fault_and_is_not_below_first_come_first_serve
 
 def planned(scenario: Scenario) -> Plan:
     try:
-        return rightofway.solve(scenario, "lacam")
+        return rightofway.solve(scenario, "prioritized")
     except (GaveUp, NoPlanExists):
         leave("no plan of whole laps")
 
