@@ -211,10 +211,11 @@ def test_a_fleet_that_cannot_be_dealt_is_refused(
 
 
 def test_a_survey_has_the_faults_and_the_robots_without_one(client: httpx.Client) -> None:
+    """R1 is at no place and has no target: both are said at once."""
     document = {**DOOR, "robots": [{"name": "R1", "home": "N99"}, *DOOR["robots"]]}
     found = client.post("/survey", json={"document": document}).json()
     assert not found["ok"]
-    assert [fault["place"] for fault in found["faults"]] == ["robots[0].home"]
+    assert [fault["place"] for fault in found["faults"]] == ["robots[0].home", "robots[0]"]
     assert [robot["index"] for robot in found["site"]["robots"]] == [1, 2]
 
 
