@@ -39,6 +39,7 @@ from rightofway.model import (
     Route,
     Scenario,
     StartPlan,
+    Tick,
     Track,
     cost_of,
     route_along,
@@ -98,6 +99,10 @@ def first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
     found = [_repaired(hurried, search, kept, [*unchanged, *changed])]
     if changed and hurried.deadline.seconds_left() != 0:
         found.append(_repaired(hurried, search, kept, unchanged))
+    headway = task.scenario.problem.headway
+    if not others and headway != planning_headway(task.scenario):  # the old plan may have had less
+        in_time = _timetable(task.scenario, kept, [*unchanged, *changed], headway)
+        found.append(None if in_time is None else tuple(in_time.values()))
     valid = [tracks for tracks in found if tracks is not None and _is_valid(task.scenario, tracks)]
     return min(valid, key=lambda tracks: cost_of(task.scenario, tracks), default=None)
 
@@ -263,24 +268,28 @@ def _in_old_order(
     bisection, because an order stays possible if a robot is taken out.
     """
     fits, left = list[int](), list(order)
-    tracks = _timetable(task.scenario, kept, left)
+    headway = planning_headway(task.scenario)
+    tracks = _timetable(task.scenario, kept, left, headway)
     for _ in range(MOST_REFUSED):
         if tracks is not None or task.deadline.seconds_left() == 0:
             break
         low, high = 0, len(left)
         while high - low > 1:
             middle = (low + high) // 2
-            tried = _timetable(task.scenario, kept, [*fits, *left[:middle]])
+            tried = _timetable(task.scenario, kept, [*fits, *left[:middle]], headway)
             low, high = (low, middle) if tried is None else (middle, high)
         fits, left = [*fits, *left[:low]], left[low + 1 :]
-        tracks = _timetable(task.scenario, kept, [*fits, *left])
-    return tracks or _timetable(task.scenario, kept, fits) or {}
+        tracks = _timetable(task.scenario, kept, [*fits, *left], headway)
+    return tracks or _timetable(task.scenario, kept, fits, headway) or {}
 
 
 def _timetable(
-    scenario: Scenario, kept: Mapping[int, _Kept], robots: Sequence[int]
+    scenario: Scenario, kept: Mapping[int, _Kept], robots: Sequence[int], headway: Tick
 ) -> Mapping[int, Track] | None:
-    """Return the earliest tracks of some robots in the old order; None if it is impossible."""
+    """Return the earliest tracks of some robots in the old order; None if it is impossible.
+
+    They are in the order of the robots' numbers.
+    """
     if not robots:
         return {}
     robots, part = sorted(robots), scenario
@@ -289,7 +298,7 @@ def _timetable(
         part = replace(scenario, robots=fleet, clock=scenario.problem.clock)
     try:
         routes = [kept[robot].route for robot in robots]
-        graph = graph_on(part, routes, headway=planning_headway(scenario))
+        graph = graph_on(part, routes, headway=headway)
         is_possible = graph.keeps_order([kept[robot].when for robot in robots])
     except ValueError:
         return None  # closures leave a route no times, or the old plan has times that fall
