@@ -64,12 +64,10 @@ def test_the_other_robot_goes_first_and_the_difference_is_shown(opened: Opener) 
     robot = offered.inner_text().removeprefix("Let ").removesuffix(" go first")
     assert f"{robot} waits" in studio.text(".waits")
     offered.click()
-    studio.wait_for("Boolean(studio.runs.comparison)")
-    assert studio.ask("[studio.runs.run.kind, studio.runs.beside]") == ["flip", 1]
-    before, after = (
-        dict(studio.ask(f"studio.runs.comparison.robots.map((r) => [r.name, r.completion[{i}]])"))
-        for i in (0, 1)
-    )
+    compared(studio, 2)
+    assert studio.run(2)["kind"] == "flip"
+    robots = studio.api("compare?run=1&run=2")["robots"]
+    before, after = ({r["name"]: r["completion"][i] for r in robots} for i in (0, 1))
     assert after[robot] <= before[robot]
     assert before != after
     assert ("Earlier" in studio.text(".change")) or ("Later" in studio.text(".change"))
@@ -79,28 +77,29 @@ def test_a_change_of_a_robot_is_planned_at_once(opened: Opener) -> None:
     studio = opened(BAY)
     begin(studio)
     studio.planned()
-    studio.ask("studio.stage.choice.chooseRobot(0)")
-    speed = studio.page.locator(".ask").get_by_label("Speed", exact=True)
+    choose(studio, 0)
+    speed = studio.chosen("R1").get_by_label("Speed", exact=True)
     speed.fill("2")
     speed.press("Tab")
-    studio.wait_for("studio.runs.shown === 2 && studio.runs.comparison && studio.runs.command")
+    compared(studio, 2)
     assert studio.document["robots"][0]["speed"] == 2
-    assert studio.ask("studio.runs.run.request.time_limit") == 1
+    assert studio.run(2)["request"]["time_limit"] == 1
     assert "R1: speed 1 → 2" in studio.text(".change .edit")
     assert "R1" in studio.text(".change .gain")
     assert "The same route as before: " in studio.text(".change")
-    assert studio.ask("studio.runs.run.request.start") == 1
-    assert "--start run-1.json" in studio.ask("studio.runs.command")
-    assert studio.ask("studio.stage.choice.robot.name") == "R1"  # it stays chosen
+    assert studio.run(2)["request"]["start"] == 1
+    studio.page.locator(".exports summary").click()
+    assert "--start run-1.json" in studio.text(".command code")
+    assert studio.chosen("R1").is_visible()  # it stays chosen
     speed.fill("fast")
     speed.press("Tab")
     studio.settle()
-    fault = studio.ask("studio.store.faults[0].message")
+    fault = studio.post("validate", {"document": studio.document})["faults"][0]["message"]
     assert fault in studio.text(".ask [role=alert]")
     assert speed.get_attribute("aria-invalid") == "true"
-    assert studio.ask("studio.runs.runs.length") == 2
+    assert len(studio.runs) == 2
     studio.page.locator("[data-run='1'] .show").click()
-    studio.wait_for("studio.runs.shown === 1")
+    studio.shown(1)
     studio.button("Edit what it was planned from").click()
     studio.settle()
     assert "speed" not in studio.document["robots"][0]
@@ -111,37 +110,56 @@ def asked(opened: Opener, text: str, robot: int = 0) -> StudioPage:
     studio = opened(text)
     begin(studio)
     studio.planned()
-    studio.ask(f"studio.stage.choice.chooseRobot({robot})")
+    choose(studio, robot)
     return studio
+
+
+def choose(studio: StudioPage, robot: int) -> None:
+    """Choose a robot of the plan by a press at its home, where it is at the start."""
+    home = studio.document["robots"][robot]["home"]
+    if isinstance(home, str):
+        columns = len(studio.document["map"]["grid"][0])
+        row, column = divmod(int(home[1:]), columns)
+        place = (column + 0.5, row + 0.5)
+    else:
+        place = (home["x"], home["y"])
+    studio.press(place)
+    studio.chosen(f"R{robot + 1}").wait_for()
 
 
 def compared(studio: StudioPage, run: int) -> None:
     """Wait until a run is shown, and its plan compared with the one before."""
-    studio.wait_for(f"studio.runs.shown === {run} && studio.runs.comparison?.runs[1] === {run}")
+    studio.shown(run)
+    studio.page.locator(".change[aria-busy=false]").first.wait_for()
 
 
 def cursor(studio: StudioPage, place: tuple[float, float]) -> str:
     """Return how the pointer looks over a place of the map."""
     studio.page.mouse.move(*studio.where(place))
-    return str(studio.ask("getComputedStyle(studio.stage.canvas).cursor"))
+    return looks(studio, "#map")
+
+
+def looks(studio: StudioPage, selector: str) -> str:
+    """Return how the pointer looks over an element."""
+    studio.settle()
+    style = "(it) => getComputedStyle(it).cursor"
+    return str(studio.page.locator(selector).evaluate(style))
 
 
 def test_a_home_that_is_dragged_on_a_plan_is_planned_at_once(opened: Opener) -> None:
     studio = asked(opened, BAY)
-    before = studio.ask("[studio.stage.view.viewport.left, studio.stage.view.viewport.top]")
+    before = studio.view()
     studio.drag((0.5, 0.5), (4.5, 1.5))
     compared(studio, 2)
     assert studio.document["robots"][0]["home"] == "N9"
-    assert studio.ask("studio.runs.run.request.start") == 1
-    assert studio.ask("studio.runs.run.request.time_limit") == 1
+    assert studio.run(2)["request"]["start"] == 1
+    assert studio.run(2)["request"]["time_limit"] == 1
     assert "R1: home N0 → N9" in studio.text(".change .edit")
-    assert studio.ask("studio.stage.choice.robot.name") == "R1"  # it stays chosen
-    after = studio.ask("[studio.stage.view.viewport.left, studio.stage.view.viewport.top]")
-    assert after == before  # the map has not moved
-    box = "document.querySelector('.change').getBoundingClientRect()"
-    studio.wait_for(f"{box}.top < innerHeight && {box}.bottom > 0")  # it came into view
+    assert studio.chosen("R1").is_visible()  # it stays chosen
+    assert studio.view() == before  # the map has not moved
+    expect(studio.page.locator(".change").first).to_be_in_viewport()
     studio.button("Put it back").click()
-    studio.wait_for("studio.runs.shown === 1")
+    studio.shown(1)
     assert studio.document["robots"][0]["home"] == "N0"
     assert studio.complaints == []
 
@@ -151,14 +169,15 @@ def test_an_undo_beside_a_plan_shows_the_plan_of_before(opened: Opener) -> None:
     studio.drag((0.5, 0.5), (4.5, 1.5))
     compared(studio, 2)
     studio.page.keyboard.press("Control+z")
-    studio.wait_for("studio.runs.shown === 1 && studio.runs.comparison === null")
+    studio.shown(1)
+    expect(studio.page.locator(".change")).to_have_count(0)
     assert studio.document["robots"][0]["home"] == "N0"
-    assert studio.ask("studio.stage.choice.robot.name") == "R1"
+    assert studio.chosen("R1").is_visible()
     studio.page.keyboard.press("Control+Shift+z")
-    studio.wait_for("studio.runs.shown === 2")
+    studio.shown(2)
     assert studio.document["robots"][0]["home"] == "N9"
     studio.settle()
-    assert studio.ask("studio.runs.runs.length") == 2
+    assert len(studio.runs) == 2
     assert studio.complaints == []
 
 
@@ -175,7 +194,7 @@ def test_each_stop_is_dragged_and_a_place_of_a_floor_is_a_point(opened: Opener) 
     compared(studio, 2)
     stops = [{"at": {"x": 2.5, "y": 0.5}, "work": 2}, {"at": {"x": 4.5, "y": 2.5}}]
     assert studio.document["robots"][0]["stops"] == stops
-    assert studio.ask("studio.stage.choice.robot.stages.length") == 3
+    expect(studio.chosen("R1").get_by_label("Stops")).to_have_value("2.5, 0.5 (2); 4.5, 2.5")
 
 
 @pytest.mark.parametrize(
@@ -196,8 +215,8 @@ def test_a_place_that_no_home_can_be_at_is_refused_in_the_words_of_the_library(
     studio.page.locator(".status [role=alert]").wait_for()
     assert words in studio.text(".status")
     assert studio.document == before
-    assert studio.ask("studio.store.canUndo") is False
-    assert studio.ask("studio.runs.runs.length") == 1
+    expect(studio.button("Undo")).to_be_disabled()
+    assert len(studio.runs) == 1
 
 
 def test_only_the_places_of_the_robot_that_is_chosen_are_dragged(opened: Opener) -> None:
@@ -206,27 +225,29 @@ def test_only_the_places_of_the_robot_that_is_chosen_are_dragged(opened: Opener)
     assert cursor(studio, (0.5, 0.5)) == "move"
     assert cursor(studio, (2.5, 3.5)) == "move"  # its stop
     assert cursor(studio, (2.5, 0.5)) == "grab"  # the home of another one
-    before = studio.document
+    before, view = studio.document, studio.view()
     studio.drag((2.5, 0.5), (3.5, 1.5))
-    assert studio.ask("studio.stage.view.viewport.fitted") is False
+    assert studio.view() != view
     studio.page.keyboard.press("0")
+    assert looks(studio, "#map")  # it is painted
+    assert studio.view() == view
     studio.press((4.5, 0.5))
-    assert studio.ask("studio.stage.choice.robot.name") == "R3"
+    assert studio.chosen("R3").is_visible()
     assert cursor(studio, (0.5, 0.5)) == "grab"
     studio.press((4.5, 0.5))
-    assert studio.ask("studio.stage.choice.robot.name") == "R3"
+    assert studio.chosen("R3").is_visible()
     mouse = studio.page.mouse
     mouse.move(*studio.where((4.5, 0.5)))
     mouse.down()
     mouse.move(*studio.where((4.5, 1.5)), steps=4)
-    assert studio.ask("getComputedStyle(studio.stage.holder).cursor") == "grabbing"
+    assert looks(studio, ".holder") == "grabbing"
     studio.page.keyboard.press("Escape")
     mouse.up()
     studio.settle()
-    assert studio.ask("studio.stage.choice.robot.name") == "R3"
+    assert studio.chosen("R3").is_visible()
     assert studio.document == before
-    assert studio.ask("studio.runs.runs.length") == 1
-    assert studio.ask("studio.stage.view.viewport.fitted") is True
+    assert len(studio.runs) == 1
+    assert studio.view() == view
 
 
 def test_a_finger_chooses_a_robot_and_drags_its_home(browser: Browser, empty: Client) -> None:
@@ -238,7 +259,7 @@ def test_a_finger_chooses_a_robot_and_drags_its_home(browser: Browser, empty: Cl
         begin(studio)
         studio.planned()
         studio.page.touchscreen.tap(*studio.where((2.5, 0.5)))
-        studio.wait_for("studio.stage.choice.robot?.name === 'R2'")
+        studio.chosen("R2").wait_for()
         fingers = studio.page.context.new_cdp_session(studio.page)
 
         def touch(kind: str, *places: tuple[float, float]) -> None:
@@ -303,29 +324,32 @@ def test_a_robot_that_waits_for_a_closed_place_says_so(opened: Opener) -> None:
     assert "N2 is closed until time 9" in studio.text(".waits")
 
 
+def way(studio: StudioPage, run: int) -> list[str]:
+    """Return the places that R1 drives through, in order, by the plan file of a run."""
+    robots = studio.api(f"runs/{run}/export/json")["robots"]
+    return list(robots[0]["vertices"])
+
+
 def test_a_lane_is_closed_and_the_former_way_is_dashed(opened: Opener) -> None:
     """No robot drives along a closed lane any more, and its sign is on the map."""
     studio = opened(OPEN)
     begin(studio)
     studio.planned()
-    studio.ask("studio.stage.choice.chooseRobot(0)")
-    way = "Array.from(studio.stage.choice.robot.vertices, (v) => studio.stage.plan.roadmap.name(v))"
-    before = studio.ask(way)
+    choose(studio, 0)
+    before = way(studio, 1)
     tail, head = before[1:3]
     studio.page.fill("#close-at", tail)
     studio.page.fill("#close-to", head)
     studio.button("Close it").click()
-    studio.wait_for("studio.runs.shown === 2 && studio.runs.comparison?.runs[1] === 2")
+    compared(studio, 2)
     assert studio.document["closures"] == [{"edge": [tail, head]}]
-    after = studio.ask(way)
+    after = way(studio, 2)
     assert not {(tail, head), (head, tail)} & set(pairwise(after))
     assert f"{tail} to {head}: closed" in studio.text(".change .edit")
-    assert studio.ask("studio.former.ways.length") > 0
     assert "Dashed on the map" in studio.text(".change")
     studio.button("Put it back").click()
-    studio.wait_for("studio.runs.shown === 1")
+    studio.shown(1)
     assert "closures" not in studio.document
-    assert studio.ask(way) == before
     assert studio.complaints == []
 
 
@@ -355,7 +379,7 @@ def test_what_cannot_be_closed_is_marked_at_its_field_and_changes_nothing(
     assert found == wrong
     assert [form.get_by_label(name).input_value() for name in names] == list(typed)
     assert "closures" not in studio.document
-    assert studio.ask("studio.runs.runs.length") == 1
+    assert len(studio.runs) == 1
 
 
 def test_what_waits_for_a_press_on_the_map_looks_so_until_it_is_given_up(opened: Opener) -> None:
@@ -364,12 +388,12 @@ def test_what_waits_for_a_press_on_the_map_looks_so_until_it_is_given_up(opened:
 
     def shows(is_waiting: bool) -> None:
         """Wait until button, sentence and pointer say whether a press is waited for."""
-        holder, form = "studio.stage.holder.className", "document.querySelector('.close-place')"
-        studio.wait_for(
-            f"[{form}.querySelector('[aria-pressed]').ariaPressed === 'true',"
-            f" {form}.innerText.includes('Press the place or the lane on the map'),"
-            f" {holder}.includes('picking')].every((is) => is === {str(is_waiting).lower()})"
-        )
+        expect(button).to_have_attribute("aria-pressed", str(is_waiting).lower())
+        hint = studio.page.locator(".close-place").get_by_text("Press the place or the lane")
+        expect(hint).to_have_count(int(is_waiting))
+        cursors = ("grab", "crosshair")
+        studio.page.mouse.move(*studio.where((2.5, 2.5)))
+        expect(studio.page.locator("#map")).to_have_css("cursor", cursors[is_waiting])
 
     shows(is_waiting=False)
     button.click()
@@ -377,7 +401,7 @@ def test_what_waits_for_a_press_on_the_map_looks_so_until_it_is_given_up(opened:
     assert button.is_enabled()
     studio.page.keyboard.press("Escape")
     shows(is_waiting=False)
-    assert studio.ask("studio.stage.choice.robot.name") == "R1"
+    assert studio.chosen("R1").is_visible()
     button.click()
     shows(is_waiting=True)
     button.click()
@@ -386,11 +410,11 @@ def test_what_waits_for_a_press_on_the_map_looks_so_until_it_is_given_up(opened:
     studio.tab("Map")
     studio.tab("Plan")
     shows(is_waiting=False)
-    studio.ask("studio.stage.choice.chooseRobot(0)")
+    choose(studio, 0)
     button.click()
     studio.page.get_by_label("until").fill("4")
     studio.page.mouse.click(*studio.where((2.5, 1.5)))
     compared(studio, 2)
     assert studio.document["closures"] == [{"at": "N7", "until": 4}]
-    assert studio.ask("studio.stage.choice.robot.name") == "R1"  # the press was not for the map
+    assert studio.chosen("R1").is_visible()  # the press was not for the map
     assert studio.complaints == []
