@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from dataclasses import FrozenInstanceError, dataclass
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import pytest
@@ -66,3 +70,31 @@ def test_options_of_a_planner_hold_their_own_defaults(planner: str) -> None:
     spec = registered()[planner]
     assert spec.settle(spec.options_type()) == spec.settle({})
     assert [option.name for option in spec.options] == list(spec.settle({}))
+
+
+ASKS_TWICE = """
+import shutil, sys
+from rightofway.planners import registered
+first = registered()
+first.pop("auto")
+shutil.rmtree(sys.argv[1])
+print(list(first)[-1], list(registered())[-1], "auto" in registered())
+"""
+
+
+def test_planners_of_other_packages_are_searched_once_for_a_path(tmp_path: Path) -> None:
+    """The package is not installed any more at the second call; a caller's changes do not stay."""
+    metadata = tmp_path / "own-1.0.dist-info"
+    metadata.mkdir()
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: own\nVersion: 1.0\n")
+    (metadata / "entry_points.txt").write_text("[rightofway.planners]\nown = own:SPEC\n")
+    (tmp_path / "own.py").write_text(
+        "from rightofway.planners import PlannerOptions, PlannerSpec\n"
+        "SPEC = PlannerSpec('own', 'own:own', 'A planner of another package.', PlannerOptions)\n"
+    )
+    command = [sys.executable, "-c", ASKS_TWICE, str(metadata)]
+    paths = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
+    run = subprocess.run(
+        command, env={**os.environ, "PYTHONPATH": paths}, capture_output=True, text=True, check=True
+    )
+    assert run.stdout.split() == ["own", "own", "True"]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from importlib import import_module
 from typing import Any, cast
 
@@ -193,11 +195,26 @@ IMPROVER = "lns"
 
 
 def registered() -> dict[str, PlannerSpec]:
-    """Return every planner by name: ours, then those of other packages."""
+    """Return every planner by name: ours, then those of other packages.
+
+    Notes
+    -----
+    Installed packages are searched once for each ``sys.path``.
+    """
+    specs = {spec.name: spec for spec in PLANNERS}
+    for name, spec in _of_other_packages(tuple(sys.path)).items():
+        specs.setdefault(name, spec)
+    return specs
+
+
+@cache
+def _of_other_packages(_path: tuple[str, ...]) -> dict[str, PlannerSpec]:
+    """Return the planners of packages that are installed on this ``sys.path``."""
     from importlib.metadata import entry_points  # here, because it imports much
 
-    specs = {spec.name: spec for spec in PLANNERS}
-    for point in entry_points(group="rightofway.planners"):
+    points = entry_points(group="rightofway.planners")
+    specs: dict[str, PlannerSpec] = {}
+    for point in points:
         specs.setdefault(point.name, cast("PlannerSpec", point.load()))
     return specs
 
