@@ -6,12 +6,12 @@ from functools import partial
 
 from hypothesis import strategies as st
 
-from rightofway.model import Scenario, route_of
+from rightofway.model import Scenario, completions_of, cost_of
 from rightofway.search import Distances, earliest_track, least_completions
 from tests.builders.any_fleet import any_fleet
 from tests.builders.booked import booked_on, table_of
 from tests.builders.laws import law, leave
-from tests.oracles.sipp import Booked, earliest_completion
+from tests.oracles.sipp import Booked, least_cost
 from tests.oracles.turning import turn
 
 HORIZON = 90
@@ -26,7 +26,9 @@ problems = any_fleet(robots=(1, 1), without=UNKNOWN, tiny=True).flatmap(
 
 
 @law(problems)
-def test_the_search_finds_the_earliest_completion(drawn: tuple[Scenario, list[Booked]]) -> None:
+def test_the_search_finds_the_least_completion_and_surcharges(
+    drawn: tuple[Scenario, list[Booked]],
+) -> None:
     scenario, booked = drawn
     problem = scenario.problem
     itinerary = problem.itineraries[0]
@@ -34,7 +36,7 @@ def test_the_search_finds_the_earliest_completion(drawn: tuple[Scenario, list[Bo
     if alone is None or alone[0] < 0:
         leave("no way leads to a stop")
     track = earliest_track(0, table_of(problem, booked), Distances(scenario.roadmap))
-    best = earliest_completion(
+    best = least_cost(
         scenario.roadmap,
         itinerary,
         booked,
@@ -46,5 +48,5 @@ def test_the_search_finds_the_earliest_completion(drawn: tuple[Scenario, list[Bo
     if track is None or len(track) == 1:  # a trip that stays at home needs no time to get there
         assert best is None or track is not None
         return
-    done = int(track.enter[-1]) + route_of(scenario.roadmap, itinerary, track).dwell[-1]
-    assert done == best or (best is None and done > HORIZON)
+    cost, done = cost_of(scenario, [track]), completions_of(scenario, [track])[0]
+    assert cost == best or (done > HORIZON and (best is None or cost < best))

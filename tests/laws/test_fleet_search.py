@@ -15,7 +15,7 @@ from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 from rightofway.site import roadmap_of_grid
 from tests.builders.fleets import grid_fleet, random_fleet
-from tests.builders.laws import law
+from tests.builders.laws import law, once
 
 RULES = st.builds(
     Rules,
@@ -41,7 +41,14 @@ def judged(scenario: Scenario, tracks: tuple[Track, ...]) -> bool:
     return check(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="any"))).ok
 
 
+RETURNS_TO_ITS_END = random_fleet(
+    7, size=7, robots=8, walls=0.1, rules=Rules(occupancy="one", ends="none")
+)
+"""R7 stands at its end for longer than its work, makes room for another robot and comes back."""
+
+
 @law(FLEETS, st.integers(0, 99))
+@once(scenario=RETURNS_TO_ITS_END, seed=0)
 def test_plans_are_sound_better_each_time_and_the_same_on_any_number_of_threads(
     scenario: Scenario, seed: int
 ) -> None:

@@ -163,7 +163,8 @@ def route_through(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[Ver
         Where it goes, visit by visit.
     """
     spare = np.full(len(vertices), NEVER)
-    return _route(roadmap, itinerary, vertices, _serves(itinerary, vertices, spare))
+    serves = serving_visits(itinerary.stages, np.array(vertices, np.int32), spare)
+    return _route(roadmap, itinerary, vertices, serves)
 
 
 def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
@@ -183,15 +184,8 @@ def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
     drive = np.array(drives_along(roadmap, itinerary, vertices), np.int64)
     turns = turns_along(roadmap, itinerary, track.vertices)
     spare = np.append(np.diff(track.enter) - drive - turns[:-1], NEVER)
-    return _route(roadmap, itinerary, vertices, _serves(itinerary, vertices, spare))
-
-
-def _serves(
-    itinerary: Itinerary, vertices: Sequence[VertexId], spare: NDArray[np.int64]
-) -> list[int]:
-    """Return the visit that serves each stage: the last visit for the last stage."""
-    before = serving_visits(itinerary.stages[:-1], np.array(vertices, np.int32), spare)
-    return [*before, len(vertices) - 1]
+    serves = serving_visits(itinerary.stages, track.vertices, spare)
+    return _route(roadmap, itinerary, vertices, serves)
 
 
 def _route(
@@ -262,6 +256,9 @@ def serving_visits(
 ) -> list[int]:
     """Return the visit that serves each stage, up to the first stage that no visit serves.
 
+    Each stage takes the earliest visit that is long enough, but the last stage, where the trip
+    ends, takes the last visit: a robot that passes its end works there once it has come to stay.
+
     Parameters
     ----------
     stages
@@ -274,11 +271,12 @@ def serving_visits(
     used: dict[int, int] = {}
     serves: list[int] = []
     visit = 0
-    for stage in stages:
+    for number, stage in enumerate(stages):
         if stage.vertex not in visits_at:
             visits_at[stage.vertex] = np.flatnonzero(vertices == stage.vertex).tolist()
         there, need = visits_at[stage.vertex], stage.work + stage.turn
-        place = bisect_left(there, visit)
+        is_last = number == len(stages) - 1
+        place = bisect_left(there, len(vertices) - 1 if is_last else visit)
         while place < len(there) and spare[there[place]] - used.get(there[place], 0) < need:
             place += 1
         if place == len(there):

@@ -126,7 +126,7 @@ def earliest_track(
     *,
     time_limit: float | None = None,
 ) -> Track | None:
-    """Find the track of one robot that completes first and overlaps no booking.
+    """Find the track of one robot that overlaps no booking and completes first, surcharges added.
 
     Parameters
     ----------
