@@ -51,7 +51,7 @@ def test_with_equal_speeds_and_no_work_it_takes_steps_of_lacam(scenario: Scenari
     last = max(int(track.enter[-1]) for track in tracks)
     steps = zip(*(at_each_tick(track, last) for track in tracks), strict=True)
     for at, after in pairwise(steps):
-        assert is_step(scenario.roadmap, at, after, may_rotate=scenario.rules.rotations)
+        assert is_step(scenario, at, after, may_rotate=scenario.rules.rotations)
 
 
 def at_each_tick(track: Track, last: int) -> list[int]:

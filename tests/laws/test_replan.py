@@ -58,7 +58,7 @@ def most_by_brute_force(forecast: Forecast, stages: Sequence[tuple[Stage, ...]])
     scenario = forecast.adg.scenario
     may_rotate = scenario.rules.occupancy == "one" and scenario.problem.headway == 0
     return most_who_can_finish(
-        scenario.roadmap,
+        scenario,
         [one.vertex for one in kept],
         goals,
         forecast.broken,

@@ -67,7 +67,7 @@ def test_steps_are_found_exactly_where_there_are_any(scenario: Scenario, seed: i
         return
     assert can_get_through(scenario, may_rotate=may_rotate)
     for at, after in zip(steps[:-1].tolist(), steps[1:].tolist(), strict=True):
-        assert is_step(scenario.roadmap, at, after, may_rotate=may_rotate)
+        assert is_step(scenario, at, after, may_rotate=may_rotate)
 
 
 @law(fleets())

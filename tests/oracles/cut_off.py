@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rightofway.site import Roadmap
+from rightofway.model import Scenario
 from tests.oracles.untimed_lacam import advance, steps
 
 __all__ = ["most_who_can_finish"]
 
 
 def most_who_can_finish(
-    roadmap: Roadmap,
+    scenario: Scenario,
     at: Sequence[int],
     goals: Sequence[Sequence[int]],
     stuck: frozenset[int],
@@ -23,8 +23,8 @@ def most_who_can_finish(
 
     Parameters
     ----------
-    roadmap
-        The map.
+    scenario
+        The map, and which robots are barred from which edges.
     at
         Where each robot stands.
     goals
@@ -46,7 +46,7 @@ def most_who_can_finish(
             for r, (goal, reached, place) in enumerate(zip(goals, stage, places, strict=True))
         )
         best = max(best, sum(through))
-        for after in steps(roadmap, places, may_rotate=may_rotate):
+        for after in steps(scenario, places, may_rotate=may_rotate):
             moved = {v for a, b in zip(places, after, strict=True) if a != b for v in (a, b)}
             state = advance(after, stage, goals)
             if not moved & closed and state not in seen:

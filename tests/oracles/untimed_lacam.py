@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from itertools import product
 
 from rightofway.model import Scenario
-from rightofway.site import Roadmap
 
 __all__ = ["advance", "can_get_through", "is_step", "steps"]
 
@@ -24,7 +23,7 @@ def can_get_through(scenario: Scenario, *, may_rotate: bool) -> bool:
         at, stage = queue.popleft()
         if all(g[s:] == [v] for g, s, v in zip(goals, stage, at, strict=True)):
             return True
-        for after in steps(scenario.roadmap, at, may_rotate=may_rotate):
+        for after in steps(scenario, at, may_rotate=may_rotate):
             state = advance(after, stage, goals)
             if state not in seen:
                 seen.add(state)
@@ -32,15 +31,27 @@ def can_get_through(scenario: Scenario, *, may_rotate: bool) -> bool:
     return False
 
 
-def is_step(roadmap: Roadmap, at: Sequence[int], after: Sequence[int], *, may_rotate: bool) -> bool:
+def is_step(
+    scenario: Scenario, at: Sequence[int], after: Sequence[int], *, may_rotate: bool
+) -> bool:
     """Tell whether all robots may go from one configuration to another in one step."""
     moves = {a: b for a, b in zip(at, after, strict=True) if a != b}
     return (
         len(set(after)) == len(after)
-        and all(roadmap.edge(a, b) is not None for a, b in moves.items())
+        and all(
+            a == b or _may_drive(scenario, r, a, b)
+            for r, (a, b) in enumerate(zip(at, after, strict=True))
+        )
         and all(moves.get(b) != a for a, b in moves.items())
         and (may_rotate or not _rotates(moves))
     )
+
+
+def _may_drive(scenario: Scenario, robot: int, tail: int, head: int) -> bool:
+    """Tell whether there is an edge, and it is not barred to the robot."""
+    roadmap, ticks = scenario.roadmap, scenario.problem.itineraries[robot].edge_ticks
+    edge = roadmap.edge(tail, head)
+    return edge is not None and ticks[roadmap.length_class[edge]] >= 0
 
 
 def _rotates(moves: dict[int, int]) -> bool:
@@ -55,11 +66,14 @@ def _rotates(moves: dict[int, int]) -> bool:
     return False
 
 
-def steps(roadmap: Roadmap, at: tuple[int, ...], *, may_rotate: bool) -> Iterator[tuple[int, ...]]:
+def steps(
+    scenario: Scenario, at: tuple[int, ...], *, may_rotate: bool
+) -> Iterator[tuple[int, ...]]:
     """Yield every configuration that all robots may go to in one step."""
+    roadmap = scenario.roadmap
     choices = [[v, *roadmap.heads[roadmap.indptr[v] : roadmap.indptr[v + 1]].tolist()] for v in at]
     for after in product(*choices):
-        if is_step(roadmap, at, after, may_rotate=may_rotate):
+        if is_step(scenario, at, after, may_rotate=may_rotate):
             yield after
 
 
