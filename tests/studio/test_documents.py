@@ -36,6 +36,7 @@ def test_a_layout_opens_as_the_map_of_a_new_scenario(client: httpx.Client, folde
     opened = client.get("/documents/hall.map").json()
     assert opened["kind"] == "layout"
     assert opened["document"]["map"]["layout"] == "hall.map"
+    assert opened["document"]["robots"] == []
     assert (opened["save_as"], opened["revision"]) == ("hall.yaml", "")
     body = {"document": opened["document"], "revision": opened["revision"]}
     assert client.put("/documents/hall.yaml", json=body).status_code == 200

@@ -75,9 +75,7 @@ export class Shelf {
     const name = isNew ? await this.#freeName(`${stem}.scenario`) : path;
     const document = present(found.document);
     /** @type {Partial<Found>} */
-    const made = isNew
-      ? { document: { ...document, robots: [] }, revision: "", origin: ["file", path] } // robots are for the user to place
-      : {};
+    const made = isNew ? { revision: "", origin: ["file", path] } : {};
     studio.open({ ...found, document, ...made, path: name });
   }
 

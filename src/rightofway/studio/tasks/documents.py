@@ -39,14 +39,14 @@ Result = tuple[Any, ...]
 def opened(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None) -> Result:
     """Open a file: a scenario as its document, faults and all; a layout as the map of a new one.
 
-    A plan is a blob, with what it costs.
+    Robots of a new one are for the user to place. A plan is a blob, with what it costs.
     """
     file = Path(path)
     if is_layout(file):
         document = parse_yaml(example_of_layout(file, file.with_suffix(".yaml")))
         layout = read_layout(file)
         notes = [*getattr(layout, "notes", ()), f"a new scenario on {described(layout)}"]
-        return ({"kind": "layout", "document": plain(document), "notes": notes},)
+        return ({"kind": "layout", "document": {**plain(document), "robots": []}, "notes": notes},)
     if file.suffix.lower() in {".scen", *WORKBOOKS}:
         return (_of_loaded("scenario", load_with_notes(file, count)),)
     try:
