@@ -24,10 +24,10 @@ import time
 import traceback
 import zipfile
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -648,6 +648,32 @@ def _limit_memory() -> None:
     resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
 
 
+def _processes(count: int) -> ProcessPoolExecutor:
+    context = multiprocessing.get_context("spawn")
+    return ProcessPoolExecutor(count, mp_context=context, initializer=_limit_memory)
+
+
+def outcomes(seed: int, batches: Sequence[range]) -> Iterator[Outcome]:
+    """Yield what became of each batch; one at which a process ends early fails, and others do not.
+
+    All that wait end with a process that ends, so that the first of them is tried by itself.
+    """
+    at = 0
+    while at < len(batches):
+        with _processes(2) as both, suppress(BrokenProcessPool):
+            for task in [both.submit(outcome_of, seed, batch) for batch in batches[at:]]:
+                yield task.result()
+                at += 1
+        if at < len(batches):
+            with _processes(1) as alone:
+                try:
+                    yield alone.submit(outcome_of, seed, batches[at]).result()
+                except BrokenProcessPool:
+                    reason = f"a process ended early, at a file before {batches[at].stop}"
+                    yield Outcome(failed=[(batches[at].start, reason)])
+            at += 1
+
+
 def main(arguments: list[str]) -> int:
     """Break many files, print those that fail, and a summary."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -659,18 +685,10 @@ def main(arguments: list[str]) -> int:
     sys.stdout.write(f"seed {seed}\n")
     total, begin, end = Outcome(), time.monotonic(), given.first + given.count
     batches = [range(k, min(k + BATCH, end)) for k in range(given.first, end, BATCH)]
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(2, mp_context=context, initializer=_limit_memory) as processes:
-        tasks = [(batch, processes.submit(outcome_of, seed, batch)) for batch in batches]
-        for batch, task in tasks:
-            try:
-                found = task.result()
-            except BrokenProcessPool:
-                reason = f"a process ended early, at a file before {batch.stop}"
-                found = Outcome(failed=[(batch.start, reason)])
-            for number, reason in found.failed:
-                sys.stdout.write(f"file {number} of seed {seed}: {reason}\n")
-            total.add(found)
+    for found in outcomes(seed, batches):
+        for number, reason in found.failed:
+            sys.stdout.write(f"file {number} of seed {seed}: {reason}\n")
+        total.add(found)
     for name in sorted(total.read | total.refused):
         read, refused = total.read[name], total.refused[name]
         sys.stdout.write(

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, InputFault
 from rightofway.io import load, load_either, load_plan
-from rightofway.io.marks import MAX_CHARACTERS
+from rightofway.io.marks import MAX_CHARACTERS, marked
 
 HEAD = "format: rightofway-scenario/1\nmap:\n  grid: |\n    ...\n    ...\nrobots:\n"
 GOOD = "  - {name: R1, home: N0, target: N2}\n"
@@ -92,3 +92,9 @@ def test_a_file_without_faults_is_read_once(
     assert load(path).robots[0].name == "R1"
     with pytest.raises(pytest.fail.Exception):
         load_plan(path)
+
+
+def test_a_text_that_is_nested_too_deeply_is_reported_without_lines() -> None:
+    """The YAML library reads values in values by recursion, and would end the process."""
+    (fault,) = marked([InputFault("planner", "is unknown")], "[" * 100_000)
+    assert fault == InputFault("planner", "is unknown")

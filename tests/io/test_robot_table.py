@@ -8,6 +8,8 @@ import pytest
 
 import rightofway
 from rightofway.errors import InputError
+from rightofway.io.robot_table import heading_key
+from tests.builders.broken_files import limited
 
 SCENARIO = """\
 format: rightofway-scenario/1
@@ -65,3 +67,9 @@ def test_a_table_that_is_not_there_is_reported_at_its_key(tmp_path: Path) -> Non
     (tmp_path / "robots.csv").unlink()
     with pytest.raises(InputError, match=r"robots\.table: .*robots\.csv: there is no such file"):
         rightofway.load(path)
+
+
+def test_a_long_heading_of_brackets_is_read_soon() -> None:
+    """A search that began again at each bracket would take a minute of the processor."""
+    with limited(5):
+        assert heading_key("[" * 300_000 + " work [s]") == "[" * 300_000 + "_work"

@@ -13,6 +13,7 @@ from rightofway.errors import InputError
 from rightofway.model import Resources, Rules, Scenario
 from rightofway.model.resources import circle_around, close_pairs, resources_of
 from rightofway.site import Edge, Roadmap, roadmap_of_edges, roadmap_of_grid
+from rightofway.site.zones import NamedZone
 from tests.builders.any_fleet import any_fleet
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
@@ -154,3 +155,17 @@ def test_close_pairs_are_decided_exactly_and_lanes_that_meet_do_not_cross() -> N
     assert found.beside == [(4, (0, 1)), (4, (0, 2))]  # M lies on A-B, and 0.21 from A-C
     nearer = close_pairs(roadmap, Fraction("0.300001"))
     assert (nearer.vertices, nearer.beside) == ([(0, 4)], [])  # A, an end of both, is as near
+
+
+def test_a_zone_of_too_many_lanes_is_refused_by_name() -> None:
+    """2 001 vertices make 2 001 * 2 000 / 2 = 2 001 000 pairs."""
+    names = [f"v{k}" for k in range(2_001)]
+    positions = {name: (float(k), 0.0) for k, name in enumerate(names)}
+    hall = NamedZone(name="hall", vertices=tuple(names))
+    roadmap = roadmap_of_edges(
+        positions, [Edge(tail="v0", head="v1", length=Fraction(1))], zones=[hall]
+    )
+    with pytest.raises(
+        InputError, match=r"^map\.zones: zone 'hall' holds 2001 vertices and lanes, "
+    ):
+        resources_of(roadmap, [Fraction(0)], Fraction(0))

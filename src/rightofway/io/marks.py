@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from rightofway.errors import InputError, InputFault, is_printable
 from rightofway.io.faults import blaming
-from rightofway.io.text import parse_document, read_text
+from rightofway.io.text import MAX_DEPTH, parse_document, read_text
 
 if TYPE_CHECKING:
     import yaml
@@ -63,7 +63,9 @@ def marked(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
     text
         The text that the document was read from.
     """
-    root = _root(text)
+    faults = list(faults)
+    has_places = any(fault.place and fault.line is None for fault in faults)
+    root = _root(text) if has_places else None
     for fault in faults:
         yield _marked(fault, root) if root and fault.place and fault.line is None else fault
 
@@ -75,13 +77,27 @@ def _root(text: str) -> yaml.Node | None:
         return None
     if text.lstrip().startswith(("{", "[")):
         text = _JSON_ONLY.sub(" ", text)  # what YAML reads otherwise; lines stay as they are
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        root: yaml.Node | None = yaml.compose(
-            text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-        )
-    except (yaml.YAMLError, ValueError, RecursionError):
+        if _is_deep(yaml.parse(text, Loader=loader)):
+            return None
+        root: yaml.Node | None = yaml.compose(text, Loader=loader)
+    except (yaml.YAMLError, ValueError):
         return None
     return root
+
+
+def _is_deep(events: Iterable[yaml.Event]) -> bool:
+    """Tell whether values are nested too deeply to be read by recursion, as the library does."""
+    import yaml
+
+    depth = 0
+    for event in events:
+        depth += isinstance(event, yaml.CollectionStartEvent)
+        depth -= isinstance(event, yaml.CollectionEndEvent)
+        if depth > MAX_DEPTH:
+            return True
+    return False
 
 
 def _marked(fault: InputFault, root: yaml.Node) -> InputFault:

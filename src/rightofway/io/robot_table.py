@@ -173,7 +173,7 @@ class _Reading:
 
 def heading_key(heading: Any) -> str:
     """Return the key that a heading stands for: ``Speed [m/s]`` is ``speed``."""
-    words = re.sub(r"\[.*?\]|\(.*?\)|\*", "", str(heading)).strip().lower()
+    words = re.sub(r"\[[^\[\]]*\]|\([^()]*\)|\*", "", str(heading)).strip().lower()
     return words if STOP.fullmatch(words) else "_".join(words.split())
 
 

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, shown
 from rightofway.model.deadline import check_work
 from rightofway.site import Point, Roadmap, squared_distance
 from rightofway.site.zones import Zone
@@ -41,6 +41,9 @@ ROUNDING = Fraction(1, 10**9)
 
 LANES_AT_ONCE = 256
 """Vertices or lanes whose neighbours are looked up at once; then the time limit is checked."""
+
+MOST_PAIRS_IN_ZONES = 2_000_000
+"""Pairs of vertices and lanes of one zone, at most, all zones together: a zone of 2 000, say."""
 
 KEYS_AT_ONCE = 1 << 20
 """Pairs of rows that are sorted at once, about."""
@@ -296,6 +299,11 @@ def resources_of(
         Radius of each robot [length unit], not negative.
     clearance
         Least distance between two robots of which one has a size [length unit].
+
+    Raises
+    ------
+    InputError
+        For zones that hold more than `MOST_PAIRS_IN_ZONES` pairs.
     """
     if not any(radii) and not roadmap.zones:
         return None
@@ -382,8 +390,14 @@ def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
 
 def _in_zones(roadmap: Roadmap) -> Iterator[Pairs]:
     """Yield pairs of resources of one zone."""
+    n_pairs = 0
     for zone in roadmap.zones:
         members = np.array(members_of(roadmap, zone), np.int64)
+        n_pairs += len(members) * (len(members) - 1) // 2
+        if n_pairs > MOST_PAIRS_IN_ZONES:
+            message = f"zone {shown(zone.name)} holds {len(members)} vertices and lanes, and zones"
+            message += f" up to it {n_pairs} pairs of them, more than {MOST_PAIRS_IN_ZONES}"
+            raise InputError.at("map.zones", f"{message} (draw smaller zones)")
         left, right = np.triu_indices(len(members), k=1)
         yield members[left], members[right]
 

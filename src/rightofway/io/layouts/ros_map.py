@@ -37,7 +37,16 @@ KEYS = {"resolution", "origin", "occupied_thresh", "free_thresh", "negate"}
 
 MODES = ("trinary", "scale", "raw")
 PICTURES = ("PPM", "PNG", "BMP", "GIF", "JPEG", "TIFF")
-BROKEN = (OSError, SyntaxError, ValueError, EOFError, OverflowError, struct.error, zlib.error)
+BROKEN = (
+    OSError,
+    SyntaxError,
+    ValueError,
+    EOFError,
+    OverflowError,
+    MemoryError,
+    struct.error,
+    zlib.error,
+)
 """What the picture library raises for a picture that is cut or spoilt."""
 
 OPAQUE = 255
