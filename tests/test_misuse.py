@@ -22,9 +22,13 @@ STRANGE: list[Any] = [
     -1,
     True,
     float("nan"),
+    -0.5,
     10**30,
+    10**400,
+    Fraction(1, 3),
     "",
     "a\0b",
+    "\ud800",
     b"x",
     [None],
     (None, None),
@@ -32,10 +36,14 @@ STRANGE: list[Any] = [
     {"x"},
     object(),
     np.array([1.5]),
+    np.array([-1, 2**40]),
+    np.array(["a", "b"]),
+    iter(()),
+    lambda *_: None,
     os.sep,
     Path(os.sep),
 ]
-"""None, numbers out of range, words, lists, a mapping, an object and paths that are folders."""
+"""None, numbers out of range, text, lists, arrays, a mapping, a function, paths of folders."""
 
 
 def fields_of(value: Any) -> dict[str, Any]:
@@ -136,4 +144,24 @@ def test_an_argument_of_another_kind_is_accepted_or_refused_with_a_reason(
         try:
             call(**good | {argument: strange})
         except rw.RightOfWayError as refusal:
-            assert str(refusal).strip(), strange  # noqa: PT017 (what is accepted is no fault)
+            message = str(refusal)
+            assert message.strip(), strange
+            assert "truth value" not in message  # NumPy's words on an array that is compared
+
+
+CALLBACKS: dict[str, Callable[[Callable[..., Any]], Any]] = {
+    "best_timetable": lambda call: rw.best_timetable(DOOR, rounds=1, report=call),
+    "improve": lambda call: rw.improve(PLAN, time_limit=0.1, on_plan=call),
+    "run_laps": lambda call: rw.run_laps(DOOR, report=call),
+    "simulate": lambda call: rw.simulate(PLAN, runs=2, report=call),
+    "solve": lambda call: rw.solve(DOOR, time_limit=0.1, on_plan=call),
+}
+
+
+@pytest.mark.parametrize("name", CALLBACKS)
+def test_an_error_of_a_function_that_the_caller_gave_reaches_the_caller(name: str) -> None:
+    def fails(*_: object) -> None:
+        raise KeyError("of the caller")
+
+    with pytest.raises(KeyError, match="of the caller"):
+        CALLBACKS[name](fails)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral, Rational, Real
-from typing import Any, Literal, TypeVar, get_args
+from typing import Any, Literal, TypeVar
 
 from rightofway.errors import InputError, InputFault, shown
 
@@ -137,7 +137,7 @@ def number(value: object) -> Fraction:
 
 def turning(value: object) -> Literal["cell"] | Fraction:
     """Return a turning time."""
-    if value == "cell":
+    if isinstance(value, str) and value == "cell":
         return "cell"
     try:
         return number(value)
@@ -152,13 +152,14 @@ def whole_number(value: object) -> int:
     raise ValueError(f"{shown(value)} is no whole number (give 1 or more)")
 
 
-def word_of(kind: Any) -> Callable[[object], object]:
-    """Return a reader of one of the words of a ``Literal``."""
+def word_of(words: Sequence[str]) -> Callable[[object], str]:
+    """Return a reader of one of these words."""
 
-    def read(value: object) -> object:
-        if value in get_args(kind):
+    def read(value: object) -> str:
+        if isinstance(value, str) and value in words:
             return value
-        raise ValueError(f"{shown(value)} is unknown (give {' or '.join(get_args(kind))})")
+        *others, last = words
+        raise ValueError(f"{shown(value)} is unknown (give {', '.join(others)} or {last})")
 
     return read
 

@@ -194,5 +194,5 @@ def test_trips_without_a_way_back_and_rules_unknown_are_refused() -> None:
         run_laps(alone)
     with pytest.raises(InputError, match=r"robots\[0\].stops: all are at its home N0"):
         run_laps(grid_fleet(["...."], [("N0", "N0")]))
-    with pytest.raises(InputError, match=r"rule: 'last-come' is unknown \(choose first-come"):
+    with pytest.raises(InputError, match=r"rule: 'last-come' is unknown \(give first-come, fixed"):
         run_laps(grid_fleet(["...."], trips), "last-come")

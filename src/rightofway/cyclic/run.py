@@ -10,11 +10,12 @@ from rightofway.cyclic.rolling_horizon import RollingHorizon
 from rightofway.cyclic.route import ROUTES, GroupContext, cyclic_routes, independent_groups
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
-from rightofway.errors import GaveUp, InputError, kernel_limits
+from rightofway.errors import GaveUp, kernel_limits
 from rightofway.model import Scenario, checked_time_limit
 from rightofway.model.given import checked_functions, checked_scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.planners import Deadline
+from rightofway.values import at, word_of
 
 Simulation = CyclicSimulator | RollingHorizon
 """The simulation of a group under a lap rule."""
@@ -68,9 +69,8 @@ def run_laps(
     """
     checked_scenario(scenario)
     checked_functions(report=report)
-    for key, given, known in (("rule", rule, tuple(RULES)), ("routes", routes, ROUTES)):
-        if given not in known:
-            raise InputError.at(key, f"{given!r} is unknown (choose {', '.join(known)})")
+    at("rule", word_of(tuple(RULES)), rule)
+    at("routes", word_of(ROUTES), routes)
     deadline = Deadline.after(checked_time_limit(time_limit))
     groups = independent_groups(scenario, cyclic_routes(scenario, routes))
     simulations = [

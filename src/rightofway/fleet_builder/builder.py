@@ -23,12 +23,13 @@ from rightofway.fleet_builder.values import (
 )
 from rightofway.model import Robot, Scenario, Stop, TripEnd
 from rightofway.model.closures import Closure, closure_faults
+from rightofway.model.given import checked_truths
 from rightofway.quantities import Units
 from rightofway.site import Roadmap, VertexId, roadmap_of_grid
 from rightofway.site.layout import Layout, LevelRoadmap, roadmap_of_level
 from rightofway.site.places import as_place, vertex_at
 from rightofway.site.zones import NamedZone
-from rightofway.values import Number, at, list_of, text
+from rightofway.values import Number, at, list_of, optional, text, word_of
 from rightofway.values import length as exact_length
 
 
@@ -111,8 +112,9 @@ class FleetBuilder:
         maps = [name for name, value in given.items() if value is not None]
         if len(maps) > 1:
             raise InputError.at("", f"{' and '.join(maps)} are given (give one map)")
-        if y not in ("down", "up"):
-            raise InputError.at("y", f"{shown(y)} is unknown (give down or up)")
+        at("y", word_of(("down", "up")), y)
+        at("level", optional(text), level)
+        at("vehicle_type", optional(text), vehicle_type)
         if origin is not None and not (grid or map_file):
             raise InputError.at("origin", "is for a grid or a map file (take it out)")
         if spacing is not None and (grid or map_file):
@@ -212,10 +214,11 @@ class FleetBuilder:
         Raises
         ------
         InputError
-            For a vertex that is not there, a length that is not positive, or no length where both
-            vertices are at one position.
+            For a vertex that is not there, a length that is not positive, no length where both
+            vertices are at one position, or ``both_ways`` that is neither true nor false.
         """
         self._refuse_fixed_map(f"edge {shown(tail)} to {shown(head)}")
+        checked_truths(both_ways=both_ways)
         self._drawn.add_edge(
             tail,
             head,

@@ -109,7 +109,7 @@ def readers_of(owner: Any) -> dict[str, Callable[[object], object]]:
     """Return for each attribute of a dataclass how its value is checked, for `coerced`."""
     readers = {}
     for it in attributes_of(owner):
-        read = word_of(it.kind) if get_args(it.kind) else READERS[it.kind]
+        read = word_of(words) if (words := get_args(it.kind)) else READERS[it.kind]
         readers[it.name] = optional(read) if it.default is None else read
     return readers
 

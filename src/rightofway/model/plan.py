@@ -17,7 +17,7 @@ from rightofway.model.stays import completions_of
 from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick
 from rightofway.site import VertexId
-from rightofway.values import coerced, list_of, one_of
+from rightofway.values import at, coerced, list_of, one_of, optional, word_of
 
 T = TypeVar("T")
 
@@ -384,9 +384,7 @@ class Plan:
             If the library is not installed, or another one is named.
         """
         wanted = FRAME_LIBRARIES if library is None else (library,)
-        if library is not None and library not in FRAME_LIBRARIES:
-            known = ", ".join(FRAME_LIBRARIES)
-            raise InputError.at("library", f"{shown(library)} is unknown (give one of {known})")
+        at("library", optional(word_of(FRAME_LIBRARIES)), library)
         for name in wanted:
             try:
                 module = import_module(name)

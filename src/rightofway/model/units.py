@@ -8,12 +8,13 @@ scenario a whole number.
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import dataclass
 from fractions import Fraction
 from numbers import Real
 from typing import TYPE_CHECKING, NewType
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -80,7 +81,7 @@ def choose_clock(durations: Iterable[Fraction]) -> Clock:
 
 
 def checked_time_limit(seconds: float | None) -> float | None:
-    """Return a time limit that a caller gave [s]; None for no limit, also for infinity.
+    """Return a time limit that a caller gave [s]; None for no limit, also above every float.
 
     Parameters
     ----------
@@ -92,9 +93,9 @@ def checked_time_limit(seconds: float | None) -> float | None:
     InputError
         If it is negative or no number.
     """
-    if seconds is None or seconds == math.inf:
+    if seconds is None:
         return None
     if isinstance(seconds, bool) or not isinstance(seconds, Real) or not seconds >= 0:
-        message = f"{seconds!r} is no number of seconds (give 0 or more, or None for no limit)"
+        message = f"{shown(seconds)} is no number of seconds (give 0 or more, or None for no limit)"
         raise InputError.at("time_limit", message)
-    return float(seconds)
+    return None if seconds > sys.float_info.max else float(seconds)

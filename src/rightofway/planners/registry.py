@@ -232,11 +232,12 @@ def find(name: str) -> PlannerSpec:
     InputError
         If no planner has that name; with the nearest name.
     """
-    ours = next((spec for spec in PLANNERS if spec.name == name), None)
+    is_text = isinstance(name, str)
+    ours = next((spec for spec in PLANNERS if is_text and spec.name == name), None)
     if ours is not None:
         return ours
     specs = registered()
-    if not isinstance(name, str) or name not in specs:
+    if not is_text or name not in specs:
         message = options.unknown(str(name), "rightofway", list(specs))
         raise InputError.at("planner", message)
     return specs[name]
