@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote, unquote, urljoin, urlsplit
 
-from tests.builders.browsers import Viewer
+from tests.builders.canvases import Canvases
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator, Page
@@ -50,7 +50,7 @@ DROP = """([files]) => {
 }"""
 
 
-class StudioPage(Viewer):
+class StudioPage(Canvases):
     """The page, and a pointer on its map."""
 
     def __init__(self, page: Page, address: str) -> None:

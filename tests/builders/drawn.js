@@ -24,7 +24,9 @@ globalThis.drawn = (() => {
     function (path) {
       if (typeof path === "object") return;
       const colour = isFilled ? this.fillStyle : this.strokeStyle;
-      for (const arc of paths.get(this) ?? []) on(this.canvas).push({ ...arc, colour, isFilled });
+      const isDashed = !isFilled && this.getLineDash().length > 0;
+      for (const arc of paths.get(this) ?? [])
+        on(this.canvas).push({ ...arc, colour, isFilled, isDashed });
     };
 
   watch("clearRect", function (x, y, width, height) {
@@ -72,12 +74,13 @@ globalThis.drawn = (() => {
       const ratio = ratioOf(canvas);
       return on(canvas)
         .filter(({ at }) => at)
-        .map(({ at: [x, y], radius, colour, isFilled }) => ({
+        .map(({ at: [x, y], radius, colour, isFilled, isDashed }) => ({
           x: x / ratio,
           y: y / ratio,
           radius: radius / ratio,
           colour,
           is_filled: isFilled,
+          is_dashed: isDashed,
         }));
     },
     colour(id, x, y) {

@@ -3,47 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from tests.builders.browsers import Viewer
+from tests.builders.canvases import Canvases, Text
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Locator, Page
+    from playwright.sync_api import Locator
 
 Point = tuple[float, float]
 
-WATCH = (Path(__file__).parent / "drawn.js").read_text(encoding="utf-8")
-"""Notes what a page draws, by the browser's own interface of canvases; loaded before the page."""
 
-
-@dataclass(frozen=True, slots=True)
-class Text:
-    """A text on a canvas and the box of its ink: left, top, right, bottom [pixels]."""
-
-    text: str
-    box: tuple[float, float, float, float]
-    moves: bool  # not in the picture below that is painted once
-
-
-@dataclass(frozen=True, slots=True)
-class Disc:
-    """A disc or a ring on a canvas [pixels]."""
-
-    x: float
-    y: float
-    radius: float
-    colour: str
-    is_filled: bool
-
-
-class Player(Viewer):
+class Player(Canvases):
     """A page that plays a plan."""
-
-    def __init__(self, page: Page) -> None:
-        super().__init__(page)
-        page.add_init_script(WATCH)
 
     @property
     def slider(self) -> Locator:
@@ -120,31 +92,9 @@ class Player(Viewer):
         """Return the colour of a pixel of the map as red, green, blue and opacity."""
         return self.pixel("map", *place)
 
-    def pixel(self, canvas: str, x: float, y: float) -> tuple[int, ...]:
-        """Return the colour of a pixel of a canvas as red, green, blue and opacity."""
-        return tuple(self._seen("colour", canvas, x, y))
-
-    def texts(self, canvas: str = "map") -> list[Text]:
-        """Return the texts that a canvas shows."""
-        self.painted()
-        return [
-            Text(each["text"], tuple(each["box"]), each["moves"])
-            for each in self._seen("texts", canvas)
-        ]
-
     def names(self) -> list[Text]:
         """Return the names on the map."""
         return [each for each in self.texts() if each.moves]
-
-    def discs(self, canvas: str = "map") -> list[Disc]:
-        """Return the discs and rings that a canvas shows, those below first."""
-        self.painted()
-        return [Disc(**each) for each in self._seen("discs", canvas)]
-
-    def calls(self) -> dict[str, int]:
-        """Return how often the page has called what draws, on all canvases, since the last time."""
-        found: dict[str, int] = self._seen("calls")
-        return found
 
     def is_as_wide_as(self, width: int) -> bool:
         """Return whether nothing has to be scrolled to the side in a window of this width."""
@@ -167,9 +117,6 @@ class Player(Viewer):
         self.page.emulate_media(media="screen")
         self.page.evaluate("() => dispatchEvent(new Event('afterprint'))")
         self.painted()
-
-    def _seen(self, what: str, *more: object) -> Any:
-        return self.page.evaluate("([what, more]) => drawn[what](...more)", [what, [*more]])
 
 
 def nameless_on(viewer: Viewer) -> list[str]:

@@ -5,6 +5,7 @@ With ``RIGHTOFWAY_PICTURES=docs/images`` the pictures of docs/studio.md are writ
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -39,20 +40,38 @@ def repeat(studio: StudioPage) -> Any:
     """Let the robots repeat their trips; return what the report says of their group."""
     studio.page.locator("details.laps summary").click()
     studio.button("Repeat").click()
-    studio.wait_for("Boolean(studio.runs.report?.groups)")
-    studio.wait_for("Boolean(document.querySelector('.parameter'))")
-    return studio.ask("studio.runs.report.groups[0]")
+    studio.planned()
+    studio.page.locator(".parameter").first.wait_for()
+    return report(studio)["groups"][0]
 
 
 def simulate(studio: StudioPage, runs: int) -> Any:
     """Plan, execute the plan with delays, and return the report."""
     studio.page.locator(".settings [type=submit]").click()
     studio.planned()
+    delay(studio, runs)
+    return report(studio)
+
+
+def delay(studio: StudioPage, runs: int) -> None:
+    """Execute the plan that is shown some times with delays."""
     studio.page.locator("details.delays summary").click()
     studio.page.fill("#run-count", str(runs))
     studio.button("Simulate").click()
-    studio.wait_for("Boolean(studio.runs.report?.ranks)")
-    return studio.ask("studio.runs.report")
+    studio.planned()
+    studio.button("Worst").wait_for()
+
+
+def report(studio: StudioPage) -> Any:
+    """Return the report of the run that was begun last."""
+    return studio.api(f"runs/{studio.runs[0]['number']}/report")
+
+
+def answered(studio: StudioPage) -> Locator:
+    """Wait until it is known what laps in a new order achieve; return that row."""
+    row = studio.page.locator(".orders tbody tr:last-child[data-known=true]")
+    row.wait_for()
+    return row
 
 
 def slider(studio: StudioPage, name: str) -> Locator:
@@ -60,10 +79,22 @@ def slider(studio: StudioPage, name: str) -> Locator:
     return studio.page.get_by_role("slider", name=name)
 
 
-def lit(studio: StudioPage) -> set[int]:
-    """Return the vertices that are lit as the circle, once the page is painted."""
+def circle(studio: StudioPage) -> str:
+    """Return the places of the circle that is lit on the map, once the page is painted."""
     studio.settle()
-    return set(studio.ask("studio.stage.plan.steady.largest.circuit.map(({vertex}) => vertex)"))
+    return studio.page.locator(".holder").get_attribute("data-bottleneck") or ""
+
+
+def arrivals(studio: StudioPage) -> list[int]:
+    """Return when each robot arrives in the run that is played, as its card says."""
+    studio.settle()
+    found = []
+    for robot in studio.page.locator(".sufferers .watch").all():
+        robot.click()
+        studio.settle()
+        done = studio.page.locator("#card").get_by_text(re.compile(r"^[0-9]+ \("))
+        found.append(int(done.inner_text().split()[0]))
+    return found
 
 
 def test_laps_say_their_period_and_light_the_bottleneck(studio: StudioPage) -> None:
@@ -86,7 +117,7 @@ def test_a_slider_says_the_period_at_once_and_lights_the_circle_that_takes_over(
     studio: StudioPage,
 ) -> None:
     repeat(studio)
-    before = lit(studio)
+    before = circle(studio)
     speed = slider(studio, "R2: speed")
     described = speed.get_attribute("aria-describedby")
     says = studio.page.locator(f"#{described}")
@@ -97,15 +128,13 @@ def test_a_slider_says_the_period_at_once_and_lights_the_circle_that_takes_over(
         studio.page.keyboard.press("ArrowRight")
     assert speed.get_attribute("aria-valuetext") == "1.1: period 31.45 time units"
     assert studio.text(".pace .figure output") == "31.45"
-    assert lit(studio) == before
+    assert circle(studio) == before
     for _ in range(4):
         studio.page.keyboard.press("ArrowRight")
     assert speed.get_attribute("aria-valuetext") == "1.3: period 31 time units"
     assert says.inner_text() == "Faster gains nothing; below 1.2 the period grows."
-    assert lit(studio) != before
-    studio.wait_for(
-        "document.querySelector('.orders tbody tr:last-child').dataset.known === 'true'"
-    )
+    assert circle(studio) != before
+    answered(studio)
     # The page knows the whole function; only the new order is asked for, where the slider rests.
     asked = [request.rpartition("/")[2] for request in studio.requests if "/runs/" in request]
     assert set(asked) == {"laps"}
@@ -114,7 +143,7 @@ def test_a_slider_says_the_period_at_once_and_lights_the_circle_that_takes_over(
     assert [row.split()[:3] for row in rows[:2]] == [["as", "it", "is"], ["same", "order", "31"]]
     studio.button("Back").click()
     assert studio.text(".pace .figure output") == "32"
-    assert lit(studio) == before
+    assert circle(studio) == before
     assert studio.complaints == []
 
 
@@ -122,11 +151,9 @@ def test_a_value_that_is_taken_gives_the_laps_of_the_new_order(studio: StudioPag
     repeat(studio)
     slider(studio, "R3: work at N17").press("ArrowRight")
     assert studio.text(".pace .figure output") == "32.5"
-    anew = ".orders tbody tr:last-child"
-    studio.wait_for(f"document.querySelector('{anew}').dataset.known === 'true'")
-    promised = studio.page.locator(f"{anew} td").all_inner_texts()
+    promised = answered(studio).get_by_role("cell").all_inner_texts()
     studio.button("Take the value, repeat the laps").click()
-    studio.wait_for("studio.runs.shown === 2 && Boolean(studio.runs.report?.groups)")
+    studio.shown(2)
     assert studio.document["robots"][2]["work"] == 3.5
     now = studio.page.locator(".orders tbody tr:first-child td").all_inner_texts()
     assert now == promised != ["32.5", "443.1"]
@@ -134,17 +161,16 @@ def test_a_value_that_is_taken_gives_the_laps_of_the_new_order(studio: StudioPag
 
 def test_the_group_of_the_robot_that_is_chosen_is_shown(studio: StudioPage) -> None:
     """R4 drives in a corner of its own, and meets nobody: 2 edges, 2 turns, 2 of work."""
-    studio.ask(
-        "studio.store.change((document) => ({ ...document, map: { grid: ['.@.@.@.', '.....@.',"
-        " '@@.@@@@', '@@.@@@@'] }, robots: [...document.robots.map((robot) => ({ ...robot,"
-        " stops: [{ at: 'N23', work: 1 }] })),"
-        " { name: 'R4', home: 'N6', target: 'N13', work: 2 }] }))"
-    )
-    studio.settle()
+    document = studio.document
+    robots = [{**robot, "stops": [{"at": "N23", "work": 1}]} for robot in document["robots"]]
+    robots.append({"name": "R4", "home": "N6", "target": "N13", "work": 2})
+    grid = [".@.@.@.", ".....@.", "@@.@@@@", "@@.@@@@"]
+    studio.draw({**document, "map": {"grid": grid}, "robots": robots})
+    studio.tab("Plan")
     repeat(studio)
     assert slider(studio, "R4: speed").count() == 0
-    studio.ask("studio.stage.choice.chooseRobot(3)")
-    studio.wait_for("Boolean(document.querySelector('[data-curve=\"speed R4 null\"]'))")
+    studio.press((6.5, 0.5))
+    slider(studio, "R4: speed").wait_for()
     assert studio.text(".pace .figure output") == "6"
     assert slider(studio, "Headway").count() == 0
     assert "R4" in studio.text(".study h3")
@@ -156,28 +182,25 @@ def test_delays_show_their_spread_and_replay_any_run(studio: StudioPage) -> None
     assert sum(counts) == 200
     assert studio.page.locator(".spread rect").count() == len(counts)
     assert "200" not in studio.text(".spread")
-    runs = len(studio.ask("studio.runs.runs"))
     studio.button("Worst").click()
-    studio.wait_for(f"studio.runs.replayed === {report['worst']}")
-    worst = studio.ask(
-        "studio.stage.plan.happened.reduce((sum, {completion}) => sum + completion, 0)"
-    )
-    assert worst == report["ranks"]["flowtime"][-1]
+    studio.settle()
     held = studio.page.locator(".held-up .watch")
     assert "more than planned" in held.first.inner_text()
-    assert studio.ask("studio.stage.choice.lit.length") == held.count()
+    places = [re.findall(r" in (\w+) for", text)[0] for text in held.all_inner_texts()]
+    assert studio.lit() == places
+    assert sum(arrivals(studio)) == report["ranks"]["flowtime"][-1]
     studio.keep("studio-delays")
     rank = slider(studio, "A run, from the best to the worst")
     rank.press("Home")
+    assert sum(arrivals(studio)) == report["ranks"]["flowtime"][0]
     best = report["ranks"]["run"][0]
-    studio.wait_for(f"studio.runs.replayed === {best}")
     assert f"Run {best}: sum of arrivals" in str(rank.get_attribute("aria-valuetext"))
     picture = studio.page.locator(".spread svg")
     box = picture.bounding_box()
     assert box is not None
     picture.click(position={"x": box["width"] - 2, "y": box["height"] - 2})
-    studio.wait_for(f"studio.runs.replayed === {report['worst']}")
-    assert len(studio.ask("studio.runs.runs")) == runs  # no run of the studio for each replay
+    assert sum(arrivals(studio)) == report["ranks"]["flowtime"][-1]
+    assert len(studio.runs) == 2  # no run of the studio for each replay
     held.first.click()
     assert studio.page.locator("#card").is_visible()
     assert studio.page.locator(".sufferers .watch").count() == 3
@@ -187,22 +210,16 @@ def test_delays_show_their_spread_and_replay_any_run(studio: StudioPage) -> None
 def test_a_replay_of_laps_shows_beside_each_robot_where_the_plan_has_it(
     studio: StudioPage,
 ) -> None:
+    """At tick 20 the plan has R1 in N5 since 20 and R3 in N17 since 18, at 45 R1 in N17 since 42
+    and R2 at home in N2 since 40; a robot that is where it should be has no ring."""
     repeat(studio)
-    studio.page.locator("details.delays summary").click()
-    studio.page.fill("#run-count", "20")
-    studio.button("Simulate").click()
-    studio.wait_for("Boolean(studio.runs.report?.ranks)")
-    for tick in (20, 45):
-        studio.ask(f"studio.stage.clock.seek({tick})")
-        studio.wait_for(f"studio.stage.motion.ticks[0] === {tick}")
-        places = studio.ask(
-            "(() => { const { plan, ghosts } = studio.stage; return plan.planned.map((robot) => {"
-            f" const visit = robot.enter.findLastIndex((enter) => enter <= {tick});"
-            " const here = robot.vertices[visit], next = robot.vertices[visit + 1] ?? here;"
-            " return [here, next].map((vertex) => Math.hypot(plan.roadmap.x[vertex]"
-            " - ghosts.x[robot.index], plan.roadmap.y[vertex] - ghosts.y[robot.index])); }); })()"
-        )
-        assert all(sum(apart) <= 1.001 for apart in places)  # on the edge that it drives along
+    delay(studio, 20)
+    for tick, cells in ((20, [(0.5, 1.5), (2.5, 3.5)]), (45, [(2.5, 0.5), (2.5, 3.5)])):
+        studio.seek(tick)
+        scale, _, _, _, left, top = studio.view()
+        rings = [disc for disc in studio.discs() if disc.is_dashed]
+        found = sorted(((ring.x - left) / scale, (ring.y - top) / scale) for ring in rings)
+        assert found == [pytest.approx(cell) for cell in cells]
 
 
 def test_a_period_of_several_laps_is_said_with_the_time_for_each(studio: StudioPage) -> None:
@@ -212,8 +229,7 @@ def test_a_period_of_several_laps_is_said_with_the_time_for_each(studio: StudioP
     speed = slider(studio, "R2: speed")
     for _ in range(5):
         speed.press("ArrowRight")
-    anew = ".orders tbody tr:last-child"
-    studio.wait_for(f"document.querySelector('{anew}').dataset.known === 'true'")
+    answered(studio)
     assert studio.text(".pace > .hint") == (
         "R2: speed 1.25. New order: the pattern repeats every 3 laps: 22.8, 7.6 for each lap."
     )
@@ -231,8 +247,8 @@ def test_causes_of_delay_are_fields(studio: StudioPage) -> None:
     studio.page.get_by_label("from time").fill("4")
     studio.page.fill("#run-count", "50")
     studio.button("Simulate").click()
-    studio.wait_for("Boolean(studio.runs.report?.ranks)")
-    assert studio.ask("studio.runs.report.delays") == ["exponential:0.125", "stop:R3@4+30"]
+    studio.planned()
+    assert report(studio)["delays"] == ["exponential:0.125", "stop:R3@4+30"]
     studio.page.locator(".exports summary").click()
     assert "--delays exponential:0.125 --delays stop:R3@4+30" in studio.text(".command code")
     assert studio.page.locator(".sufferers b").first.inner_text() == "R3"
@@ -241,23 +257,20 @@ def test_causes_of_delay_are_fields(studio: StudioPage) -> None:
 def test_a_simulation_that_is_stopped_keeps_the_runs_that_were_made(studio: StudioPage) -> None:
     studio.page.locator(".settings [type=submit]").click()
     studio.planned()
-    number = studio.ask("studio.runs.shown")
-    begun = (
-        f"studio.study({{ kind: 'simulate', based_on: {number}, delays: ['chance:0.2x9'],"
-        " runs: 100000, replan: true, time_limit: 600 })"
-    )
-    studio.ask(begun)
-    studio.wait_for("Boolean(studio.runs.running?.message)")
+    request = {"kind": "simulate", "based_on": 1, "delays": ["chance:0.2x9"], "runs": 100_000}
+    studio.post("runs", {**request, "replan": True, "time_limit": 600})
+    studio.reload()
+    studio.page.locator("[data-run='2'][data-state=running]").wait_for()
     studio.button("Stop, keep the best").click()
-    studio.wait_for("Boolean(studio.runs.report?.ranks)")
-    assert studio.ask("studio.runs.run.state") == "stopped"
-    assert 0 < studio.ask("studio.runs.report.runs") < 100000
+    studio.failed(2)
+    assert studio.run(2)["state"] == "stopped"
+    assert 0 < report(studio)["runs"] < 100_000
 
 
 def test_both_studies_are_whole_in_german(studio: StudioPage) -> None:
     studio.page.locator("header select").select_option("de")
     studio.page.locator("details.laps summary").click()
     studio.page.locator("details.laps button").click()
-    studio.wait_for("Boolean(document.querySelector('.parameter'))")
+    studio.page.locator(".parameter").first.wait_for()
     assert "Was den Takt bestimmt" in studio.text(".study")
     assert "undefined" not in studio.text(".study")

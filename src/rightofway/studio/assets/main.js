@@ -40,7 +40,6 @@ function App() {
     listenToKeys(made);
     listenToDrops(made);
     setStudio(made);
-    Object.assign(window, { studio: made }); // for tests
     made.begin();
   }, []);
   const isStarting = !studio || studio.isStarting;

@@ -140,7 +140,7 @@ export class MapView {
   /**
    * Say on the element round the map what is painted, for programs that press on it: `data-view` leads
    * from a place of the site [length unit] to pixels of the map, as `matrix()` of CSS; `data-lit` names
-   * the places that are lit.
+   * the places that are lit, `data-bottleneck` those of the circuit that is lit.
    */
   #sayView() {
     const { dataset } = this.canvas.parentElement ?? this.canvas;
@@ -154,12 +154,20 @@ export class MapView {
     const view = [...axes, left + scale * x, top + scale * y].join(" ");
     if (dataset.view !== view) dataset.view = view;
     const { lit } = this.choice;
-    if (this.#lit !== lit) dataset.lit = lit.map((vertex) => this.roadmap.name(vertex)).join(", ");
+    if (this.#lit !== lit) dataset.lit = this.#names(lit);
     this.#lit = lit;
+    const circuit = this.bottleneck?.circuit ?? [];
+    const bottleneck = this.#names(circuit.map(({ vertex }) => vertex));
+    if ((dataset.bottleneck ?? "") !== bottleneck) dataset.bottleneck = bottleneck;
   }
 
-  /** @type {number[] | null} */
+  /** @type {readonly number[] | null} */
   #lit = null; // the places that were lit in the last frame
+
+  /** @param {readonly number[]} vertices */
+  #names(vertices) {
+    return vertices.map((vertex) => this.roadmap.name(vertex)).join(", ");
+  }
 
   #click() {
     const { x, y } = this.viewport.pointer;
