@@ -29,10 +29,10 @@ def chosen(scenario: Scenario, *, rounds: int = 6) -> CyclicResult:
 
 
 @st.composite
-def fleets(draw: st.DrawFn) -> Scenario:
+def fleets(draw: st.DrawFn, least_size: int = 4) -> Scenario:
     return random_fleet(
         draw(st.integers(0, 10**6)),
-        size=draw(st.integers(4, 7)),
+        size=draw(st.integers(least_size, 7)),
         robots=draw(st.integers(2, 4)),
         rules=draw(st.sampled_from(RULES)),
     )
@@ -92,7 +92,7 @@ def test_the_same_seed_and_rounds_give_the_same_timetable(scenario: Scenario) ->
         assert [list(past) for past in first.history] == [list(past) for past in second.history]
 
 
-@law(fleets())
+@law(fleets(least_size=7))
 def test_the_judge_passes_its_laps_as_a_plan(scenario: Scenario) -> None:
     run = chosen(scenario)
     homes = {robot.home for robot in scenario.robots}
