@@ -11,7 +11,7 @@ from rightofway.model import Scenario
 from rightofway.planners.lacam import timetable_of
 from rightofway.planners.routing import shortest_routes
 from rightofway.precedence import PrecedenceGraph
-from rightofway.search import Bookings, Distances, earliest_track, untimed_lacam
+from rightofway.search import Bookings, Distances, earliest_track, plan_by_lacam
 
 ROBOTS = 200
 
@@ -64,4 +64,9 @@ def test_search_for_one_robot(benchmark: BenchmarkFixture, scenario: Scenario) -
 
 
 def test_search_for_the_fleet(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
-    benchmark(lambda: timetable_of(scenario, untimed_lacam(scenario.problem)))
+    def plan_in_steps() -> None:
+        tracks = plan_by_lacam(scenario.problem.in_steps(), spreads=False)
+        assert tracks is not None
+        timetable_of(scenario, tracks)
+
+    benchmark(plan_in_steps)

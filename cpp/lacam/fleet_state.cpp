@@ -113,6 +113,21 @@ void FleetState::begin_stage(RobotId robot) {
     set_free(robot);
 }
 
+void FleetState::resume(std::span<const Standing> robots) {
+    for (const Robot& robot : robots_) {
+        resources_[index(robot.at)].here = nobody;
+    }
+    undecided_.clear();
+    n_arrived_ = 0;
+    sum_free_ = 0;
+    for (RobotId r = 0; r < problem_->n_robots(); ++r) {
+        const auto [at, stage, waited] = robots[index(r)];
+        robots_[index(r)] = {at, at, stage, busy, now_, now_ - waited};
+        resources_[index(at)].here = r;
+        set_free(r);
+    }
+}
+
 void FleetState::decide(const Decision& decision) {
     const RobotId robot = decision.robot;
     sum_free_ -= key(robot);

@@ -25,6 +25,13 @@ struct Decision {
     Tick arrival;
 };
 
+// A robot between two steps of a fleet that moves in steps (Problem::moves_in_steps).
+struct Standing {
+    VertexId at;
+    std::int32_t stage;
+    std::int32_t waited;  // ticks on its way to the stage
+};
+
 class FleetState {
   public:
     // All robots at home at tick 0; robots without work there are free. Borrows the problem.
@@ -59,6 +66,15 @@ class FleetState {
     // The robots that are neither busy nor arrived, in no particular order.
     std::span<const RobotId> undecided() const { return undecided_; }
     bool is_goal() const { return n_arrived_ == problem_->n_robots(); }
+
+    // A robot between two steps of a fleet that moves in steps.
+    Standing standing(RobotId robot) const {
+        const Robot& r = robots_[index(robot)];
+        return {r.at, r.stage, static_cast<std::int32_t>(now_ - r.since)};
+    }
+    // Puts all robots of a fleet that moves in steps where they stood; the clock stays, so no
+    // vertex was left later than now.
+    void resume(std::span<const Standing> robots);
 
     void decide(const Decision& decision);
 

@@ -14,8 +14,10 @@ constexpr Tick longest_wait = Tick{1} << 31;  // that urgencies tell apart: no p
 }  // namespace
 
 Lacam::Lacam(const Problem& problem, StepTables& tables, const SpaceUtilization& paths,
-             std::uint64_t seed)
+             std::uint64_t seed, std::span<const std::uint8_t> ends_anywhere)
     : problem_(problem),
+      in_steps_(problem.moves_in_steps()),
+      ends_anywhere_(ends_anywhere),
       pibt_(problem, tables, paths, seed),
       start_(problem),
       state_(start_),
@@ -39,7 +41,7 @@ Lacam::Lacam(const Problem& problem, StepTables& tables, const SpaceUtilization&
 
 SearchEnd Lacam::run(const StopCondition& is_over, std::int64_t most_effort) {
     add(none, 0);
-    std::int64_t next_question = effort_between_questions;
+    std::int64_t next_question = 0;
     for (; !open_.empty(); ++n_retaken_) {
         const std::int64_t effort = pibt_.n_choices() + n_retaken_;
         if (effort >= next_question) {
@@ -52,13 +54,30 @@ SearchEnd Lacam::run(const StopCondition& is_over, std::int64_t most_effort) {
             return SearchEnd::found;
         }
     }
-    return SearchEnd::stopped;
+    return in_steps_ ? SearchEnd::proven_none : SearchEnd::stopped;
+}
+
+// Whether every robot is on its last stage and at its vertex, or may end anywhere.
+bool Lacam::is_goal() const {
+    if (ends_anywhere_.empty()) {
+        return state_.is_goal();
+    }
+    const auto may_end = [&](RobotId r) {
+        return state_.has_arrived(r) || (ends_anywhere_[index(r)] != 0 && !state_.is_busy(r) &&
+                                         problem_.is_last(r, state_.stage(r)));
+    };
+    for (RobotId r = 0; r < problem_.n_robots(); ++r) {
+        if (!may_end(r)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 SearchEnd Lacam::expand() {
     const std::int32_t top = open_.back();
     restore(top);
-    if (state_.is_goal()) {
+    if (is_goal()) {
         goal_ = top;
         return SearchEnd::found;
     }
@@ -112,7 +131,9 @@ void Lacam::branch(Node& node, std::int32_t constraint) {
     const RobotId robot = node.order[index(depth)];
     const VertexId here = state_.at(robot);
     for (const VertexId head : problem_.graph().heads(here)) {
-        node.constraints.push_back({constraint, depth + 1, robot, head});
+        if (problem_.may_drive(robot, here, head)) {
+            node.constraints.push_back({constraint, depth + 1, robot, head});
+        }
     }
     node.constraints.push_back({constraint, depth + 1, robot, here});
 }
@@ -140,7 +161,9 @@ std::span<const RobotId> Lacam::by_urgency() {
 void Lacam::go_on(std::int32_t from) {
     const std::size_t first = decisions_.size();
     for (const Decision& decision : pibt_.decisions()) {
-        decisions_.push_back(decision);
+        if (!in_steps_) {
+            decisions_.push_back(decision);
+        }
         state_.decide(decision);
     }
     if (!state_.advance()) {
@@ -149,15 +172,43 @@ void Lacam::go_on(std::int32_t from) {
     state_of_ = none;
     if (!add(from, first)) {
         decisions_.resize(first);
-        open_.push_back(known_.at(state_.fingerprint()));
+        open_.push_back(known_node());
     }
+}
+
+// The node with this state; `none` if the state is new.
+std::int32_t Lacam::known_node() const {
+    const auto is_same = [&](const auto& entry) {
+        if (!in_steps_) {
+            return true;
+        }
+        const auto robots = standing(entry.second);
+        for (RobotId r = 0; r < problem_.n_robots(); ++r) {
+            if (robots[index(r)].at != state_.at(r) || robots[index(r)].stage != state_.stage(r)) {
+                return false;
+            }
+        }
+        return true;
+    };
+    const auto [first, last] = known_.equal_range(state_.fingerprint());
+    const auto known = std::find_if(first, last, is_same);
+    return known == last ? none : known->second;
+}
+
+std::span<const Standing> Lacam::standing(std::int32_t node) const {
+    const auto n_robots = static_cast<std::size_t>(problem_.n_robots());
+    return std::span(standing_).subspan(index(node) * n_robots, n_robots);
 }
 
 // Adds a node for the state; false if the state is known.
 bool Lacam::add(std::int32_t parent, std::size_t first_decision) {
-    const auto node = static_cast<std::int32_t>(nodes_.size());
-    if (!known_.emplace(state_.fingerprint(), node).second) {
+    if (known_node() != none) {
         return false;
+    }
+    const auto node = static_cast<std::int32_t>(nodes_.size());
+    known_.emplace(state_.fingerprint(), node);
+    for (RobotId r = 0; in_steps_ && r < problem_.n_robots(); ++r) {
+        standing_.push_back(state_.standing(r));
     }
     state_of_ = node;
     const std::int32_t level = parent == none ? 0 : nodes_[index(parent)].level + 1;
@@ -168,6 +219,12 @@ bool Lacam::add(std::int32_t parent, std::size_t first_decision) {
 
 void Lacam::restore(std::int32_t node) {
     if (state_of_ == node) {
+        return;
+    }
+    if (in_steps_) {
+        state_.resume(standing(node));
+        state_of_ = node;
+        n_retaken_ += problem_.n_robots();
         return;
     }
     std::vector<std::int32_t> path;
@@ -226,17 +283,12 @@ Tracks Lacam::tracks() const {
         path.push_back(node);
     }
     std::reverse(path.begin(), path.end());
-    const auto for_each_decision = [&](auto&& use) {
-        for (const std::int32_t step : path) {
-            for (std::size_t k = nodes_[index(step)].first_decision;
-                 k < nodes_[index(step)].end_decision; ++k) {
-                use(decisions_[k]);
-            }
-        }
-    };
     std::vector<VisitId> next(static_cast<std::size_t>(problem_.n_robots()) + 1, 1);
     next[0] = 0;
-    for_each_decision([&next](const Decision& decision) { ++next[index(decision.robot + 1)]; });
+    for (const std::int32_t node : path) {
+        for_each_decision(node,
+                          [&next](const Decision& decision) { ++next[index(decision.robot + 1)]; });
+    }
     std::partial_sum(next.begin(), next.end(), next.begin());
     tracks.first_visit = next;
     tracks.vertex.resize(static_cast<std::size_t>(next.back()));
@@ -248,10 +300,31 @@ Tracks Lacam::tracks() const {
     for (RobotId r = 0; r < problem_.n_robots(); ++r) {
         enter(r, problem_.home(r), 0);
     }
-    for_each_decision([&enter](const Decision& decision) {
-        enter(decision.robot, decision.vertex, decision.arrival);
-    });
+    for (const std::int32_t node : path) {
+        for_each_decision(node, [&enter](const Decision& decision) {
+            enter(decision.robot, decision.vertex, decision.arrival);
+        });
+    }
     return tracks;
+}
+
+// Calls `use` with each decision that led from the parent of a node to the node.
+template <class Use>
+void Lacam::for_each_decision(std::int32_t node, const Use& use) const {
+    const Node& reached = nodes_[index(node)];
+    for (std::size_t k = reached.first_decision; k < reached.end_decision; ++k) {
+        use(decisions_[k]);
+    }
+    if (!in_steps_ || reached.parent == none) {
+        return;
+    }
+    const auto before = standing(reached.parent);
+    const auto after = standing(node);
+    for (RobotId r = 0; r < problem_.n_robots(); ++r) {
+        if (before[index(r)].at != after[index(r)].at) {
+            use(Decision{r, after[index(r)].at, reached.level});
+        }
+    }
 }
 
 }  // namespace rightofway

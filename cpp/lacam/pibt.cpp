@@ -70,6 +70,7 @@ void Pibt::fix(RobotId robot, VertexId vertex) { fixed_.push_back({robot, vertex
 
 bool Pibt::choose(const FleetState& now, std::span<const RobotId> order) {
     decisions_.clear();
+    n_choices_ += static_cast<std::int64_t>(fixed_.size());
     const bool found = take_fixed(now) && choose_all(now, order) && settle_arrivals(now);
     forget(now);
     return found;
@@ -204,10 +205,13 @@ bool Pibt::moves(const FleetState& now, RobotId robot) const {
     return next_[index(robot)] != nowhere && next_[index(robot)] != now.at(robot);
 }
 
-// Whether no other robot enters a vertex near to the place, and no robot near to it works or wants
-// to swap. Where a robot wants to stay, no other may pass.
+// Whether the robot may drive to the place, no other robot enters a vertex near to it, and no robot
+// near to it works or wants to swap. Where a robot wants to stay, no other may pass.
 bool Pibt::is_open(const FleetState& now, RobotId robot, VertexId place) const {
     const auto n_vertices = problem_.n_vertices();
+    if (place != now.at(robot) && !problem_.may_drive(robot, now.at(robot), place)) {
+        return false;
+    }
     return !any_near(now, robot, place, [&](std::int32_t resource, std::int32_t size, bool) {
         const auto is_other = [&](RobotId other) {
             return other != nobody && other != robot && problem_.first_row(other) == size;
@@ -345,7 +349,7 @@ Pibt::Choice Pibt::end(const FleetState& now, bool is_found) {
     const bool pulls =
         is_found && partner != nobody && frame.k == frame.first && places_[frame.k].vertex != here;
     if (pulls && is_idle(now, partner) && claim_[index(here)] == nobody &&
-        edge_to(now, partner, here) >= 0) {
+        edge_to(now, partner, here) >= 0 && problem_.may_drive(partner, now.at(partner), here)) {
         pull(now, partner, here);
     }
     places_.resize(frame.first);
@@ -453,7 +457,9 @@ const Pibt::Outlook& Pibt::outlook(const FleetState& now, RobotId robot) {
     outlook.preferred = paths_.next(stage, here);
     std::int32_t* beside = steps_beside_.data() + index(robot) * most_heads_;
     for (const VertexId head : problem_.graph().heads(here)) {
-        *beside++ = head == outlook.preferred ? outlook.steps - 1 : way(now, robot, head);
+        *beside++ = !problem_.may_drive(robot, here, head) ? StepTables::unreachable
+                    : head == outlook.preferred            ? outlook.steps - 1
+                                                           : way(now, robot, head);
     }
     return outlook;
 }

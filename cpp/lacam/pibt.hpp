@@ -12,7 +12,11 @@
 // that leads there. A robot pushes each of them, and waits for each of them to leave. For points
 // the only such place is the vertex itself.
 //
-// With one speed, no work and no booking ahead this is PIBT (references: untimed_pibt.hpp).
+// With one speed, no work and no booking ahead this is PIBT, with the swap operation:
+//
+// Okumura, Machida, Defago & Tamura, "Priority inheritance with backtracking for iterative
+// multi-agent path finding", Artificial Intelligence 310, 2022; the swap operation: Okumura,
+// "Improving LaCAM for scalable eventually optimal multi-agent pathfinding", IJCAI 2023.
 #pragma once
 
 #include <cstdint>

@@ -125,6 +125,25 @@ void Problem::check_resources() {
     }
 }
 
+bool Problem::moves_in_steps() const {
+    const auto is_step = [](std::int32_t ticks) { return ticks == 1 || ticks == -1; };
+    if (!may_follow() || has_sizes() ||
+        !std::all_of(arrays_.paces.begin(), arrays_.paces.end(), is_step)) {
+        return false;
+    }
+    for (RobotId r = 0; r < n_robots(); ++r) {
+        if (turns(r).take_time()) {
+            return false;
+        }
+        for (std::int32_t s = first_stage(r); !is_last(r, s); ++s) {
+            if (stage_dwell(s) > 0) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 void Problem::check_robots() const {
     const std::size_t n_robots = arrays_.home.size();
     const auto n_classes = static_cast<std::size_t>(arrays_.n_classes);

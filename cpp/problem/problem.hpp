@@ -221,6 +221,9 @@ class Problem {
     // Whether a robot can enter a vertex at the instant when another robot leaves it.
     bool may_follow() const { return rules_.headway == 0 && !rules_.books_ahead; }
     bool may_rotate() const { return rules_.rotations && may_follow(); }
+    // Whether all robots move in steps of one tick: each drive takes a tick, and nothing else takes
+    // time. Then a state of the fleet is the vertex and the stage of each robot.
+    bool moves_in_steps() const;
 
   private:
     void check_robots() const;

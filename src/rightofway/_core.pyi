@@ -608,7 +608,7 @@ def earliest_times(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shap
         When to stop; at once for 0 or less. [s]
     """
 
-def plan_by_lacam(problem: Problem, spreads: bool, seed: int, most_effort: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+def plan_by_lacam(problem: Problem, ends_anywhere: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], spreads: bool, seed: int, most_effort: int | None, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
     Plan a whole fleet with clocks, instant by instant.
 
@@ -616,11 +616,13 @@ def plan_by_lacam(problem: Problem, spreads: bool, seed: int, most_effort: int, 
     ----------
     problem : Problem
         What the fleet has to do.
+    ends_anywhere : uint8[R], or empty
+        Whether a robot may end anywhere once its last stage is the next one; it only prefers that one.
     spreads : bool
         Whether robots prefer paths that were spread before the search.
     seed : int
         For ties.
-    most_effort : int
+    most_effort : int or None
         When the search stops: a choice of a robot is a unit, and so is a decision that it takes again.
     time_limit : float or None
         When to stop; at once for 0 or less. [s]
@@ -628,35 +630,9 @@ def plan_by_lacam(problem: Problem, spreads: bool, seed: int, most_effort: int, 
     Returns
     -------
     tuple of (int, int32[R + 1], int32[N], int64[N])
-        How it ended (0: found, 1: a stage cannot be reached, 2: stopped), which visits each robot owns,
-        and where and when each visit begins.
-    """
-
-def untimed_lacam(problem: Problem, ends_anywhere: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], seed: int, most_steps: int | None, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
-    """
-    Find steps for the whole fleet that bring every robot through its stages.
-
-    Time plays no part: in a step each robot stays or moves to a neighbour, no two are at one vertex and
-    no two change places.
-
-    Parameters
-    ----------
-    problem : Problem
-        What the fleet has to do.
-    ends_anywhere : uint8[R], or empty
-        Whether a robot may end anywhere once its last stage is the next one; it only prefers that one.
-    seed : int
-        For ties.
-    most_steps : int or None
-        After about so many steps of the fleet the search stops.
-    time_limit : float or None
-        When to stop; at once for 0 or less. [s]
-
-    Returns
-    -------
-    tuple of (int, int32[T, R])
-        How it ended (0: found, 1: proven that there is none, 2: stopped) and where every robot is
-        after each step, the start included.
+        How it ended (0: found, 1: proven that there is none, since a stage cannot be reached or, for a
+        fleet that moves in steps, since all steps were tried, 2: stopped), which visits each robot
+        owns, and where and when each visit begins.
     """
 
 class FleetSearch:

@@ -464,12 +464,9 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "critical_circuit": _arcs,
     "earliest_times": lambda rng: {**_arcs(rng), "period": rng.randrange(9, 30), "parts": 1},
     "plan_by_lacam": lambda rng: {
-        "problem": _problem(rng), "spreads": rng.random() < 1 / 2, "seed": rng.randrange(99),
-        "most_effort": rng.choice((10, 1000, 10**5)), "time_limit": 0.2,
-    },
-    "untimed_lacam": lambda rng: {
         "problem": _problem(rng), "ends_anywhere": np.ones(rng.choice((0, 3)), np.uint8),
-        "seed": rng.randrange(99), "most_steps": rng.choice((None, 1000)), "time_limit": 0.2,
+        "spreads": rng.random() < 1 / 2, "seed": rng.randrange(99),
+        "most_effort": rng.choice((None, 10, 1000, 10**5)), "time_limit": 0.2,
     },
     "FleetSearch": lambda rng: {
         "problem": _problem(rng), "seed": rng.randrange(99), "n_threads": rng.randrange(1, 4),

@@ -96,7 +96,7 @@ def run_case(seed: int, case: int, *, shows: bool = False) -> None:
 
 def _try_problem(problem: _core.Problem, rng: random.Random, *, shows: bool) -> None:
     """Plan for a problem that was let in."""
-    for name in ("FleetSearch", "plan_by_lacam", "untimed_lacam", "Congestion", "earliest_track"):
+    for name in ("FleetSearch", "plan_by_lacam", "Congestion", "earliest_track"):
         made = call(getattr(_core, name), rng, name, False, shows=shows, problem=problem)
         if isinstance(made, _core.FleetSearch):
             for own in ("alone", "prioritize", "go_on", "improve", "retime", "tracks"):

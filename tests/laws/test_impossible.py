@@ -10,7 +10,7 @@ from rightofway.model.deadline import Deadline
 from rightofway.planners.impossible import blocking_set
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
-from tests.oracles.untimed_lacam import can_get_through
+from tests.oracles.all_steps import can_get_through
 
 GRIDS = (["...", "@.@"], [".....", "@@.@@"], ["....", "@@@@", "...."], ["......"])
 

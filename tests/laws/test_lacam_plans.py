@@ -18,7 +18,7 @@ from rightofway.search import plan_by_lacam
 from tests.builders.any_fleet import FEATURES, any_fleet
 from tests.builders.any_plan import planned
 from tests.builders.laws import law, leave
-from tests.oracles.untimed_lacam import can_get_through, is_step
+from tests.oracles.all_steps import can_get_through, is_step
 
 UNKNOWN = {"closures", "barred"}
 """Refused; the refusals have tests of their own."""

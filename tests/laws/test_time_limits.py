@@ -19,7 +19,7 @@ import pytest
 import rightofway
 from rightofway import _core
 from rightofway.cyclic import best_timetable
-from rightofway.errors import RightOfWayError
+from rightofway.errors import NoPlanExists, RightOfWayError
 from rightofway.model import Lap, Plan, Scenario, Tick
 from rightofway.planners import registered
 from rightofway.planners.flip import flipped
@@ -33,7 +33,6 @@ from rightofway.search import (
     earliest_track,
     least_completions,
     plan_by_lacam,
-    untimed_lacam,
 )
 from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet, random_fleet
@@ -139,6 +138,12 @@ def find_route(scenario: Scenario, limit: float) -> None:
     made.find_route(RoundTrip.of(problem.itineraries[0], distances), 0, time_limit=limit)
 
 
+def lacam(scenario: Scenario, limit: float) -> None:
+    for problem in (scenario.problem, scenario.problem.in_steps()):
+        with suppress(NoPlanExists):
+            plan_by_lacam(problem, time_limit=limit)
+
+
 def event_graph() -> TimedEventGraph:
     timetable = random_timetable(1, robots=5, headway=0, books_ahead=False)
     return TimedEventGraph(timetable, headway=Tick(0), books_ahead=False)
@@ -167,10 +172,7 @@ CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "critical_circuit": lambda _, limit: event_graph().critical_circuit(time_limit=limit),
     "earliest_times": lambda _, limit: event_graph().earliest(Tick(10**6), time_limit=limit),
     "earliest_track": track,
-    "plan_by_lacam": lambda one, limit: plan_by_lacam(
-        one.problem, most_effort=10**12, time_limit=limit
-    ),
-    "untimed_lacam": lambda one, limit: untimed_lacam(one.problem, time_limit=limit),
+    "plan_by_lacam": lacam,
 }
 
 

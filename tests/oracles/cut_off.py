@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rightofway.model import Scenario
-from tests.oracles.untimed_lacam import advance, steps
+from tests.oracles.all_steps import advance, steps
 
 __all__ = ["most_who_can_finish"]
 

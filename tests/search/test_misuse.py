@@ -42,7 +42,7 @@ MISUSE: list[tuple[Callable[[], Any], str]] = [
     (lambda: FLOOR.ticks_of_edges(PACE + PACE), "edge_ticks: 2 for 1 length classes"),
     (lambda: FLOOR.path(-1, 0, PACE), "start: -1 is none of 7"),  # type: ignore[arg-type]
     (lambda: FLOOR.cost((0, 99), PACE), r"path\[1\]: 99 is none of 7"),  # type: ignore[arg-type]
-    (lambda: search.untimed_lacam(PROBLEM, ends_anywhere=[9]), "ends_anywhere: 9 is none of 2"),
+    (lambda: search.plan_by_lacam(PROBLEM, ends_anywhere=[9]), "ends_anywhere: 9 is none of 2"),
     (lambda: search.earliest_track(9, search.Bookings(PROBLEM), FLOOR), "robot: 9 is none of 2"),
 ]
 

@@ -85,5 +85,25 @@ TEST_CASE("fingerprints tell states apart, but not by the clock") {
     CHECK(slower.fingerprint() != on_the_way);
 }
 
+TEST_CASE("robots are put back where they stood, and no vertex was left later than now") {
+    const test::Fleet fleet{test::corridor(), {{0, {{3}}}}};
+    const Problem problem = fleet.problem();
+    FleetState state(problem);
+    const Standing before = state.standing(0);
+    const std::uint64_t fingerprint = state.fingerprint();
+    for (const VertexId vertex : {1, 2}) {
+        state.decide({0, vertex, state.now() + 1});
+        REQUIRE(state.advance());
+    }
+    CHECK(state.standing(0).waited == 2);
+    state.resume(std::vector{before});
+    CHECK(state.at(0) == 0);
+    CHECK(state.here(0) == 0);
+    CHECK(state.here(2) == nobody);
+    CHECK(state.standing(0).waited == 0);
+    CHECK(state.fingerprint() == fingerprint);
+    CHECK(state.left(1) <= state.now());
+}
+
 }  // namespace
 }  // namespace rightofway

@@ -7,7 +7,6 @@
 
 #include "fleets.hpp"
 #include "lacam/lacam.hpp"
-#include "lacam/untimed_lacam.hpp"
 
 namespace rightofway {
 namespace {
@@ -16,10 +15,10 @@ constexpr VertexId n_robots = 10'000;
 
 // Robots on all vertices of a corridor but the last; each is to go one vertex on, and the first to
 // choose pushes all others.
-test::Fleet queue() {
+test::Fleet queue(std::int32_t edge_ticks) {
     std::vector<test::Robot> robots;
     for (VertexId v = 0; v < n_robots; ++v) {
-        robots.push_back({v, {{v + 1}}});
+        robots.push_back({v, {{v + 1}}, edge_ticks});
     }
     return {test::corridor(n_robots + 1), robots};
 }
@@ -41,18 +40,18 @@ void run_on_a_small_stack(std::function<void()> work) {
 }
 
 TEST_CASE("a queue of 10 000 robots that push each other needs no deep stack") {
-    const test::Fleet fleet = queue();
-    const Problem problem = fleet.problem();
-    SearchEnd end = SearchEnd::stopped;
-    SearchEnd untimed_end = SearchEnd::stopped;
-    run_on_a_small_stack([&] {
-        StepTables tables(problem.graph());
-        SpaceUtilization paths(problem, tables);
-        end = Lacam(problem, tables, paths, 0).run(test::no_deadline, 100 * n_robots);
-        untimed_end = UntimedLacam(problem, tables, 0).run(test::no_deadline);
-    });
-    CHECK(end == SearchEnd::found);
-    CHECK(untimed_end == SearchEnd::found);
+    for (const std::int32_t edge_ticks : {1, 2}) {  // in steps, and with clocks
+        const test::Fleet fleet = queue(edge_ticks);
+        const Problem problem = fleet.problem();
+        REQUIRE(problem.moves_in_steps() == (edge_ticks == 1));
+        SearchEnd end = SearchEnd::stopped;
+        run_on_a_small_stack([&] {
+            StepTables tables(problem.graph());
+            SpaceUtilization paths(problem, tables);
+            end = Lacam(problem, tables, paths, 0).run(test::no_deadline, 100 * n_robots);
+        });
+        CHECK(end == SearchEnd::found);
+    }
 }
 
 }  // namespace

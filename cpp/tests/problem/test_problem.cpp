@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "crossing.hpp"
+#include "fleets.hpp"
 #include "problem/problem.hpp"
 
 namespace rightofway {
@@ -42,6 +43,19 @@ TEST_CASE("robots that keep a headway or book ahead cannot rotate") {
     CHECK_FALSE(Problem(crossing.arrays(), {0, false, false}).may_rotate());
     CHECK_FALSE(Problem(crossing.arrays(), {1, false}).may_rotate());
     CHECK_FALSE(Problem(crossing.arrays(), {0, true}).may_rotate());
+}
+
+TEST_CASE("what takes time, or more than one tick, is no step") {
+    const auto moves_in_steps = [](const test::Robot& robot, BookingRules rules = {}) {
+        const test::Fleet fleet(test::corridor(), {robot}, rules);
+        return fleet.problem().moves_in_steps();
+    };
+    CHECK(moves_in_steps({0, {{1}, {2}}}));
+    CHECK(moves_in_steps({0, {{1}, {2, 5}}}));  // nobody waits for work at an end
+    CHECK(!moves_in_steps({0, {{1, 5}, {2}}}));
+    CHECK(!moves_in_steps({0, {{1}}, 2}));
+    CHECK(!moves_in_steps({0, {{1}}}, {1, false}));
+    CHECK(!moves_in_steps({0, {{1}}}, {0, true}));
 }
 
 }  // namespace

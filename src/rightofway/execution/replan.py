@@ -42,11 +42,11 @@ from rightofway.model import (
     turns_along,
 )
 from rightofway.planners import Deadline, Task
-from rightofway.planners.lacam import order_of_steps, timetable_in_order
+from rightofway.planners.lacam import timetable_in_order, timetable_of
 from rightofway.planners.moves import tracks_by_moves
 from rightofway.planners.prioritized import fleet_search
 from rightofway.precedence import ActionDependencyGraph
-from rightofway.search import Distances, untimed_lacam
+from rightofway.search import Distances, plan_by_lacam
 from rightofway.site import Roadmap, VertexId
 from rightofway.solve import improve
 
@@ -54,7 +54,7 @@ NEIGHBOURHOODS = 20
 """Neighbourhoods per robot; five times as many hardly lower the flowtime further."""
 
 MOST_STEPS = 20_000
-"""Maximum steps of LaCAM for one choice of cut-off robots."""
+"""Maximum steps of LaCAM, each a choice for every robot, for one choice of cut-off robots."""
 
 SEARCHES, SHARE = 10, 0.5
 """Searches per robot for robots with a size, one after another, and the part of the time left."""
@@ -246,36 +246,37 @@ def _another_way(
         if deadline.seconds_left() == 0:
             return None
         try:
-            visited, arrivals = find(_rest(rest, rest.roadmap, tried), cut_off, seed, deadline)
+            found = find(_rest(rest, rest.roadmap, tried), cut_off, seed, deadline)
         except (NoPlanExists, GaveUp):
             continue
+        if found is None:
+            continue
         ended = [
-            _with_end(one, one.left[:-1], own[-1]) if robot in cut_off else one
-            for robot, (one, own) in enumerate(zip(tried, visited, strict=True))
+            _with_end(one, one.left[:-1], int(own.vertices[-1])) if robot in cut_off else one
+            for robot, (one, own) in enumerate(zip(tried, found, strict=True))
         ]
-        tracks = timetable_in_order(_rest(rest, rest.roadmap, ended), visited, arrivals)
-        return ended, cut_off, tracks
+        return ended, cut_off, timetable_of(_rest(rest, rest.roadmap, ended), found)
     return None
 
 
-Order = tuple[list[list[VertexId]], list[list[int]]]
-"""The vertices that each robot visits, and when each visit begins, by any clock."""
-
-
-def _together(rest: Scenario, cut_off: frozenset[int], seed: int, deadline: Deadline) -> Order:
-    """Return the order of moves that LaCAM finds."""
-    steps = untimed_lacam(
-        rest.problem,
+def _together(
+    rest: Scenario, cut_off: frozenset[int], seed: int, deadline: Deadline
+) -> Sequence[Track] | None:
+    """Return the plan that LaCAM finds in steps."""
+    return plan_by_lacam(
+        rest.problem.in_steps(),
         seed=seed,
+        most_effort=MOST_STEPS * len(rest.robots),
         time_limit=deadline.seconds_left(),
-        most_steps=MOST_STEPS,
+        spreads=False,
         ends_anywhere=cut_off,
     )
-    return order_of_steps(steps)
 
 
-def _by_turns(rest: Scenario, cut_off: frozenset[int], seed: int, deadline: Deadline) -> Order:
-    """Return the order of a plan for robots one after another, or else of single moves."""
+def _by_turns(
+    rest: Scenario, cut_off: frozenset[int], seed: int, deadline: Deadline
+) -> Sequence[Track]:
+    """Return the plan for robots one after another, or else of single moves."""
     problem = rest.problem
     task = Task(scenario=rest, seed=seed, deadline=deadline)
     assert problem.resources is not None, "this is for robots with a size"
@@ -286,8 +287,7 @@ def _by_turns(rest: Scenario, cut_off: frozenset[int], seed: int, deadline: Dead
         searches, limit = SEARCHES * len(turns), deadline.sooner(SHARE).seconds_left()
         if search.prioritize(turns, searches=searches, time_limit=limit):
             tracks = search.tracks()
-    tracks = tracks or tracks_by_moves(task, ends_anywhere=cut_off, most_states=MOST_STATES)
-    return [one.vertices.tolist() for one in tracks], [one.enter.tolist() for one in tracks]
+    return tracks or tracks_by_moves(task, ends_anywhere=cut_off, most_states=MOST_STATES)
 
 
 def _choices(

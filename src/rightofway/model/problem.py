@@ -86,6 +86,16 @@ class Itinerary:
         """The vertex where the robot stays for ever."""
         return self.stages[-1].vertex
 
+    def in_steps(self) -> Itinerary:
+        """Return the trip with a tick for each edge, and nothing else that takes time."""
+        return Itinerary(
+            home=self.home,
+            stages=tuple(
+                Stage(vertex=stage.vertex, work=Tick(0), turn=Tick(0)) for stage in self.stages
+            ),
+            edge_ticks=tuple(Tick(1) if ticks > 0 else ticks for ticks in self.edge_ticks),
+        )
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Problem:
@@ -139,6 +149,24 @@ class Problem:
     def with_headway(self, headway: Tick) -> Problem:
         """Return the same problem with another headway [ticks]."""
         return self if headway == self.headway else replace(self, headway=headway)
+
+    def in_steps(self) -> Problem:
+        """Return the problem in steps of a tick: in a step, a robot drives along an edge or stays.
+
+        Nothing else takes time, robots are points, and nothing is closed. Every robot can wait, so
+        where points have a plan without closures, they have one in steps, and the other way round;
+        robots rotate in steps only where bookings allow it. Its order of visits at each vertex is
+        that of a plan for any speeds, work times and headways.
+        """
+        return replace(
+            self,
+            headway=Tick(0),
+            books_ahead=False,
+            rotations=self.rotations and self.headway == 0 and not self.books_ahead,
+            itineraries=tuple(one.in_steps() for one in self.itineraries),
+            resources=None,
+            closures=None,
+        )
 
 
 def refuse_closures(problem: Problem, what: str, remedy: str) -> None:

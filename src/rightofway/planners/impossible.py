@@ -1,7 +1,7 @@
 """Proofs that a fleet has no plan: which robots are blocked, where and why.
 
 A robot may have no way to a place; two may have to stay at one vertex for ever; or robots block
-each other whatever they do. The last is proven by the search of LaCAM for an order of moves, and a
+each other whatever they do. The last is proven by the search of LaCAM in steps, and a
 deletion filter then takes out every robot without which the proof still holds.
 
 References
@@ -28,7 +28,7 @@ from rightofway.search import (
     Distances,
     earliest_track,
     least_completions,
-    untimed_lacam,
+    plan_by_lacam,
 )
 from rightofway.search.missing_ways import (
     OTHER_PLACES,
@@ -40,7 +40,7 @@ from rightofway.search.missing_ways import (
 from rightofway.site import VertexId
 
 EFFORT = 4_000_000
-"""Steps of robots in all trials of the deletion filter."""
+"""Choices of robots in all trials of the deletion filter."""
 
 MOST_TRIALS = 200
 """Trials that the effort is divided by, at most."""
@@ -260,8 +260,8 @@ def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -
     for robot, itinerary in enumerate(scenario.problem.itineraries):
         groups[parts.of(itinerary.home)].append(robot)
     for robots in sorted(groups.values(), key=len) if len(groups) > 1 else ():
-        steps = EFFORT // (len(groups) * len(robots))
-        if _is_blocked(scenario, robots, seed=seed, steps=steps, deadline=deadline):
+        effort = EFFORT // len(groups)
+        if _is_blocked(scenario, robots, seed=seed, effort=effort, deadline=deadline):
             raise NoPlanExists([blocking_set(scenario, robots, seed=seed, deadline=deadline)])
 
 
@@ -287,13 +287,13 @@ def blocking_set(
     no trial without one of its robots ended undecided.
     """
     left = list(robots)
-    steps = max(EFFORT // (len(left) * min(len(left), MOST_TRIALS)), 1)
+    effort = EFFORT // min(len(left), MOST_TRIALS)
     size = len(left)
     while size > 1:
         size = -(-size // 2)
         for begin in range(0, len(left), size)[::-1]:
             fewer = left[:begin] + left[begin + size :]
-            if _is_blocked(scenario, fewer, seed=seed, steps=steps, deadline=deadline):
+            if _is_blocked(scenario, fewer, seed=seed, effort=effort, deadline=deadline):
                 left = fewer
     return _described(scenario, left)
 
@@ -320,7 +320,7 @@ def fleet_at_home(scenario: Scenario) -> Plan:
 
 
 def _is_blocked(
-    scenario: Scenario, robots: Sequence[int], *, seed: int, steps: int, deadline: Deadline
+    scenario: Scenario, robots: Sequence[int], *, seed: int, effort: int, deadline: Deadline
 ) -> bool:
     """Return whether it is proven that some robots of a fleet have no plan."""
     if len(robots) < 2:  # noqa: PLR2004 (a robot alone is never blocked)
@@ -328,11 +328,15 @@ def _is_blocked(
     left = deadline.seconds_left()
     fleet = replace(scenario, robots=tuple(scenario.robots[robot] for robot in robots))
     try:
-        untimed_lacam(fleet.problem, seed=seed, time_limit=left, most_steps=steps)
+        plan_by_lacam(
+            fleet.problem.in_steps(),
+            seed=seed,
+            most_effort=effort,
+            time_limit=left,
+            spreads=False,
+        )
     except NoPlanExists:
         return True
-    except GaveUp:
-        return False
     return False
 
 

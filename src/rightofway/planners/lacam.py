@@ -1,9 +1,9 @@
 """LaCAM: the whole fleet at once, a search over where all robots are.
 
-The timed search goes from instant to instant with each robot's own speed and work. Where it ends
-without a plan, the untimed search brings all robots through their trips in some order of moves.
-That order gives each robot a route, and each vertex an order of visits: rights of way, whose
-earliest timetable is a plan for any speeds, work times and headways.
+The search goes from instant to instant with each robot's own speed and work. Where it ends without
+a plan, the same search brings all robots through their trips in steps (`Problem.in_steps`), in some
+order of moves. That order gives each robot a route, and each vertex an order of visits: rights of
+way, whose earliest timetable is a plan for any speeds, work times and headways.
 
 References
 ----------
@@ -13,17 +13,14 @@ path finding*, Artificial Intelligence 310, 2022.
 
 Notes
 -----
-Complete: the untimed search finds an order of moves or proves that none exists. Deterministic, as
-long as nine tenths of the time limit are enough for the timed search. Not optimal.
+Complete: the search in steps finds an order of moves or proves that none exists. Deterministic, as
+long as nine tenths of the time limit are enough for the search by instants. Not optimal.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import NoReturn
-
-import numpy as np
-from numpy.typing import NDArray
 
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Track, route_through
@@ -36,17 +33,17 @@ from rightofway.planners.impossible import (
 from rightofway.planners.moves import plan_by_moves
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import graph_on
-from rightofway.search import Distances, FleetSearch, plan_by_lacam, untimed_lacam
+from rightofway.search import Distances, FleetSearch, plan_by_lacam
 from rightofway.site import VertexId
 
 SHARE_OF_TIME = 0.9
-"""The part of the time for the timed search."""
+"""The part of the time for the search by instants."""
 
 MANY = 5000
-"""The untimed search takes far longer than the timed one for more robots: it gets no time."""
+"""For more robots the search in steps gets no time: a tenth of the time would be too short."""
 
 LEAST_EFFORT, EFFORT_PER_PLACE = 2_000_000, 8
-"""Choices of the timed search: the minimum, and the limit per robot and vertex above it."""
+"""Choices of the search by instants: the minimum, and the limit per robot and vertex above it."""
 
 
 def lacam(task: Task) -> Draft:
@@ -56,55 +53,50 @@ def lacam(task: Task) -> Draft:
 
 def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     """Plan the whole fleet at once; ``spreads``: robots prefer paths that were spread before."""
-    scenario, robots = task.scenario, len(task.scenario.robots)
-    if scenario.problem.is_open:
+    scenario = task.scenario
+    problem = scenario.problem
+    if problem.is_open:
         found = plan_by_instants(task, spreads=spreads)
         if found is not None:
             return found
-    if scenario.problem.resources is not None:
+    if problem.resources is not None:
         task.report("no end by instants: planning the order of single moves")
         search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
         return plan_by_moves(task, search)
-    if not scenario.problem.is_open:
-        _refuse_or_give_up(task)
-    task.report("no end by instants: planning the order of moves without clocks")
-    refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
-    left = task.deadline.seconds_left()
+    if problem.is_open:
+        task.report("no end by instants: planning the order of moves without clocks")
+        refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
     try:
-        steps = untimed_lacam(scenario.problem, seed=task.seed, time_limit=left)
+        tracks = plan_by_lacam(
+            problem.in_steps(),
+            seed=task.seed,
+            time_limit=task.deadline.seconds_left(),
+            spreads=spreads and problem.is_open,
+        )
     except NoPlanExists:
-        task.report("no plan exists: looking for the robots that block each other")
-        found_set = blocking_set(scenario, range(robots), seed=task.seed, deadline=task.deadline)
-        raise NoPlanExists([found_set]) from None
+        _refuse_blocked(task)
+    if not problem.is_open:
+        kept = "keeps clear of closures and barred edges"
+        message = f"robots one after another find no plan that {kept}"
+        raise GaveUp(f"{message} (give a longer time limit, or other places)")
+    if tracks is None:
+        raise GaveUp("time ran out in the search for the whole fleet (give a longer time limit)")
     task.has_plan()
-    return Draft(tracks=tuple(timetable_of(scenario, steps)), status="order of moves first")
+    return Draft(tracks=tuple(timetable_of(scenario, tracks)), status="order of moves first")
 
 
-def _refuse_or_give_up(task: Task) -> NoReturn:
-    """Raise for points among closures and barred edges that find no plan one after another.
-
-    Raises
-    ------
-    NoPlanExists
-        If no order of moves exists: closures and barred edges leave no more moves.
-    GaveUp
-        Otherwise.
-    """
-    left = task.deadline.seconds_left()
-    try:
-        untimed_lacam(task.scenario.problem, seed=task.seed, time_limit=left)
-    except NoPlanExists:
-        everybody = range(len(task.scenario.robots))
-        found = blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
-        raise NoPlanExists([found]) from None
-    message = "robots one after another find no plan that keeps clear of closures and barred edges"
-    raise GaveUp(f"{message} (give a longer time limit, or other places)")
+def _refuse_blocked(task: Task) -> NoReturn:
+    """Raise for a fleet that is proven to have no plan: which robots block each other."""
+    task.report("no plan exists: looking for the robots that block each other")
+    everybody = range(len(task.scenario.robots))
+    found = blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
+    raise NoPlanExists([found]) from None
 
 
 def plan_by_instants(
     task: Task, *, spreads: bool = True, effort: int | None = None
 ) -> Draft | None:
-    """Plan the whole fleet by the timed search alone; None if it ends without a plan.
+    """Plan the whole fleet by the search by instants alone; None if it ends without a plan.
 
     Parameters
     ----------
@@ -128,22 +120,26 @@ def plan_by_instants(
         )
     except NoPlanExists:
         refuse_the_impossible(scenario, Distances(scenario.roadmap))
-        raise
+        refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
+        _refuse_blocked(task)
     if tracks is None:
         return None
     task.has_plan()
     return Draft(tracks=tuple(tracks), status="instant by instant")
 
 
-def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:
-    """Return the earliest tracks that keep the routes and the order of steps of `untimed_lacam`."""
-    return timetable_in_order(scenario, *order_of_steps(steps))
+def timetable_of(scenario: Scenario, tracks: Sequence[Track]) -> list[Track]:
+    """Return the earliest tracks that keep the routes and the order of visits of other tracks.
 
-
-def order_of_steps(steps: NDArray[np.int32]) -> tuple[list[list[VertexId]], list[list[int]]]:
-    """Return the vertices that each robot visits, and the step in which each visit begins."""
-    arrivals = [[0, *(np.flatnonzero(np.diff(places)) + 1).tolist()] for places in steps.T]
-    return [steps[when, robot].tolist() for robot, when in enumerate(arrivals)], arrivals
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        A plan of the fleet by any clock, as for `timetable_in_order`.
+    """
+    visited = [track.vertices.tolist() for track in tracks]
+    return timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
 
 
 def timetable_in_order(

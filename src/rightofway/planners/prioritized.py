@@ -22,7 +22,7 @@ import numpy as np
 from rightofway.model import Scenario, Stop, cost_of
 from rightofway.model.deadline import Deadline
 from rightofway.planners.impossible import refuse_stranded
-from rightofway.planners.lacam import plan_fleet, timetable_in_order
+from rightofway.planners.lacam import plan_fleet, timetable_of
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
@@ -133,10 +133,7 @@ def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
     limit = _part(task.deadline, SHARE_AT_ONE_PACE)
     if not search.prioritize(turns, searches=searches, time_limit=limit):
         return None
-    tracks = search.tracks()
-    visited = [track.vertices.tolist() for track in tracks]
-    arrivals = [track.enter.tolist() for track in tracks]
-    found = timetable_in_order(task.scenario, visited, arrivals)
+    found = timetable_of(task.scenario, search.tracks())
     task.has_plan()
     status = "one after another at one pace, each then at its own"
     return Draft(tracks=tuple(found), status=status)

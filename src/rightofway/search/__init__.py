@@ -3,7 +3,7 @@
 from rightofway.search.congestion import Congestion
 from rightofway.search.distances import Distances, Path
 from rightofway.search.fleet import FleetSearch, least_completions
-from rightofway.search.lacam import plan_by_lacam, untimed_lacam
+from rightofway.search.lacam import plan_by_lacam
 from rightofway.search.periodic_bookings import PeriodicBookings, RoundTrip, RowsOfLaps
 from rightofway.search.sipp import Booking, Bookings, earliest_track
 
@@ -20,5 +20,4 @@ __all__ = [
     "earliest_track",
     "least_completions",
     "plan_by_lacam",
-    "untimed_lacam",
 ]

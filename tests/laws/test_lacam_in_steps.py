@@ -1,19 +1,21 @@
-"""The search for the whole fleet finds steps wherever there are any, and proves it where not."""
+"""Where a fleet moves in steps, LaCAM finds steps wherever there are any, and else proves it."""
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 import rightofway
-from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.errors import NoPlanExists
 from rightofway.io import scenario_of
-from rightofway.model import Plan, PlannerRun, Rules, Scenario
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
 from rightofway.planners.lacam import timetable_of
-from rightofway.search import untimed_lacam
+from rightofway.search import plan_by_lacam
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law
-from tests.oracles.untimed_lacam import can_get_through, is_step
+from tests.oracles.all_steps import can_get_through, is_step
 
 GRIDS = (["...", "@.@"], ["..", ".."], [".....", "@@.@@"], ["...", ".@.", "..."], ["...."])
 
@@ -30,6 +32,14 @@ def fleets(draw: st.DrawFn) -> Scenario:
         occupancy=draw(st.sampled_from(["one", "both"])),
     )
     return grid_fleet(grid, list(zip(homes, targets, strict=True)), rules=rules)
+
+
+def places_after_each_step(tracks: list[Track] | None) -> NDArray[np.int32]:
+    """Return where all robots are after each step, the start included; shape (T, R)."""
+    assert tracks is not None, "the search was not limited"
+    ticks = np.arange(max(track.enter[-1] for track in tracks) + 1)
+    at = [track.vertices[np.searchsorted(track.enter, ticks, "right") - 1] for track in tracks]
+    return np.stack(at, axis=1)
 
 
 def test_a_robot_goes_round_an_edge_that_is_barred_for_its_type() -> None:
@@ -53,19 +63,24 @@ def test_a_robot_goes_round_an_edge_that_is_barred_for_its_type() -> None:
         }
     )
     for seed in range(20):
-        steps = untimed_lacam(scenario.problem, seed=seed)
-        assert [scenario.roadmap.name(vertex) for vertex in steps[:, 0].tolist()] == ["a", "b", "c"]
+        tracks = plan_by_lacam(scenario.problem.in_steps(), seed=seed, spreads=False)
+        assert tracks is not None
+        names = [scenario.roadmap.name(vertex) for vertex in tracks[0].vertices.tolist()]
+        assert names == ["a", "b", "c"]
 
 
-@law(fleets(), st.integers(0, 3))
-def test_steps_are_found_exactly_where_there_are_any(scenario: Scenario, seed: int) -> None:
+@law(fleets(), st.integers(0, 3), st.booleans())
+def test_steps_are_found_exactly_where_there_are_any(
+    scenario: Scenario, seed: int, spreads: bool
+) -> None:
     may_rotate = scenario.rules.occupancy == "one"
     try:
-        steps = untimed_lacam(scenario.problem, seed=seed)
+        tracks = plan_by_lacam(scenario.problem.in_steps(), seed=seed, spreads=spreads)
     except NoPlanExists:
         assert not can_get_through(scenario, may_rotate=may_rotate)
         return
     assert can_get_through(scenario, may_rotate=may_rotate)
+    steps = places_after_each_step(tracks)
     for at, after in zip(steps[:-1].tolist(), steps[1:].tolist(), strict=True):
         assert is_step(scenario, at, after, may_rotate=may_rotate)
 
@@ -73,10 +88,11 @@ def test_steps_are_found_exactly_where_there_are_any(scenario: Scenario, seed: i
 @law(fleets())
 def test_the_timetable_of_steps_is_a_plan_without_fault(scenario: Scenario) -> None:
     try:
-        steps = untimed_lacam(scenario.problem)
+        in_steps = plan_by_lacam(scenario.problem.in_steps(), spreads=False)
     except NoPlanExists:
         return
-    tracks = tuple(timetable_of(scenario, steps))
+    assert in_steps is not None
+    tracks = tuple(timetable_of(scenario, in_steps))
     plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="joint"))
     assert rightofway.check(plan).faults == ()
 
@@ -87,20 +103,31 @@ def test_robots_that_may_end_anywhere_only_make_it_easier(scenario: Scenario, ro
     free = robot % len(scenario.robots)
     stages = [one.stages for one in scenario.problem.itineraries]
     try:
-        steps = untimed_lacam(scenario.problem, ends_anywhere={free})
+        tracks = plan_by_lacam(scenario.problem.in_steps(), spreads=False, ends_anywhere={free})
     except NoPlanExists:
         assert not can_get_through(scenario, may_rotate=scenario.rules.occupancy == "one")
         return
+    steps = places_after_each_step(tracks)
     ends = steps[-1].tolist()
     assert all(ends[k] == own[-1].vertex for k, own in enumerate(stages) if k != free)
     seen = steps[:, free].tolist()
     assert all(stage.vertex in seen for stage in stages[free][:-1])
 
 
+def test_a_robot_that_may_end_anywhere_gets_out_of_the_way() -> None:
+    """R1 and R2 cannot change places in a corridor; R2 can make room for R1 at its end, N3."""
+    trips = [("N0", "N2"), ("N2", "N0")]
+    problem = grid_fleet(["...."], trips, rules=Rules(ends="none")).problem.in_steps()
+    with pytest.raises(NoPlanExists):
+        plan_by_lacam(problem)
+    tracks = plan_by_lacam(problem, ends_anywhere={1})
+    assert tracks is not None
+    assert [int(track.vertices[-1]) for track in tracks] == [2, 3]
+
+
 def test_a_search_that_ends_after_some_steps_proves_nothing() -> None:
     """Two robots change places in a corridor: impossible, but not proven before all is tried."""
-    scenario = grid_fleet(["." * 9], [("N0", "N8"), ("N8", "N0")])
+    scenario = grid_fleet(["." * 40], [("N0", "N39"), ("N39", "N0")])
     with pytest.raises(NoPlanExists):
-        untimed_lacam(scenario.problem)
-    with pytest.raises(GaveUp):
-        untimed_lacam(scenario.problem, most_steps=1)
+        plan_by_lacam(scenario.problem.in_steps())
+    assert plan_by_lacam(scenario.problem.in_steps(), most_effort=1) is None
