@@ -87,11 +87,11 @@ def test_doing_something_where_nothing_is_needed_has_no_finite_gap() -> None:
     assert measure(plan_of(scenario, ("N0 N1 N0", [0, 1, 2]))).gap == math.inf
 
 
-def test_work_counts_where_it_is_done_first() -> None:
-    """R1 works in N1, makes room, and comes back to end there with its work done."""
+def test_the_work_at_the_end_of_a_trip_counts_after_the_last_arrival() -> None:
+    """R1 stands in N1 from 1 to 5, makes room, is back at 7, and works there for 3."""
     scenario = grid_fleet(DOOR, [("N0", "N1")], rules=ONE_WAY, work=[3])
     plan = plan_of(scenario, ("N0 N1 N4 N1", [0, 1, 6, 7]))
-    assert completions_of(scenario, plan.tracks) == (7,)
+    assert completions_of(scenario, plan.tracks) == (10,)
 
 
 def test_a_visit_serves_only_what_it_has_time_for() -> None:
