@@ -32,7 +32,6 @@ from rightofway.planners import (
     find,
     registered,
 )
-from rightofway.site.zones import listed_only
 from rightofway.values import at, between
 
 __all__ = ["improve", "solve"]
@@ -232,7 +231,7 @@ def _run(
             task = replace(task, better=_handing_over(on_plan, spec, task))
         if task.start is not None:
             keep()
-        draft = _drafted(spec, task) if old is None else _going_on(spec, task, old)
+        draft = spec.load()(task) if old is None else _going_on(spec, task, old)
     keep()
     run = PlannerRun(
         name=spec.name,
@@ -277,34 +276,6 @@ def _refuse_unknown(spec: PlannerSpec, problem: Problem) -> None:
         raise InputError.at("", f"{message} ({choose})")
 
 
-def _drafted(spec: PlannerSpec, task: Task) -> Draft:
-    """Return the draft of a planner; if it gives up, the draft for zones of listed vertices only.
-
-    Planners take a vertex between two edges of a zone as in the zone for all visits, or for none.
-    Without it there is more room: what is proven to have no plan has none, and the judge decides
-    whether a plan keeps the zones.
-    """
-    from rightofway.planners.impossible import refuse_passed_zones
-
-    scenario, plan_with = task.scenario, spec.load()
-    if not any(zone.passed for zone in scenario.roadmap.zones):
-        return plan_with(task)
-    gave_up = GaveUp("better plans have robots wait where others pass a zone (keep the plan)")
-    if task.start is None:
-        try:
-            refuse_passed_zones(scenario)
-            return plan_with(task)
-        except GaveUp as error:
-            gave_up = error
-        task.report("no plan keeps robots clear of zones: planning as if they did not pass any")
-    zones = listed_only(scenario.roadmap.zones)
-    looser = replace(scenario, roadmap=replace(scenario.roadmap, zones=zones))
-    draft = plan_with(replace(task, scenario=looser))
-    if check(Plan(scenario=scenario, tracks=draft.tracks, run=PlannerRun(name=spec.name))).ok:
-        return draft
-    raise gave_up
-
-
 def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
     """Return the draft of a planner that starts from an old plan, or from nothing if it must."""
     from rightofway.planners.impossible import refuse_closed_ways
@@ -314,11 +285,11 @@ def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
     if tracks is None:
         task.report("the old plan does not help: planning from nothing")
         refuse_closed_ways(task.scenario, task.deadline)
-        return _drafted(spec, task)
+        return spec.load()(task)
     task.has_plan()
     task.better(lambda: tracks)
     try:
-        return _drafted(spec, replace(task, start=tracks))
+        return spec.load()(replace(task, start=tracks))
     except GaveUp:
         return Draft(tracks=tracks, status="the old plan, changed where it had to be")
 

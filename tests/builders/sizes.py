@@ -172,7 +172,7 @@ def _tiny(seed: int, robots: int) -> Scenario:
 def zoned(seed: int) -> Scenario:
     """Return two robots on six vertices, some of them points, with zones of a few edges.
 
-    Most zones do not list the vertices that robots pass inside.
+    Most zones have vertices only where two of their edges meet.
     """
     fleets = (_zoned(seed + 1000 * k) for k in range(1000))
     return next(fleet for fleet in fleets if fleet.problem.clock.tick >= Fraction(1, 8))

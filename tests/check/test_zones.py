@@ -82,40 +82,48 @@ def test_the_fault_names_the_zone_the_robots_and_the_time() -> None:
 
 
 PASSED = {"vertices": ["F"], "edges": [["A", "B"], ["B", "C"]]}
-"""R1 passes B along two edges of the zone, to which only F belongs for all visits."""
+"""Two edges of the zone meet at B, so that B is in it as F is."""
 
 
-def test_a_vertex_between_two_edges_of_a_zone_counts_for_visits_that_pass_it_so() -> None:
-    """R1 waits at B from tick 1 to 5, when it books no edge; R2 books F from tick 2 to 4."""
-    scenario = scenario_of(document(PASSED))
-    late = Track.of([4, 5, 6, 7], [0, 3, 4, 5])
-    for inside, faults in (([0, 1, 2, 3], 1), ([0, 1], 0)):
-        tracks = Track.of(inside, [0, 1, 7, 8][: len(inside)]), late
-        data = document(PASSED)
-        data["robots"][0]["target"] = "ABCD"[inside[-1]]
-        scenario = scenario_of(data)
-        report = check(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
-        assert report.counts.get("zone conflict", 0) == faults
+@pytest.mark.parametrize("end", ["B", "C"])
+def test_a_vertex_at_which_two_edges_of_a_zone_meet_is_in_it_for_every_visit(end: str) -> None:
+    """R1 stays at B from tick 1 to 7, or for ever; R2 books F from tick 2 to 4."""
+    data = document(PASSED)
+    data["robots"][0]["target"] = end
+    way = ["A", "B", "C"][: "ABC".index(end) + 1]
+    tracks = (
+        Track.of(["ABC".index(name) for name in way], [0, 1, 7][: len(way)]),
+        Track.of([4, 5, 6, 7], [0, 3, 4, 5]),
+    )
+    plan = Plan(scenario=scenario_of(data), tracks=tracks, run=PlannerRun(name="by hand"))
+    assert check(plan).counts == {"zone conflict": 1}
+
+
+@pytest.mark.parametrize("edges", [[["A", "B"], ["C", "B"]], [["B", "A"], ["B", "C"]]])
+def test_edges_that_only_enter_or_only_leave_a_vertex_meet_there_too(edges: list[Any]) -> None:
+    data = document({"edges": edges})
+    data["map"]["roadmap"]["edges"] = [
+        {"from": tail, "to": head, "both_ways": True}
+        for tail, head in data["map"]["roadmap"]["edges"]
+    ]
+    (zone,) = scenario_of(data).roadmap.zones
+    assert zone.vertices == (1,)  # B
+
+
+def test_a_robot_whose_home_is_where_two_edges_of_a_zone_meet_starts_in_the_zone() -> None:
+    data = document(PASSED)
+    data["robots"][0] |= {"home": "B", "target": "D"}
+    data["robots"][1] |= {"home": "F", "target": "H"}
+    with pytest.raises(NoPlanExists, match="R1 at B and R2 at F would both start in zone door"):
+        solve(scenario_of(data))
 
 
 @pytest.mark.parametrize("planner", KNOW_ZONES)
-def test_robots_that_start_and_end_where_others_pass_a_zone_have_plans(planner: str) -> None:
-    """B is R1's home: it is not entered along an edge of the zone, so it is not in it."""
+def test_a_robot_that_starts_inside_a_zone_leaves_before_another_one_enters(planner: str) -> None:
+    """R1 leaves B at tick 1 and the edge to C then; R2 starts into F at 1 instead of 0."""
     data = document(PASSED)
     data["robots"][0] |= {"home": "B", "target": "D"}
-    plan = solve(scenario_of(data), planner)
-    assert check(plan).ok
-
-
-def test_robots_may_start_and_end_where_others_pass_a_zone() -> None:
-    """R1 at B and R2 at F would both be in the zone only if R1 came along an edge of the zone."""
-    data = document(PASSED)
-    data["robots"][0] |= {"home": "B", "target": "B"}
-    data["robots"][1] |= {"home": "F", "target": "F"}
-    assert solve(scenario_of(data)).flowtime == 0
-    data["robots"][0] |= {"home": "A", "target": "C"}
-    # R2 makes room until R1 has passed, from tick 1 to 3, and is back at tick 4.
-    assert solve(scenario_of(data)).flowtime == 3 + 4
+    assert solve(scenario_of(data), planner).flowtime == 2 + 4
 
 
 def test_a_zone_with_a_lane_that_is_split_has_all_its_pieces() -> None:
@@ -127,7 +135,7 @@ def test_a_zone_with_a_lane_that_is_split_has_all_its_pieces() -> None:
     name, (zone,) = scenario.roadmap.name, scenario.roadmap.zones
     edges = [(name(tail), name(head)) for tail, head in zone.edges]
     assert edges == [("A", "A-B/1"), ("A-B/1", "A-B/2"), ("A-B/2", "B")]
-    assert [name(vertex) for vertex in zone.passed] == ["A-B/1", "A-B/2"]
+    assert [name(vertex) for vertex in zone.vertices] == ["F", "A-B/1", "A-B/2"]
     assert dump_scenario(scenario)["map"]["roadmap"]["zones"][0]["edges"] == [
         list(e) for e in edges
     ]

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache, partial
 from heapq import heappop, heappush
-from itertools import combinations, product
+from itertools import product
 from typing import NamedTuple
 
 from rightofway.model import Scenario
@@ -27,8 +27,6 @@ class State(NamedTuple):
     head: int = -1
     left: int = 0  # ticks of the drive to the head
     is_done: bool = False
-    came: frozenset[int] = frozenset()  # zones with the edge driven in that do not list the vertex
-    passes: frozenset[int] = frozenset()  # those with the edge that is driven out, decided before
 
 
 Booked = tuple[Shape, ...]
@@ -81,7 +79,7 @@ class _Fleet:
     def _actions(self, robot: int, state: State) -> Iterator[Action]:
         """Yield the next state, what is booked in the tick, and what the tick costs."""
         roadmap = self.scenario.roadmap
-        inside = zones_around(roadmap, state.vertex) | state.passes
+        inside = zones_around(roadmap, state.vertex)
         here: Booked = ((state.vertex,), *((-1 - zone,) for zone in inside))
         if state.is_done:
             yield state, here, 0
@@ -90,22 +88,13 @@ class _Fleet:
             along, ahead = zones_with(roadmap, edge), zones_around(roadmap, state.head)
             booked: Booked = (*here, edge, *((-1 - zone,) for zone in along | ahead))
             booked += ((state.head,),) if self.books_ahead else ()
-            if left:
-                yield state._replace(left=left), booked, 1
-                return
-            came = frozenset(along - ahead)
-            for size in range(len(came) + 1):
-                for passes in combinations(sorted(came), size):
-                    after = State(state.head, came=came, passes=frozenset(passes))
-                    yield after, booked, 1
+            yield state._replace(left=left) if left else State(state.head), booked, 1
         else:
-            if state.vertex == self.scenario.problem.itineraries[robot].last and not state.passes:
+            if state.vertex == self.scenario.problem.itineraries[robot].last:
                 yield state._replace(is_done=True), here, 0
             yield state, here, 1
             first, end = roadmap.indptr[state.vertex : state.vertex + 2].tolist()
             for head in roadmap.heads[first:end].tolist():
-                if state.came & zones_with(roadmap, (state.vertex, head)) != state.passes:
-                    continue
                 ticks = int(drive(self.scenario, robot, state.vertex, head))
                 yield from self._actions(robot, state._replace(head=head, left=ticks))
 

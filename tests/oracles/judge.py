@@ -277,8 +277,7 @@ def _bookings(site: Site, way: Way) -> Iterator[Booking]:
         inside = {
             number
             for number, zone in enumerate(zones)
-            if vertex in zone.vertices
-            or (came and goes and came[0] in zone.edges and goes[0] in zone.edges)
+            if vertex in zone.vertices or sum(vertex in edge for edge in zone.edges) > 1
         }
         end = way.enter[visit + 1] + site.headway if goes else inf
         yield Booking((vertex,), frozenset(inside), way.enter[visit] - approach, end)

@@ -98,15 +98,16 @@ def zones_with(roadmap: Roadmap, edge: Shape) -> set[int]:
 
 
 def zones_around(roadmap: Roadmap, vertex: int) -> set[int]:
-    """Return the numbers of the zones that list a vertex."""
-    return {number for number, zone in enumerate(roadmap.zones) if vertex in zone.vertices}
+    """Return the numbers of the zones that hold a vertex: given, or where two edges meet."""
+    return {
+        number
+        for number, zone in enumerate(roadmap.zones)
+        if vertex in zone.vertices or sum(vertex in edge for edge in zone.edges) > 1
+    }
 
 
 def bookings(scenario: Scenario, robot: int, track: Track) -> Iterator[Booked]:
-    """Yield what a robot books: vertices with approach and headway, edges while it drives, zones.
-
-    A visit between two edges of a zone books the zone.
-    """
+    """Yield what a robot books: vertices with approach and headway, edges, zones."""
     roadmap = scenario.roadmap
     headway = Fraction(scenario.problem.headway)
     vertices, enter = track.vertices.tolist(), [Fraction(t) for t in track.enter.tolist()]
@@ -115,8 +116,7 @@ def bookings(scenario: Scenario, robot: int, track: Track) -> Iterator[Booked]:
         approach = drive(scenario, robot, vertices[k - 1], vertex) if k else Fraction(0)
         yield Booked((vertex,), enter[k] - approach, ends[k])
         into = zones_with(roadmap, tuple(vertices[k - 1 : k + 1])) if k else set()
-        passed = into & zones_with(roadmap, tuple(vertices[k : k + 2]))
-        for zone in zones_around(roadmap, vertex) | passed:
+        for zone in zones_around(roadmap, vertex):
             yield Booked((-1 - zone,), enter[k] - approach, ends[k])
         if k:
             yield Booked((vertices[k - 1], vertex), enter[k] - approach, enter[k] + headway)

@@ -27,8 +27,7 @@ class _Stay(NamedTuple):
 def judge_zones(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:
     """Find zones that two robots book at the same time.
 
-    A booking of a vertex or an edge of the zone books the zone, approach and headway included. A
-    vertex that is entered and left along edges of the zone counts as in it for that visit.
+    A booking of a vertex or an edge of the zone books the zone, approach and headway included.
     """
     for zone in plan.scenario.roadmap.zones:
         inside: list[tuple[int, int, _Stay]] = []  # a heap by end, without what is over
@@ -53,10 +52,9 @@ def _stays(plan: Plan, visits: Visits, zone: Zone) -> Iterator[_Stay]:
     drive, last = visits.drive.tolist(), visits.last.tolist()
     first = np.roll(visits.last, 1).tolist()
     for k, at in enumerate(vertex):
-        comes = not first[k] and (vertex[k - 1], at) in edges
         goes = not last[k] and (at, vertex[k + 1]) in edges
         approach = 0 if first[k] or not ahead else drive[k - 1]
-        if at in vertices or (comes and goes):
+        if at in vertices:
             yield _Stay(enter[k] - approach, leave[k] + headway, robot[k], at)
         if goes:
             yield _Stay(leave[k] - drive[k], leave[k] + headway, robot[k], at)

@@ -199,7 +199,7 @@ def replan(
         left = deadline.seconds_left()
         plans.insert(0, improve(first, time_limit=left, seed=seed, options=options))
     except (NoPlanExists, GaveUp):
-        pass  # planners read zones more strictly than the order of a plan does
+        pass  # the first plan is kept
     for plan in plans:
         # A plan may move a busy robot away and back. Splicing keeps it there, which may deadlock.
         try:

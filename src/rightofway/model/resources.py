@@ -219,10 +219,6 @@ class Resources:
     first, excluded
         Robots that book row ``r`` exclude others from the rows ``excluded[first[r]:first[r + 1]]``,
         in increasing order; int32, shapes (rows + 1,) and (n,).
-    is_exact
-        Whether the lists exclude no more than the rule does. They exclude more where a vertex
-        counts as in a zone for some visits only: there, they take it as in the zone for all. Then
-        a search that finds no plan proves nothing.
     """
 
     n_vertices: int
@@ -230,7 +226,6 @@ class Resources:
     size_of: NDArray[np.int32]
     first: NDArray[np.int32] = field(repr=False)
     excluded: NDArray[np.int32] = field(repr=False)
-    is_exact: bool = True
 
     def vertex_row(self, robot: int, vertex: int) -> int:
         """Return the row that a robot books at a vertex."""
@@ -315,7 +310,6 @@ def resources_of(
         size_of=np.array([sizes.index(radius) for radius in radii], np.int32),
         first=first,
         excluded=excluded,
-        is_exact=not any(zone.passed for zone in roadmap.zones),
     )
 
 
@@ -372,7 +366,7 @@ def _rows_of(parts: list[Ints], n_rows: int) -> tuple[NDArray[np.int32], NDArray
 
 
 def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
-    """Return the resources that planners take as in a zone.
+    """Return the resources of a zone.
 
     An edge that ends at a vertex of the zone is left out, because the vertex is booked as long.
 
@@ -383,9 +377,8 @@ def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
     zone
         A zone of the roadmap.
     """
-    inside = {*zone.vertices, *zone.passed}
-    numbers = [roadmap.edge(*ends) for ends in zone.edges if inside.isdisjoint(ends)]
-    return [*sorted(inside), *(roadmap.n_vertices + edge for edge in numbers if edge is not None)]
+    numbers = [roadmap.edge(*ends) for ends in zone.edges if not {*zone.vertices} & {*ends}]
+    return [*zone.vertices, *(roadmap.n_vertices + edge for edge in numbers if edge is not None)]
 
 
 def _in_zones(roadmap: Roadmap) -> Iterator[Pairs]:

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import Lap, Route, Scenario, Tick
-from rightofway.model.passed_zones import visit_rows
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -48,17 +47,17 @@ class BookedRows:
         resources = scenario.problem.resources
         if resources is None:
             return None
-        at_vertex, first, excluded = visit_rows(scenario, vertices)
-        along_edge = []
+        at_vertex, along_edge = [], []
         for robot, route in enumerate(vertices):
             visited = np.asarray(route, np.int32)
             edges = scenario.roadmap.edges(visited[:-1], visited[1:])
+            at_vertex.append(resources.vertex_row(robot, 0) + visited)
             along_edge.append(np.append(resources.edge_row(robot, 0) + edges, -1))
         return cls(
             vertex=np.concatenate(at_vertex, dtype=np.int32),
             edge=np.concatenate(along_edge, dtype=np.int32, casting="same_kind"),
-            first=first,
-            excluded=excluded,
+            first=resources.first,
+            excluded=resources.excluded,
         )
 
     @classmethod

@@ -50,14 +50,12 @@ def auto(task: Task) -> Draft:
             task.better(lambda: explained.tracks)
     if explained is None or not _is_preferred(task, explained):
         return lns(task)
-    resources, first = task.scenario.problem.resources, None
-    if resources is None or resources.is_exact:  # else two-level may wait where LNS may not
-        first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
+    first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
     try:
         if task.start is None:
             better = improved(task, fleet_search(task), first=first)
         else:
-            better = lns(replace(task, start=explained.tracks if first else task.start))
+            better = lns(replace(task, start=explained.tracks))
     except GaveUp:
         return explained
     before, after = (cost_of(task.scenario, one.tracks) for one in (explained, better))

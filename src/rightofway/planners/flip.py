@@ -118,7 +118,7 @@ def _on_other_routes(
     try:
         search.start(kept)
     except ValueError:
-        return None  # the search reads zones more strictly than the order of a plan does
+        return None  # without rotations the search keeps a headway, which the plan need not have
     limit = task.deadline.seconds_left()
     if not search.repair([waits, goes_first], searches=SEARCHES, time_limit=limit):
         return None

@@ -22,7 +22,7 @@ from rightofway.model import Plan, PlannerRun, Scenario, Tick, Track
 from rightofway.model.closures import Closure
 from rightofway.model.deadline import Deadline
 from rightofway.model.place_names import PlaceNames
-from rightofway.model.resources import are_nearer, distance
+from rightofway.model.resources import distance
 from rightofway.search import (
     Bookings,
     Distances,
@@ -121,8 +121,6 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
                 continue
             needed = one.radius + other.radius
             needed += clearance if needed else 0
-            if not are_nearer(roadmap, here, there, needed):
-                continue  # in one zone for visits that are entered and left along its edges
             yield Blockage(
                 f"{one.name} at {at[0]} and {other.name} at {at[1]} would {when}"
                 f" {length(distance(roadmap, here, there))} apart, but need"
@@ -131,30 +129,6 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
                 ends_of_pair,
                 remedy,
             )
-
-
-def refuse_passed_zones(scenario: Scenario) -> None:
-    """Raise if robots start or end where others pass a zone, so that no planner can begin.
-
-    Parameters
-    ----------
-    scenario
-        A problem whose zones do not list all vertices that robots pass.
-
-    Raises
-    ------
-    GaveUp
-        Naming two robots.
-    """
-    resources, itineraries = scenario.problem.resources, scenario.problem.itineraries
-    if resources is None:
-        return
-    for places in ([one.home for one in itineraries], [one.last for one in itineraries]):
-        for i, j in resources.clashes(places):
-            one, other = (scenario.robots[robot].name for robot in (i, j))
-            here, there = (PlaceNames(scenario).where(places[robot]) for robot in (i, j))
-            message = f"{one} at {here} and {other} at {there} stand where robots pass a zone"
-            raise GaveUp(f"{message} (let one of them stand elsewhere)")
 
 
 def refuse_closed_ways(

@@ -203,8 +203,7 @@ def _found(
 def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
     """Return every visit at the earliest time that keeps the order at each vertex.
 
-    LNS replaces tracks, not waits. The search cannot take all of these tracks back: it has every
-    visit between two edges of a zone in the zone.
+    LNS replaces tracks, not waits.
     """
     problem = task.scenario.problem
     if problem.closures is None:
@@ -215,13 +214,8 @@ def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:
-    """Return the tracks with the headway of planning, where that is more than the scenario's.
-
-    First plans of zones that do not list all their vertices have that headway already; retimed by
-    the visits that pass the zones, they would be too early for the search.
-    """
-    headway, resources = planning_headway(task.scenario), task.scenario.problem.resources
-    is_passed = resources is not None and not resources.is_exact
-    if headway == task.scenario.problem.headway or (is_passed and task.start is None):
+    """Return the tracks with the headway of planning, where that is more than the scenario's."""
+    headway = planning_headway(task.scenario)
+    if headway == task.scenario.problem.headway:
         return tracks
     return graph_of(task.scenario, tracks, headway=headway).tracks()

@@ -208,8 +208,7 @@ def _draft_of(task: Task, search: FleetSearch, floor: _Floor, timed: _Timed) -> 
     else:
         search.start(_at_times(floor, timed))
     task.has_plan()
-    best = "best order of moves" if floor.is_exact else "an order of moves"
-    return Draft(tracks=search.tracks(), status=best)
+    return Draft(tracks=search.tracks(), status="best order of moves")
 
 
 def _moves(task: Task, floor: _Floor, most_states: int) -> list[_Move]:
@@ -219,10 +218,8 @@ def _moves(task: Task, floor: _Floor, most_states: int) -> list[_Move]:
     order = count()  # of equally near states, the latest first
     waiting = [(floor.to_go(start), 0, start)]
     for expanded in count():
-        if not waiting and floor.is_exact:
-            raise NoPlanExists([_blockage(task)])
         if not waiting:
-            raise GaveUp("no order of moves keeps robots clear of the zones (give more room)")
+            raise NoPlanExists([_blockage(task)])
         if expanded == most_states:
             raise GaveUp(f"no order of moves in {most_states} states (give robots more room)")
         if expanded % (1 + BETWEEN_CHECKS // len(floor.itineraries)) == 0:
@@ -262,9 +259,8 @@ class _Floor:
         if problem.closures is not None:
             problem = planning_problem(task.scenario)
         may_rotate = not problem.books_ahead and len(problem.itineraries) > 2  # noqa: PLR2004
-        self.is_exact = problem.resources is None or problem.resources.is_exact
         is_headway = problem.headway == task.scenario.problem.headway
-        self.is_proof = self.is_exact and is_headway and not may_rotate
+        self.is_proof = is_headway and not may_rotate
         self.itineraries = problem.itineraries
         self.no_stage = (0,) * len(self.itineraries)
         self._roadmap, self._resources = task.scenario.roadmap, problem.resources

@@ -115,8 +115,7 @@ def _part(deadline: Deadline, share: float) -> float | None:
 def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     tracks = search.tracks()
     problem = task.scenario.problem
-    is_exact = problem.resources is None or problem.resources.is_exact
-    if problem.closures is not None and is_exact:  # a robot may have waited for a kept home
+    if problem.closures is not None:  # a robot may have waited for a kept home
         headway = planning_headway(task.scenario)
         tracks = tuple(graph_of(task.scenario, tracks, headway=headway).tracks())
     task.has_plan()

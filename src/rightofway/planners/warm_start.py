@@ -250,7 +250,7 @@ def _repaired(
     try:
         search.start(tracks)
     except ValueError:
-        return None  # the search reads zones more strictly than the order of a plan does
+        return None  # without rotations the search keeps a headway, which the plan need not have
     found = search.repair(
         sorted(left, key=lambda robot: alone[robot]),
         searches=SEARCHES * (len(left) + len(tracks) // 10),

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import chain
 
 from rightofway.errors import InputError, InputFault, nearest, shown
@@ -19,47 +20,25 @@ class Zone:
     name
         Unique on its roadmap.
     vertices
-        Vertices of the zone.
+        Vertices of the zone, in increasing order: those that are given, and those at which two of
+        its edges meet.
     edges
         Tail and head of each of its edges.
-    listed_only
-        Whether planners take only the listed vertices as in the zone.
-
-    Notes
-    -----
-    A vertex that is not listed counts as in the zone for visits that are entered and left along
-    edges of the zone. Planners take such a vertex as in the zone for every visit; only if they find
-    no plan, for none. Then the judge decides whether the plan keeps the zone.
     """
 
     name: str
     vertices: tuple[VertexId, ...] = ()
     edges: tuple[tuple[VertexId, VertexId], ...] = ()
-    listed_only: bool = False
 
-    @property
-    def passed(self) -> tuple[VertexId, ...]:
-        """The further vertices that planners take as in the zone."""
-        if self.listed_only:
-            return ()
-        entered, left = {head for _, head in self.edges}, {tail for tail, _ in self.edges}
-        return tuple(sorted((entered & left).difference(self.vertices)))
-
-
-def listed_only(zones: Collection[Zone]) -> tuple[Zone, ...]:
-    """Return zones in which planners take only the listed vertices as inside.
-
-    Parameters
-    ----------
-    zones
-        The same zones.
-    """
-    return tuple(replace(zone, listed_only=True) for zone in zones)
+    def __post_init__(self) -> None:
+        n_edges = Counter(chain.from_iterable(self.edges))
+        meeting = {vertex for vertex, count in n_edges.items() if count > 1}
+        object.__setattr__(self, "vertices", tuple(sorted(meeting.union(self.vertices))))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NamedZone:
-    """A zone by the names of its vertices; an edge is the names of its tail and its head."""
+    """A zone as a file names it; an edge is the names of its tail and its head."""
 
     name: str
     vertices: tuple[str, ...] = ()

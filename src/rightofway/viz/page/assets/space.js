@@ -54,38 +54,22 @@ export class Space {
     const held = { vertices: [robot.vertices[visit]], edges: [], zones: new Set() };
     /** @param {number} to */
     const drive = (to) => held.edges.push([robot.vertices[to - 1], robot.vertices[to]]);
-    this.#passZones(robot, visit, held.zones);
+    this.#addZones(String(robot.vertices[visit]), held.zones);
     if (tick >= robot.leave(visit) - (robot.drive[visit + 1] ?? 0)) {
       drive(visit + 1);
       if (plan.booksAhead) {
         held.vertices.push(robot.vertices[visit + 1]);
-        this.#passZones(robot, visit + 1, held.zones);
+        this.#addZones(String(robot.vertices[visit + 1]), held.zones);
       }
     }
     for (; visit > 0 && tick < robot.enter[visit] + plan.headway; visit--) {
       drive(visit);
       held.vertices.push(robot.vertices[visit - 1]);
-      this.#passZones(robot, visit - 1, held.zones);
+      this.#addZones(String(robot.vertices[visit - 1]), held.zones);
     }
     for (const [tail, head] of held.edges)
       this.#addZones(tail * plan.roadmap.size + head, held.zones);
     return held;
-  }
-
-  /**
-   * A vertex is in its zones, and in those that the visit enters and leaves along lanes of.
-   *
-   * @param {Robot} options
-   * @param {number} visit
-   * @param {Set<number>} zones
-   */
-  #passZones({ vertices }, visit, zones) {
-    this.#addZones(String(vertices[visit]), zones);
-    if (!this.zonesOf.size || visit === 0 || visit + 1 >= vertices.length) return;
-    const { size } = this.plan.roadmap;
-    const out = this.zonesOf.get(vertices[visit] * size + vertices[visit + 1]) ?? [];
-    for (const zone of this.zonesOf.get(vertices[visit - 1] * size + vertices[visit]) ?? [])
-      if (out.includes(zone)) zones.add(zone);
   }
 
   /**
