@@ -69,6 +69,37 @@ def test_a_robot_goes_round_an_edge_that_is_barred_for_its_type() -> None:
         assert names == ["a", "b", "c"]
 
 
+@pytest.mark.parametrize("barred", [["wide"], []])
+def test_a_robot_is_not_pushed_along_an_edge_that_is_barred_for_its_type(barred: list[str]) -> None:
+    """R1 wants the place of R2, which can only make room at c."""
+    scenario = scenario_of(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {
+                "roadmap": {
+                    "vertices": {"a": [0, 0], "b": [2, 0], "c": [4, 0]},
+                    "edges": [
+                        {"from": "a", "to": "b", "length": 2},
+                        {"from": "b", "to": "c", "length": 2, "barred": barred},
+                    ],
+                }
+            },
+            "robots": [
+                {"name": "R1", "home": "a", "target": "b", "return": "none"},
+                {"name": "R2", "home": "b", "target": "a", "type": "wide", "return": "none"},
+            ],
+        }
+    )
+    problem = scenario.problem.in_steps()
+    if barred:
+        with pytest.raises(NoPlanExists):
+            plan_by_lacam(problem, spreads=False, ends_anywhere={1})
+        return
+    tracks = plan_by_lacam(problem, spreads=False, ends_anywhere={1})
+    assert tracks is not None
+    assert [scenario.roadmap.name(int(track.vertices[-1])) for track in tracks] == ["b", "c"]
+
+
 @law(fleets(), st.integers(0, 3), st.booleans())
 def test_steps_are_found_exactly_where_there_are_any(
     scenario: Scenario, seed: int, spreads: bool
