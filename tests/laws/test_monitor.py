@@ -155,6 +155,7 @@ def test_what_is_still_to_come_decides_nothing(
     assert seen[0] == seen[1] == seen[2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("policy", POLICIES)
 def test_changes_gain_on_average(policy: ExecutionPolicy) -> None:
     """Robots stop now and then: keeping the order makes the others wait for nothing."""
