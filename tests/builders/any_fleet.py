@@ -6,12 +6,13 @@ law leaves features out only where the contract of what it tests refuses them.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import cache
 from math import dist
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from hypothesis import reject
 from hypothesis import strategies as st
 
@@ -71,6 +72,7 @@ def any_fleet(
     without: Collection[str] = (),
     always: Collection[str] = (),
     apart: bool = False,
+    joined: bool = False,
     tiny: bool = False,
 ) -> st.SearchStrategy[Scenario]:
     """Return fleets of any kind; some have no plan.
@@ -85,11 +87,16 @@ def any_fleet(
         Features that each fleet has.
     apart
         Whether no robot ends its work at a home.
+    joined
+        Whether lanes lead from every place to every other one, for robots of every type; drawn
+        lanes have a ring through all vertices then.
     tiny
         Whether sites have at most nine vertices, not counting those of `spacing`, for oracles that
         search where all robots may be; none of the layouts is so small.
     """
-    drawn = fleet_documents(robots=robots, without=without, always=always, apart=apart, tiny=tiny)
+    drawn = fleet_documents(
+        robots=robots, without=without, always=always, apart=apart, joined=joined, tiny=tiny
+    )
     return drawn.map(_scenario)
 
 
@@ -109,6 +116,7 @@ def fleet_documents(
     without: Collection[str],
     always: Collection[str],
     apart: bool = False,
+    joined: bool = False,
     tiny: bool = False,
 ) -> Document:
     """Return scenario files, read."""
@@ -116,7 +124,8 @@ def fleet_documents(
     assert not unknown, f"no such features: {unknown}"
     may = [feature for feature in FEATURES if feature not in {*without, *always}]
     has = {*always, *draw(st.sets(st.sampled_from(may), max_size=7) if may else st.just(set()))}
-    site, places = _site(draw, has - {"layouts"} if tiny else has, 3 if tiny else 6)
+    kind = has - {"layouts"} if tiny else has
+    site, places = _site(draw, kind, 3 if tiny else 6, joined=joined)
     if len(places) // 2 < robots[0]:
         reject()
     count = draw(st.sampled_from(range(robots[0], min(robots[1], len(places) // 2) + 1)))
@@ -136,20 +145,23 @@ def fleet_documents(
     }
 
 
-def _site(draw: st.DrawFn, has: set[str], side: int) -> tuple[Document, list[str]]:
+def _site(draw: st.DrawFn, has: set[str], side: int, *, joined: bool) -> tuple[Document, list[str]]:
     """Return a map, and the places where robots may start and work."""
     if "layouts" in has:
         name = draw(st.sampled_from(("grid", *LAYOUTS)))
         if name == "grid":
-            return _grid(_window(draw))
-        return _on_lanes(draw, has, *_layout(name))
+            return _grid(_window(draw), joined=joined)
+        roadmap, found = _layout(name)
+        return _on_lanes(draw, has, roadmap, found, open_lanes=len(roadmap["edges"]) * joined)
     if not has & {"barred", "limits", "one-way lanes", "spacing", "surcharges", "zones"} and draw(
         st.booleans()
     ):
         width = draw(st.integers(3, side))
         cells = st.lists(st.sampled_from("....@"), min_size=width, max_size=width).map("".join)
-        return _grid(["." * width, *draw(st.lists(cells, min_size=1, max_size=side - 1))])
-    return _on_lanes(draw, has, *_drawn(draw, has, side))
+        rows = ["." * width, *draw(st.lists(cells, min_size=1, max_size=side - 1))]
+        return _grid(rows, joined=joined)
+    roadmap, found = _drawn(draw, has, side, joined=joined)
+    return _on_lanes(draw, has, roadmap, found, open_lanes=len(found) * joined)
 
 
 def _window(draw: st.DrawFn) -> list[str]:
@@ -159,27 +171,57 @@ def _window(draw: st.DrawFn) -> list[str]:
     return [row[left : left + 8] for row in rows[top : top + 6]]
 
 
-def _grid(rows: list[str]) -> tuple[Document, list[str]]:
+def _grid(rows: list[str], *, joined: bool) -> tuple[Document, list[str]]:
+    """Return a grid and its free cells; joined, those that the first one is joined to."""
     width = len(rows[0])
     free = [
-        f"N{row * width + column}"
+        row * width + column
         for row, cells in enumerate(rows)
         for column, cell in enumerate(cells)
         if cell == "."
     ]
+    if joined and free:
+        steps = [
+            step
+            for cell in free
+            for step in ((cell, cell + width), *([(cell, cell + 1)] * ((cell + 1) % width > 0)))
+            if step[1] in free
+        ]
+        free = sorted(_reached(free[0], [*steps, *(step[::-1] for step in steps)]))
     if len(free) < 4:
         reject()
-    return {"grid": rows}, free
+    return {"grid": rows}, [f"N{cell}" for cell in free]
 
 
-def _drawn(draw: st.DrawFn, has: set[str], side: int) -> tuple[Document, list[str]]:
+def _reached(start: int, edges: Iterable[tuple[int, int]]) -> set[int]:
+    """Return the vertices that edges lead to from a vertex, itself included."""
+    heads: dict[int, list[int]] = {}
+    for tail, head in edges:
+        heads.setdefault(tail, []).append(head)
+    reached, left = {start}, [start]
+    while left:
+        found = set(heads.get(left.pop(), ())) - reached
+        reached |= found
+        left += found
+    return reached
+
+
+def _drawn(
+    draw: st.DrawFn, has: set[str], side: int, *, joined: bool
+) -> tuple[Document, list[str]]:
     """Return vertices anywhere, lanes that join all of them, and lanes that may cross those."""
     lattice = st.tuples(st.integers(0, side), st.integers(0, side - 1))
     at = draw(st.lists(lattice, min_size=4, max_size=side + 4, unique=True))
-    tree = [(draw(st.integers(0, k - 1)), k) for k in range(1, len(at))]
+    if joined:
+        first = [(k - 1, k % len(at)) for k in range(1, len(at) + 1)]
+    else:
+        first = [(draw(st.integers(0, k - 1)), k) for k in range(1, len(at))]
     ends = st.integers(0, len(at) - 1)
     more = draw(st.lists(st.tuples(ends, ends), max_size=6))
-    lanes = {frozenset(lane): lane for lane in [*tree, *more] if lane[0] != lane[1]}
+    lanes = {frozenset(lane): lane for lane in first}
+    for tail, head in more:
+        if tail != head:
+            lanes.setdefault(frozenset((tail, head)), (tail, head))
     names = [f"v{k}" for k in range(len(at))]
     one_way = st.booleans() if "one-way lanes" in has else st.just(False)
     edges = [
@@ -201,25 +243,27 @@ def _quarters(length: float) -> str:
 
 @cache
 def _layout(name: str) -> tuple[Document, list[str]]:
-    """Return the roadmap of a layout, and the vertices of its example robots and around them."""
+    """Return the roadmap of a layout, and the vertices that its first robot can go to and back."""
     document = parse_yaml(example_of_layout(SAMPLES / name, SAMPLES / "scenario.yaml"))
     scenario = scenario_of(document, SAMPLES)
     inlined = dump_scenario(scenario)["map"]
-    roadmap, indptr = scenario.roadmap, scenario.roadmap.indptr
-    start = int(scenario.robots[0].home)
-    reached, edge = {start}, [start]
-    while edge:  # the example's homes reach each other
-        vertex = edge.pop()
-        heads = roadmap.heads[indptr[vertex] : indptr[vertex + 1]].tolist()
-        edge += [head for head in heads if head not in reached]
-        reached.update(heads)
-    return inlined["roadmap"], [roadmap.name(vertex) for vertex in sorted(reached)]
+    roadmap, start = scenario.roadmap, int(scenario.robots[0].home)
+    tails = np.repeat(np.arange(len(roadmap.indptr) - 1), np.diff(roadmap.indptr)).tolist()
+    heads = roadmap.heads.tolist()
+    there = _reached(start, zip(tails, heads, strict=True))
+    back = _reached(start, zip(heads, tails, strict=True))
+    return inlined["roadmap"], [roadmap.name(vertex) for vertex in sorted(there & back)]
 
 
 def _on_lanes(
-    draw: st.DrawFn, has: set[str], roadmap: Mapping[str, Any], places: list[str]
+    draw: st.DrawFn,
+    has: set[str],
+    roadmap: Mapping[str, Any],
+    places: list[str],
+    *,
+    open_lanes: int,
 ) -> tuple[Document, list[str]]:
-    """Return a roadmap with what lanes may have."""
+    """Return a roadmap with what lanes may have; the first lanes are open to all types."""
     edges = [dict(edge) for edge in roadmap["edges"]]
     some = st.lists(st.sampled_from(range(len(edges))), max_size=3)
     if "limits" in has:
@@ -227,7 +271,8 @@ def _on_lanes(
             edges[edge]["max_speed"] = draw(st.sampled_from(["1/2", "1"]))
     if "barred" in has:
         for edge in draw(some):
-            edges[edge]["barred"] = ["wide"]
+            if edge >= open_lanes:
+                edges[edge]["barred"] = ["wide"]
     if "surcharges" in has:
         for edge in draw(some):
             edges[edge]["surcharge"] = 3
