@@ -42,7 +42,7 @@ test *args:
 
 # The thorough lane: browser, processes, every example of the documentation, laws with more time
 thorough *args:
-    pytest -m "(slow or law) and not nightly" --law-seconds 6 {{ args }}
+    pytest -m "(slow or law) and not nightly" --law-seconds 4 {{ args }}
 
 # What CI leaves out, laws, fuzz and campaigns with fresh seeds, round after round until one fails
 nightly law_seconds="60":
