@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from tests.builders.browsers import Viewer
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Locator, Page
 
 WATCH = (Path(__file__).parent / "drawn.js").read_text(encoding="utf-8")
 """Notes what a page draws, by the browser's own interface of canvases; loaded before the page."""
@@ -17,10 +18,11 @@ WATCH = (Path(__file__).parent / "drawn.js").read_text(encoding="utf-8")
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A text on a canvas and the box of its ink: left, top, right, bottom [pixels]."""
+    """A text on a canvas; the box of its ink is left, top, right, bottom [pixels]."""
 
     text: str
     box: tuple[float, float, float, float]
+    at: tuple[float, float]  # the point that it is aligned with
     moves: bool  # not in the picture below that is painted once
 
 
@@ -43,27 +45,31 @@ class Canvases(Viewer):
         super().__init__(page)
         page.add_init_script(WATCH)
 
-    def pixel(self, canvas: str, x: float, y: float) -> tuple[int, ...]:
+    def pixel(self, canvas: str | Locator, x: float, y: float) -> tuple[int, ...]:
         """Return the colour of a pixel of a canvas as red, green, blue and opacity."""
         return tuple(self._seen("colour", canvas, x, y))
 
-    def texts(self, canvas: str = "map") -> list[Text]:
+    def texts(self, canvas: str | Locator = "map") -> list[Text]:
         """Return the texts that a canvas shows."""
         self.painted()
         return [
-            Text(each["text"], tuple(each["box"]), each["moves"])
+            Text(each["text"], tuple(each["box"]), tuple(each["at"]), each["moves"])
             for each in self._seen("texts", canvas)
         ]
 
-    def discs(self, canvas: str = "map") -> list[Disc]:
+    def discs(self, canvas: str | Locator = "map") -> list[Disc]:
         """Return the discs and rings that a canvas shows, those below first."""
         self.painted()
         return [Disc(**each) for each in self._seen("discs", canvas)]
 
-    def calls(self) -> dict[str, int]:
-        """Return how often the page has called what draws, on all canvases, since the last time."""
-        found: dict[str, int] = self._seen("calls")
-        return found
+    def calls(self, canvas: str | Locator | None = None) -> Counter[str]:
+        """Return how often the page has drawn on a canvas, or on all, by the name of the method."""
+        return Counter(self._seen("calls", canvas))
 
-    def _seen(self, what: str, *more: object) -> Any:
-        return self.page.evaluate("([what, more]) => drawn[what](...more)", [what, [*more]])
+    def _seen(self, what: str, canvas: str | Locator | None, *more: object) -> Any:
+        """Ask what was noted of a canvas: its id, or where it is."""
+        if canvas is None or isinstance(canvas, str):
+            names = [what, [canvas, *more]]
+            return self.page.evaluate("([what, more]) => drawn[what](...more)", names)
+        asked = "(canvas, [what, more]) => drawn[what](canvas, ...more)"
+        return canvas.evaluate(asked, [what, [*more]])

@@ -5,13 +5,15 @@ globalThis.drawn = (() => {
   const proto = CanvasRenderingContext2D.prototype;
   const shown = new WeakMap(); // what a canvas shows since it was last cleared
   const paths = new WeakMap(); // the arcs of the path that a context is drawing
-  let counts = {};
+  const counts = new Map(); // how often each method was called on each canvas, by its name
   const on = (canvas) => shown.get(canvas) ?? (shown.set(canvas, []), shown.get(canvas));
 
   const watch = (name, note) => {
     const draw = proto[name];
     proto[name] = function (...args) {
-      counts[name] = (counts[name] ?? 0) + 1;
+      if (!counts.has(this.canvas)) counts.set(this.canvas, {});
+      const found = counts.get(this.canvas);
+      found[name] = (found[name] ?? 0) + 1;
       note?.call(this, ...args);
       return draw.apply(this, args);
     };
@@ -47,7 +49,7 @@ globalThis.drawn = (() => {
     const [left, right] = [x - ink.actualBoundingBoxLeft, x + ink.actualBoundingBoxRight];
     const [top, bottom] = [y - ink.actualBoundingBoxAscent, y + ink.actualBoundingBoxDescent];
     const corners = [left, right].flatMap((u) => [top, bottom].map((v) => transform(this, u, v)));
-    on(this.canvas).push({ text, corners, moves: true });
+    on(this.canvas).push({ text, corners, at: transform(this, x, y), moves: true });
   });
   watch("drawImage", function (source) {
     const below = source instanceof HTMLCanvasElement ? on(source) : [];
@@ -56,24 +58,24 @@ globalThis.drawn = (() => {
   for (const name of ["lineTo", "fillRect"]) watch(name);
 
   const ratioOf = (canvas) => canvas.width / canvas.clientWidth;
-  const find = (id) => document.getElementById(id);
+  const find = (canvas) => (typeof canvas === "string" ? document.getElementById(canvas) : canvas);
   return {
     texts(id) {
       const canvas = find(id);
       const ratio = ratioOf(canvas);
       return on(canvas)
         .filter(({ corners }) => corners)
-        .map(({ text, corners, moves }) => {
+        .map(({ text, corners, at, moves }) => {
           const [xs, ys] = [0, 1].map((axis) => corners.map((corner) => corner[axis] / ratio));
           const box = [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
-          return { text, box, moves };
+          return { text, box, at: at.map((pixels) => pixels / ratio), moves };
         });
     },
     discs(id) {
       const canvas = find(id);
       const ratio = ratioOf(canvas);
       return on(canvas)
-        .filter(({ at }) => at)
+        .filter(({ radius }) => radius !== undefined)
         .map(({ at: [x, y], radius, colour, isFilled, isDashed }) => ({
           x: x / ratio,
           y: y / ratio,
@@ -88,10 +90,12 @@ globalThis.drawn = (() => {
       const [column, row] = [x, y].map((pixels) => Math.round(pixels * ratioOf(canvas)));
       return Array.from(canvas.getContext("2d").getImageData(column, row, 1, 1).data);
     },
-    calls() {
-      const found = counts;
-      counts = {};
-      return found;
+    calls(id) {
+      const sum = {};
+      for (const [canvas, calls] of counts)
+        if (id === null || canvas === find(id))
+          for (const [name, times] of Object.entries(calls)) sum[name] = (sum[name] ?? 0) + times;
+      return sum;
     },
   };
 })();

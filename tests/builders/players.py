@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
@@ -91,6 +92,18 @@ class Player(Canvases):
     def colour(self, place: Point) -> tuple[int, ...]:
         """Return the colour of a pixel of the map as red, green, blue and opacity."""
         return self.pixel("map", *place)
+
+    def diagram_x(self, time: float) -> float:
+        """Return where a time is in the diagram [pixels], by the times written below it."""
+        written = [each for each in self.texts("diagram") if re.match(r"^[0-9.]+$", each.text)]
+        (first, *_, last) = sorted(written, key=lambda each: each.at[0])
+        share = (time - float(first.text)) / (float(last.text) - float(first.text))
+        return first.at[0] + share * (last.at[0] - first.at[0])
+
+    def diagram_y(self, name: str) -> float:
+        """Return the height of a place or a robot in the diagram [pixels], by its name there."""
+        (found,) = {each.at[1] for each in self.texts("diagram") if each.text == name}
+        return found - 0.5  # names stand half a pixel below the middle of their rows
 
     def names(self) -> list[Text]:
         """Return the names on the map."""

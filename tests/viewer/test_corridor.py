@@ -20,8 +20,7 @@ def places_in(viewer: Player) -> set[str]:
 @pytest.mark.parametrize("robots", [3, 40])
 def test_names_of_rows_never_collide(show: Opener, fragment: str, robots: int) -> None:
     viewer = show(crowd(robots), fragment)
-    viewer.painted()
-    heights = viewer.ask("(diagram.spaceTime.named ?? []).map(({ y }) => y)")
+    heights = [each.at[1] for each in viewer.texts("diagram") if each.text.startswith("N")]
     assert all(abs(one - other) >= 14 for one, other in combinations(heights, 2))
     assert bool(heights) is bool(fragment)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,6 +23,7 @@ from tests.builders.plans import (
     door_shifted,
     yard,
 )
+from tests.builders.players import Player
 from tests.viewer.conftest import Opener
 
 if TYPE_CHECKING:
@@ -30,14 +31,24 @@ if TYPE_CHECKING:
 
 pytestmark = needs_browser
 
-EACH_CHOICE = """[
-  ...plan.robots.slice(0, 3).map((_, i) => () => choice.chooseRobot(i)),
-  ...plan.decisions.slice(0, 3).map((_, i) => () => choice.chooseDecision(i)),
-  ...plan.faults.slice(0, 3).map((_, i) => () => choice.chooseFault(i)),
-  () => choice.toggleHeat(), () => choice.toggleSpace(), () => choice.toggleCorridor(),
-  () => clock.seek(clock.end / 2), () => modeSwitch.next(), () => modeSwitch.next(),
-  () => paper.lay(true),
-]"""
+
+def states_of(viewer: Player) -> Iterator[str]:
+    """Choose what can be chosen, one thing after the other; yield each time what it was."""
+    for tab in viewer.page.get_by_role("tab").all():
+        if not tab.is_visible():
+            continue
+        tab.click()
+        shown = viewer.page.get_by_role("tabpanel").get_by_role("option")
+        for row in shown.all()[:3]:
+            row.click()
+            yield f"{tab.inner_text()}: {row.inner_text()}"
+    viewer.seek(viewer.end / 2)
+    yield "half of the time"
+    for key in "hsclbff":
+        viewer.press(key)
+        yield f"key {key}"
+    viewer.lay_on_paper()
+    yield "paper"
 
 
 @pytest.mark.parametrize(
@@ -53,13 +64,12 @@ EACH_CHOICE = """[
     ids=["decisions", "many", "sizes", "laps", "floor", "compared"],
 )
 def test_no_state_of_the_page_says_an_english_word_to_a_german(
-    show: Opener, opened: Callable[[Opener], Viewer]
+    show: Opener, opened: Callable[[Opener], Player]
 ) -> None:
     viewer = opened(show)
     assert viewer.page.locator("html").get_attribute("lang") == "de"
     assert english_on(viewer) == []
-    for state in range(viewer.ask(f"{EACH_CHOICE}.length")):
-        viewer.ask(f"{EACH_CHOICE}[{state}]()")
+    for state in states_of(viewer):
         viewer.painted()
         assert english_on(viewer) == [], state
     assert viewer.complaints == []
@@ -83,7 +93,7 @@ def test_the_page_of_an_inspection_says_findings_in_german(
     context = browser.new_context(locale="de-DE")
     viewer = Viewer(context.new_page())
     viewer.page.goto((tmp_path / "site.html").as_uri())
-    viewer.wait_for("inspectPage.frames > 0")
+    viewer.painted()
     assert english_on(viewer) == []
     assert "kreuzen sich ohne Knoten" in viewer.text("#finding-list")
     context.close()
@@ -94,9 +104,8 @@ def test_the_address_and_the_choice_say_the_language(show: Opener) -> None:
     assert viewer.text("#tab-robots").startswith("Robots")
     with viewer.page.expect_navigation():
         viewer.page.locator("#language").select_option("de")
-    viewer.wait_for("frames.count > 0")
     assert viewer.text("#tab-robots").startswith("Roboter")
-    assert viewer.ask("clock.tick") == 3
+    assert viewer.tick == 3
     assert "lang=de" in viewer.page.url
 
 

@@ -24,8 +24,7 @@ def steady(show: Opener) -> Player:
 
 def in_band(viewer: Player, tick: float) -> list[int]:
     """Return the colour of the band at a tick, above the letters in it."""
-    x, top = viewer.ask(f"[diagram.area.x({tick}), diagram.area.top - 20]")
-    return pixel(viewer, "diagram", x, top)
+    return pixel(viewer, "diagram", viewer.diagram_x(tick), 12)  # the band is 11 to 28 from the top
 
 
 def test_the_band_begins_where_everything_comes_again(steady: Player) -> None:
@@ -97,12 +96,12 @@ def test_a_plan_that_ends_within_the_first_period_cannot_be_looped(show: Opener)
 
 def test_the_bottleneck_is_lit_in_every_period(steady: Player) -> None:
     """The time in N1 is critical, by turns of R1 and R2; the time at home between is not."""
-    below_the_line = "diagram.spaceTime.axis.spots({})[0].y + 5"
-    home, counter = 0, 1
+    home, counter = "N0", "N1"
     ticks = ((3, counter, False), (8, counter, True), (13, counter, True), (34, counter, True))
     for tick, row, is_lit in (*ticks, (8, home, False), (18, home, False)):
-        x, y = steady.ask(f"[diagram.area.x({tick}), {below_the_line.format(row)}]")
-        assert (pixel(steady, "diagram", x, y) == lit(steady)) is is_lit, (tick, row)
+        below = steady.diagram_y(row) + 5  # the line
+        found = pixel(steady, "diagram", steady.diagram_x(tick), below)
+        assert (found == lit(steady)) is is_lit, (tick, row)
 
 
 def test_the_bottleneck_is_lit_on_the_map_until_switched_off(steady: Player) -> None:

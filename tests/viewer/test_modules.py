@@ -16,7 +16,7 @@ import pytest
 from rightofway.io.sites import Choice, read_sites
 from rightofway.viz import page_of, site_data
 from rightofway.viz.page.document import style_sheet
-from tests.builders.browsers import Viewer
+from tests.builders.canvases import Canvases
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -32,7 +32,7 @@ import { MapView } from "./assets/map_view.js";
 import { Site } from "./assets/site.js";
 import { Theme } from "./assets/theme.js";
 const raw = await (await fetch("site.json")).json();
-window.view = new MapView(document.getElementById("plot"), new Site(raw), new Theme());
+const view = new MapView(document.getElementById("plot"), new Site(raw), new Theme());
 view.viewport.fit();
 view.paint();
 </script>"""
@@ -61,11 +61,10 @@ def test_a_site_alone_is_drawn(browser: Browser, tmp_path: Path, address: str) -
     (tmp_path / "index.html").write_text(PAGE.replace("STYLE", style_sheet()), encoding="utf-8")
     (tmp_path / "favicon.ico").write_bytes(b"")
     context = browser.new_context()
-    viewer = Viewer(context.new_page())
+    viewer = Canvases(context.new_page())
     viewer.page.goto(f"{address}/index.html")
-    viewer.wait_for("window.view !== undefined && view.names.written.length > 0")
-    names = {name for name, *_ in viewer.ask("view.names.written.map(({ name }) => [name])")}
-    assert {"Dock · Socket", "End · Saw 1"} <= names
+    names = {"Dock · Socket", "End · Saw 1"}
+    viewer.poll(lambda: names <= {each.text for each in viewer.texts("plot")}, "names on the map")
     viewer.page.hover("#plot", position={"x": 200, "y": 200})
     assert "x " in viewer.text(".hover")
     assert viewer.complaints == []
