@@ -1,4 +1,4 @@
-"""What a page draws on its canvases: texts, discs and colours."""
+"""What a page draws on its canvases: texts, discs, lines, pictures and colours."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from tests.builders.browsers import Viewer
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page
+
+Point = tuple[float, float]
 
 WATCH = (Path(__file__).parent / "drawn.js").read_text(encoding="utf-8")
 """Notes what a page draws, by the browser's own interface of canvases; loaded before the page."""
@@ -38,6 +40,25 @@ class Disc:
     is_dashed: bool
 
 
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line on a canvas through some points [pixels]."""
+
+    points: tuple[Point, ...]
+    colour: str
+    width: float
+    opacity: float
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """A rectangle with round corners on a canvas: left, top, right, bottom [pixels]."""
+
+    box: tuple[float, float, float, float]
+    colour: str
+    is_filled: bool
+
+
 class Canvases(Viewer):
     """A page with canvases; what it draws is noted from its beginning on."""
 
@@ -61,6 +82,26 @@ class Canvases(Viewer):
         """Return the discs and rings that a canvas shows, those below first."""
         self.painted()
         return [Disc(**each) for each in self._seen("discs", canvas)]
+
+    def lines(self, canvas: str | Locator = "map") -> list[Line]:
+        """Return the lines that a canvas shows, outlines of arcs and fields apart."""
+        self.painted()
+        return [
+            Line(**{**each, "points": tuple(map(tuple, each["points"]))})
+            for each in self._seen("lines", canvas)
+        ]
+
+    def fields(self, canvas: str | Locator = "map") -> list[Field]:
+        """Return the rectangles with round corners that a canvas shows."""
+        self.painted()
+        return [
+            Field(**{**each, "box": tuple(each["box"])}) for each in self._seen("fields", canvas)
+        ]
+
+    def pictures(self, canvas: str | Locator = "map") -> list[tuple[Point, ...]]:
+        """Return where pictures lie: their upper left, upper right and lower left corners."""
+        self.painted()
+        return [tuple(map(tuple, each)) for each in self._seen("pictures", canvas)]
 
     def calls(self, canvas: str | Locator | None = None) -> Counter[str]:
         """Return how often the page has drawn on a canvas, or on all, by the name of the method."""

@@ -4,7 +4,7 @@
 globalThis.drawn = (() => {
   const proto = CanvasRenderingContext2D.prototype;
   const shown = new WeakMap(); // what a canvas shows since it was last cleared
-  const paths = new WeakMap(); // the arcs of the path that a context is drawing
+  const paths = new WeakMap(); // arcs, lines and fields of the path that a context is drawing
   const counts = new Map(); // how often each method was called on each canvas, by its name
   const on = (canvas) => shown.get(canvas) ?? (shown.set(canvas, []), shown.get(canvas));
 
@@ -22,28 +22,51 @@ globalThis.drawn = (() => {
     const { a, b, c, d, e, f } = context.getTransform();
     return [a * x + c * y + e, b * x + d * y + f];
   };
-  const noteArcs = (isFilled) =>
+  const scaleOf = (context) => {
+    const { a, b } = context.getTransform();
+    return Math.hypot(a, b);
+  };
+  const notePath = (isFilled) =>
     function (path) {
       if (typeof path === "object") return;
       const colour = isFilled ? this.fillStyle : this.strokeStyle;
       const isDashed = !isFilled && this.getLineDash().length > 0;
-      for (const arc of paths.get(this) ?? [])
-        on(this.canvas).push({ ...arc, colour, isFilled, isDashed });
+      const { arcs, lines, fields } = paths.get(this) ?? emptyPath();
+      const seen = on(this.canvas);
+      for (const arc of arcs) seen.push({ ...arc, colour, isFilled, isDashed });
+      for (const corners of fields) seen.push({ field: corners, colour, isFilled });
+      if (isFilled) return;
+      const width = this.lineWidth * scaleOf(this);
+      for (const line of lines)
+        if (line.length > 1) seen.push({ line, colour, width, opacity: this.globalAlpha });
     };
+  const emptyPath = () => ({ arcs: [], lines: [], fields: [] });
 
   watch("clearRect", function (x, y, width, height) {
     if (width >= this.canvas.width && height >= this.canvas.height) shown.set(this.canvas, []);
   });
   watch("beginPath", function () {
-    paths.set(this, []);
+    paths.set(this, emptyPath());
   });
   watch("arc", function (x, y, radius) {
     const [[left, top], [right, bottom]] = [transform(this, x, y), transform(this, x + radius, y)];
     const arc = { at: [left, top], radius: Math.hypot(right - left, bottom - top) };
-    paths.get(this)?.push(arc);
+    paths.get(this)?.arcs.push(arc);
   });
-  watch("fill", noteArcs(true));
-  watch("stroke", noteArcs(false));
+  watch("moveTo", function (x, y) {
+    paths.get(this)?.lines.push([transform(this, x, y)]);
+  });
+  watch("lineTo", function (x, y) {
+    const lines = paths.get(this)?.lines;
+    if (lines && !lines.length) lines.push([]); // as if it were moved to
+    lines?.at(-1).push(transform(this, x, y));
+  });
+  watch("roundRect", function (x, y, width, height) {
+    const corners = [transform(this, x, y), transform(this, x + width, y + height)];
+    paths.get(this)?.fields.push(corners);
+  });
+  watch("fill", notePath(true));
+  watch("stroke", notePath(false));
   watch("fillText", function (text, x, y) {
     const ink = this.measureText(text);
     const [left, right] = [x - ink.actualBoundingBoxLeft, x + ink.actualBoundingBoxRight];
@@ -51,11 +74,16 @@ globalThis.drawn = (() => {
     const corners = [left, right].flatMap((u) => [top, bottom].map((v) => transform(this, u, v)));
     on(this.canvas).push({ text, corners, at: transform(this, x, y), moves: true });
   });
-  watch("drawImage", function (source) {
-    const below = source instanceof HTMLCanvasElement ? on(source) : [];
+  watch("drawImage", function (source, x, y, width, height) {
+    const corners = [
+      [x, y],
+      [x + width, y],
+      [x, y + height],
+    ].map((corner) => transform(this, ...corner));
+    const below = source instanceof HTMLCanvasElement ? on(source) : [{ picture: corners }];
     on(this.canvas).push(...below.map((each) => ({ ...each, moves: false })));
   });
-  for (const name of ["lineTo", "fillRect"]) watch(name);
+  watch("fillRect");
 
   const ratioOf = (canvas) => canvas.width / canvas.clientWidth;
   const find = (canvas) => (typeof canvas === "string" ? document.getElementById(canvas) : canvas);
@@ -84,6 +112,36 @@ globalThis.drawn = (() => {
           is_filled: isFilled,
           is_dashed: isDashed,
         }));
+    },
+    lines(id) {
+      const canvas = find(id);
+      const ratio = ratioOf(canvas);
+      return on(canvas)
+        .filter(({ line }) => line)
+        .map(({ line, colour, width, opacity }) => ({
+          points: line.map((point) => point.map((pixels) => pixels / ratio)),
+          colour,
+          width: width / ratio,
+          opacity,
+        }));
+    },
+    fields(id) {
+      const canvas = find(id);
+      const ratio = ratioOf(canvas);
+      return on(canvas)
+        .filter(({ field }) => field)
+        .map(({ field, colour, isFilled }) => ({
+          box: field.flat().map((pixels) => pixels / ratio),
+          colour,
+          is_filled: isFilled,
+        }));
+    },
+    pictures(id) {
+      const canvas = find(id);
+      const ratio = ratioOf(canvas);
+      return on(canvas)
+        .filter(({ picture }) => picture)
+        .map(({ picture }) => picture.map((corner) => corner.map((pixels) => pixels / ratio)));
     },
     colour(id, x, y) {
       const canvas = find(id);

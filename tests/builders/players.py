@@ -7,12 +7,10 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from tests.builders.browsers import Viewer
-from tests.builders.canvases import Canvases, Text
+from tests.builders.canvases import Canvases, Point, Text
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator
-
-Point = tuple[float, float]
 
 
 class Player(Canvases):
@@ -83,6 +81,13 @@ class Player(Canvases):
         """Return where places of the site [length unit] are on the map [pixels]."""
         a, b, c, d, e, f = self.view
         return [(a * x + c * y + e, b * x + d * y + f) for x, y in places]
+
+    def on_site(self, spot: Point) -> Point:
+        """Return the place of the site [length unit] that is at a spot of the map [pixels]."""
+        a, b, c, d, e, f = self.view
+        x, y = spot[0] - e, spot[1] - f
+        unit = a * d - b * c
+        return (d * x - c * y) / unit, (a * y - b * x) / unit
 
     def at(self, place: Point) -> Point:
         """Return where a place of the site [length unit] is on the page [pixels]."""

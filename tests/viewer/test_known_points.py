@@ -20,14 +20,6 @@ from tests.viewer.conftest import Opener
 
 LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
 
-SITE_OF_PIXEL = """([column, row, columns]) => {
-  const { x, y, width, turn = 0 } = plan.roadmap.background;
-  const [right, down] = [(column * width) / columns, (row * width) / columns];
-  return plan.roadmap.toSite(
-    x + right * Math.cos(turn) - down * Math.sin(turn),
-    y + right * Math.sin(turn) + down * Math.cos(turn));
-}"""
-
 MILLIMETRE = 0.001
 
 
@@ -37,9 +29,17 @@ def plan_on(shape: dict[str, Any], home: Any, target: Any, base: Path | None) ->
     return solve(scenario_of(document, base))
 
 
-def site_of_pixel(viewer: Player, column: float, row: float, columns: int) -> list[float]:
-    found: list[float] = viewer.page.evaluate(SITE_OF_PIXEL, [column, row, columns])
-    return found
+def site_of_pixel(
+    viewer: Player, column: float, row: float, columns: int, rows: int
+) -> tuple[float, ...]:
+    """Return the place of the site [length unit] that a pixel of the picture lies on."""
+    viewer.poll(viewer.pictures, "a picture on the map")  # painted again, once it is there
+    (corners,) = viewer.pictures()
+    origin, right, below = map(viewer.on_site, corners)
+    across, down = column / columns, row / rows
+    return tuple(
+        o + across * (r - o) + down * (b - o) for o, r, b in zip(origin, right, below, strict=True)
+    )
 
 
 @pytest.mark.parametrize("origin", [(0, 0, 0), (-12.34, 5.678, 0), (-3.21, -7.5, 0.3), (4, -1, -2)])
@@ -57,7 +57,7 @@ def test_pixels_of_a_ros_map_lie_where_its_frame_says(
     x, y, yaw = origin
     for column, row in [(0, 40), (60, 40), (0, 0), (37, 11)]:
         right, up = 0.05 * column, 0.05 * (40 - row)
-        assert site_of_pixel(viewer, column, row, 60) == pytest.approx(
+        assert site_of_pixel(viewer, column, row, 60, 40) == pytest.approx(
             [x + cos(yaw) * right - sin(yaw) * up, y + sin(yaw) * right + cos(yaw) * up],
             abs=MILLIMETRE,
         )
@@ -82,7 +82,7 @@ def test_pixels_of_a_building_lie_where_its_measurements_and_fiducials_say(
     shape = {"layout": "hall.building.yaml", "level": level}
     viewer = show(plan_on(shape, home, target, tmp_path))
     for pixel, site in pixels.items():
-        assert site_of_pixel(viewer, *pixel, 220) == pytest.approx(site, abs=MILLIMETRE)
+        assert site_of_pixel(viewer, *pixel, 220, 120) == pytest.approx(site, abs=MILLIMETRE)
     assert viewer.complaints == []
 
 
@@ -94,23 +94,22 @@ def test_a_turned_picture_lies_below_a_roadmap_that_is_not_turned(
     shape = {"roadmap": {"vertices": vertices, "edges": [["A", "B"]]}, "y": "up"}
     background = Background(picture=tmp_path / "hall.png", scale=0.1, origin=(-3.0, -1.5), yaw=0.25)
     viewer = show(plan_on(shape, "A", "B", None), background=background)
-    at = site_of_pixel(viewer, 30, 10, 60)
+    at = site_of_pixel(viewer, 30, 10, 60, 40)
     right, up = 3.0, 3.0  # 30 pixels from the left, 30 from the lower border
     assert at == pytest.approx(
         [-3 + cos(0.25) * right - sin(0.25) * up, -1.5 + sin(0.25) * right + cos(0.25) * up],
         abs=MILLIMETRE,
     )
-    points = viewer.ask(
-        "[0, 1].map((at) => plan.roadmap.toSite(plan.roadmap.x[at], plan.roadmap.y[at]))"
-    )
-    assert points == [pytest.approx(at, abs=MILLIMETRE) for at in vertices.values()]
+    ends = {viewer.on_site(end) for line in viewer.lines() for end in line.points}
+    for at in vertices.values():  # the lane leads from one to the other
+        assert any(end == pytest.approx(at, abs=MILLIMETRE) for end in ends)
 
 
 def test_the_picture_of_a_layout_is_painted(show: Opener, tmp_path: Path) -> None:
     for name in ("room.yaml", "room.pgm"):
         copy(LAYOUTS / name, tmp_path)
     viewer = show(plan_on({"layout": "room.yaml", "cell_size": 1}, "N3", "N3", tmp_path))
-    viewer.wait_for("mapView.base.paintings > 1")  # again, once the picture is there
+    viewer.poll(viewer.pictures, "a picture on the map")
     assert viewer.complaints == []
 
 
@@ -137,10 +136,15 @@ def test_a_point_drives_along_the_curve_of_its_lane(show: Opener, tmp_path: Path
         "robots": [{"name": "R1", "home": "0", "target": "1", "return": "none"}],
     }
     viewer = show(solve(scenario_of(document, tmp_path)))
-    viewer.ask("(clock.seek(plan.robots[0].enter[1] / 4), frames.paint(0))")
-    at = viewer.ask("plan.roadmap.toSite(motion.x[0], motion.y[0])")
-    assert at == pytest.approx([0, 2], abs=MILLIMETRE)
+    viewer.seek(viewer.end / 4)
+    places = [viewer.on_site((disc.x, disc.y)) for disc in viewer.discs() if disc.is_filled]
+    assert any(place == pytest.approx((0, 2), abs=MILLIMETRE) for place in places)
     assert viewer.complaints == []
     document["robots"][0]["radius"] = 1  # judged, and so drawn, on the straight line
     viewer = show(solve(scenario_of(document, tmp_path)))
-    assert viewer.ask("plan.roadmap.curves.size") == 0
+    ways = [tuple(map(viewer.on_site, line.points)) for line in viewer.lines()]
+    corner = pytest.approx((0, 4), abs=MILLIMETRE)
+    assert not any(point == corner for way in ways for point in way)
+    viewer.seek(viewer.end / 4)
+    places = [viewer.on_site((disc.x, disc.y)) for disc in viewer.discs() if disc.is_filled]
+    assert any(place == pytest.approx((1, 1), abs=MILLIMETRE) for place in places)
