@@ -101,8 +101,8 @@ def test_a_turned_picture_lies_below_a_roadmap_that_is_not_turned(
         abs=MILLIMETRE,
     )
     ends = {viewer.on_site(end) for line in viewer.lines() for end in line.points}
-    for at in vertices.values():  # the lane leads from one to the other
-        assert any(end == pytest.approx(at, abs=MILLIMETRE) for end in ends)
+    for place in vertices.values():  # the lane leads from one to the other
+        assert any(end == pytest.approx(place, abs=MILLIMETRE) for end in ends)
 
 
 def test_the_picture_of_a_layout_is_painted(show: Opener, tmp_path: Path) -> None:

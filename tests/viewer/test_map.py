@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import pytest
@@ -13,9 +14,10 @@ from PIL import Image
 from rightofway.model import Plan
 from rightofway.site import Obstacle
 from rightofway.viz import Background
+from rightofway.viz.palette import LIGHT
 from tests.builders.plans import crowd, door, loop, yard
 from tests.builders.players import overlap
-from tests.viewer.conftest import Opener, pixel
+from tests.viewer.conftest import Opener
 
 SIZES = [(1600, 1000), (1280, 720), (390, 844)]
 
@@ -62,8 +64,10 @@ def test_names_of_robots_that_meet_do_not_cover_each_other(show: Opener) -> None
 @pytest.mark.parametrize(("width", "height"), SIZES)
 def test_robots_can_be_seen_on_every_screen(show: Opener, width: int, height: int) -> None:
     viewer = show(crowd(50), viewport={"width": width, "height": height})
-    assert viewer.ask("mapView.sizes.robot") >= 4.5
-    assert viewer.ask("mapView.sizes.homeOf(plan.robots[0]) > mapView.sizes.robot")
+    radii = [disc.radius for disc in viewer.discs() if disc.is_filled]
+    assert round(min(radii), 3) >= 4.5
+    sides = [right - left for left, _, right, _ in (field.box for field in viewer.fields())]
+    assert min(sides) / 2 > min(radii)  # a home is seen round its robot
 
 
 def test_a_small_grid_fills_the_height_of_its_pane(show: Opener) -> None:
@@ -73,20 +77,29 @@ def test_a_small_grid_fills_the_height_of_its_pane(show: Opener) -> None:
 
 def test_routes_along_one_way_lie_side_by_side(show: Opener) -> None:
     viewer = show(door(), "#decision=1")
-    first, second, line = viewer.ask(
-        "[mapView.route.aside(0), mapView.route.aside(1), mapView.sizes.route.line]"
+    middle, border = viewer.on_map((1.5, 1))  # between N1 and N4, where both drive both ways
+    near = 0.4 * viewer.view[0]
+    crossing = sorted(
+        (one[0], line.width)
+        for line in viewer.lines()
+        for one, other in pairwise(line.points)
+        if abs(one[0] - middle) < near and (one[1] - border) * (other[1] - border) < 0
     )
-    assert second - first > line
-    assert 2 * first > line  # the way back is on the other side of the middle
+    assert len(crossing) == 4
+    for (left, width), (right, _) in pairwise(crossing):
+        assert right - left > width
 
 
 def test_the_scale_bar_is_a_round_length(show: Opener) -> None:
     viewer = show(yard())
-    per_pixel = viewer.ask("plan.roadmap.unit / mapView.viewport.scale")
-    length = viewer.ask(f"roundLength({per_pixel})")
+    (said,) = [each for each in viewer.texts() if re.match(r"[0-9.]+ m$", each.text)]
+    length = float(said.text.split()[0])
     assert f"{length:e}"[0] in "125"
-    assert 50 < length / per_pixel <= 130
-    assert viewer.ask("[0.9, 4, 13].map((width) => roundLength(width / 130))") == [0.5, 2, 10]
+    right = said.at[0]  # the text ends where the bar does
+    (bar,) = {line.points for line in viewer.lines() if line.points[-1][0] == right}
+    width = right - bar[0][0]
+    assert 50 < width <= 130
+    assert width == pytest.approx(length * viewer.view[0])
 
 
 def test_what_is_at_the_pointer_stands_beside_it(show: Opener) -> None:
@@ -113,12 +126,11 @@ def test_what_is_at_the_pointer_stands_beside_it(show: Opener) -> None:
 
 def test_a_heat_map_leaves_tools_and_map_where_they_are(show: Opener) -> None:
     viewer = show(crowd(50), viewport={"width": 1280, "height": 720})
-    box = "[...document.querySelectorAll('.tools, #map')].map((it) =>"
-    where = f"{box} it.getBoundingClientRect().toJSON())"
-    before = viewer.ask(where)
-    viewer.page.keyboard.press("h")
+    places = ("#map", viewer.page.get_by_role("toolbar"))
+    before = [viewer.box(place) for place in places]
+    viewer.press("h")
     assert viewer.page.locator("#heat-legend").is_visible()
-    assert viewer.ask(where) == before
+    assert [viewer.box(place) for place in places] == before
 
 
 def test_a_picture_lies_under_the_map(show: Opener, tmp_path: Path) -> None:
@@ -127,29 +139,23 @@ def test_a_picture_lies_under_the_map(show: Opener, tmp_path: Path) -> None:
     picture.paste(0, (15, 0, 30, 30))
     picture.save(tmp_path / "hall.png")
     viewer = show(door(), background=Background(picture=tmp_path / "hall.png", opacity=1))
-    viewer.wait_for("mapView.base.paintings > 1 && !frames.asked")
-    left, top, scale = viewer.ask("(({left, top, scale}) => [left, top, scale])(mapView.viewport)")
-    floor = {x: pixel(viewer, "map", left + x * scale, top + scale)[0] for x in (0.7, 1.3)}
-    assert floor == {0.7: 255, 1.3: 0}
+    viewer.poll(viewer.pictures, "the picture on the map")
+    floor = {x: viewer.colour(viewer.on_map((x, 1.5)))[0] for x in (1.2, 1.8)}  # in N4
+    assert floor == {1.2: 255, 1.8: 0}
     assert viewer.requests == []  # the picture is in the page
 
 
 def test_lanes_out_of_sight_are_not_drawn(show: Opener) -> None:
     viewer = show(yard())
-    drawn = """(right) => {
-      let lines = 0;
-      const draw = CanvasRenderingContext2D.prototype.lineTo;
-      CanvasRenderingContext2D.prototype.lineTo = function (...args) {
-        lines++;
-        draw.apply(this, args);
-      };
-      mapView.viewport.pan(right, 0);
-      mapView.paint();
-      CanvasRenderingContext2D.prototype.lineTo = draw;
-      return lines;
-    }"""
-    in_sight, out_of_sight = (viewer.page.evaluate(drawn, right) for right in (0, 5000))
-    assert in_sight - out_of_sight >= 5  # a lane for both ways and its dashes, three for one way
+    lanes = {line.points for line in viewer.lines() if line.colour == LIGHT.wall}
+    assert len(lanes) == 4  # one for both ways, three for one way
+    box = viewer.box()
+    for _ in range(3):
+        viewer.page.mouse.move(box["x"] + 5, box["y"] + 30)
+        viewer.page.mouse.down()
+        viewer.page.mouse.move(box["x"] + box["width"] - 5, box["y"] + 30)
+        viewer.page.mouse.up()
+    assert {line.points for line in viewer.lines() if line.colour == LIGHT.wall} == set()
 
 
 def test_obstacles_have_their_names_on_the_map_and_at_the_pointer(show: Opener) -> None:
@@ -167,12 +173,13 @@ def test_obstacles_have_their_names_on_the_map_and_at_the_pointer(show: Opener) 
 def test_the_diagram_stands_beside_a_map_that_becomes_much_larger_so(show: Opener) -> None:
     """The map of the door grows to 1.4 times at 1280 x 720, to 1.1 times at 1600 x 1000."""
     viewer = show(door(), viewport={"width": 1280, "height": 720})
-    place = "document.getElementById('diagram').getBoundingClientRect().left"
-    assert viewer.ask(f"{place} >= mapView.canvas.getBoundingClientRect().right")
-    assert viewer.ask("mapView.viewport.scale") > 130
+    diagram, map_ = viewer.box("#diagram"), viewer.box()
+    assert diagram["x"] >= map_["x"] + map_["width"]
+    assert viewer.view[0] > 130
     viewer.page.set_viewport_size({"width": 1600, "height": 1000})
-    viewer.wait_for(f"{place} === 0")
+    viewer.poll(lambda: viewer.box("#diagram")["x"] == 0, "the diagram below the map")
     viewer.page.set_viewport_size({"width": 1280, "height": 720})
-    viewer.ask("paper.lay(true)")
-    assert viewer.ask(f"{place} === 0")
+    viewer.poll(lambda: viewer.box("#diagram")["x"] > 0, "the diagram beside the map")
+    viewer.lay_on_paper()
+    assert viewer.box("#diagram")["x"] < map_["width"] / 2
     assert viewer.complaints == []

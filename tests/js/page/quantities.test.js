@@ -6,6 +6,7 @@ import {
   decimal,
   fraction,
 } from "../../../src/rightofway/viz/page/assets/quantities.js";
+import { roundLength } from "../../../src/rightofway/viz/page/assets/scale_bar.js";
 import { made } from "../made.js";
 
 /** Values and their texts; the package is tested with the same ones. */
@@ -63,4 +64,10 @@ test("a running time keeps its decimals", () => {
   );
   const plain = new Quantities({ length: null, time: null }, [1, 1]);
   assert.equal(plain.running(3, 2), "3.00");
+});
+
+test("the scale bar has the longest round length that 130 pixels have room for", () => {
+  // maps of which 130 pixels show a length of 0.9, 4 and 13
+  const lengths = [0.9, 4, 13].map((width) => roundLength(width / 130));
+  assert.deepEqual(lengths, [0.5, 2, 10]);
 });
