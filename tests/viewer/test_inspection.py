@@ -11,29 +11,30 @@ import pytest
 from rightofway.io.sites import Choice, read_sites
 from rightofway.metrics import inspect, sentences
 from rightofway.viz import write_inspection
-from tests.builders.browsers import Viewer
+from rightofway.viz.palette import LIGHT
+from tests.builders.players import Player
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser
+    from playwright.sync_api import Browser, Locator
 
 LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
 
-Open = Callable[..., Viewer]
+Open = Callable[..., Player]
 
 
 @pytest.fixture
 def inspected(browser: Browser, tmp_path: Path) -> Iterator[Open]:
     contexts = []
 
-    def open_page(source: Path, **context: Any) -> Viewer:
+    def open_page(source: Path, **context: Any) -> Player:
         found = read_sites(source, Choice())
         levels = [(name, site, inspect(site)) for name, site in found.sites]
         path = tmp_path / "site.html"
         write_inspection(levels, path, title=source.name, what=found.what, notes=found.notes)
         contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
-        viewer = Viewer(contexts[-1].new_page())
+        viewer = Player(contexts[-1].new_page())
         viewer.page.goto(path.as_uri())
-        viewer.wait_for("inspectPage.frames > 0")
+        viewer.painted()
         return viewer
 
     yield open_page
@@ -51,6 +52,20 @@ def crossing(tmp_path: Path) -> Path:
     return tmp_path / "nodes.csv"
 
 
+def findings(viewer: Player) -> Locator:
+    """Return the rows of the list."""
+    return viewer.page.get_by_role("listbox", name="Findings").get_by_role("option")
+
+
+def lit(viewer: Player) -> list[tuple[float, float]]:
+    """Return where places are lit by a ring [pixels]."""
+    return [
+        (ring.x, ring.y)
+        for ring in viewer.discs()
+        if ring.colour == LIGHT.held and not ring.is_filled
+    ]
+
+
 @pytest.mark.parametrize("name", ["hall.lif.json", "plant.xml", "room.yaml", "hall.building.yaml",
                                   "route.geojson", "two-rooms.map", "hall.graphml"])  # fmt: skip
 def test_every_format_has_a_page(inspected: Open, name: str) -> None:
@@ -64,48 +79,45 @@ def test_the_page_has_the_words_of_the_command(inspected: Open, crossing: Path) 
     result = inspect(site)
     viewer = inspected(crossing)
     assert viewer.text("#size") == " ".join(sentences(site, result))
-    titles = viewer.ask(
-        "[...document.querySelectorAll('#finding-list .row:not([hidden])')].map((row) => row.title)"
-    )
+    titles = [row.get_attribute("title") for row in findings(viewer).all()]
     assert titles == [str(finding) for finding in result.findings]
 
 
 def test_a_click_on_a_finding_lights_its_place(inspected: Open, crossing: Path) -> None:
     viewer = inspected(crossing)
     viewer.page.click("#finding-list .row:has-text('cross without a vertex')")
-    lit = "inspectPage.view.choice.lit.map((it) => inspectPage.site.roadmap.name(it))"
-    assert viewer.ask(lit) == ["A", "B", "C", "D"]
+    places = viewer.all_on_map([(0, 0), (8, 0), (4, -4), (4, 4)])  # A to D
+    assert lit(viewer) == [pytest.approx(place) for place in places]
     assert "The lanes A to B and C to D cross without a vertex." in viewer.text("#card")
-    viewer.page.keyboard.press("Escape")
-    assert viewer.ask("inspectPage.view.choice.lit") == []
+    viewer.press("Escape")
+    assert lit(viewer) == []
     assert not viewer.page.is_visible("#card")
 
 
 def test_a_click_on_a_place_chooses_its_findings_in_turn(inspected: Open, crossing: Path) -> None:
     viewer = inspected(crossing)
-    x, y = viewer.ask(
-        "(({ left, top, scale }, { x, y }) => [left + x[4] * scale, top + y[4] * scale])"
-        "(inspectPage.view.viewport, inspectPage.site.roadmap)"
-    )
-    viewer.page.click("#map", position={"x": x, "y": y})
-    assert viewer.ask("inspectPage.chosen.kind") == "unreachable"
+    viewer.page.mouse.click(*viewer.at((6, 4)))  # E
+    assert viewer.chosen == "Warning: unreachable"
 
 
 def test_findings_are_found_by_words(inspected: Open, crossing: Path) -> None:
     viewer = inspected(crossing)
     viewer.page.keyboard.press("/")
     viewer.page.keyboard.type("crossing")
-    assert viewer.ask("inspectPage.list.items.map(({ kind }) => kind)") == ["crossing"]
-    viewer.page.keyboard.press("Enter")
-    assert viewer.ask("inspectPage.chosen.kind") == "crossing"
+    (found,) = findings(viewer).all_inner_texts()
+    assert "cross without a vertex" in found
+    viewer.press("Enter")
+    assert viewer.chosen == "Warning: crossing"
 
 
 def test_levels_are_chosen_in_the_head(inspected: Open) -> None:
     viewer = inspected(LAYOUTS / "hall.building.yaml")
-    assert viewer.ask("inspectPage.site.roadmap.names") == ["dock", "v1", "shelf"]
-    viewer.page.select_option("#level", label="L2")
-    assert viewer.ask("inspectPage.site.roadmap.names") == ["stairs", "top"]
-    viewer.wait_for("inspectPage.frames > 2")
+    levels = {"L1": {"dock", "v1", "shelf"}, "L2": {"stairs", "top"}}
+    for level, named in levels.items():
+        viewer.page.get_by_label("Level").select_option(label=level)
+        assert {name.text for name in viewer.names()} & set().union(*levels.values()) == named
+        site = viewer.page.get_by_role("img", name=f"Map with {len(named)} vertices", exact=True)
+        assert site.is_visible()
     assert viewer.complaints == []
 
 
@@ -117,11 +129,10 @@ def test_a_fleet_stands_at_its_homes_in_its_true_size(inspected: Open, tmp_path:
         "- {name: R2, home: B, target: A, radius: 0.75}\n"
     )
     viewer = inspected(tmp_path / "hall.yaml")
-    assert viewer.ask("Array.from(inspectPage.view.motion.x)") == [0, 1]
-    ratio = viewer.ask(
-        "inspectPage.view.sizes.of(inspectPage.site.robots[1]) / inspectPage.view.viewport.scale"
-    )
-    assert ratio == pytest.approx(0.75 / 2)  # a unit of the drawing is the edge of 2
+    for place, radius in (((0, 0), 0.5), ((2, 0), 0.75)):
+        at = pytest.approx(viewer.on_map(place))
+        radii = [disc.radius for disc in viewer.discs() if (disc.x, disc.y) == at]
+        assert any(each == pytest.approx(radius * viewer.view[0]) for each in radii), place
     assert viewer.complaints == []
 
 
@@ -134,6 +145,5 @@ def test_the_page_fits_every_screen(inspected: Open, size: tuple[int, int]) -> N
 
 def test_the_paper_has_all_findings(inspected: Open, crossing: Path) -> None:
     viewer = inspected(crossing)
-    viewer.page.emulate_media(media="print")
-    viewer.ask("window.dispatchEvent(new Event('beforeprint'))")
+    viewer.lay_on_paper()
     assert "cross without a vertex" in viewer.text("#paper-findings")

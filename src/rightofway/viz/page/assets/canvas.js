@@ -35,7 +35,6 @@ export class Layer {
     this.canvas = document.createElement("canvas");
     this.context = contextOf(this.canvas);
     this.paint = paint;
-    this.paintings = 0;
     this.stale = true;
   }
 
@@ -70,6 +69,5 @@ export class Layer {
     this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.paint(this.context, width, height);
     this.stale = false;
-    this.paintings++;
   }
 }

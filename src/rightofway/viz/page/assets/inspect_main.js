@@ -272,7 +272,6 @@ class InspectPage {
   }
 
   #isAsked = false;
-  frames = 0; // painted so far
 
   #ask() {
     if (this.#isAsked) return;
@@ -283,7 +282,6 @@ class InspectPage {
   #paint() {
     this.#isAsked = false;
     this.view.paint();
-    this.frames++;
   }
 }
 
@@ -318,4 +316,4 @@ function severitySign(severity) {
 setLanguage(askedLanguage());
 writeMarkup();
 offerLanguages(byId("language", HTMLSelectElement));
-const inspectPage = new InspectPage(JSON.parse(byId("site").textContent));
+new InspectPage(JSON.parse(byId("site").textContent));

@@ -98,7 +98,6 @@ for (const row of all("#help .sized", HTMLElement)) row.hidden = !plan.hasSpace;
 listenToKeys(clock, choice, mapView.viewport, modeSwitch, loop);
 
 const frames = {
-  count: 0,
   last: 0,
   asked: false,
   written: NaN, // the tick that words are about
@@ -121,7 +120,6 @@ const frames = {
     diagram.paint();
     transport.refresh();
     this.refreshWords();
-    this.count++;
     if (clock.playing) this.ask();
   },
 
