@@ -98,9 +98,9 @@ class Player(Canvases):
         """Return the colour of a pixel of the map as red, green, blue and opacity."""
         return self.pixel("map", *place)
 
-    def diagram_x(self, time: float) -> float:
-        """Return where a time is in the diagram [pixels], by the times written below it."""
-        written = [each for each in self.texts("diagram") if re.match(r"^[0-9.]+$", each.text)]
+    def diagram_x(self, time: float, diagram: str | Locator = "diagram") -> float:
+        """Return where a time is in a diagram [pixels], by the times written below it."""
+        written = [each for each in self.texts(diagram) if re.match(r"^[0-9.]+$", each.text)]
         (first, *_, last) = sorted(written, key=lambda each: each.at[0])
         share = (time - float(first.text)) / (float(last.text) - float(first.text))
         return first.at[0] + share * (last.at[0] - first.at[0])

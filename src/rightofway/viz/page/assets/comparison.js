@@ -213,7 +213,11 @@ export class Comparison {
       });
       choice.on("heat", () => other.heat !== choice.heat && other.toggleHeat());
       choice.on("space", () => other.space !== choice.space && other.toggleSpace());
-      for (const event of ["choice", "heat", "space"]) other.on(event, () => this.repaint());
+      for (const event of ["choice", "heat", "space"])
+        other.on(event, () => {
+          this.repaint();
+          this.clock.tell("tick"); // also where nothing changes in the first plan
+        });
     }
   }
 
