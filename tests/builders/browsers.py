@@ -67,14 +67,6 @@ class Viewer:
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
         page.on("request", lambda request: self.requests.append(request.url))
 
-    def ask(self, expression: str) -> Any:
-        """Return the value of a JavaScript expression; the page's own names are in scope."""
-        return self.page.evaluate(expression)
-
-    def wait_for(self, expression: str) -> None:
-        """Wait until an expression holds; the page's policy forbids it to watch itself."""
-        self.poll(lambda: self.ask(expression), expression)
-
     def poll(self, holds: Callable[[], object], what: str) -> None:
         """Look again and again whether something holds, until `PATIENCE` is over."""
         ends = time.monotonic() + PATIENCE
