@@ -23,14 +23,9 @@ export default [
   },
   { files: [`${ASSETS}/**/*.js`], languageOptions: { globals: globals.browser } },
   {
-    // The modules that a page begins with: tests and the notebook read what they have made.
-    files: [`${ASSETS}/{main,inspect_main}.js`],
-    rules: { "no-unused-vars": "off" },
-  },
-  {
     // The frame that the notebook puts round all modules, see viz/page/widget.py.
     files: [`${ASSETS}/widget.js`],
-    languageOptions: { globals: { MARKUP: "readonly", mount: "readonly" } },
+    languageOptions: { globals: { SHELL: "readonly" } },
   },
   { files: ["tests/js/**/*.js"], languageOptions: { globals: globals.node } },
 ];

@@ -27,6 +27,7 @@ format: node-modules
 types: node-modules
     mypy
     npx --no tsc
+    npx --no tsc -- -p tests/js
 
 # The tools for JavaScript, those of package-lock.json; a network is needed only where they changed
 node-modules:

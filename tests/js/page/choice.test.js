@@ -9,7 +9,8 @@ import { Use } from "../../../src/rightofway/viz/page/assets/use.js";
 import { planOf } from "../made.js";
 
 test("a choice shows the plan or the floor and writes nothing into the plan", () => {
-  const plan = Object.freeze(planOf("late"));
+  const plan = planOf("late");
+  Object.freeze(plan);
   const choice = new Choice(plan);
   assert.equal(choice.mode, "both");
   assert.equal(choice.robots, plan.happened);

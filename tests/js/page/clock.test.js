@@ -67,6 +67,7 @@ test("events are those of the robot chosen", () => {
 test("the clock runs over the longer of plan and floor", () => {
   assert.equal(new Clock(planOf("late")).end, 41); // the plan ends at 41, its robots at 21 or never
   const raw = made("late");
+  assert.ok(raw.floor);
   raw.floor.end = 57;
   assert.equal(new Clock(new Plan(raw)).end, 57);
 });

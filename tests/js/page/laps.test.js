@@ -37,7 +37,7 @@ test("laps are counted, and go on in a loop", () => {
 });
 
 test("groups keep their own periods", () => {
-  const [own] = made("laps").steady;
+  const [own] = made("laps").steady ?? [];
   // R2's group is said to repeat from 11 on with 20, as two of its laps do
   const steady = steadyOf([
     { ...own, robots: [0], critical: [] },

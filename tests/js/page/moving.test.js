@@ -12,7 +12,7 @@ import {
   WORK,
 } from "../../../src/rightofway/viz/page/assets/phases.js";
 import { Plan } from "../../../src/rightofway/viz/page/assets/plan.js";
-import { made, planOf } from "../made.js";
+import { made, planOf, positions } from "../made.js";
 
 const ACTIVITIES = ["drive", "wait", "work", "turn", "done"];
 
@@ -29,7 +29,7 @@ function phasesOf({ phases: { begin, activity, visit } }) {
 
 for (const name of ["door", "loop", "crowd"])
   test(`the page has the robots of the ${name} where the pictures have them`, () => {
-    const { payload, moments } = made("positions")[name];
+    const { payload, moments } = positions()[name];
     const motion = new Motion(new Plan(payload));
     for (const { tick, robots } of moments) {
       motion.moveTo(tick);

@@ -7,10 +7,12 @@ import {
   fraction,
 } from "../../../src/rightofway/viz/page/assets/quantities.js";
 import { roundLength } from "../../../src/rightofway/viz/page/assets/scale_bar.js";
-import { made } from "../made.js";
+import { times } from "../made.js";
 
 /** Values and their texts; the package is tested with the same ones. */
-const CASES = JSON.parse(readFileSync(new URL("../../data/quantities.json", import.meta.url)));
+const CASES = JSON.parse(
+  readFileSync(new URL("../../data/quantities.json", import.meta.url), "utf8"),
+);
 
 test("decimals are those of the package", () => {
   for (const [value, text] of CASES.decimal) assert.equal(decimal(fraction(value)), text);
@@ -39,7 +41,7 @@ test("a tick lasts as long as the scenario says", () => {
 
 test("times at random are written as the package writes them", () => {
   // numbers of ticks that are whole, or in between while the clock runs
-  for (const { units, tick, written } of made("times")) {
+  for (const { units, tick, written } of times()) {
     const quantities = new Quantities(units, tick);
     for (const [ticks, duration, moment, cell] of written)
       assert.deepEqual(

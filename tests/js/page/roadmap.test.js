@@ -10,6 +10,7 @@ import { planOf } from "../made.js";
 const FRAME = { x: 10, y: 20, yUp: true, unit: 0.5 };
 
 /** @import { Area } from "../../../src/rightofway/viz/page/assets/axis.js" */
+/** @import { Curve } from "../../../src/rightofway/viz/page/assets/roadmap.js" */
 
 /** A and B with a lane both ways of 2, and one way on to C of 3; D is alone. */
 const NETWORK = new Roadmap(
@@ -70,6 +71,7 @@ test("a corridor has each way once, at its length", () => {
 });
 
 test("a point along a line is found by the share of its length", () => {
+  /** @type {Curve} */
   const line = {
     points: [
       [0, 0],

@@ -66,6 +66,7 @@ test("a zone is held by the robot in it, until it has left", () => {
 
 test("lanes cross where they cross", () => {
   const { roadmap } = planOf("cross");
+  assert.ok(roadmap.close);
   const found = roadmap.close.crossings.map((lanes) => crossingOf(roadmap, lanes));
   assert.deepEqual(
     found.map(([x, y]) => roadmap.toSite(x, y)),

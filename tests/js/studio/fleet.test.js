@@ -17,6 +17,7 @@ import {
   sortRobots,
   stopsOf,
   withStops,
+  writtenIn,
 } from "../../../src/rightofway/studio/assets/robots/fleet.js";
 
 const DOCUMENT = {
@@ -31,7 +32,10 @@ const [NAME, HOME, STOPS, WORK] = COLUMNS;
 test("a new robot gets the first name that no other robot has", () => {
   assert.equal(freeName(DOCUMENT.robots), "R3");
   assert.equal(freeName([{ name: "R2" }]), "R3"); // R2, the second one, is taken
-  assert.deepEqual(addRobots(DOCUMENT, [{ home: "N1" }]).robots.at(-1), { name: "R3", home: "N1" });
+  assert.deepEqual(writtenIn(addRobots(DOCUMENT, [{ home: "N1" }])).at(-1), {
+    name: "R3",
+    home: "N1",
+  });
 });
 
 test("one stop is written as target and work, several as a list", () => {
@@ -51,8 +55,8 @@ test("cells say stops and work, and are read as they are written", () => {
 
 test("a pasted block adds robots and leaves its headings out", () => {
   const rows = rowsOfText("name\thome\r\nA\tN1\r\nB\t[0, 2]\r\n");
-  const { robots } = pasted(DOCUMENT, COLUMNS, rows, { row: 2, column: 0 });
-  assert.deepEqual(robots.slice(2), [
+  const grown = pasted(DOCUMENT, COLUMNS, rows, { row: 2, column: 0 });
+  assert.deepEqual(writtenIn(grown).slice(2), [
     { name: "A", home: "N1" },
     { name: "B", home: [0, 2] },
   ]);
@@ -67,7 +71,7 @@ test("a block is cleared and filled, but names and homes stay", () => {
     { name: "R2", home: "N2" },
   ]);
   const column = { top: 0, bottom: 1, left: 2, right: 3 };
-  assert.deepEqual(filled(DOCUMENT, COLUMNS, column).robots[1].target, "N1");
+  assert.deepEqual(writtenIn(filled(DOCUMENT, COLUMNS, column))[1].target, "N1");
 });
 
 test("robots are sorted by numbers in their names", () => {

@@ -4,8 +4,13 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { roundStep, snapped } from "../../../src/rightofway/studio/assets/draw/snapping.js";
 
+/** @import { DrawnOn } from "../../../src/rightofway/studio/assets/draw/snapping.js" */
+/** @import { ScenarioDocument } from "../../../src/rightofway/studio/assets/types.js" */
+
+/** @type {DrawnOn["roadmap"]} */
 const roadmap = { unit: 1, toSite: (x, y) => [x, y] };
 const stage = { view: { viewport: { scale: 20 } } }; // a pixel is 0.05 length units
+/** @type {ScenarioDocument} */
 const document = { map: { roadmap: { vertices: { A: [2.03, 7] }, edges: [] } }, robots: [] };
 const editor = { roadmap, stage, document };
 

@@ -7,16 +7,26 @@ import { ENGLISH } from "../../../src/rightofway/studio/assets/words/en.js";
 import { GERMAN as OF_PAGE_IN_GERMAN } from "../../../src/rightofway/viz/page/assets/texts/de.js";
 import { ENGLISH as OF_PAGE_IN_ENGLISH } from "../../../src/rightofway/viz/page/assets/texts/en.js";
 
-/** The values that a text takes, by their names. */
+/**
+ * The values that a text takes, by their names.
+ *
+ * @param {Function} text
+ */
 function valuesOf(text) {
-  const [, listed] = /^\(?([^)=]*)/.exec(String(text).replaceAll(/\/\*.*?\*\//g, ""));
-  return listed
+  const listed = /^\(?([^)=]*)/.exec(String(text).replaceAll(/\/\*.*?\*\//g, ""));
+  assert.ok(listed);
+  return listed[1]
     .split(",")
     .map((each) => each.trim())
     .filter(Boolean);
 }
 
-/** Where the texts of a table are: "tabs.map", and the names of the values each takes. */
+/**
+ * Where the texts of a table are: "tabs.map", and the names of the values each takes.
+ *
+ * @param {object} table
+ * @returns {string[]}
+ */
 function keysOf(table, path = "") {
   return Object.entries(table).flatMap(([key, value]) =>
     value && typeof value === "object"

@@ -502,8 +502,7 @@ export interface PlanSummary {
 export interface PlannerData {
   name: string;
   summary: string;
-  improves: boolean;
-  knows_sizes: boolean;
+  features: Array<string>;
   options: Array<PlannerOption>;
 }
 
@@ -517,10 +516,12 @@ export interface PlannerList {
 /** An option of a planner. */
 export interface PlannerOption {
   name: string;
-  default: string | number | null;
+  default: number | string;
   summary: string;
   choices: Array<string>;
-  least: number | null;
+  least: number | string;
+  most: number | string | null;
+  whole: boolean;
 }
 
 /** The answer to a request that is refused. */

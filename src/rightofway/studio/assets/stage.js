@@ -12,6 +12,7 @@ import { MapView } from "../../viz/page/assets/map_view.js";
 import { Motion } from "../../viz/page/assets/motion.js";
 import { Observable } from "../../viz/page/assets/observable.js";
 import { Plan } from "../../viz/page/assets/plan.js";
+import { Root } from "../../viz/page/assets/root.js";
 import { Site } from "../../viz/page/assets/site.js";
 import { Theme } from "../../viz/page/assets/theme.js";
 import { Words } from "../../viz/page/assets/words.js";
@@ -53,6 +54,7 @@ export class Stage extends Observable {
   raw = later();
   /** @type {Player | null} */
   player = null;
+  root = new Root(document.body); // the parts of the viewer stand all over the studio
   last = 0; // when the last frame was painted while time ran [ms]
 
   /**
@@ -65,7 +67,7 @@ export class Stage extends Observable {
     this.below = below;
     this.time = time;
     this.card = card;
-    this.theme = new Theme();
+    this.theme = new Theme(this.root);
     this.asked = false;
     this.frames = 0;
     this.isPicking = false; // whether a press on a place is waited for

@@ -24,7 +24,6 @@ from rightofway.model import (
     Loss,
     LostTime,
     Plan,
-    PlannerRun,
     Scenario,
     Stays,
     SteadyState,
@@ -34,6 +33,7 @@ from rightofway.model import (
 from rightofway.model.closures import Closure, ways_along
 from rightofway.model.given import checked_plan
 from rightofway.model.steady_state import refuse_unknown_robots
+from rightofway.report.sentences import proof_in_words
 from rightofway.values import at, list_of, one_of, optional, text
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.page.background import Background
@@ -106,7 +106,7 @@ def payload_of(
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [_loss(loss) for one in lost for loss in one.losses],
         "faults": _faults(plan, verdict_on(plan)),
-        "planner": _planner(run),
+        "planner": _planner(plan),
         "decisions": [_decision(decision) for decision in run.decisions],
         "reroutes": [{"robot": one.robot, "because": one.because} for one in run.reroutes],
         "metrics": {
@@ -220,8 +220,11 @@ def closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
     }
 
 
-def _planner(run: PlannerRun) -> PlannerData:
+def _planner(plan: Plan) -> PlannerData:
+    run = plan.run
     found: PlannerData = {"name": run.name, "status": run.status}
+    if proven := proof_in_words(plan):
+        found["proven"] = proven
     if run.improvement is not None:
         found |= {"saved": run.improvement.saved, "tries": run.improvement.tries}
     return found

@@ -173,6 +173,7 @@ class PlannerData(TypedDict):
     status: str
     saved: NotRequired[int]
     tries: NotRequired[int | None]
+    proven: NotRequired[str]
 
 
 class DecisionData(TypedDict):

@@ -17,6 +17,8 @@ IMPORT = re.compile(r'^import [^;]*? from "((?:\.{1,2}/)+[\w/-]+)\.js";\n', re.M
 EXPORT = re.compile(r"^export (?!default)", re.MULTILINE)
 NOTES = re.compile(r"(?ms)^\s*((/\*\*.*?\*/|//[^\n]*)\s*)*")
 """Comments that fill lines, and indentation: a fifth of a script."""
+ASIDES = re.compile(r"(?m)(?<=[;,{}()\]]) // .*$")
+"""Comments at the ends of lines."""
 
 
 @cache
@@ -60,4 +62,4 @@ def classic_script(name: str) -> str:
         Name of the module, without ``.js``.
     """
     text = EXPORT.sub("", IMPORT.sub("", asset(f"{name}.js")))
-    return f'"use strict";\n{NOTES.sub("", text)}'
+    return f'"use strict";\n{ASIDES.sub("", NOTES.sub("", text))}'

@@ -13,7 +13,7 @@ from typing import Any
 
 from rightofway.model import Plan
 from rightofway.viz.page.document import FRAME_HEIGHT, payload_text, style_sheet
-from rightofway.viz.page.scripts import asset, classic_script, scripts_of
+from rightofway.viz.page.scripts import classic_script, scripts_of
 
 WIDGET_STYLE = f".page{{contain:layout;height:{FRAME_HEIGHT}px;min-height:0;overflow:auto}}"
 """A page in a notebook has a height of its own."""
@@ -60,20 +60,11 @@ def in_notebook() -> bool:
 
 @cache
 def widget_module() -> str:
-    """Return the JavaScript module of the widget: the page's markup, its scripts, and `render`."""
-    body = re.search(r"<body>(.*)<noscript", asset("template.html"), re.DOTALL)
-    assert body is not None
+    """Return the JavaScript module of the widget: the page's style, its scripts, and `render`."""
     style = re.sub(r":root|\bbody\b", ".page", style_sheet())
-    payload = '<script type="application/json" id="plan"></script>'
-    markup = f'<style>{style}{WIDGET_STYLE}</style><div class="page" tabindex="-1">{body[1]}</div>'
-    scripts = "\n".join(classic_script(name) for name in scripts_of("main"))
-    return "\n".join(
-        [
-            f"const MARKUP = {json.dumps(markup + payload)};",
-            f"function mount(document) {{\n{scripts}\nreturn {{ clock }};\n}}",
-            classic_script("widget"),
-        ]
-    )
+    shell = f'<style>{style}{WIDGET_STYLE}</style><div class="page" tabindex="-1"></div>'
+    scripts = (classic_script(name) for name in scripts_of("widget"))
+    return "\n".join([f"const SHELL = {json.dumps(shell)};", *scripts])
 
 
 @cache

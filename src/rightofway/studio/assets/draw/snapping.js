@@ -3,22 +3,32 @@
 import { positionOf, roadmapOf } from "./network.js";
 import { rounded, toDrawing } from "./places.js";
 import { present } from "../given.js";
-/** @import { Cell, DrawingPoint, Guide, Point, Rect, Shift } from "../types.js" */
+/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Cell, DrawingPoint, Guide, Point, Rect, ScenarioDocument, Shift } from "../types.js" */
 /** @import { Editor } from "./editor.js" */
+
+/**
+ * What a point snaps to: the document, and at which scale the stage shows it.
+ * @typedef {{
+ *   roadmap: Pick<Roadmap, "unit" | "toSite">,
+ *   stage: { view: { viewport: { scale: number } } },
+ *   document: ScenarioDocument,
+ * }} DrawnOn
+ */
 
 const ALIGNED = 8; // pixels within which something keeps in line with something else
 const SAME = 1e-6; // length units
 
 /**
  * Length units in a pixel of the screen.
- * @param {Editor} editor
+ * @param {Pick<DrawnOn, "roadmap" | "stage">} editor
  * @returns {number}
  */
 const pixelOf = ({ roadmap, stage }) => roadmap.unit / stage.view.viewport.scale;
 
 /**
  * The round length that things keep to at the present scale [length units].
- * @param {Editor} editor
+ * @param {Pick<DrawnOn, "roadmap" | "stage">} editor
  * @returns {number}
  */
 export const roundStep = (editor) => 10 ** Math.floor(Math.log10(24 * pixelOf(editor)));
@@ -48,7 +58,7 @@ function guidesOf(at, others) {
 /**
  * Where on the site a vertex is put: in line with other vertices, else at a round length; or just there.
  * @param {DrawingPoint} point
- * @param {Editor} editor
+ * @param {DrawnOn} editor
  * @param {string[]} [without]
  * @returns {{at: Point, guides: Guide[]}}
  */

@@ -117,7 +117,7 @@ export const COLUMNS = [
 
 /**
  * The column of a fault of a robot: "target" is of the stops.
- * @param {Fault} fault
+ * @param {Pick<Fault, "path">} fault
  * @returns {string}
  */
 export function columnOf({ path }) {

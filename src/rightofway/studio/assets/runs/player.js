@@ -7,7 +7,7 @@ import { writeMarkup } from "../../../viz/page/assets/language.js";
 import { States } from "../../../viz/page/assets/states.js";
 import { Transport } from "../../../viz/page/assets/transport.js";
 import { Use } from "../../../viz/page/assets/use.js";
-import { later, present } from "../given.js";
+import { later } from "../given.js";
 /** @import { MapView } from "../../../viz/page/assets/map_view.js" */
 /** @import { Stage } from "../stage.js" */
 
@@ -31,13 +31,6 @@ const TIME = `<h2 id="diagram-title"></h2><div class="bar"><div class="caption">
 <input type="range" id="slider" min="0" step="any" value="0" data-label="time"></div></div>
 <div class="diagram"><canvas id="diagram" role="img"></canvas><div id="needle" class="needle" aria-hidden="true"></div></div>`;
 
-/**
- * A part of the markup.
- * @param {string} id
- * @returns {HTMLElement}
- */
-const part = (id) => present(document.getElementById(id));
-
 export class Player {
   /** @type {Diagram} */
   diagram = later();
@@ -49,7 +42,7 @@ export class Player {
 
   /** @param {Stage} stage */
   constructor(stage) {
-    const { plan, clock, choice, motion, words: said, theme, below, time, card } = stage;
+    const { plan, clock, choice, motion, words: said, theme, below, time, card, root } = stage;
     this.stage = stage;
     this.plan = plan;
     this.clock = clock;
@@ -63,7 +56,7 @@ export class Player {
     time.innerHTML = TIME;
     writeMarkup();
     this.use = new Use(plan);
-    this.bottleneck = new Bottleneck(plan, clock, choice, theme, said);
+    this.bottleneck = new Bottleneck(root, plan, clock, choice, theme, said);
   }
 
   /**
@@ -73,35 +66,36 @@ export class Player {
    */
   begin(view) {
     const { plan, clock, choice, motion, words: said, theme } = this;
-    this.diagram = new Diagram(plan, clock, choice, theme, said, this.use, this.bottleneck);
-    this.transport = new Transport(plan, clock, said);
-    this.states = new States(motion, choice);
+    const { root } = this.stage;
+    this.diagram = new Diagram(root, plan, clock, choice, theme, said, this.use, this.bottleneck);
+    this.transport = new Transport(root, plan, clock, said);
+    this.states = new States(root, motion, choice);
     this.observer.observe(this.diagram.canvas);
-    new Card(plan, clock, choice, said, null, view.space);
+    new Card(root, plan, clock, choice, said, null, view.space);
     this.card.hidden = true;
     /**
      * @param {string} id
      * @param {() => void} action
      * @returns {void}
      */
-    const press = (id, action) => part(id).addEventListener("click", action);
+    const press = (id, action) => root.part(id).addEventListener("click", action);
     /**
      * @param {string} id
      * @param {boolean} isOn
      * @returns {void}
      */
-    const shows = (id, isOn) => part(id).setAttribute("aria-pressed", String(isOn));
+    const shows = (id, isOn) => root.part(id).setAttribute("aria-pressed", String(isOn));
     press("heat", () => choice.toggleHeat());
     press("space", () => choice.toggleSpace());
-    part("space").hidden = !plan.hasSpace;
+    root.part("space").hidden = !plan.hasSpace;
     choice.on("space", () => shows("space", choice.space));
     choice.on("heat", () => {
       shows("heat", choice.heat);
-      part("heat-legend").hidden = !choice.heat;
+      root.part("heat-legend").hidden = !choice.heat;
       const marks = [0, this.use.most].map((ticks) =>
         Object.assign(document.createElement("span"), { textContent: said.duration(ticks) }),
       );
-      part("heat-scale").replaceChildren(...marks);
+      root.part("heat-scale").replaceChildren(...marks);
     });
   }
 

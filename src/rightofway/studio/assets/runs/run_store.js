@@ -207,8 +207,9 @@ export class RunStore extends Observable {
     if (isSecond) await post(`/runs/${before.number}/cancel`).catch(() => {});
     const base = isSecond ? before.based_on : this.shown;
     const { has_plan, kind } = this.find(base) ?? {};
-    const { improves } = this.planners.planners.find(({ name }) => name === settings.planner) ?? {};
-    const start = has_plan && improves && kind !== "laps" ? { start: base } : {};
+    const spec = this.planners.planners.find(({ name }) => name === settings.planner);
+    const start =
+      has_plan && spec?.features.includes("improves") && kind !== "laps" ? { start: base } : {};
     this.#live = await this.plan(given, { ...settings, ...start, time_limit: 1, based_on: base });
     this.beside = base;
   }

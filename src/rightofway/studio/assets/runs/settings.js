@@ -65,10 +65,10 @@ function Options({ spec, given, set }) {
     set(value === "" ? rest : { ...rest, [name]: value });
   };
   /** @param {PlannerOption} option */
-  const field = ({ name, choices, least, default: usual }) =>
+  const field = ({ name, choices, whole, default: usual }) =>
     choices.length
       ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option lang="en">${each}</option>`)}</select>`
-      : html`<${Field} aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${String(usual ?? "")} inputmode=${least === null ? "text" : "numeric"} onChange=${({ target }) => write(name, target.value.trim())} />`;
+      : html`<${Field} aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${String(usual ?? "")} inputmode=${whole ? "numeric" : "text"} onChange=${({ target }) => write(name, target.value.trim())} />`;
   return html`<div class="options">${spec.options.map(
     (option) => html`
     <label><span lang="en">${option.name}</span>${field(option)}</label><p id=${`option-${option.name}`} class="hint" lang="en">${option.summary}</p>`,

@@ -10,14 +10,15 @@ const LABEL_GAP = 72; // pixels between two labelled moments, at least
 /** Where a diagram is painted, and where a tick is on it. Slider and diagrams share its ends. */
 export class Area {
   /**
+   * @param {Element} top whose style says how far from its sides
    * @param {number} width
    * @param {number} height
    * @param {number} end
    * @param {number} [above]
    * @param {number} [below]
    */
-  constructor(width, height, end, above = 0, below = AXIS_HEIGHT) {
-    const style = getComputedStyle(document.documentElement);
+  constructor(top, width, height, end, above = 0, below = AXIS_HEIGHT) {
+    const style = getComputedStyle(top);
     this.left = Number.parseFloat(style.getPropertyValue("--gutter"));
     this.right = width - Number.parseFloat(style.getPropertyValue("--pad"));
     this.top = 8 + above;

@@ -1,7 +1,7 @@
-import { byId } from "./dom.js";
 import { disc, line } from "./shapes.js";
 import { NARROWEST_PERIOD } from "./steady_band.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Area } from "./axis.js" */
 /** @import { Choice } from "./choice.js" */
 /** @import { Moments } from "./clock.js" */
@@ -16,20 +16,22 @@ import { NARROWEST_PERIOD } from "./steady_band.js";
 /** The critical circuit of the group that is looked at, lit on the map and in the diagram. */
 export class Bottleneck {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Moments} clock
    * @param {Choice} choice
    * @param {Theme} theme
    * @param {Words} words
    */
-  constructor(plan, clock, choice, theme, words) {
+  constructor(root, plan, clock, choice, theme, words) {
+    this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.choice = choice;
     this.theme = theme;
     this.words = words;
-    this.button = byId("bottleneck");
-    this.legend = byId("bottleneck-legend");
+    this.button = root.part("bottleneck");
+    this.legend = root.part("bottleneck-legend");
     this.button.hidden = !plan.steady?.groups.some(({ circuit }) => circuit.length);
     this.button.addEventListener("click", () => choice.toggleBottleneck());
     choice.on("bottleneck", () => this.#show());

@@ -1,9 +1,10 @@
-import { all, byId, element, english, facts, goTo, link, swatch } from "./dom.js";
+import { element, english, facts, goTo, link, swatch } from "./dom.js";
 import { FloorRobot } from "./floor.js";
 import { texts, withKey } from "./language.js";
 import { BROKEN, WAIT } from "./phases.js";
 import { joined, languageOfFault } from "./words.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Choice } from "./choice.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { Comparison } from "./comparison.js" */
@@ -20,6 +21,7 @@ const MOST_LINES = 200; // of stages or losses in a card
 /** All about the robot or decision that is chosen. */
 export class Card {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Clock} clock
    * @param {Choice} choice
@@ -27,14 +29,15 @@ export class Card {
    * @param {Comparison | null} comparison
    * @param {Space} space
    */
-  constructor(plan, clock, choice, words, comparison, space) {
+  constructor(root, plan, clock, choice, words, comparison, space) {
+    this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.choice = choice;
     this.words = words;
     this.comparison = comparison;
     this.space = space;
-    this.box = byId("card");
+    this.box = root.part("card");
     choice.on("choice", () => this.#show());
     choice.on("mode", () => this.#show());
   }
@@ -56,7 +59,7 @@ export class Card {
 
   /** Where the card lies over the lower half of the screen, bring the map above it. */
   #clearMap() {
-    const [map] = all(".map", HTMLElement);
+    const [map] = this.root.all(".map", HTMLElement);
     const { top, bottom } = map.getBoundingClientRect();
     const isOver =
       getComputedStyle(this.box).position === "fixed" &&

@@ -5,7 +5,7 @@ import { Compared } from "./compared.js";
 import { ComparedRobots } from "./compared_robots.js";
 import { ComparedTable } from "./compared_table.js";
 import { Diagram } from "./diagram.js";
-import { all, byId, element } from "./dom.js";
+import { element } from "./dom.js";
 import { connectFind } from "./find.js";
 import { texts } from "./language.js";
 import { MapView } from "./map_view.js";
@@ -13,6 +13,7 @@ import { Motion } from "./motion.js";
 import { Use } from "./use.js";
 import { Words } from "./words.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { Plan } from "./plan.js" */
 /** @import { Roadmap } from "./roadmap.js" */
@@ -28,6 +29,7 @@ const AROUND = 80; // pixels above and below a map: its title, the scale bar
  */
 export class Comparison {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Clock} clock
    * @param {Choice} choice
@@ -35,7 +37,8 @@ export class Comparison {
    * @param {MapView} mapView
    * @param {Diagram} diagram
    */
-  constructor(plan, clock, choice, theme, mapView, diagram) {
+  constructor(root, plan, clock, choice, theme, mapView, diagram) {
+    this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.choice = choice;
@@ -47,10 +50,10 @@ export class Comparison {
       comparison,
       this.plans.map(({ title }) => title),
     );
-    document.body.classList.add("compared");
-    this.maps = all(".maps", HTMLElement)[0];
-    document.body.style.setProperty("--plans", String(this.plans.length));
-    this.#title(byId("map-title"), plan);
+    root.element.classList.add("compared");
+    this.maps = root.all(".maps", HTMLElement)[0];
+    root.element.style.setProperty("--plans", String(this.plans.length));
+    this.#title(root.part("map-title"), plan);
     this.stack = this.#stack(diagram);
     this.beside = others.map((other, i) =>
       this.#beside(other, comparison.scales[i + 1] / comparison.scales[0], diagram),
@@ -135,7 +138,7 @@ export class Comparison {
     const clock = new Follower(this.clock, 1 / scale);
     const choice = new Choice(plan);
     const [motion, words, use] = [new Motion(choice), new Words(plan), new Use(choice)];
-    const bottleneck = new Bottleneck(plan, clock, choice, theme, words);
+    const bottleneck = new Bottleneck(this.root, plan, clock, choice, theme, words);
     const title = element("h2", { className: "map-title" });
     const canvas = element("canvas", { tabIndex: 0 });
     canvas.setAttribute("role", "img");
@@ -154,7 +157,7 @@ export class Comparison {
       use,
       bottleneck,
     });
-    const diagram = new Diagram(plan, clock, choice, theme, words, use, bottleneck, {
+    const diagram = new Diagram(this.root, plan, clock, choice, theme, words, use, bottleneck, {
       canvas: this.#row(plan),
       axis,
     });
@@ -167,7 +170,7 @@ export class Comparison {
    * @param {Diagram} diagram
    */
   #stack(diagram) {
-    const box = diagram.canvas.parentElement ?? document.body;
+    const box = diagram.canvas.parentElement ?? this.root.element;
     const stack = element("div", { className: "stack" });
     box.classList.add("stacked");
     box.prepend(stack);
@@ -262,12 +265,12 @@ export class Comparison {
     const colours = new Map(
       plans.flatMap(({ planned }) => planned.map(({ name, colour }) => [name, colour])),
     );
-    new ComparedTable(compared, byId("compared-figures"));
-    const robots = new ComparedRobots(compared, byId("compared-robots"), {
+    new ComparedTable(compared, this.root.part("compared-figures"));
+    const robots = new ComparedRobots(compared, this.root.part("compared-robots"), {
       choose: (name) => this.#choose(name),
       colourOf: (name) => colours.get(name) ?? "",
     });
-    const find = byId("find-compared", HTMLInputElement);
+    const find = this.root.part("find-compared", HTMLInputElement);
     connectFind(find, robots.list, () => robots.find(find.value));
     choice.on("choice", () => choice.robot && robots.setChosen(choice.robot.name));
     return robots;

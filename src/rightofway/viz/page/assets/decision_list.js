@@ -1,8 +1,9 @@
-import { byId, element } from "./dom.js";
+import { element } from "./dom.js";
 import { connectFind, matches } from "./find.js";
 import { language, texts } from "./language.js";
 import { VirtualList } from "./virtual_list.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Choice } from "./choice.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { DecisionData, RerouteData } from "./payload.d.ts" */
@@ -14,12 +15,14 @@ import { VirtualList } from "./virtual_list.js";
 /** All resolved conflicts, and the robots that were sent another way. */
 export class DecisionList {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Clock} clock
    * @param {Choice} choice
    * @param {Words} words
    */
-  constructor(plan, clock, choice, words) {
+  constructor(root, plan, clock, choice, words) {
+    this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.choice = choice;
@@ -34,8 +37,8 @@ export class DecisionList {
     const isLong = plan.roadmap.isMeasured && plan.decisions.length > 0; // coordinates are longer than names
     /** @type {string | number} */
     this.count = isSilent ? "–" : this.items.length;
-    this.find = byId("find-decision", HTMLInputElement);
-    this.list = new VirtualList(byId("decision-list"), {
+    this.find = root.part("find-decision", HTMLInputElement);
+    this.list = new VirtualList(root.part("decision-list"), {
       rowHeight: isLong ? 72 : 52,
       className: isLong ? "two long" : "two",
       none: isSilent

@@ -1,7 +1,7 @@
 import { lastOf } from "./arrays.js";
-import { isEmbedded } from "./dom.js";
 import { MODES } from "./mode_switch.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Choice } from "./choice.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { Plan } from "./plan.js" */
@@ -11,25 +11,28 @@ export class DeepLink {
   #timer = 0;
 
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Clock} clock
    * @param {Choice} choice
    */
-  constructor(plan, clock, choice) {
+  constructor(root, plan, clock, choice) {
+    this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.choice = choice;
-    if (isEmbedded()) return;
+    if (root.isEmbedded) return;
     clock.on("tick", () => this.#soon());
     choice.on("choice", () => this.#soon());
     choice.on("mode", () => this.#soon());
     choice.on("corridor", () => this.#soon());
-    window.addEventListener("hashchange", () => this.read());
+    root.listen(window, "hashchange", () => this.read());
+    root.atEnd(() => clearTimeout(this.#timer));
   }
 
   /** Show what the address says; returns whether it says anything. */
   read() {
-    const asked = new URLSearchParams(isEmbedded() ? "" : location.hash.slice(1));
+    const asked = new URLSearchParams(this.root.isEmbedded ? "" : location.hash.slice(1));
     const robot = this.plan.robots.findIndex(({ name }) => name === asked.get("robot"));
     const decision = Number.parseInt(asked.get("decision") ?? "", 10) - 1;
     const fault = Number.parseInt(asked.get("fault") ?? "", 10) - 1;

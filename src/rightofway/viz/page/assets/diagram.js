@@ -1,13 +1,13 @@
 import { AXIS_HEIGHT, Area, paintAxis } from "./axis.js";
 import { Layer, contextOf, fitCanvas } from "./canvas.js";
 import { Census } from "./census.js";
-import { byId } from "./dom.js";
 import { texts } from "./language.js";
 import { MOST_ROWS, RobotRows } from "./robot_rows.js";
 import { pointer } from "./shapes.js";
 import { SpaceTime } from "./space_time.js";
 import { SteadyBand } from "./steady_band.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Bottleneck } from "./bottleneck.js" */
 /** @import { Choice } from "./choice.js" */
 /** @import { Moments } from "./clock.js" */
@@ -24,6 +24,7 @@ const EDGE = 5; // pixels below a diagram that has another one below it
  */
 export class Diagram {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Moments} clock
    * @param {Choice} choice
@@ -33,7 +34,8 @@ export class Diagram {
    * @param {Bottleneck} bottleneck
    * @param {{ canvas?: HTMLCanvasElement, axis?: { plan: Plan, words: Words } }} [options]
    */
-  constructor(plan, clock, choice, theme, words, use, bottleneck, { canvas, axis } = {}) {
+  constructor(root, plan, clock, choice, theme, words, use, bottleneck, { canvas, axis } = {}) {
+    this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.choice = choice;
@@ -41,10 +43,10 @@ export class Diagram {
     this.words = words;
     this.axis = axis ?? { plan, words };
     this.hasLabels = true;
-    this.area = new Area(0, 0, plan.end); // until the first frame
-    this.canvas = canvas ?? byId("diagram", HTMLCanvasElement);
-    this.needle = canvas ? null : byId("needle");
-    this.heading = canvas ? null : byId("diagram-title");
+    this.area = new Area(theme.root.top, 0, 0, plan.end); // until the first frame
+    this.canvas = canvas ?? root.part("diagram", HTMLCanvasElement);
+    this.needle = canvas ? null : root.part("needle");
+    this.heading = canvas ? null : root.part("diagram-title");
     this.spaceTime = new SpaceTime(plan, theme, words, use, choice, bottleneck);
     this.rows = new RobotRows(plan, theme, choice, bottleneck);
     this.census = new Census(plan, theme, choice);
@@ -87,7 +89,14 @@ export class Diagram {
    * @param {{ end: number }} [other]
    */
   #areaOf({ width, height }, { end } = this.plan) {
-    return new Area(width, height, end, this.band.height, this.hasLabels ? AXIS_HEIGHT : EDGE);
+    return new Area(
+      this.theme.root.top,
+      width,
+      height,
+      end,
+      this.band.height,
+      this.hasLabels ? AXIS_HEIGHT : EDGE,
+    );
   }
 
   /**

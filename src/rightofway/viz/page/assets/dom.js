@@ -1,28 +1,12 @@
 /** @import { Robot } from "./robot.js" */
 
-/** Whether the page is part of another one, such as a notebook. */
-export function isEmbedded() {
-  return isPart() || window.parent !== window;
-}
-
-/** Whether the page is an element of a notebook, see `widget.js`. */
-export function isPart() {
-  return "isPart" in document;
-}
-
 /**
- * An element of the page.
+ * Whether an element is in a frame of another page, or in a player that is a part of one.
  *
- * @template {HTMLElement} [E=HTMLElement]
- * @param {string} id
- * @param {abstract new () => E} [Kind] its class
- * @returns {E}
+ * @param {Element} within
  */
-export function byId(id, Kind) {
-  const found = document.getElementById(id);
-  if (!(found instanceof (Kind ?? HTMLElement)))
-    throw new Error(`page: there is no ${Kind?.name ?? "element"} "${id}" (look at the markup)`);
-  return /** @type {E} */ (found);
+export function isEmbedded(within) {
+  return window.parent !== window || Boolean(within.closest(".part"));
 }
 
 /**

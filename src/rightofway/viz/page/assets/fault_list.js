@@ -1,10 +1,10 @@
 import { fillTwoLines } from "./decision_list.js";
-import { byId } from "./dom.js";
 import { connectFind, matches } from "./find.js";
 import { texts } from "./language.js";
 import { VirtualList } from "./virtual_list.js";
 import { languageOfFault } from "./words.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Choice } from "./choice.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { FaultData } from "./payload.d.ts" */
@@ -17,23 +17,25 @@ const LINE = 36; // letters of a fault that surely fit in a line
 /** All faults of a plan that breaks rules: the earliest first; choosing one goes to its moment and place. */
 export class FaultList {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Clock} clock
    * @param {Choice} choice
    * @param {Words} words
    */
-  constructor(plan, clock, choice, words) {
+  constructor(root, plan, clock, choice, words) {
+    this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.choice = choice;
     this.words = words;
-    this.find = byId("find-fault", HTMLInputElement);
+    this.find = root.part("find-fault", HTMLInputElement);
     /** @type {TwoLines[]} */
     this.items = plan.faults.map((fault, index) => this.#item(fault, index));
     const isLong = this.items.some(
       ({ head, detail }) => Math.max(head.length, detail.length) > LINE,
     );
-    this.list = new VirtualList(byId("fault-list"), {
+    this.list = new VirtualList(root.part("fault-list"), {
       rowHeight: isLong ? 72 : 52,
       className: isLong ? "two long" : "two",
       none: this.items.length ? texts.noFaultFits : texts.noFaults,

@@ -1,5 +1,5 @@
 import { nearest } from "./arrays.js";
-import { all, byId, element } from "./dom.js";
+import { all, element } from "./dom.js";
 import { connectFind, matches } from "./find.js";
 import {
   askedLanguage,
@@ -11,6 +11,7 @@ import {
 } from "./language.js";
 import { languageOf, said } from "./library.js";
 import { MapView } from "./map_view.js";
+import { Root } from "./root.js";
 import { Site } from "./site.js";
 import { Theme } from "./theme.js";
 import { VirtualList } from "./virtual_list.js";
@@ -21,19 +22,21 @@ import { upperFirst } from "./words.js";
 const SEVERITIES = /** @type {const} */ (["error", "warning", "note"]); // the worst first
 const FEW_NOTES = 3; // of the reader, which stand open
 
+const root = new Root(document.body);
+
 /** The page of an inspection: a level of the site at a time, what will hurt on it as a list. */
 class InspectPage {
   /** @param {InspectionPayload} raw */
   constructor(raw) {
     this.raw = raw;
-    this.theme = new Theme();
+    this.theme = new Theme(root);
     /** @type {FindingData | null} */
     this.chosen = null;
     this.level = raw.levels[0];
     this.site = new Site({ ...this.level, title: raw.title });
-    this.view = new MapView(byId("map", HTMLCanvasElement), this.site, this.theme);
-    this.find = byId("find-finding", HTMLInputElement);
-    this.list = new VirtualList(byId("finding-list"), {
+    this.view = new MapView(root.part("map", HTMLCanvasElement), this.site, this.theme);
+    this.find = root.part("find-finding", HTMLInputElement);
+    this.list = new VirtualList(root.part("finding-list"), {
       rowHeight: 92,
       className: "two long finding",
       none: raw.levels.some(({ findings }) => findings.length)
@@ -55,11 +58,11 @@ class InspectPage {
    */
   showLevel(index) {
     this.level = this.raw.levels[index];
-    byId("level", HTMLSelectElement).value = String(index);
-    byId("size").textContent = this.level.sentences.map(said).join(" ");
-    const before = byId("map", HTMLCanvasElement);
+    root.part("level", HTMLSelectElement).value = String(index);
+    root.part("size").textContent = this.level.sentences.map(said).join(" ");
+    const before = root.part("map", HTMLCanvasElement);
     before.replaceWith(before.cloneNode()); // without the listeners of another level's map
-    const canvas = byId("map", HTMLCanvasElement);
+    const canvas = root.part("map", HTMLCanvasElement);
     this.site = new Site({ ...this.level, title: this.raw.title });
     this.view = new MapView(canvas, this.site, this.theme);
     this.view.viewport.on("view", () => this.#repaint());
@@ -91,15 +94,16 @@ class InspectPage {
 
   #showHead() {
     const { title, what, notes, levels } = this.raw;
-    byId("headline").replaceChildren(
-      element("b", { className: "name" }, title),
-      inLanguage("span", {}, what),
-    );
-    byId("level-choice").hidden = levels.length < 2;
-    byId("level", HTMLSelectElement).replaceChildren(
-      ...levels.map(({ name }, index) => element("option", { value: String(index) }, name)),
-    );
-    const box = byId("notes", HTMLDetailsElement);
+    root
+      .part("headline")
+      .replaceChildren(element("b", { className: "name" }, title), inLanguage("span", {}, what));
+    root.part("level-choice").hidden = levels.length < 2;
+    root
+      .part("level", HTMLSelectElement)
+      .replaceChildren(
+        ...levels.map(({ name }, index) => element("option", { value: String(index) }, name)),
+      );
+    const box = root.part("notes", HTMLDetailsElement);
     box.hidden = !notes.length;
     box.open = notes.length <= FEW_NOTES;
     for (const summary of all("summary", HTMLElement, box))
@@ -124,16 +128,18 @@ class InspectPage {
       heading,
       count: found.length,
     }));
-    byId("figures").replaceChildren(
-      ...counts.map(({ severity, heading, count }) =>
-        element(
-          "div",
-          { title: heading },
-          element("dt", {}, severitySign(severity), heading.split(" (")[0]),
-          element("dd", {}, String(count)),
+    root
+      .part("figures")
+      .replaceChildren(
+        ...counts.map(({ severity, heading, count }) =>
+          element(
+            "div",
+            { title: heading },
+            element("dt", {}, severitySign(severity), heading.split(" (")[0]),
+            element("dd", {}, String(count)),
+          ),
         ),
-      ),
-    );
+      );
   }
 
   /**
@@ -153,7 +159,7 @@ class InspectPage {
 
   /** @param {FindingData | null} finding */
   #showCard(finding) {
-    const box = byId("card");
+    const box = root.part("card");
     box.hidden = !finding;
     if (!finding) return;
     const close = element(
@@ -216,8 +222,9 @@ class InspectPage {
       fit: () => this.view.viewport.fit(),
       print: () => window.print(),
     };
-    for (const [id, action] of Object.entries(actions)) byId(id).addEventListener("click", action);
-    const level = byId("level", HTMLSelectElement);
+    for (const [id, action] of Object.entries(actions))
+      root.part(id).addEventListener("click", action);
+    const level = root.part("level", HTMLSelectElement);
     level.addEventListener("change", () => this.showLevel(Number(level.value)));
     /** @type {Record<string, () => void>} */
     const keys = {
@@ -250,20 +257,22 @@ class InspectPage {
     document.documentElement.classList.toggle("on-paper", onPaper);
     this.theme.refresh();
     this.#paint();
-    byId("paper-findings").replaceChildren(
-      ...this.#groups
-        .filter(({ found }) => found.length)
-        .flatMap(({ heading, found }) => [
-          element("h2", {}, `${heading}: ${found.length}`),
-          element(
-            "ul",
-            {},
-            ...found.map(({ fact, remedy }) =>
-              inLanguage("li", {}, fact, `${said(fact)} (${said(remedy)})`),
+    root
+      .part("paper-findings")
+      .replaceChildren(
+        ...this.#groups
+          .filter(({ found }) => found.length)
+          .flatMap(({ heading, found }) => [
+            element("h2", {}, `${heading}: ${found.length}`),
+            element(
+              "ul",
+              {},
+              ...found.map(({ fact, remedy }) =>
+                inLanguage("li", {}, fact, `${said(fact)} (${said(remedy)})`),
+              ),
             ),
-          ),
-        ]),
-    );
+          ]),
+      );
   }
 
   #repaint() {
@@ -315,5 +324,5 @@ function severitySign(severity) {
 
 setLanguage(askedLanguage());
 writeMarkup();
-offerLanguages(byId("language", HTMLSelectElement));
-new InspectPage(JSON.parse(byId("site").textContent));
+offerLanguages(root.part("language", HTMLSelectElement));
+new InspectPage(JSON.parse(root.part("site").textContent));

@@ -1,24 +1,24 @@
-import { byId } from "./dom.js";
-
 /** @import { Choice } from "./choice.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { Loop } from "./loop.js" */
+/** @import { Root } from "./root.js" */
 /** @import { ModeSwitch } from "./mode_switch.js" */
 /** @import { Viewport } from "./viewport.js" */
 
 /**
  * What the keyboard does wherever no text is being written.
  *
+ * @param {Root} root
  * @param {Clock} clock
  * @param {Choice} choice
  * @param {Viewport} viewport
  * @param {ModeSwitch} modeSwitch
  * @param {Loop} loop
  */
-export function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
-  const help = byId("help", HTMLDialogElement);
-  const about = byId("about", HTMLDialogElement);
-  const find = byId("find-robot", HTMLInputElement);
+export function listenToKeys(root, clock, choice, viewport, modeSwitch, loop) {
+  const help = root.part("help", HTMLDialogElement);
+  const about = root.part("about", HTMLDialogElement);
+  const find = root.part("find-robot", HTMLInputElement);
   /** @type {Record<string, (event: KeyboardEvent) => unknown>} */
   const actions = {
     " ": () => clock.toggle(),
@@ -44,9 +44,10 @@ export function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
     "?": () => help.showModal(),
     Escape: () => choice.chooseNothing(),
   };
-  byId("help-open").addEventListener("click", () => help.showModal());
-  byId("about-open").addEventListener("click", () => about.showModal());
-  document.addEventListener("keydown", (event) => {
+  root.part("help-open").addEventListener("click", () => help.showModal());
+  root.part("about-open").addEventListener("click", () => about.showModal());
+  root.listen(root.isPart ? root.element : document, "keydown", (event) => {
+    if (!(event instanceof KeyboardEvent)) return;
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (
       !action ||

@@ -1,4 +1,4 @@
-import { all, isEmbedded, isPart } from "./dom.js";
+import { all, isEmbedded } from "./dom.js";
 import { GERMAN } from "./texts/de.js";
 import { ENGLISH } from "./texts/en.js";
 
@@ -23,24 +23,36 @@ export let texts = ENGLISH;
  * Speak a language, English where it is not known; texts that it lacks are English.
  *
  * @param {string} code
+ * @param {HTMLElement} [top] what is written in it
  */
-export function setLanguage(code) {
+export function setLanguage(code, top = document.documentElement) {
   language = Object.hasOwn(LANGUAGES, code) ? code : "en";
   texts = completed(LANGUAGES[language].texts, ENGLISH);
-  document.documentElement.lang = language;
+  top.lang = language;
 }
 
-/** The language that the address asks for (`?lang=de`), or that of the browser. */
-export function askedLanguage() {
-  const asked = new URLSearchParams(isPart() ? "" : location.search).get("lang");
+/**
+ * The language that the address asks for (`?lang=de`), or that of the browser.
+ *
+ * @param {boolean} [isPart] whether the address is that of another page
+ */
+export function askedLanguage(isPart = false) {
+  const asked = new URLSearchParams(isPart ? "" : location.search).get("lang");
   return asked ?? navigator.language.slice(0, 2);
 }
+
+/**
+ * Some of the texts of a table, and of the tables in it.
+ *
+ * @template T
+ * @typedef {{ [K in keyof T]?: T[K] extends Record<string, unknown> ? Some<T[K]> : T[K] }} Some
+ */
 
 /**
  * Texts, with those of another language where there are none.
  *
  * @template {object} T
- * @param {Partial<T>} own
+ * @param {Some<T>} own
  * @param {T} other
  * @returns {T}
  */
@@ -59,8 +71,10 @@ export function completed(own, other) {
 /**
  * Write the texts of the markup: `data-text` is what stands in an element, `data-label` its name for
  * screen readers, `data-title` and `data-hint` what it does, with the key that does it, too.
+ *
+ * @param {ParentNode} [within]
  */
-export function writeMarkup() {
+export function writeMarkup(within = document) {
   /** @type {Record<string, string>} */
   const markup = texts.markup;
   /**
@@ -68,7 +82,7 @@ export function writeMarkup() {
    * @param {(found: HTMLElement, text: string, key: string | undefined) => void} write
    */
   const each = (kind, write) => {
-    for (const found of all(`[data-${kind}]`, HTMLElement))
+    for (const found of all(`[data-${kind}]`, HTMLElement, within))
       write(found, markup[found.dataset[kind] ?? ""], found.dataset.key);
   };
   each("text", (found, text) => (found.textContent = text));
@@ -93,7 +107,7 @@ export function withKey(text, key) {
  * @param {HTMLSelectElement} select
  */
 export function offerLanguages(select) {
-  select.hidden = isEmbedded();
+  select.hidden = isEmbedded(select);
   for (const [code, { name }] of Object.entries(LANGUAGES)) {
     const option = new Option(code.toUpperCase(), code);
     option.title = name;

@@ -1,6 +1,6 @@
-import { byId } from "./dom.js";
 import { texts, withKey } from "./language.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Choice } from "./choice.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { Plan } from "./plan.js" */
@@ -8,15 +8,17 @@ import { texts, withKey } from "./language.js";
 /** The button that plays one period for ever. */
 export class Loop {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Clock} clock
    * @param {Choice} choice
    */
-  constructor(plan, clock, choice) {
+  constructor(root, plan, clock, choice) {
+    this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.choice = choice;
-    this.button = byId("loop", HTMLButtonElement);
+    this.button = root.part("loop", HTMLButtonElement);
     this.button.hidden = !plan.steady;
     this.button.addEventListener("click", () => this.toggle());
     clock.on("loop", () => this.#show());

@@ -1,7 +1,7 @@
 import { lastOf, nearest } from "./arrays.js";
 import { Layer, contextOf, fitCanvas } from "./canvas.js";
 import { Choice } from "./choice.js";
-import { byId, element, link } from "./dom.js";
+import { element, link } from "./dom.js";
 import { texts } from "./language.js";
 import { MapBase } from "./map_base.js";
 import { MapNames } from "./map_names.js";
@@ -17,6 +17,7 @@ import { Use } from "./use.js";
 import { Viewport } from "./viewport.js";
 import { Words } from "./words.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Site } from "./site.js" */
 /** @import { Theme } from "./theme.js" */
 /** @import { Moments } from "./clock.js" */
@@ -33,7 +34,7 @@ import { Words } from "./words.js";
  * @property {Words} [words]
  * @property {Use} [use]
  * @property {Bottleneck | null} [bottleneck]
- * @property {boolean} [tools] whether buttons of the page act on it
+ * @property {Root | null} [tools] where the buttons that act on it are
  */
 
 /** The moment of a map on which nothing moves. */
@@ -63,7 +64,7 @@ export class MapView {
       words = new Words(plan),
       use = new Use(choice),
       bottleneck = null,
-      tools = false,
+      tools = null,
     } = {},
   ) {
     this.canvas = canvas;
@@ -111,7 +112,7 @@ export class MapView {
     this.viewport.on("click", () => this.#click());
     this.viewport.on("hover", () => this.tip.show(this.viewport, this.sizes));
     choice.on("choice", () => this.#bringIntoSight());
-    if (tools) this.#listenToTools(plan);
+    if (tools) this.#listenToTools(plan, tools);
   }
 
   /** Paint a frame. */
@@ -191,36 +192,43 @@ export class MapView {
     if (robotIndex >= 0) this.viewport.show(this.motion.x[robotIndex], this.motion.y[robotIndex]);
   }
 
-  /** @param {Site} plan */
-  #listenToTools(plan) {
+  /**
+   * @param {Site} plan
+   * @param {Root} root
+   */
+  #listenToTools(plan, root) {
     /**
      * @param {string} id
      * @param {() => void} action
      */
-    const press = (id, action) => byId(id).addEventListener("click", action);
+    const press = (id, action) => root.part(id).addEventListener("click", action);
     press("zoom-in", () => this.viewport.zoom(1.5));
     press("zoom-out", () => this.viewport.zoom(1 / 1.5));
     press("fit", () => this.viewport.fit());
     press("heat", () => this.choice.toggleHeat());
     press("corridor", () => this.choice.toggleCorridor());
     press("space", () => this.choice.toggleSpace());
-    byId("space").hidden = !plan.hasSpace;
+    root.part("space").hidden = !plan.hasSpace;
     this.choice.on("space", () =>
-      byId("space").setAttribute("aria-pressed", String(this.choice.space)),
+      root.part("space").setAttribute("aria-pressed", String(this.choice.space)),
     );
     for (const event of ["space", "choice", "mode"])
-      this.choice.on(event, () => this.#showClosest());
+      this.choice.on(event, () => this.#showClosest(root));
     this.choice.on("corridor", () => {
       const { picked, corridor } = this.choice;
-      byId("corridor").setAttribute("aria-pressed", String(Boolean(picked || corridor)));
+      root.part("corridor").setAttribute("aria-pressed", String(Boolean(picked || corridor)));
     });
-    this.choice.on("heat", () => this.#showHeat());
-    this.choice.on("mode", () => this.#showHeat());
+    this.choice.on("heat", () => this.#showHeat(root));
+    this.choice.on("mode", () => this.#showHeat(root));
   }
 
-  /** The closest approach of the fleet, which one can go to, while no robot is chosen. */
-  #showClosest() {
-    const legend = byId("space-legend");
+  /**
+   * The closest approach of the fleet, which one can go to, while no robot is chosen.
+   *
+   * @param {Root} root
+   */
+  #showClosest(root) {
+    const legend = root.part("space-legend");
     const closest = this.choice.space && !this.choice.robot ? this.space.closest : null;
     legend.hidden = !closest;
     if (!closest) return;
@@ -238,16 +246,20 @@ export class MapView {
     );
   }
 
-  /** The scale of the heat map is linear, with its unit. */
-  #showHeat() {
-    byId("heat").setAttribute("aria-pressed", String(this.choice.heat));
-    byId("heat-legend").hidden = !this.choice.heat;
+  /**
+   * The scale of the heat map is linear, with its unit.
+   *
+   * @param {Root} root
+   */
+  #showHeat(root) {
+    root.part("heat").setAttribute("aria-pressed", String(this.choice.heat));
+    root.part("heat-legend").hidden = !this.choice.heat;
     const marks = [0, this.use.most / 2, this.use.most];
     const times = [
       ...marks.slice(0, -1).map((ticks) => this.words.time(ticks)),
       this.words.duration(lastOf(marks)),
     ];
     const labels = times.map((text) => element("span", {}, text));
-    byId("heat-scale").replaceChildren(...labels);
+    root.part("heat-scale").replaceChildren(...labels);
   }
 }

@@ -1,5 +1,6 @@
-import { all, byId } from "./dom.js";
+import { all } from "./dom.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Choice, Mode } from "./choice.js" */
 /** @import { Plan } from "./plan.js" */
 
@@ -9,13 +10,15 @@ export const MODES = ["plan", "floor", "both"];
 /** What to show: the plan, what happened on the floor, or both. */
 export class ModeSwitch {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Choice} choice
    */
-  constructor(plan, choice) {
+  constructor(root, plan, choice) {
+    this.root = root;
     this.plan = plan;
     this.choice = choice;
-    this.box = byId("mode");
+    this.box = root.part("mode");
     this.box.hidden = !plan.happened;
     for (const radio of all("input", HTMLInputElement, this.box))
       radio.addEventListener("change", () => choice.show(modeOf(radio)));

@@ -1,6 +1,7 @@
-import { byId, element } from "./dom.js";
+import { element } from "./dom.js";
 import { texts } from "./language.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { Comparison } from "./comparison.js" */
 /** @import { Plan } from "./plan.js" */
@@ -13,6 +14,7 @@ const ROWS_ON_PAPER = 50;
 /** The page on paper: the head, the moment, and a table of the robots, in light colours. */
 export class Paper {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Clock} clock
    * @param {Theme} theme
@@ -20,15 +22,16 @@ export class Paper {
    * @param {Comparison | null} comparison
    * @param {() => void} repaint
    */
-  constructor(plan, clock, theme, words, comparison, repaint) {
+  constructor(root, plan, clock, theme, words, comparison, repaint) {
+    this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.theme = theme;
     this.words = words;
     this.comparison = comparison;
     this.repaint = repaint;
-    window.addEventListener("beforeprint", () => this.lay(true));
-    window.addEventListener("afterprint", () => this.lay(false));
+    root.listen(window, "beforeprint", () => this.lay(true));
+    root.listen(window, "afterprint", () => this.lay(false));
   }
 
   /**
@@ -37,17 +40,17 @@ export class Paper {
    * @param {boolean} onPaper
    */
   lay(onPaper) {
-    document.documentElement.classList.toggle("on-paper", onPaper);
+    this.root.top.classList.toggle("on-paper", onPaper);
     this.theme.refresh();
     this.repaint();
     if (!onPaper) return;
-    byId("paper-moment").textContent = texts.mapAt(
+    this.root.part("paper-moment").textContent = texts.mapAt(
       this.words.moment(this.clock.tick),
       this.words.time(this.clock.end),
     );
-    byId("paper-robots").replaceChildren(
-      ...(this.comparison ? this.#comparedTable(this.comparison) : this.#table()),
-    );
+    this.root
+      .part("paper-robots")
+      .replaceChildren(...(this.comparison ? this.#comparedTable(this.comparison) : this.#table()));
   }
 
   get #end() {

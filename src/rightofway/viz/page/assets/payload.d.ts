@@ -282,6 +282,7 @@ export interface PlannerData {
   status: string;
   saved?: number;
   tries?: number | null;
+  proven?: string;
 }
 
 /** A robot that was rerouted. */

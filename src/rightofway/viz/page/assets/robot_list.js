@@ -1,10 +1,11 @@
-import { byId, element, swatch } from "./dom.js";
+import { element, swatch } from "./dom.js";
 import { connectFind, matches } from "./find.js";
 import { FloorRobot } from "./floor.js";
 import { texts } from "./language.js";
 import { BROKEN, WAIT } from "./phases.js";
 import { VirtualList } from "./virtual_list.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Choice } from "./choice.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { Motion } from "./motion.js" */
@@ -18,21 +19,23 @@ import { VirtualList } from "./virtual_list.js";
 /** All robots: what they do now, when they are done, how much the others cost them. */
 export class RobotList {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Motion} motion
    * @param {Clock} clock
    * @param {Choice} choice
    * @param {Words} words
    */
-  constructor(plan, motion, clock, choice, words) {
+  constructor(root, plan, motion, clock, choice, words) {
+    this.root = root;
     this.plan = plan;
     this.motion = motion;
     this.clock = clock;
     this.choice = choice;
     this.words = words;
-    this.find = byId("find-robot", HTMLInputElement);
-    this.sort = byId("sort");
-    this.list = new VirtualList(byId("robot-list"), {
+    this.find = root.part("find-robot", HTMLInputElement);
+    this.sort = root.part("sort");
+    this.list = new VirtualList(root.part("robot-list"), {
       rowHeight: 34,
       none: texts.noRobotNamed,
       fill: (row, robot) => this.#fill(row, robot),

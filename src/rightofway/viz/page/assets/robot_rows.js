@@ -28,7 +28,7 @@ export class RobotRows {
     this.theme = theme;
     this.choice = choice;
     this.bottleneck = bottleneck;
-    this.area = new Area(0, 0, plan.end); // until the first frame
+    this.area = new Area(theme.root.top, 0, 0, plan.end); // until the first frame
     this.rowHeight = HIGHEST_ROW;
   }
 

@@ -1,7 +1,8 @@
 import { contextOf } from "./canvas.js";
-import { byId, element, isEmbedded } from "./dom.js";
+import { element } from "./dom.js";
 import { texts } from "./language.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { DeepLink } from "./deep_link.js" */
 /** @import { Diagram } from "./diagram.js" */
@@ -15,6 +16,7 @@ const SAID_FOR = 2000; // how long a button says what it did [ms]
 /** Takes the moment elsewhere: as a link, as a picture. */
 export class Share {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Clock} clock
    * @param {MapView[]} maps
@@ -23,7 +25,8 @@ export class Share {
    * @param {Words} words
    * @param {DeepLink} deepLink
    */
-  constructor(plan, clock, maps, diagrams, theme, words, deepLink) {
+  constructor(root, plan, clock, maps, diagrams, theme, words, deepLink) {
+    this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.maps = maps;
@@ -37,9 +40,9 @@ export class Share {
       print: () => window.print(),
     };
     for (const [id, action] of Object.entries(buttons)) {
-      const button = byId(id);
+      const button = root.part(id);
       button.addEventListener("click", action);
-      button.hidden = isEmbedded(); // a frame of another page may do none of these
+      button.hidden = root.isEmbedded; // a frame of another page may do none of these
     }
   }
 
@@ -47,7 +50,7 @@ export class Share {
     const address = this.deepLink.address;
     try {
       await navigator.clipboard.writeText(address);
-      this.#say(byId("copy-link"), texts.copied);
+      this.#say(this.root.part("copy-link"), texts.copied);
     } catch {
       window.prompt(texts.copyThis, address); // where the browser keeps the clipboard to itself
     }

@@ -39,7 +39,7 @@ export class SpaceTime {
     this.use = use;
     this.choice = choice;
     this.bottleneck = bottleneck;
-    this.area = new Area(0, 0, plan.end); // until the first frame
+    this.area = new Area(theme.root.top, 0, 0, plan.end); // until the first frame
     /** @type {CorridorAxis | LineAxis} */
     this.axis = new LineAxis([], this.area, () => 0);
     /** @type {Row[]} */

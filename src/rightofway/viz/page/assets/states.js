@@ -1,7 +1,8 @@
-import { byId, element } from "./dom.js";
+import { element } from "./dom.js";
 import { texts } from "./language.js";
 import { BROKEN, HELD } from "./phases.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Choice } from "./choice.js" */
 /** @import { Motion } from "./motion.js" */
 
@@ -22,10 +23,12 @@ export class States {
   #counts;
 
   /**
+   * @param {Root} root
    * @param {Motion} motion
    * @param {Choice} choice
    */
-  constructor(motion, choice) {
+  constructor(root, motion, choice) {
+    this.root = root;
     this.motion = motion;
     this.choice = choice;
     this.#counts = texts.activities.map(() => element("b"));
@@ -35,7 +38,7 @@ export class States {
       element("li", {}, sign(SIGNS[activity]), word, this.#counts[activity]),
     );
     this.ghost = element("li", {}, sign(GHOST_SIGN), texts.byPlan);
-    byId("states").replaceChildren(...this.rows, this.ghost);
+    root.part("states").replaceChildren(...this.rows, this.ghost);
     choice.on("mode", () => this.#suit());
     this.#suit();
   }

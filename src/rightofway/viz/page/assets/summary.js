@@ -1,8 +1,9 @@
-import { all, byId, element, english, facts, link } from "./dom.js";
+import { element, english, facts, link } from "./dom.js";
 import { texts } from "./language.js";
 import { DONE, WAIT } from "./phases.js";
 import { several, upperFirst } from "./words.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Choice } from "./choice.js" */
 /** @import { Compared, ComparedFigures } from "./compared.js" */
 /** @import { Comparison } from "./comparison.js" */
@@ -16,12 +17,14 @@ import { several, upperFirst } from "./words.js";
 /** The head of the page: what the plan achieves, in plain words and few figures; how it was made, on request. */
 export class Summary {
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Choice} choice
    * @param {Words} words
    * @param {Comparison | null} comparison
    */
-  constructor(plan, choice, words, comparison) {
+  constructor(root, plan, choice, words, comparison) {
+    this.root = root;
     this.plan = plan;
     this.choice = choice;
     this.words = words;
@@ -29,25 +32,30 @@ export class Summary {
     const robots = texts.robots(plan.robots.length);
     const outcome = this.#outcome();
     const titles = [plan, ...plan.others].map(({ title }) => title);
-    if (comparison) document.title = titles.join(", ");
-    else if (plan.title) document.title = `${plan.title}: ${robots}`;
+    if (comparison && !root.isPart) document.title = titles.join(", ");
+    else if (plan.title && !root.isPart) document.title = `${plan.title}: ${robots}`;
     const rest = plan.title ? [robots, outcome] : [outcome];
-    byId("headline").replaceChildren(
-      ...this.#names(titles, robots),
-      ...rest.filter(Boolean).map((part) => element("span", {}, part)),
-    );
-    document.body.classList.toggle("faulty", this.#faulty.length > 0);
-    byId("figures").replaceChildren(
-      ...this.figures.map(([term, value, title]) =>
-        element("div", { title }, element("dt", {}, term), element("dd", {}, ...[value].flat())),
-      ),
-    );
-    const [header] = all(".summary", HTMLElement);
-    new ResizeObserver(
+    root
+      .part("headline")
+      .replaceChildren(
+        ...this.#names(titles, robots),
+        ...rest.filter(Boolean).map((part) => element("span", {}, part)),
+      );
+    root.element.classList.toggle("faulty", this.#faulty.length > 0);
+    root
+      .part("figures")
+      .replaceChildren(
+        ...this.figures.map(([term, value, title]) =>
+          element("div", { title }, element("dt", {}, term), element("dd", {}, ...[value].flat())),
+        ),
+      );
+    const [header] = root.all(".summary", HTMLElement);
+    root.observe(
+      header,
       () => (header.tabIndex = header.scrollWidth > header.clientWidth ? 0 : -1),
-    ).observe(header); // scrolls by keys
-    byId("about-open").hidden = plan.noPlan;
-    byId("made").replaceChildren(facts(this.#made()), ...this.#explanation());
+    ); // scrolls by keys
+    root.part("about-open").hidden = plan.noPlan;
+    root.part("made").replaceChildren(facts(this.#made()), ...this.#explanation());
   }
 
   /**
@@ -299,6 +307,7 @@ export class Summary {
       ...origin,
       [upperFirst(texts.flowtime), this.words.time(flowtime)],
       [upperFirst(texts.lowerBound), this.words.time(lowerBound)],
+      [texts.proven, planner.proven ? english(planner.proven) : ""],
       [texts.gap, gap],
       [upperFirst(texts.makespan), this.words.time(makespan)],
       [

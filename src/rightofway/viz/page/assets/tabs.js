@@ -1,13 +1,17 @@
-import { all, byId } from "./dom.js";
+import { all } from "./dom.js";
+/** @import { Root } from "./root.js" */
 
 /** Several lists in one place; those without items may be left out. */
 export class Tabs {
   /**
+   * @param {Root} root
    * @param {(number | string | null)[]} counts
    * @param {() => void} shown
    */
-  constructor(counts, shown) {
-    this.tabs = all("[role=tab]", HTMLElement);
+  constructor(root, counts, shown) {
+    this.root = root;
+    this.tabs = root.all("[role=tab]", HTMLElement);
+    this.panels = root.all("[role=tabpanel]", HTMLElement);
     this.shown = shown;
     this.tabs.forEach((tab, index) => {
       for (const count of all("b", HTMLElement, tab))
@@ -24,7 +28,7 @@ export class Tabs {
       tab.setAttribute("aria-selected", String(index === chosen));
       tab.tabIndex = index === chosen ? 0 : -1;
       if (index === chosen) scrollToEnd(tab);
-      byId(tab.getAttribute("aria-controls") ?? "").hidden = index !== chosen;
+      this.panels[index].hidden = index !== chosen;
     });
     this.shown();
   }

@@ -1,4 +1,5 @@
 import { Observable } from "./observable.js";
+import { Root } from "./root.js";
 
 /** The page's colours for drawing on a canvas. Event: `theme` when light turns dark. */
 export class Theme extends Observable {
@@ -22,10 +23,12 @@ export class Theme extends Observable {
   zone = "";
   sans = "";
 
-  constructor() {
+  /** @param {Root} [root] whose colours, those of the page by default */
+  constructor(root = new Root(document.body)) {
     super();
+    this.root = root;
     this.#read();
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh());
+    root.listen(matchMedia("(prefers-color-scheme: dark)"), "change", () => this.refresh());
   }
 
   /** Read the colours again. */
@@ -35,7 +38,7 @@ export class Theme extends Observable {
   }
 
   #read() {
-    const style = getComputedStyle(document.documentElement);
+    const style = getComputedStyle(this.root.top);
     for (const [name, property] of THEME_COLOURS)
       this[name] = style.getPropertyValue(property).trim();
     this.sans = style.getPropertyValue("--sans");

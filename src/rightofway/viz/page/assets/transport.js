@@ -1,7 +1,8 @@
 import { RATES } from "./clock.js";
-import { byId, element } from "./dom.js";
+import { element } from "./dom.js";
 import { texts } from "./language.js";
 
+/** @import { Root } from "./root.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { Plan } from "./plan.js" */
 /** @import { Words } from "./words.js" */
@@ -11,18 +12,20 @@ export class Transport {
   #written = "";
 
   /**
+   * @param {Root} root
    * @param {Plan} plan
    * @param {Clock} clock
    * @param {Words} words
    */
-  constructor(plan, clock, words) {
+  constructor(root, plan, clock, words) {
+    this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.words = words;
-    this.slider = byId("slider", HTMLInputElement);
-    this.play = byId("play");
-    this.speed = byId("speed", HTMLSelectElement);
-    this.readout = byId("readout");
+    this.slider = root.part("slider", HTMLInputElement);
+    this.play = root.part("play");
+    this.speed = root.part("speed", HTMLSelectElement);
+    this.readout = root.part("readout");
     this.slider.max = String(plan.end);
     this.digits = plan.end / clock.ticksPerUnit < 10 ? 2 : 1;
     /** @param {number} rate */
@@ -54,7 +57,7 @@ export class Transport {
      * @param {string} id
      * @param {() => void} action
      */
-    const press = (id, action) => byId(id).addEventListener("click", action);
+    const press = (id, action) => this.root.part(id).addEventListener("click", action);
     press("play", () => clock.toggle());
     press("back", () => clock.step(-1));
     press("forth", () => clock.step(1));

@@ -170,7 +170,7 @@ export class Viewport extends Observable {
    * @param {WheelEvent} event
    */
   #wheel(event) {
-    if (isEmbedded() && !event.ctrlKey) return;
+    if (isEmbedded(this.canvas) && !event.ctrlKey) return;
     event.preventDefault();
     const pace = event.deltaMode ? 0.05 : event.ctrlKey ? 0.01 : 0.0016; // by lines, by two fingers, by pixels
     this.zoom(Math.exp(-event.deltaY * pace), event.offsetX, event.offsetY);

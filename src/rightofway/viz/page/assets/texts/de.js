@@ -161,6 +161,7 @@ export const GERMAN = {
   savedNothing: "keinen besseren Plan gefunden",
   planner: "Verfahren",
   method: "Vorgehen",
+  proven: "Bewiesen",
   flowtime: "Zeitsumme",
   lowerBound: "untere Schranke",
   gap: "Abstand",

@@ -193,6 +193,7 @@ export const ENGLISH = {
   savedNothing: "found no better plan",
   planner: "Planner",
   method: "Method",
+  proven: "Proven",
   flowtime: "flowtime",
   lowerBound: "lower bound",
   gap: "Gap",

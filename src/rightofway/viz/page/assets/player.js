@@ -1,0 +1,221 @@
+import { Bottleneck } from "./bottleneck.js";
+import { Card } from "./card.js";
+import { Choice } from "./choice.js";
+import { Clock } from "./clock.js";
+import { Comparison } from "./comparison.js";
+import { DecisionList } from "./decision_list.js";
+import { DeepLink } from "./deep_link.js";
+import { Diagram } from "./diagram.js";
+import { FaultList } from "./fault_list.js";
+import { listenToKeys } from "./keys.js";
+import { askedLanguage, offerLanguages, setLanguage, writeMarkup } from "./language.js";
+import { Loop } from "./loop.js";
+import { MapView } from "./map_view.js";
+import { ModeSwitch } from "./mode_switch.js";
+import { Motion } from "./motion.js";
+import { MARKUP } from "./markup.js";
+import { Paper } from "./paper.js";
+import { Plan } from "./plan.js";
+import { RobotList } from "./robot_list.js";
+import { Root } from "./root.js";
+import { Share } from "./share.js";
+import { States } from "./states.js";
+import { Summary } from "./summary.js";
+import { Tabs } from "./tabs.js";
+import { Theme } from "./theme.js";
+import { Transport } from "./transport.js";
+import { Use } from "./use.js";
+import { Words } from "./words.js";
+
+/** @import { Payload } from "./payload.d.ts" */
+
+/** @typedef {{ destroy(): void }} PlayerHandle Ends a player, and takes away all that it has made. */
+
+/**
+ * Play a plan in an element, which the player fills; any number of them in a page.
+ *
+ * @param {HTMLElement} element `document.body` where the player is the page
+ * @param {Payload} payload what `payload_of` returns
+ * @returns {PlayerHandle}
+ */
+export function createPlayer(element, payload) {
+  const root = new Root(element);
+  root.fill(MARKUP);
+  setLanguage(askedLanguage(root.isPart), root.top);
+  writeMarkup(element);
+  offerLanguages(root.part("language", HTMLSelectElement));
+
+  const plan = new Plan(payload);
+  const words = new Words(plan);
+  const theme = new Theme(root);
+  const choice = new Choice(plan);
+  const clock = new Clock(plan, choice);
+  const motion = new Motion(choice);
+  const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap }); // as planned, whatever is shown
+  const use = new Use(choice);
+  const bottleneck = new Bottleneck(root, plan, clock, choice, theme, words);
+
+  const mapView = new MapView(root.part("map", HTMLCanvasElement), plan, theme, {
+    motion,
+    ghosts,
+    clock,
+    choice,
+    words,
+    use,
+    bottleneck,
+    tools: root,
+  });
+  const diagram = new Diagram(root, plan, clock, choice, theme, words, use, bottleneck);
+  const transport = new Transport(root, plan, clock, words);
+  const loop = new Loop(root, plan, clock, choice);
+  const modeSwitch = new ModeSwitch(root, plan, choice);
+  const states = new States(root, motion, choice);
+  const comparison =
+    plan.comparison && new Comparison(root, plan, clock, choice, theme, mapView, diagram);
+  new Card(root, plan, clock, choice, words, comparison, mapView.space); // before the lists, whose height depends on it
+  const robotList = new RobotList(root, plan, motion, clock, choice, words);
+  const decisionList = new DecisionList(root, plan, clock, choice, words);
+  const faultList = new FaultList(root, plan, clock, choice, words);
+  const tabs = new Tabs(
+    root,
+    [
+      plan.robots.length,
+      decisionList.count,
+      plan.faultCount || null,
+      comparison && comparison.plans.length,
+    ],
+    () => {
+      robotList.refresh();
+      decisionList.refresh();
+      faultList.refresh();
+      comparison?.refresh();
+    },
+  );
+  const deepLink = new DeepLink(root, plan, clock, choice);
+  new Summary(root, plan, choice, words, comparison);
+  new Share(
+    root,
+    plan,
+    clock,
+    [mapView, ...(comparison?.views ?? [])],
+    [diagram, ...(comparison?.diagrams ?? [])],
+    theme,
+    words,
+    deepLink,
+  );
+  new Paper(root, plan, clock, theme, words, comparison, () => frames.paint(performance.now()));
+  layOut();
+  root.listen(window, "resize", layOut);
+  for (const caption of root.all(".caption", HTMLElement))
+    caption.classList.toggle("full", Boolean(plan.happened || plan.steady));
+  for (const row of root.all(".help .repeats", HTMLElement)) row.hidden = !plan.steady;
+  for (const row of root.all(".help .floor", HTMLElement)) row.hidden = !plan.happened;
+  for (const row of root.all(".help .sized", HTMLElement)) row.hidden = !plan.hasSpace;
+  listenToKeys(root, clock, choice, mapView.viewport, modeSwitch, loop);
+
+  const frames = {
+    last: 0,
+    asked: false,
+    written: NaN, // the tick that words are about
+
+    /** Have a frame painted soon; while nothing changes, none is. */
+    ask() {
+      if (this.asked) return;
+      this.asked = true;
+      root.ask((now) => this.paint(now));
+    },
+
+    /** @param {number} now */
+    paint(now) {
+      this.asked = false;
+      if (clock.playing) clock.advance(this.last ? Math.min(now - this.last, 100) / 1000 : 0);
+      this.last = clock.playing ? now : 0;
+      this.moveRobots();
+      mapView.paint();
+      comparison?.paint();
+      diagram.paint();
+      transport.refresh();
+      this.refreshWords();
+      if (clock.playing) this.ask();
+    },
+
+    /** In a loop each group of robots has a period of its own. */
+    moveRobots() {
+      const { running } = clock;
+      const { steady } = plan;
+      motion.moveTo(clock.tick, clock.loop && steady && ((index) => steady.tickOf(index, running)));
+      if (choice.ghosts) ghosts.moveTo(clock.tick);
+    },
+
+    /** Words change only when a tick is over, or the choice is another one. */
+    refreshWords() {
+      if (this.written === clock.wholeTick) return;
+      this.written = clock.wholeTick;
+      states.refresh();
+      robotList.refresh();
+    },
+  };
+
+  /** Put the diagram beside the map where the map is much larger so than above the diagram. */
+  function layOut() {
+    if (comparison) {
+      comparison.layOut();
+      return;
+    }
+    const { width, height } = plan.roadmap;
+    const pane = 0.73 * innerWidth;
+    const above = Math.min(pane / width, (0.73 * innerHeight - 200) / height);
+    const beside = Math.min(pane / 2 / width, (innerHeight - 150) / height);
+    element.classList.toggle("high", !root.isPart && beside > 1.25 * above);
+  }
+
+  /** Paint again what does not move. */
+  function repaintAll() {
+    mapView.base.stale = true;
+    diagram.layer.stale = true;
+    comparison?.repaint();
+    frames.ask();
+  }
+
+  clock.on("tick", () => frames.ask());
+  clock.on("playing", () => frames.ask());
+  choice.on("choice", repaintAll);
+  choice.on("heat", repaintAll);
+  choice.on("bottleneck", repaintAll);
+  choice.on("corridor", repaintAll);
+  choice.on("space", repaintAll);
+  clock.on("loop", repaintAll);
+  choice.on("mode", () => {
+    frames.written = NaN;
+    repaintAll();
+  });
+  theme.on("theme", repaintAll);
+  mapView.viewport.on("view", () => {
+    mapView.base.stale = true;
+    frames.ask();
+  });
+  root.observe(mapView.canvas, () => frames.ask());
+  root.observe(diagram.canvas, () => frames.ask());
+
+  const linked = deepLink.read();
+  mapView.viewport.fit();
+  if (plan.faultCount) tabs.show(2);
+  else if (comparison) tabs.show(3);
+  if (plan.noPlan && !linked) choice.chooseFault(0);
+  frames.ask();
+  if (
+    !linked &&
+    !plan.faultCount &&
+    !root.isEmbedded &&
+    !matchMedia("(prefers-reduced-motion: reduce)").matches
+  )
+    clock.play();
+
+  return {
+    destroy() {
+      clock.pause();
+      root.destroy();
+      element.classList.remove("high", "compared", "faulty");
+    },
+  };
+}
