@@ -13,7 +13,6 @@ import inspect
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cache
 from importlib import import_module
 from itertools import chain, pairwise, takewhile
 from pathlib import Path
@@ -106,7 +105,7 @@ def planner_options(planner: str) -> Iterable[str]:
 
 def _other_values(option: Option) -> str:
     return ", ".join(f"`{word}`" for word in option.choices[1:]) or (
-        f"whole numbers from {option.least}"
+        option.numbers.replace("number", "numbers")
     )
 
 
@@ -178,7 +177,10 @@ def public_names(module: str) -> Iterable[str]:
     offered = import_module(module)
     values = {name: getattr(offered, name) for name in offered.__all__}
     rows = (
-        (_link(name, value) if module == "rightofway" else f"`{name}`", _first(name, value))
+        (
+            _link(name, value) if module == "rightofway" else f"`{name}`",
+            _first(name, value, module),
+        )
         for name, value in values.items()
     )
     return table(("name", "what"), rows)
@@ -190,26 +192,27 @@ def _link(name: str, value: Any) -> str:
     return f"[`{name}`]({room}.md)"
 
 
-def _first(name: str, value: Any) -> str:
+def _first(name: str, value: Any, module: str) -> str:
     """Return the first sentence of a docstring, in Markdown."""
     documented = inspect.isclass(value) or inspect.isroutine(value)
-    text = (inspect.getdoc(value) or "") if documented else _constants().get(name, "")
+    text = (inspect.getdoc(value) or "") if documented else _constant(name, module)
     return text.split("\n\n")[0].replace("``", "`")
 
 
-@cache
-def _constants() -> dict[str, str]:
-    """Return the sentences below the constants of the package, by the names of the constants."""
-    found = {}
-    for source in sorted((ROOT / "src").rglob("*.py")):
-        body = ast.parse(source.read_text(encoding="utf-8")).body
-        for statement, below in pairwise(body):
-            if isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant):
-                targets = getattr(statement, "targets", [getattr(statement, "target", None)])
-                found |= {
-                    each.id: str(below.value.value) for each in targets if hasattr(each, "id")
-                }
-    return found
+def _constant(name: str, module: str) -> str:
+    """Return the sentence below a constant, in a module or in the one that it is imported from."""
+    body = ast.parse(inspect.getsource(import_module(module))).body
+    for statement, below in pairwise(body):
+        targets = getattr(statement, "targets", [getattr(statement, "target", None)])
+        if name in [getattr(each, "id", None) for each in targets]:
+            text = getattr(below, "value", None)
+            return str(text.value) if isinstance(text, ast.Constant) else ""
+    for statement in body:
+        if isinstance(statement, ast.ImportFrom) and statement.module and not statement.level:
+            names = {each.asname or each.name: each.name for each in statement.names}
+            if name in names:
+                return _constant(names[name], statement.module)
+    return ""
 
 
 def decisions() -> Iterable[str]:

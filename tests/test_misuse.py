@@ -72,7 +72,7 @@ GOOD: dict[str, tuple[Callable[[], Callable[..., Any]], dict[str, Any]]] = {
     "LacamOptions": (lambda: rw.LacamOptions, {}),
     "LnsOptions": (lambda: rw.LnsOptions, {}),
     "LocalSearchOptions": (lambda: rw.LocalSearchOptions, {}),
-    "Outcome.trace": (lambda: rw.simulate(PLAN, runs=1).trace, {}),
+    "SimulationResult.trace": (lambda: rw.simulate(PLAN, runs=1).trace, {}),
     "Plan": (lambda: rw.Plan, fields_of(PLAN)),
     "PrioritizedOptions": (lambda: rw.PrioritizedOptions, {}),
     "PriorityOptions": (lambda: rw.PriorityOptions, {}),
@@ -114,9 +114,20 @@ GOOD: dict[str, tuple[Callable[[], Callable[..., Any]], dict[str, Any]]] = {
 
 RESULTS = (
     {"CyclicResult", "Decision", "ExecutionTrace", "Fault", "Film", "Layout", "Loss", "LostTime"}
-    | {"Metrics", "Outcome", "PlannerOptions", "PlannerRun", "Report", "Reroute", "Roadmap"}
+    | {
+        "Metrics",
+        "SimulationResult",
+        "Objective",
+        "Outcome",
+        "OutcomeKind",
+        "PlannerOptions",
+        "PlannerRun",
+        "Report",
+        "Reroute",
+        "Roadmap",
+    }
     | {"RobotPlan", "Theme", "Wait", "GaveUp", "InputError", "InvalidPlan", "NoPlanExists"}
-    | {"RightOfWayError"}
+    | {"RightOfWayError", "SimulationResult"}
 )
 """What the package makes and callers only read: its constructors check nothing."""
 

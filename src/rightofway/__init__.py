@@ -26,6 +26,9 @@ from rightofway.model import (
     ExecutionTrace,
     Loss,
     LostTime,
+    Objective,
+    Outcome,
+    OutcomeKind,
     Plan,
     PlannerRun,
     Reroute,
@@ -57,7 +60,7 @@ from rightofway.solve import improve, solve
 
 if _TYPE_CHECKING:
     from rightofway.cyclic import CyclicResult, best_timetable, plan_of, run_laps
-    from rightofway.execution import Outcome, simulate
+    from rightofway.execution import SimulationResult, simulate
     from rightofway.io import (
         layout_of_graph,
         load,
@@ -73,7 +76,7 @@ __version__ = "0.1.0"
 
 _ROOMS = {
     "cyclic": ("CyclicResult", "best_timetable", "plan_of", "run_laps"),
-    "execution": ("Outcome", "simulate"),
+    "execution": ("SimulationResult", "simulate"),
     "io": (
         "layout_of_graph",
         "load",
@@ -107,7 +110,9 @@ __all__ = [
     "LostTime",
     "Metrics",
     "NoPlanExists",
+    "Objective",
     "Outcome",
+    "OutcomeKind",
     "Plan",
     "PlannerOptions",
     "PlannerRun",
@@ -124,6 +129,7 @@ __all__ = [
     "RobotPlan",
     "Rules",
     "Scenario",
+    "SimulationResult",
     "SteadyState",
     "Stop",
     "Theme",

@@ -217,7 +217,15 @@ class NoPlanExists(RightOfWayError):
 
 
 class GaveUp(RightOfWayError):
-    """No plan was found within the planner's means or the time limit; one may exist."""
+    """No plan was found within the planner's means or the time limit; one may exist.
+
+    Attributes
+    ----------
+    lower_bound
+        No plan has a smaller flowtime [ticks]; None where none is proven.
+    """
+
+    lower_bound: int | None = None
 
 
 class InvalidPlan(RightOfWayError):

@@ -5,13 +5,24 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from rightofway.check import check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits
-from rightofway.model import Plan, PlannerRun, Problem, Scenario, Track, checked_time_limit
+from rightofway.model import (
+    Objective,
+    Outcome,
+    OutcomeKind,
+    Plan,
+    PlannerRun,
+    Proof,
+    Scenario,
+    Track,
+    checked_time_limit,
+)
 from rightofway.model.deadline import Deadline, WorkLimit, limited_work
 from rightofway.model.given import (
     checked_functions,
@@ -20,19 +31,20 @@ from rightofway.model.given import (
     checked_seed,
     checked_truths,
 )
-from rightofway.model.problem import refuse_closures, refuse_turn_rates
-from rightofway.model.resources import refuse_sizes
+from rightofway.model.outcome import outcome_of_cost
 from rightofway.planners import (
     DEFAULT,
     IMPROVER,
     Draft,
+    Feature,
     PlannerOptions,
     PlannerSpec,
     Task,
     find,
-    registered,
 )
-from rightofway.values import at, between
+from rightofway.planners.features import refuse_unknown
+from rightofway.planners.registry import able
+from rightofway.values import at, between, written
 
 __all__ = ["improve", "solve"]
 
@@ -167,9 +179,9 @@ def improve(
 def _refuse_start(spec: PlannerSpec, plan: Plan, place: str) -> None:
     """Refuse to start from what is no plan, or a planner that cannot start from one."""
     checked_plan(plan, place)
-    if not spec.improves:
-        able = " or ".join(one.name for one in registered().values() if one.improves)
-        raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
+    if Feature.IMPROVES not in spec.features:
+        message = f"{spec.name} cannot start from a plan (choose {able(Feature.IMPROVES)})"
+        raise InputError.at("planner", message)
 
 
 def _silent(_: str) -> None:
@@ -206,7 +218,10 @@ def _run(
     from rightofway.search import least_completions
 
     seconds_per_visit = at("seconds_per_visit", between(0, 3600), seconds_per_visit)
-    _refuse_unknown(spec, task.scenario.problem)
+    what = f"planner {spec.name}"
+    refuse_unknown(
+        task.scenario.problem, spec.features, what, lambda needed: f"choose {able(needed)}"
+    )
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
 
@@ -231,11 +246,15 @@ def _run(
             task = replace(task, better=_handing_over(on_plan, spec, task))
         if task.start is not None:
             keep()
-        draft = spec.load()(task) if old is None else _going_on(spec, task, old)
+        try:
+            draft = spec.load()(task) if old is None else _going_on(spec, task, old)
+        except GaveUp as error:
+            error.lower_bound = int(alone.sum())
+            raise
     keep()
     run = PlannerRun(
         name=spec.name,
-        options=task.options,
+        options=_written_options(task),
         seed=task.seed,
         status=draft.status,
         seconds=with_plan[-1],
@@ -250,30 +269,31 @@ def _run(
     report = check(plan)
     if any(kind != "swap conflict" or not draft.keeps_swaps for kind in report.counts):
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
-    return plan
+    outcome = _outcome(spec, draft, plan, keeps_rules=report.ok)
+    return replace(plan, run=replace(run, outcome=outcome))
 
 
-def _refuse_unknown(spec: PlannerSpec, problem: Problem) -> None:
-    """Refuse sizes, turn rates, closures and barred edges to planners that do not know them."""
+def _outcome(spec: PlannerSpec, draft: Draft, plan: Plan, *, keeps_rules: bool) -> Outcome:
+    """Return what is proven of a plan: by its planner, and by the sum of the robots alone."""
+    alone = plan.lower_bound
+    proof = draft.proof or Proof(bound=alone)
+    if proof.objective is not Objective.MAKESPAN:
+        proof = replace(proof, bound=max(proof.bound, alone))
+    cost = proof.objective.of(plan.scenario, plan.tracks)
+    if not keeps_rules:  # its swaps may save time, so it proves nothing
+        return Outcome(kind=OutcomeKind.BEST_FOUND, objective=proof.objective, bound=proof.bound)
+    if cost < proof.bound:
+        claimed = f"claims that no {proof.objective} is below {proof.bound} ticks"
+        raise InvalidPlan(f"{spec.name} {claimed}, but its plan has {cost}")
+    return outcome_of_cost(cost, proof)
 
-    def remedy(is_able: Callable[[PlannerSpec], bool]) -> str:
-        return f"choose {' or '.join(one.name for one in registered().values() if is_able(one))}"
 
-    what = f"planner {spec.name}"
-    if problem.resources is not None and not spec.knows_sizes:
-        choose = remedy(lambda one: one.knows_sizes)
-        if spec.leaves_swaps:
-            why = "it leaves swaps, and robots with a size collide in them"
-            raise InputError.at("", f"{what} is for points: {why} ({choose})")
-        refuse_sizes(problem.resources, what, choose)
-    if not spec.knows_turns:
-        refuse_turn_rates(problem, what, remedy(lambda one: one.knows_turns))
-    if not spec.knows_closures:
-        refuse_closures(problem, what, remedy(lambda one: one.knows_closures))
-    if problem.is_barred and not spec.knows_types:
-        choose = remedy(lambda one: one.knows_types)
-        message = f"{what} does not know edges that are barred for some robots"
-        raise InputError.at("", f"{message} ({choose})")
+def _written_options(task: Task) -> dict[str, Any]:
+    """Return the options as files keep them: an exact number as a whole number or text."""
+    return {
+        name: written(value) if isinstance(value, Fraction) else value
+        for name, value in task.options.items()
+    }
 
 
 def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
@@ -304,7 +324,11 @@ def _handing_over(
     assert task.alone is not None, "it is measured before planning"
     alone = tuple(task.alone.tolist())
     run = PlannerRun(
-        name=spec.name, options=task.options, seed=task.seed, status="so far", alone=alone
+        name=spec.name,
+        options=_written_options(task),
+        seed=task.seed,
+        status="so far",
+        alone=alone,
     )
     least: list[int] = []
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import rightofway
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Scenario, Track, stays_of
-from rightofway.planners import registered
+from rightofway.planners import Feature, registered
 from tests.builders.changes import CHANGES
 from tests.builders.laws import leave
 from tests.oracles import judge
@@ -17,7 +17,7 @@ __all__ = ["ALL", "QUICK", "STRICT", "broken", "by_both_judges", "knows", "plann
 
 SPECS = registered()
 ALL = sorted(SPECS)
-STRICT = [name for name in ALL if not SPECS[name].leaves_swaps]
+STRICT = [name for name in ALL if Feature.LEAVES_SWAPS not in SPECS[name].features]
 """Planners whose plans keep all rules; the paper's method leaves swaps."""
 
 QUICK = {
@@ -47,13 +47,14 @@ Faults = set[tuple[str, tuple[int, ...]]]
 
 def knows(planner: str, scenario: Scenario) -> bool:
     """Tell whether a fleet is within the contract of a planner; it refuses all others."""
-    spec, problem = SPECS[planner], scenario.problem
+    features, problem = SPECS[planner].features, scenario.problem
     return all(
         (
-            spec.knows_sizes or problem.resources is None,
-            spec.knows_turns or all(one.turning is None for one in problem.itineraries),
-            spec.knows_closures or not scenario.closures,
-            spec.knows_types or not problem.is_barred,
+            Feature.SIZES in features or problem.resources is None,
+            Feature.TURN_RATES in features
+            or all(one.turning is None for one in problem.itineraries),
+            Feature.CLOSURES in features or not scenario.closures,
+            Feature.BARRED_EDGES in features or not problem.is_barred,
         )
     )
 

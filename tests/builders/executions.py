@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterable
 
-from rightofway.execution import Outcome
+from rightofway.execution import SimulationResult
 from rightofway.model import NEVER, Plan, Scenario, Tick
 from rightofway.precedence import (
     ActionDependencyGraph,
@@ -101,7 +101,7 @@ def any_delays(draw: random.Random, scenario: Scenario) -> str:
     return ",".join(draw.sample(causes, draw.choice([1, 2])))
 
 
-def wrong_in(outcome: Outcome, traces: Iterable[int]) -> list[str]:
+def wrong_in(outcome: SimulationResult, traces: Iterable[int]) -> list[str]:
     """Return what must not happen in runs: collisions and deadlocks, and faults of some traces.
 
     A robot may only be stranded by one that broke down, or by a closure.

@@ -11,9 +11,9 @@ from rightofway import FleetBuilder, check, solve
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.io import dump_scenario, scenario_of
 from rightofway.model import Plan, PlannerRun, Track
-from rightofway.planners import registered
+from rightofway.planners import Feature, registered
 
-KNOW_ZONES = sorted(spec.name for spec in registered().values() if spec.knows_sizes)
+KNOW_ZONES = sorted(spec.name for spec in registered().values() if Feature.SIZES in spec.features)
 
 
 def document(zone: dict[str, Any] | None = None) -> dict[str, Any]:

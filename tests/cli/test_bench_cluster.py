@@ -35,7 +35,7 @@ def started(workers: int) -> Iterator[tuple[str, Process, list[Process]]]:
     """Start a cluster; yield its address, its scheduler and its workers; end it."""
     running = [dask(*SCHEDULER)]
     try:
-        assert soon(Path("cluster.json").exists)
+        assert soon(lambda: Path("cluster.json").exists() and Path("cluster.json").stat().st_size)
         address = json.loads(Path("cluster.json").read_text(encoding="utf-8"))["address"]
         running += [dask(*WORKER) for _ in range(workers)]
         yield address, running[0], running[1:]

@@ -102,6 +102,7 @@ def test_the_summary_for_programs_has_the_numbers_of_the_one_for_people(
     assert planner == {
         "name": "auto", "options": {"swaps": "resolve", "iterations": 0}, "seed": 0,
         "status": "two-level, waits only; 2000 neighbourhoods found nothing better",
+        "outcome": {"kind": "best found", "objective": "flowtime", "bound": metrics["lower_bound"]},
     }  # fmt: skip
     assert data["metrics"]["flowtime"] == 19
     assert (data["tick"], data["units"]) == (1, {"length": None, "time": None})

@@ -12,7 +12,7 @@ import rightofway
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import measure
 from rightofway.model import Plan, Scenario
-from rightofway.planners import registered
+from rightofway.planners import Feature, registered
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.small import SMALL, STRICT
 
@@ -66,7 +66,9 @@ def test_every_option_has_its_default_first_and_refuses_what_it_does_not_know(pl
         spec.settle(given)
 
 
-@pytest.mark.parametrize("planner", [name for name in PLANNERS if registered()[name].improves])
+@pytest.mark.parametrize(
+    "planner", [name for name in PLANNERS if Feature.IMPROVES in registered()[name].features]
+)
 @pytest.mark.parametrize("seed", range(3))
 def test_who_can_start_from_a_plan_makes_it_no_worse(planner: str, seed: int) -> None:
     first = rightofway.solve(random_fleet(seed, robots=6), "two-level")

@@ -10,7 +10,7 @@ import pytest
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.execution import Outcome, replay
+from rightofway.execution import SimulationResult, replay
 from rightofway.model import Plan, PlannerRun, Rules, Track
 from rightofway.model.units import Clock
 from tests.builders.fleets import grid_fleet, random_fleet
@@ -105,7 +105,7 @@ def test_an_interrupt_may_keep_the_runs_that_were_made(
         if sentence.startswith("3 "):
             raise KeyboardInterrupt
 
-    def asked(*, keep_runs: bool) -> Outcome:
+    def asked(*, keep_runs: bool) -> SimulationResult:
         return rightofway.simulate(
             plan, "chance:0.1x9", 90, switch=switch, keep_runs=keep_runs, report=interrupt
         )

@@ -8,6 +8,7 @@ import pytest
 
 import rightofway
 from rightofway.errors import InputError
+from rightofway.io import scenario_of
 from rightofway.io.robot_table import heading_key
 from tests.builders.broken_files import limited
 
@@ -73,3 +74,14 @@ def test_a_long_heading_of_brackets_is_read_soon() -> None:
     """A search that began again at each bracket would take a minute of the processor."""
     with limited(5):
         assert heading_key("[" * 300_000 + " work [s]") == "[" * 300_000 + "_work"
+
+
+def test_a_table_without_a_line_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "fleet.csv").write_bytes(b"")
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"grid": ["..."]},
+        "robots": {"table": "fleet.csv"},
+    }
+    with pytest.raises(InputError):
+        scenario_of(document, tmp_path)

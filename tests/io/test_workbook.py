@@ -17,7 +17,9 @@ from openpyxl.styles import PatternFill  # type: ignore[import-untyped]
 import rightofway
 from rightofway.errors import InputError
 from rightofway.io import load_with_notes, scenario_of, write_scenario
+from rightofway.io.faults import Faults
 from rightofway.io.workbook import workbook_of, write_template
+from rightofway.io.workbook.sheets import read_sheets
 from rightofway.io.workbook.writer import TEMPLATE
 from rightofway.model import Rules
 
@@ -327,3 +329,19 @@ def test_a_workbook_is_no_plan(tmp_path: Path) -> None:
     write_template(tmp_path / "door.xlsx")
     with pytest.raises(InputError, match="a workbook holds a scenario, not a plan"):
         rightofway.load_plan(tmp_path / "door.xlsx")
+
+
+def test_a_sheet_whose_bytes_were_changed_is_refused(tmp_path: Path) -> None:
+    """A comment behind the cells is changed; only the checksum of the sheet shows it."""
+    whole, changed = tmp_path / "whole.xlsx", tmp_path / "changed.xlsx"
+    workbook = openpyxl.Workbook()
+    workbook.active.title = "robots"
+    workbook.active["A1"] = "name"
+    workbook.save(whole)
+    with zipfile.ZipFile(whole) as old, zipfile.ZipFile(changed, "w") as new:
+        for part in old.namelist():
+            end = b"<!-- behind -->" if "worksheets" in part else b""
+            new.writestr(part, old.read(part) + end)
+    changed.write_bytes(changed.read_bytes().replace(b"<!-- behind", b"<!-- before"))
+    with pytest.raises(InputError, match="broken"):
+        read_sheets(changed, {"robots"}, Faults())

@@ -25,6 +25,9 @@ from rightofway.io import (
 )
 from rightofway.model import (
     Decision,
+    Objective,
+    Outcome,
+    OutcomeKind,
     Plan,
     PlannerRun,
     Reroute,
@@ -148,11 +151,21 @@ def plans(draw: st.DrawFn) -> Plan:
         status=draw(words),
         seconds=draw(st.one_of(st.none(), st.integers(0, 99), st.sampled_from([0.25, 1e-6]))),
         decisions=tuple(draw(st.lists(decision, max_size=2))),
+        outcome=draw(st.one_of(st.none(), OUTCOMES)),
         reroutes=tuple(draw(st.lists(st.builds(Reroute, robot=robots, because=words), max_size=2))),
     )
     track = st.lists(st.tuples(vertices, ticks), min_size=1, max_size=6)
     tracks = tuple(Track.of(*zip(*draw(track), strict=True)) for _ in scenario.robots)
     return Plan(scenario=scenario, tracks=tracks, run=run, steady=draw(repeating(tracks)))
+
+
+OUTCOMES = st.builds(
+    Outcome,
+    kind=st.sampled_from(OutcomeKind),
+    objective=st.sampled_from(Objective),
+    bound=st.one_of(st.none(), st.integers(0, 10**6)),
+    factor=st.one_of(st.none(), st.fractions(1, 9, max_denominator=99)),
+)
 
 
 @st.composite

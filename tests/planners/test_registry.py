@@ -6,13 +6,24 @@ import os
 import subprocess
 import sys
 from dataclasses import FrozenInstanceError, dataclass
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.planners import Least, Option, PlannerOptions, PlannerSpec, registered
+from rightofway.planners import (
+    Feature,
+    Least,
+    Most,
+    Option,
+    PlannerOptions,
+    PlannerSpec,
+    find,
+    registered,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +74,40 @@ def test_a_count_is_a_whole_number_however_it_is_written(given: object) -> None:
 def test_a_count_refuses_what_is_none_or_too_small(given: object) -> None:
     with pytest.raises(InputError, match=r"option rounds: '.*' is not a whole number of 1 or more"):
         NUMBER.read(given)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExactOptions(PlannerOptions):
+    """Options of a planner of another package that takes exact numbers."""
+
+    factor: Annotated[Fraction, Least(1), Most(2), "How much worse a plan may be."] = Fraction(6, 5)
+
+
+(FACTOR,) = ExactOptions.described()
+
+
+@pytest.mark.parametrize("given", [1.05, "1.05", Decimal("1.05"), Fraction(21, 20), "21/20"])
+def test_an_exact_number_is_kept_however_it_is_written(given: Any) -> None:
+    """A float is the shortest decimal that stands for it: 1.05 is 21/20."""
+    assert ExactOptions(factor=given).as_dict() == {"factor": Fraction(21, 20)}
+
+
+@pytest.mark.parametrize("given", ["0.99", "201/100", "many", True, float("nan"), "1/0", None])
+def test_an_exact_number_refuses_what_is_none_or_out_of_its_limits(given: object) -> None:
+    message = r"option factor: '.*' is not a number from 1 to 2 \(for example 6/5\)"
+    with pytest.raises(InputError, match=message):
+        FACTOR.read(given)
+
+
+def test_an_exact_option_is_described_by_its_limits() -> None:
+    assert (FACTOR.least, FACTOR.most, FACTOR.is_whole, FACTOR.accepts) == (1, 2, False, "6/5")
+    assert FACTOR.numbers == "number from 1 to 2"
+
+
+def test_features_are_named_by_words() -> None:
+    assert sorted(find("paper").features) == ["barred edges", "leaves swaps"]
+    able = [name for name, spec in registered().items() if Feature.IMPROVES in spec.features]
+    assert able[:3] == ["auto", "local-search", "lns"]
 
 
 @pytest.mark.parametrize("planner", sorted(registered()))

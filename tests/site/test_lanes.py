@@ -14,7 +14,7 @@ from rightofway import FleetBuilder
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, scenario_of
 from rightofway.model import Scenario
-from rightofway.planners import registered
+from rightofway.planners import Feature, registered
 from rightofway.site import Edge
 from rightofway.site.spacing import SplitLanes, split_lanes
 
@@ -41,7 +41,9 @@ def test_no_robot_is_faster_than_the_limit_of_an_edge_and_none_is_slower_for_it(
 @pytest.mark.parametrize("planner", sorted(registered()))
 def test_every_planner_keeps_speed_limits(planner: str) -> None:
     plan = rightofway.solve(limited(), planner, time_limit=2)
-    may_swap = {"swap conflict"} if registered()[planner].leaves_swaps else set()
+    may_swap = (
+        {"swap conflict"} if Feature.LEAVES_SWAPS in registered()[planner].features else set()
+    )
     assert set(rightofway.check(plan).counts) <= may_swap
     assert plan.flowtime >= plan.lower_bound
 

@@ -66,6 +66,7 @@ COLUMNS = (
     Column("python", "text", "its version"),
     Column("figures", "text", "further figures, as JSON; see below"),
 )
+"""The columns of the results, in the order of the file."""
 
 HEADER = [column.name for column in COLUMNS]
 

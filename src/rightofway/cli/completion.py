@@ -14,7 +14,7 @@ from typing import Any
 import click
 from click.shell_completion import BashComplete, CompletionItem, add_completion_class
 
-from rightofway.planners import PlannerSpec, registered
+from rightofway.planners import Feature, PlannerSpec, registered
 
 Completer = Callable[[click.Context, click.Parameter, str], "list[CompletionItem[str]]"]
 
@@ -68,7 +68,8 @@ def planners(*, improving: bool) -> Completer:
         return [
             CompletionItem(spec.name, help=spec.summary)
             for spec in registered().values()
-            if spec.name.startswith(incomplete) and spec.improves >= improving
+            if spec.name.startswith(incomplete)
+            and (not improving or Feature.IMPROVES in spec.features)
         ]
 
     return complete

@@ -32,7 +32,7 @@ from rightofway.cli.terminal import (
     width,
 )
 from rightofway.errors import NoPlanExists
-from rightofway.planners import DEFAULT, IMPROVER, PlannerSpec, find, registered
+from rightofway.planners import DEFAULT, IMPROVER, Feature, PlannerSpec, find, registered
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -71,7 +71,9 @@ def _list_all(formatter: click.HelpFormatter) -> None:
 
 
 def _list_improvers(formatter: click.HelpFormatter) -> None:
-    _list_planners((spec for spec in registered().values() if spec.improves), formatter)
+    _list_planners(
+        (spec for spec in registered().values() if Feature.IMPROVES in spec.features), formatter
+    )
 
 
 def _options(
@@ -254,7 +256,9 @@ def _run(
     if output != "-":
         quantities = quantities_of(found.scenario, in_ticks=in_ticks)
         _report(found, quantities, log=log, table=table, as_json=as_json)
-    may_hold_swaps = find(planner).leaves_swaps or found.run.options.get("swaps") == "leave"
+    may_hold_swaps = (
+        Feature.LEAVES_SWAPS in find(planner).features or found.run.options.get("swaps") == "leave"
+    )
     if not may_hold_swaps:
         return 0
     from rightofway.check import check
@@ -274,7 +278,9 @@ def no_plan_shown(problem: Any, page: str | None, title: str, *, as_json: bool) 
         yield
     except NoPlanExists as error:
         if as_json:
-            put_json({"no_plan": error.as_dict()})
+            from rightofway.report.plan_data import no_plan_data
+
+            put_json({"no_plan": error.as_dict(), "outcome": no_plan_data(error)})
         if page:
             from rightofway.planners.impossible import fleet_at_home
             from rightofway.viz import write_page

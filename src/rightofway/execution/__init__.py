@@ -5,10 +5,10 @@ from rightofway.execution.simulation import replay, simulate
 from rightofway.execution.statistics import (
     Collisions,
     Lateness,
-    Outcome,
     PolicyGain,
     Quantiles,
     RobotLateness,
+    SimulationResult,
     Source,
 )
 
@@ -19,10 +19,10 @@ __all__ = [
     "Collisions",
     "Delay",
     "Lateness",
-    "Outcome",
     "PolicyGain",
     "Quantiles",
     "RobotLateness",
+    "SimulationResult",
     "Source",
     "delay_model_of",
     "read_delays",

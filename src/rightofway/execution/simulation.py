@@ -13,7 +13,13 @@ from rightofway.check import check
 from rightofway.errors import InputError, kernel_limits
 from rightofway.execution.delays import DEFAULT, Delay, delay_model_of, read_delays
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
-from rightofway.execution.statistics import Collisions, Lateness, Outcome, PolicyGain, joined
+from rightofway.execution.statistics import (
+    Collisions,
+    Lateness,
+    PolicyGain,
+    SimulationResult,
+    joined,
+)
 from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
 from rightofway.model.given import checked_number, checked_seed, checked_truths
 from rightofway.model.problem import refuse_closures
@@ -40,7 +46,7 @@ def simulate(
     time_limit: float | None = None,
     keep_runs: bool = False,
     report: Callable[[str], None] = lambda _: None,
-) -> Outcome:
+) -> SimulationResult:
     """Execute a plan many times with delays: by right of way, and by the clock for comparison.
 
     Parameters
@@ -69,7 +75,7 @@ def simulate(
 
     Returns
     -------
-    Outcome
+    SimulationResult
         Collisions, deadlocks, lateness and its sources, single runs.
 
     Raises
@@ -120,7 +126,7 @@ def simulate(
     cut_off = sum(each.cut_off for each in made)
     is_broken, unfinished = every.is_broken.astype(bool), every.completion == NEVER
     stuck = np.isin(np.arange(len(plan.tracks)), adg.deadlocked())
-    return Outcome(
+    return SimulationResult(
         plan=plan,
         runs=len(every.completion),
         seed=seed,

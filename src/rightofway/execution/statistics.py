@@ -225,7 +225,7 @@ def joined(batches: Sequence[RunBatch]) -> RunBatch:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Outcome:
+class SimulationResult:
     """Result of executing a plan many times.
 
     Attributes

@@ -215,7 +215,7 @@ def robots_of_csv(path: Path, known: Iterable[str]) -> Located:
     """
     with blaming(str(path)):
         lines = read_text(path).splitlines()
-        delimiter = max(",;\t", key=lines[0].count)
+        delimiter = max(",;\t", key=lines[0].count) if lines else ","
         try:
             rows = list(csv.reader(lines, delimiter=delimiter, strict=True))
         except csv.Error as error:

@@ -315,9 +315,9 @@ def check_depth(data: Any) -> None:
     raise _too_deep()
 
 
-def _too_deep() -> InputError:
+def _too_deep(line: int | None = None) -> InputError:
     message = f"values are nested more than {MAX_DEPTH} deep (a document needs no such depth)"
-    return InputError.at("", message)
+    return InputError([InputFault("", message, line)])
 
 
 def parse_toml(text: str) -> dict[str, Any]:
@@ -356,6 +356,8 @@ def parse_yaml(text: str, *, number_keys: bool = False) -> Any:
         if mark and rest and rest[0][mark.column : mark.column + 1] == "\t":
             message = "a tab stands where YAML wants spaces (use spaces)"
             raise _fault(line, message) from None
+        if "nesting" in (error.problem or ""):  # libyaml from 0.2.6 looks ahead, and counts first
+            raise _too_deep(line) from None
         raise _fault(line, f"{error.problem} (check the YAML there)") from None
     except (yaml.YAMLError, ValueError, OverflowError) as error:
         reason = getattr(error, "reason", None) or "characters that no YAML file may hold"
@@ -413,8 +415,7 @@ class _Builder:
 
     def _begin(self, opened: _Open, line: int) -> None:
         if len(self.open) == MAX_DEPTH:
-            message = f"values are nested more than {MAX_DEPTH} deep"
-            raise _fault(line, f"{message} (a document needs no such depth)")
+            raise _too_deep(line)
         if opened.anchor is not None:
             self.anchored.pop(opened.anchor, None)
         self.open.append(opened)

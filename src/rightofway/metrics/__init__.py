@@ -18,6 +18,7 @@ from rightofway.metrics.events import Event, event_columns, events
 from rightofway.metrics.inspection import inspect
 from rightofway.metrics.lost_time import joined_waits, lost_time
 from rightofway.metrics.measure import Metrics, measure
+from rightofway.metrics.outcome import outcome_of
 from rightofway.metrics.site import HEADINGS, Finding, Inspection, Site, sentences
 from rightofway.metrics.waits import waits
 
@@ -48,6 +49,7 @@ __all__ = [
     "measure",
     "named_collisions",
     "near_misses",
+    "outcome_of",
     "sentences",
     "swaps",
     "waits",

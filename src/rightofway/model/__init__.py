@@ -3,6 +3,7 @@
 from rightofway.model.closures import Closure, Closures
 from rightofway.model.lap import Lap, lap_of, stages_at_home, visits_of_laps
 from rightofway.model.lost_time import Loss, LostTime
+from rightofway.model.outcome import Objective, Outcome, OutcomeKind, Proof
 from rightofway.model.plan import (
     Decision,
     Improvement,
@@ -44,10 +45,14 @@ __all__ = [
     "Lap",
     "Loss",
     "LostTime",
+    "Objective",
     "Occupancy",
+    "Outcome",
+    "OutcomeKind",
     "Plan",
     "PlannerRun",
     "Problem",
+    "Proof",
     "Reroute",
     "Resources",
     "Robot",

@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeVar
 from rightofway.errors import InputError, nearest, shown
 from rightofway.model.above import from_above
 from rightofway.model.lost_time import LostTime
+from rightofway.model.outcome import Outcome
 from rightofway.model.robot import Robot
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
@@ -147,6 +148,8 @@ class PlannerRun:
     alone
         The least completion of each robot without the others [ticks], or None where planning did
         not compute it. Files do not keep it.
+    outcome
+        What is proven of the plan, or None where its maker does not say.
     """
 
     name: str = "unknown"
@@ -160,6 +163,7 @@ class PlannerRun:
     improvement: Improvement | None = field(default=None, compare=False)
     start: StartPlan | None = None
     alone: tuple[Tick, ...] | None = field(default=None, repr=False, compare=False)
+    outcome: Outcome | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -313,6 +317,8 @@ class Plan:
     @property
     def lower_bound(self) -> Tick:
         """The sum of the completion times of robots that are alone: no plan is below it [ticks].
+
+        A planner may have proven a larger bound: ``plan.run.outcome.bound``.
 
         Raises
         ------

@@ -377,7 +377,8 @@ def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
     zone
         A zone of the roadmap.
     """
-    numbers = [roadmap.edge(*ends) for ends in zone.edges if not {*zone.vertices} & {*ends}]
+    inside = {*zone.vertices}
+    numbers = [roadmap.edge(*ends) for ends in zone.edges if inside.isdisjoint(ends)]
     return [*zone.vertices, *(roadmap.n_vertices + edge for edge in numbers if edge is not None)]
 
 

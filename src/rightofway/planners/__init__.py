@@ -1,12 +1,14 @@
 """Ways to choose routes and right of way; each planner is one module and one registry line."""
 
 from rightofway.model.deadline import Deadline
+from rightofway.planners.features import ANY_FLEET, Feature
 from rightofway.planners.options import (
     AutoOptions,
     LacamOptions,
     Least,
     LnsOptions,
     LocalSearchOptions,
+    Most,
     Option,
     PlannerOptions,
     PrioritizedOptions,
@@ -25,15 +27,18 @@ from rightofway.planners.task import (
 )
 
 __all__ = [
+    "ANY_FLEET",
     "DEFAULT",
     "IMPROVER",
     "AutoOptions",
     "Deadline",
     "Draft",
+    "Feature",
     "LacamOptions",
     "Least",
     "LnsOptions",
     "LocalSearchOptions",
+    "Most",
     "Option",
     "Planner",
     "PlannerOptions",

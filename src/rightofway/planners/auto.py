@@ -13,8 +13,7 @@ from dataclasses import replace
 
 from rightofway.errors import GaveUp, InputError
 from rightofway.model import cost_of
-from rightofway.model.problem import refuse_closures, refuse_turn_rates
-from rightofway.model.resources import refuse_sizes
+from rightofway.planners.features import refuse_with_swaps_left
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Draft, Task
@@ -36,9 +35,7 @@ def auto(task: Task) -> Draft:
         if task.start is not None:
             message = "leave cannot start from a plan (choose swaps=resolve)"
             raise InputError.at("option swaps", message)
-        refuse_sizes(task.scenario.problem.resources, "swaps=leave", "choose swaps=resolve")
-        refuse_closures(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
-        refuse_turn_rates(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
+        refuse_with_swaps_left(task.scenario.problem)
         return paper(task)
     explained = None
     if len(task.scenario.robots) <= FEW:
@@ -61,7 +58,9 @@ def auto(task: Task) -> Draft:
     before, after = (cost_of(task.scenario, one.tracks) for one in (explained, better))
     if after < before:
         return better
-    return replace(explained, status=better.status, improvement=better.improvement)
+    return replace(
+        explained, status=better.status, improvement=better.improvement, proof=better.proof
+    )
 
 
 def _is_preferred(task: Task, explained: Draft) -> bool:

@@ -18,7 +18,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists, listed
-from rightofway.model import Plan, PlannerRun, Scenario, Tick, Track
+from rightofway.model import Outcome, OutcomeKind, Plan, PlannerRun, Scenario, Tick, Track
 from rightofway.model.closures import Closure
 from rightofway.model.deadline import Deadline
 from rightofway.model.place_names import PlaceNames
@@ -288,6 +288,7 @@ def fleet_at_home(scenario: Scenario) -> Plan:
         run=PlannerRun(
             name="none",
             status="no plan exists",
+            outcome=Outcome(kind=OutcomeKind.NO_PLAN_EXISTS),
             alone=tuple(Tick(max(ticks, 0)) for ticks in alone.tolist()),
         ),
     )

@@ -22,6 +22,7 @@ from functools import partial
 
 from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick, Track, cost_of
+from rightofway.model.outcome import minimized
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.moves import plan_few
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
@@ -92,7 +93,8 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
     if not plans:
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
     best = min(plans, key=lambda plan: cost_of(task.scenario, plan.tracks))
-    return _improve(task, search, best)
+    proof = next((plan.proof for plan in plans if plan.proof is not None), None)
+    return _improve(task, search, replace(best, proof=proof))
 
 
 def _if_found(task: Task, search: FleetSearch, *, needed: bool) -> Draft | None:
@@ -165,8 +167,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
                 task.better(search.tracks)
             reached = task.scenario.quantities.duration(search.cost)
             gap = f", {search.cost / bound - 1:.1%} above the bound" if bound else ""
-            what = "flowtime and surcharges" if task.scenario.roadmap.surcharges else "flowtime"
-            task.report(f"{what} {reached}{gap}, {rate:.0f} attempts per s")
+            task.report(f"{minimized(task.scenario)} {reached}{gap}, {rate:.0f} attempts per s")
             if search.idle >= patience or deadline.seconds_left() == 0:
                 break
     except KeyboardInterrupt:
@@ -186,7 +187,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         found = first.tracks  # the headway of planning costs more than the search gained
     saved = measured(first.tracks) - measured(found)
     made = Improvement(saved=Tick(saved), tries=done, interrupted=bool(ended))
-    return Draft(tracks=found, status=status, improvement=made)
+    return Draft(tracks=found, status=status, improvement=made, proof=first.proof)
 
 
 def _found(

@@ -30,7 +30,7 @@ from itertools import count, product
 from typing import NamedTuple
 
 from rightofway.errors import Blockage, GaveUp, NoPlanExists, listed
-from rightofway.model import NEVER, Tick, Track, least_dwell
+from rightofway.model import NEVER, Proof, Tick, Track, flowtime_of, least_dwell
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.search import Distances, FleetSearch
 from rightofway.site import VertexId
@@ -208,7 +208,9 @@ def _draft_of(task: Task, search: FleetSearch, floor: _Floor, timed: _Timed) -> 
     else:
         search.start(_at_times(floor, timed))
     task.has_plan()
-    return Draft(tracks=search.tracks(), status="best order of moves")
+    tracks = search.tracks()
+    proof = Proof(bound=flowtime_of(task.scenario, tracks)) if floor.is_proof else None
+    return Draft(tracks=tracks, status="best order of moves", proof=proof)
 
 
 def _moves(task: Task, floor: _Floor, most_states: int) -> list[_Move]:

@@ -8,14 +8,19 @@ of values are made from that.
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, fields
+from fractions import Fraction
 from typing import Annotated, Any, Literal, Self, get_args, get_origin, get_type_hints
 
 from rightofway.errors import InputError, nearest
+from rightofway.values import exact
+
+Value = str | int | Fraction
+"""The value of an option."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Option:
-    """An option of a planner: one of several words, or a whole number.
+    """An option of a planner: one of several words, a whole number, or any exact number.
 
     Attributes
     ----------
@@ -27,28 +32,43 @@ class Option:
         What it does, in a sentence.
     choices
         The words, the default first; empty for a number.
-    least
-        The least number.
+    least, most
+        The least number, and the largest one, None where there is none.
+    is_whole
+        Whether a number has to be whole; else it may be any exact number, like ``1.05`` or ``1/3``.
     """
 
     name: str
-    default: str | int
+    default: Value
     summary: str
     choices: tuple[str, ...] = ()
-    least: int = 0
+    least: int | Fraction = 0
+    most: int | Fraction | None = None
+    is_whole: bool = True
 
     @property
     def accepts(self) -> str:
         """The words, or an example of a number, as help texts show them."""
         return "|".join(self.choices) or str(self.default)
 
-    def read(self, given: object) -> str | int:
+    @property
+    def numbers(self) -> str:
+        """Which numbers it may be, as messages and tables show them."""
+        kind = "whole number" if self.is_whole else "number"
+        if self.most is None:
+            return f"{kind} of {self.least} or more"
+        return f"{kind} from {self.least} to {self.most}"
+
+    def read(self, given: object) -> Value:
         """Return the value for what was given, a number also for its text.
+
+        An exact number is kept as it is written, a float as the shortest decimal that stands for
+        it: ``1.05`` is 21/20.
 
         Raises
         ------
         InputError
-            If it is none of the words, no whole number, or too small.
+            If it is none of the words, no such number, too small or too large.
         """
         text = str(given)
         if self.choices:
@@ -56,17 +76,35 @@ class Option:
                 return text
             remedy = f"is not a choice (give one of: {', '.join(self.choices)})"
         else:
-            if text.isascii() and text.isdecimal() and int(text) >= self.least:
-                return int(text)
-            remedy = f"is not a whole number of {self.least} or more (for example {self.default})"
+            number = self._number(given)
+            if number is not None and self.least <= number <= (self.most or number):
+                return number
+            remedy = f"is not a {self.numbers} (for example {self.default})"
         raise InputError.at(f"option {self.name}", f"{text!r} {remedy}")
+
+    def _number(self, given: object) -> int | Fraction | None:
+        """Return the number that was given; None if it is none, or not whole where it has to be."""
+        text = str(given)
+        if self.is_whole:
+            return int(text) if text.isascii() and text.isdecimal() else None
+        try:
+            return exact(given)
+        except ValueError:
+            return None
 
 
 @dataclass(frozen=True, slots=True)
 class Least:
-    """The least value of a count."""
+    """The least value of a number."""
 
-    value: int
+    value: int | Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Most:
+    """The largest value of a number."""
+
+    value: int | Fraction
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,14 +118,15 @@ class PlannerOptions:
 
     Examples
     --------
-    A count and a choice, for a planner of your own:
+    A count, an exact number and a choice, for a planner of your own:
 
     >>> @dataclass(frozen=True, slots=True, kw_only=True)
     ... class MyOptions(PlannerOptions):
     ...     rounds: Annotated[int, Least(1), "How many rounds."] = 5
+    ...     share: Annotated[Fraction, Most(1), "The part of the robots."] = Fraction(1, 2)
     ...     order: Annotated[Literal["file", "random"], "Which robot is planned first."] = "file"
-    >>> MyOptions(rounds="7")
-    MyOptions(rounds=7, order='file')
+    >>> MyOptions(rounds="7", share=0.1)
+    MyOptions(rounds=7, share=Fraction(1, 10), order='file')
     """
 
     def __new__(cls, **given: object) -> Self:
@@ -118,12 +157,14 @@ class PlannerOptions:
                     summary=summary,
                     choices=tuple(sorted(words, key=lambda word: word != default)),
                     least=next((note.value for note in notes if isinstance(note, Least)), 0),
+                    most=next((note.value for note in notes if isinstance(note, Most)), None),
+                    is_whole=kind is not Fraction,
                 )
             )
         return tuple(described)
 
-    def as_dict(self) -> dict[str, str | int]:
-        """Return every option by name, as files keep them."""
+    def as_dict(self) -> dict[str, Value]:
+        """Return every option by name."""
         return asdict(self)
 
 

@@ -11,7 +11,8 @@ from typing import Any, cast
 
 from rightofway.errors import InputError
 from rightofway.planners import options
-from rightofway.planners.options import Option, PlannerOptions
+from rightofway.planners.features import ANY_FLEET, Feature
+from rightofway.planners.options import Option, PlannerOptions, Value
 from rightofway.planners.task import Planner
 
 
@@ -29,30 +30,15 @@ class PlannerSpec:
         What it does, in a sentence.
     options_type
         Its options.
-    improves
-        Whether it can start from a plan and make it better, also from one of another scenario.
-    leaves_swaps
-        Whether its plans may hold swaps; all other plans keep all rules.
-    knows_sizes
-        Whether it plans robots that have a size.
-    knows_closures
-        Whether it keeps clear of closures.
-    knows_types
-        Whether it keeps robots off edges that are barred for their type.
-    knows_turns
-        Whether it plans robots that need time to turn on the spot.
+    features
+        What it can do: whether it starts from a plan, and which scenarios it knows.
     """
 
     name: str
     target: str
     summary: str
     options_type: type[PlannerOptions] = PlannerOptions
-    improves: bool = False
-    leaves_swaps: bool = False
-    knows_sizes: bool = False
-    knows_closures: bool = False
-    knows_types: bool = False
-    knows_turns: bool = False
+    features: frozenset[Feature] = frozenset()
 
     @property
     def options(self) -> tuple[Option, ...]:
@@ -64,7 +50,7 @@ class PlannerSpec:
         module, function = self.target.split(":")
         return cast("Planner", getattr(import_module(module), function))
 
-    def settle(self, given: PlannerOptions | Mapping[str, Any]) -> dict[str, str | int]:
+    def settle(self, given: PlannerOptions | Mapping[str, Any]) -> dict[str, Value]:
         """Return a value for every option: the given ones, and defaults for the rest.
 
         Raises
@@ -92,98 +78,69 @@ PLANNERS = (
         "rightofway.planners.auto:auto",
         "The default: a first plan early, then better plans until time is up.",
         options.AutoOptions,
-        improves=True,
-        knows_sizes=True,
-        knows_closures=True,
-        knows_types=True,
-        knows_turns=True,
+        features=ANY_FLEET | {Feature.IMPROVES},
     ),
     PlannerSpec(
         "two-level",
         "rightofway.planners.two_level:two_level",
         "The paper's method, swaps resolved: by collisions left, then by completion times.",
         options.TwoLevelOptions,
-        knows_sizes=True,
-        knows_closures=True,
-        knows_types=True,
-        knows_turns=True,
+        features=ANY_FLEET,
     ),
     PlannerSpec(
         "paper",
         "rightofway.planners.two_level:paper",
         "The paper's method as published: swaps remain, and the exit code is 1 if there are any.",
-        leaves_swaps=True,
-        knows_types=True,
+        features=frozenset({Feature.LEAVES_SWAPS, Feature.BARRED_EDGES}),
     ),
     PlannerSpec(
         "lacam",
         "rightofway.planners.lacam:lacam",
         "Moves all robots together, step by step: a plan at once, also where there is hardly room.",
         options.LacamOptions,
-        knows_turns=True,
-        knows_sizes=True,
+        features=frozenset({Feature.SIZES, Feature.TURN_RATES}),
     ),
     PlannerSpec(
         "local-search",
         "rightofway.planners.local_search:local_search",
         "Two-level, then changes of rights of way on critical paths until no change improves.",
         options.LocalSearchOptions,
-        improves=True,
-        knows_sizes=True,
-        knows_closures=True,
-        knows_types=True,
-        knows_turns=True,
+        features=ANY_FLEET | {Feature.IMPROVES},
     ),
     PlannerSpec(
         "fixed-priority",
         "rightofway.planners.priorities:fixed_priority",
         "Right of way in the order of the scenario: the first robot goes first.",
         options.PriorityOptions,
-        knows_sizes=True,
-        knows_closures=True,
-        knows_types=True,
-        knows_turns=True,
+        features=ANY_FLEET,
     ),
     PlannerSpec(
         "random-priority",
         "rightofway.planners.priorities:random_priority",
         "Right of way by random orders of the robots; the best plan is kept.",
         options.RandomPriorityOptions,
-        knows_sizes=True,
-        knows_closures=True,
-        knows_types=True,
-        knows_turns=True,
+        features=ANY_FLEET,
     ),
     PlannerSpec(
         "priority-search",
         "rightofway.planners.priorities:priority_search",
         "Right of way by an order of the robots that hill climbing improves.",
         options.PrioritySearchOptions,
-        knows_sizes=True,
-        knows_closures=True,
-        knows_types=True,
-        knows_turns=True,
+        features=ANY_FLEET,
     ),
     PlannerSpec(
         "prioritized",
         "rightofway.planners.prioritized:prioritized",
         "One robot after another, around the earlier ones; a robot in the way is replanned.",
         options.PrioritizedOptions,
-        knows_sizes=True,
-        knows_closures=True,
-        knows_types=True,
-        knows_turns=True,
+        features=ANY_FLEET,
     ),
     PlannerSpec(
         "lns",
         "rightofway.planners.lns:lns",
         "Large neighbourhood search: replans a few robots at a time until time is up.",
         options.LnsOptions,
-        improves=True,
-        knows_sizes=True,
-        knows_closures=True,
-        knows_types=True,
-        knows_turns=True,
+        features=ANY_FLEET | {Feature.IMPROVES},
     ),
 )
 
@@ -217,6 +174,17 @@ def _of_other_packages(_path: tuple[str, ...]) -> dict[str, PlannerSpec]:
     for point in points:
         specs.setdefault(point.name, cast("PlannerSpec", point.load()))
     return specs
+
+
+def able(feature: Feature) -> str:
+    """Return the names of all planners that have a feature, joined by "or".
+
+    Parameters
+    ----------
+    feature
+        What a planner has to be able to do.
+    """
+    return " or ".join(name for name, spec in registered().items() if feature in spec.features)
 
 
 def find(name: str) -> PlannerSpec:

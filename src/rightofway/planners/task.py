@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Decision, Improvement, Problem, Reroute, Scenario, Tick, Track
+from rightofway.model import Decision, Improvement, Problem, Proof, Reroute, Scenario, Tick, Track
 from rightofway.model.deadline import NO_DEADLINE, Deadline
 
 
@@ -70,6 +70,9 @@ class Draft:
         As in `PlannerRun`.
     keeps_swaps
         Whether the plan may hold swaps, as plans of the published method do.
+    proof
+        A lower bound that the planner has proven; None where it proves nothing beyond the sum of
+        the robots alone, which `rightofway.solve` knows.
     """
 
     tracks: tuple[Track, ...]
@@ -78,6 +81,7 @@ class Draft:
     reroutes: tuple[Reroute, ...] = ()
     improvement: Improvement | None = None
     keeps_swaps: bool = False
+    proof: Proof | None = None
 
 
 Planner = Callable[[Task], Draft]

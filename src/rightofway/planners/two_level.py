@@ -31,8 +31,6 @@ from typing import Literal
 from rightofway.errors import InputError
 from rightofway.model import Decision, Plan, Tick, Track
 from rightofway.model.deadline import Deadline
-from rightofway.model.problem import refuse_closures, refuse_turn_rates
-from rightofway.model.resources import refuse_sizes
 from rightofway.planners.conflict_resolution import (
     PartialPlan,
     Resolution,
@@ -41,6 +39,7 @@ from rightofway.planners.conflict_resolution import (
     plan_on_routes,
     rights_if_waits,
 )
+from rightofway.planners.features import refuse_with_swaps_left
 from rightofway.planners.routing import chosen_routes
 from rightofway.planners.task import Draft, Task
 from rightofway.precedence import Meeting, Segment, SegmentOfSizes
@@ -70,9 +69,7 @@ class _MovementGroup:
 def two_level(task: Task) -> Draft:
     """Plan a fleet by the method of the paper, without swaps; options: `TwoLevelOptions`."""
     if task.options.get("swaps") == "leave":
-        refuse_sizes(task.scenario.problem.resources, "swaps=leave", "choose swaps=resolve")
-        refuse_closures(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
-        refuse_turn_rates(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
+        refuse_with_swaps_left(task.scenario.problem)
         return paper(task)
     distances, routes = chosen_routes(task)
     return plan_by_rule(task, distances, routes, by_two_levels)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from rightofway.execution import Outcome, PolicyGain, Quantiles
+from rightofway.execution import PolicyGain, Quantiles, SimulationResult
 from rightofway.model.place_names import PlaceNames
 from rightofway.quantities import Quantities, decimal
 from rightofway.report.lines import COLUMNS, counted, further, row, short
@@ -20,13 +20,13 @@ LEAST_SHARE = 0.01
 """The report names a robot that causes at least this share of another one's lateness."""
 
 
-def report(outcome: Outcome, quantities: Quantities) -> str:
+def report(outcome: SimulationResult, quantities: Quantities) -> str:
     """Return how often robots collided, how late each one was, and where lateness began."""
     totals, robots = _totals(outcome, quantities), _robots(outcome, quantities)
     return "\n".join([*totals, "", *robots, *_sources(outcome, quantities)])
 
 
-def _totals(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
+def _totals(outcome: SimulationResult, quantities: Quantities) -> Iterator[str]:
     runs, late, clock, gain = outcome.runs, outcome.lateness, outcome.by_clock, outcome.gain
     collisions = _count(outcome.collisions, "collision")
     by_clock = "no run collides"
@@ -100,7 +100,7 @@ def _lateness(found: Quantiles, quantities: Quantities, later: str = "later by")
     return f"{average}; {', '.join(parts)}, at most {write(most)}"
 
 
-def _robots(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
+def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[str]:
     names = [short(robot.name) for robot in outcome.plan.scenario.robots]
     robots, cell = outcome.lateness.robots, quantities.cell
     latest = sorted(range(len(robots)), key=lambda robot: -(robots[robot].quantiles.mean or 0))
@@ -125,7 +125,7 @@ def _robots(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
         yield f"… and {counted(len(robots) - len(listed), 'more robot')} that are less late"
 
 
-def _sources(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
+def _sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[str]:
     sources = outcome.lateness.sources
     if not sources:
         return

@@ -7,11 +7,25 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 
-from rightofway.metrics import Metrics, collisions, free_running, lost_time, measure, swaps
-from rightofway.model import Loss, LostTime, Plan, stays_of
+from rightofway.metrics import (
+    Metrics,
+    collisions,
+    free_running,
+    lost_time,
+    measure,
+    outcome_of,
+    swaps,
+)
+from rightofway.model import Loss, LostTime, Objective, Plan, stays_of
 from rightofway.quantities import Quantities, decimal
 from rightofway.report.lines import COLUMNS, counted, further, row, short, wrapped
-from rightofway.report.sentences import Words, decision_in_words, reason_in_words, sentence_on
+from rightofway.report.sentences import (
+    Words,
+    decision_in_words,
+    proof_in_words,
+    reason_in_words,
+    sentence_on,
+)
 
 MAX_LINES = 10
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""
@@ -50,8 +64,11 @@ def planning(plan: Plan, quantities: Quantities) -> str:
     parts = [run.name]
     if run.seconds is not None:
         parts[0] += f", planned in {decimal(run.seconds)} s"
+    proven = proof_in_words(plan)
+    if proven:
+        parts.append(proven)
     if metrics.flowtime == metrics.lower_bound:
-        parts.append("optimal, no robot loses time")
+        pass  # nothing was to be improved
     elif run.improvement is not None:
         made, saved = run.improvement, run.improvement.saved
         found = f"saved {words.time(saved)}" if saved > 0 else "found no better plan"
@@ -69,12 +86,16 @@ def planning(plan: Plan, quantities: Quantities) -> str:
 
 
 def _flowtime(words: Words, metrics: Metrics) -> str:
-    flowtime, bound = words.time(metrics.flowtime), metrics.lower_bound
+    outcome, flowtime = outcome_of(words.plan), words.time(metrics.flowtime)
+    bound = int(metrics.lower_bound)
+    if outcome.objective is Objective.FLOWTIME and outcome.bound is not None:
+        bound = max(bound, outcome.bound)
     if metrics.flowtime == bound:
         return f"{flowtime}, the least possible"
     if not bound:
         return flowtime
-    return f"{flowtime}, {metrics.gap:.1%} above the lower bound of {words.time(bound)}"
+    gap = metrics.flowtime / bound - 1
+    return f"{flowtime}, {gap:.1%} above the lower bound of {words.time(bound)}"
 
 
 def _lost(words: Words, lost: Sequence[LostTime]) -> str:
@@ -83,8 +104,8 @@ def _lost(words: Words, lost: Sequence[LostTime]) -> str:
         "making room": sum(one.making_room for one in lost),
         "waiting": sum(one.waiting for one in lost),
     }
-    told = [f"{key} {words.time(ticks)}" for key, ticks in parts.items() if ticks]
-    return f"{words.time(sum(parts.values()))}: {', '.join(told)}" if told else "none"
+    causes = [f"{key} {words.time(ticks)}" for key, ticks in parts.items() if ticks]
+    return f"{words.time(sum(parts.values()))}: {', '.join(causes)}" if causes else "none"
 
 
 def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:

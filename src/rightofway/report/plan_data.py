@@ -5,8 +5,11 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from rightofway.metrics import lost_time, measure, waits
+from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.io.plan.writer import outcome_document
+from rightofway.metrics import lost_time, measure, outcome_of, waits
 from rightofway.model import Plan, Scenario
+from rightofway.model.outcome import outcome_of_error
 from rightofway.values import written
 
 
@@ -17,7 +20,7 @@ def measures(scenario: Scenario) -> dict[str, Any]:
 
 
 def summary_data(plan: Plan) -> dict[str, Any]:
-    """Return the same for programs, the planner as in a plan file; times in ticks."""
+    """Return the data of the report on a plan: the planner as in a plan file, times in ticks."""
     metrics, run = measure(plan), plan.run
     names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
     return {
@@ -29,6 +32,7 @@ def summary_data(plan: Plan) -> dict[str, Any]:
             "seconds": _rounded(run.seconds),
             "first_plan_seconds": _rounded(run.first_plan_seconds),
             **({} if run.start is None else {"start": asdict(run.start)}),
+            "outcome": outcome_document(outcome_of(plan)),
         },
         **measures(plan.scenario),
         "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},
@@ -48,6 +52,11 @@ def summary_data(plan: Plan) -> dict[str, Any]:
         ],
         "rerouted": [names[reroute.robot] for reroute in run.reroutes],
     }
+
+
+def no_plan_data(error: NoPlanExists | GaveUp) -> dict[str, Any]:
+    """Return the outcome of a search that found no plan."""
+    return outcome_document(outcome_of_error(error))
 
 
 def _rounded(seconds: float | None) -> float | None:

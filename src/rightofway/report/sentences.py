@@ -6,15 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from rightofway.model import Decision, Loss, Plan
+from rightofway.metrics import measure, outcome_of
+from rightofway.model import Decision, Loss, OutcomeKind, Plan
 from rightofway.model.place_names import PlaceNames
 from rightofway.quantities import Quantities
+from rightofway.values import written
 
 UNEXPLAINED = ", though no place on its way becomes free just then"
 """What a report says about a wait that no other robot is the cause of."""
 
 MAY_BE_CLOSED = ", because something on its way is closed, or to let a robot pass later"
-"""The same where something is closed for a while."""
+"""What a report says about a wait without a cause, where a place is closed for a while."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,6 +48,18 @@ class Words:
         return f"at {self.quantities.moment(tick)}"
 
 
+def proof_in_words(plan: Plan) -> str:
+    """Return what is proven of a plan, beside its lower bound; empty if that is nothing."""
+    outcome, metrics = outcome_of(plan), measure(plan)
+    if outcome.kind is OutcomeKind.OPTIMAL:
+        if metrics.flowtime == metrics.lower_bound:
+            return "optimal, no robot loses time"
+        return f"optimal, no plan has a smaller {outcome.objective}"
+    if outcome.kind is OutcomeKind.BOUNDED and outcome.factor is not None:
+        return f"at most {written(outcome.factor)} times the least {outcome.objective}"
+    return ""
+
+
 def sentence_on(words: Words, group: Sequence[Loss]) -> str:
     """Return where and why a robot loses time to another one; all losses are of that pair."""
     first, times = group[0], len(group)
@@ -53,7 +67,7 @@ def sentence_on(words: Words, group: Sequence[Loss]) -> str:
     place, freed = words.place(first.vertex), words.place(first.freed)
     total, begin = words.time(sum(loss.ticks for loss in group)), words.at(first.tick)
     if first.kind == "follows":
-        way = f"from {place} to {words.place(first.until_vertex)}"
+        way = _where(words, first, "from")
         if times > 1:
             return f"{robot} follows {other} {times} times and loses {total}, first {way} {begin}."
         return f"{robot} follows {other} {way} and loses {total}, beginning {begin}."
@@ -64,10 +78,8 @@ def sentence_on(words: Words, group: Sequence[Loss]) -> str:
         if times > 1:
             return f"{robot} makes room{reason} {times} times and loses {total}, first {away}."
         return f"{robot} makes room{reason} and loses {total}, {away}."
-    where = f"in {place}"
+    where = _where(words, first)
     unexplained = MAY_BE_CLOSED if words.plan.scenario.closures else UNEXPLAINED
-    if first.until_vertex != first.vertex:
-        where += f" to {words.place(first.until_vertex)}"
     if times > 1:
         reason = unexplained if first.for_robot is None else ""
         awaited = "" if first.for_robot is None else f" for {other}"
@@ -80,6 +92,12 @@ def sentence_on(words: Words, group: Sequence[Loss]) -> str:
     else:
         reason = f", so that {other} can leave {freed} first"
     return f"{robot} waits {total} {where} {begin}{reason}."
+
+
+def _where(words: Words, loss: Loss, preposition: str = "in") -> str:
+    """Return the place of a loss, or its first and its last place after a preposition."""
+    first, last = words.place(loss.vertex), words.place(loss.until_vertex)
+    return f"in {first}" if loss.until_vertex == loss.vertex else f"{preposition} {first} to {last}"
 
 
 def decision_in_words(words: Words, decision: Decision) -> str:

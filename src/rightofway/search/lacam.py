@@ -64,8 +64,8 @@ def plan_by_lacam(
     Notes
     -----
     Deterministic for a seed as long as there is time; not optimal. No robot could be earlier on
-    the same routes with the same order at every vertex, unless rotations are forbidden or the
-    roadmap has zones.
+    the same routes with the same order at every vertex, unless rotations are forbidden or robots
+    have a size.
     """
     native, robots = bound(problem), range(len(problem.itineraries))
     for robot in ends_anywhere:

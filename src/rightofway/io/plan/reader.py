@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -17,6 +18,9 @@ from rightofway.io.scenario.reader import (
 )
 from rightofway.model import (
     Decision,
+    Objective,
+    Outcome,
+    OutcomeKind,
     Plan,
     PlannerRun,
     Reroute,
@@ -33,6 +37,7 @@ if TYPE_CHECKING:
 
     from rightofway.io.plan.shape import (
         DecisionDocument,
+        OutcomeDocument,
         SteadyDocument,
         TrackDocument,
     )
@@ -177,6 +182,17 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
         decisions=tuple(decision for decision in decisions if decision),
         reroutes=tuple(reroutes),
         start=None if document.start is None else StartPlan(**document.start.model_dump()),
+        outcome=None if document.outcome is None else _outcome(document.outcome),
+    )
+
+
+def _outcome(document: OutcomeDocument) -> Outcome:
+    bound, factor = document.bound, document.factor
+    return Outcome(
+        kind=OutcomeKind(document.kind),
+        objective=Objective(document.objective),
+        bound=None if bound is None else Tick(bound),
+        factor=None if factor is None else Fraction(factor),
     )
 
 

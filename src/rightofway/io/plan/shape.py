@@ -50,6 +50,24 @@ class StartDocument(Document):
     tracks: int = Field(ge=0, description="how many of these have it at the same times")
 
 
+class OutcomeDocument(Document):
+    """What is proven of a plan."""
+
+    kind: Literal["optimal", "bounded", "best found", "no plan exists", "gave up"] = Field(
+        description="optimal, bounded, best found, no plan exists, or gave up"
+    )
+    objective: Literal["flowtime", "flowtime and surcharges", "makespan"] = Field(
+        default="flowtime", description="flowtime, flowtime and surcharges, or makespan"
+    )
+    bound: Ticks | None = Field(
+        default=None,
+        description="no plan has a smaller one: a whole number of ticks, or null",
+    )
+    factor: NotNegative | None = Field(
+        default=None, description="how far a bounded plan is above the least, at most; or null"
+    )
+
+
 class PlannerDocument(Document):
     """How a plan came about."""
 
@@ -62,6 +80,9 @@ class PlannerDocument(Document):
     reroutes: list[RerouteDocument] = Field(default=[], description="a list of {robot, because}")
     start: StartDocument | None = Field(
         default=None, description="{routes, tracks} kept of an old plan, or null"
+    )
+    outcome: OutcomeDocument | None = Field(
+        default=None, description="{kind, objective, bound, factor} that is proven, or null"
     )
 
 

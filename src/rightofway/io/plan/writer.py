@@ -11,7 +11,7 @@ from rightofway.files import write_whole
 from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.scenario.writer import dump_scenario
 from rightofway.io.text import json_text
-from rightofway.model import Decision, Plan, PlannerRun, Scenario, SteadyState
+from rightofway.model import Decision, Outcome, Plan, PlannerRun, Scenario, SteadyState
 from rightofway.model.given import checked_plan, checked_truths
 from rightofway.values import written
 
@@ -103,6 +103,24 @@ def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str,
             for reroute in run.reroutes
         ],
         **({} if run.start is None else {"start": asdict(run.start)}),
+        **({} if run.outcome is None else {"outcome": outcome_document(run.outcome)}),
+    }
+
+
+def outcome_document(outcome: Outcome) -> dict[str, Any]:
+    """Return an outcome as plan files and reports for programs have it.
+
+    Parameters
+    ----------
+    outcome
+        What is proven of a plan.
+    """
+    factor = outcome.factor
+    return {
+        "kind": str(outcome.kind),
+        "objective": str(outcome.objective),
+        "bound": outcome.bound,
+        **({} if factor is None else {"factor": written(factor)}),
     }
 
 

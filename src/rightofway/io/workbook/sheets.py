@@ -177,8 +177,11 @@ def _no_sheet(names: list[str], wanted: Collection[str]) -> InputError:
 
 def _merged(data: bytes, worksheet: Any) -> list[str]:
     """Return the ranges of merged cells; a streamed sheet does not tell them."""
-    with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        xml = archive.read(worksheet._worksheet_path)  # noqa: SLF001
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            xml = archive.read(worksheet._worksheet_path)  # noqa: SLF001
+    except Exception as error:  # noqa: BLE001 (openpyxl reads no further than a sheet ends)
+        raise _broken(error) from None
     return [found.decode() for found in MERGED.findall(xml)]
 
 

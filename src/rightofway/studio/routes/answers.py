@@ -382,10 +382,12 @@ class PlannerOption(TypedDict):
     """An option of a planner."""
 
     name: str
-    default: str | int | None
+    default: Exact
     summary: str
     choices: list[str]
-    least: int | None
+    least: Exact
+    most: Exact | None
+    whole: bool
 
 
 class PlannerData(TypedDict):
@@ -393,8 +395,7 @@ class PlannerData(TypedDict):
 
     name: str
     summary: str
-    improves: bool
-    knows_sizes: bool
+    features: list[str]
     options: list[PlannerOption]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 from fastapi import APIRouter
@@ -10,6 +11,7 @@ from rightofway.planners import DEFAULT, IMPROVER, registered
 from rightofway.studio.routes.models import (
     InStudio,
 )
+from rightofway.values import written
 
 router = APIRouter()
 
@@ -24,15 +26,16 @@ def list_planners() -> dict[str, Any]:
             {
                 "name": spec.name,
                 "summary": spec.summary,
-                "improves": spec.improves,
-                "knows_sizes": spec.knows_sizes,
+                "features": sorted(spec.features),
                 "options": [
                     {
                         "name": option.name,
-                        "default": option.default,
+                        "default": _plain(option.default),
                         "summary": option.summary,
                         "choices": list(option.choices),
-                        "least": option.least,
+                        "least": _plain(option.least),
+                        "most": None if option.most is None else _plain(option.most),
+                        "whole": option.is_whole,
                     }
                     for option in spec.options
                 ],
@@ -40,6 +43,11 @@ def list_planners() -> dict[str, Any]:
             for spec in registered().values()
         ],
     }
+
+
+def _plain(value: str | int | Fraction) -> str | int:
+    """Return the value of an option as JSON has it."""
+    return written(value) if isinstance(value, Fraction) else value
 
 
 @router.get("/choices", tags=["planners"])

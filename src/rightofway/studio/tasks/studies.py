@@ -26,7 +26,7 @@ from rightofway.viz.page.payload import payload_of
 
 if TYPE_CHECKING:
     from rightofway.cyclic import CyclicResult
-    from rightofway.execution import Outcome
+    from rightofway.execution import SimulationResult
 
 Result = tuple[Any, ...]
 
@@ -186,7 +186,7 @@ def replayed(
     return (None, compact_json(payload_of(plan, actual=trace)).encode())
 
 
-def spread_of(outcome: Outcome) -> dict[str, Any] | None:
+def spread_of(outcome: SimulationResult) -> dict[str, Any] | None:
     """Return how often the flowtime of a run is in each of some classes; None if none completes.
 
     Parameters
@@ -212,7 +212,7 @@ def spread_of(outcome: Outcome) -> dict[str, Any] | None:
     }
 
 
-def ranks_of(outcome: Outcome) -> dict[str, Any]:
+def ranks_of(outcome: SimulationResult) -> dict[str, Any]:
     """Return runs from the best to the worst: the rank, number and flowtime of each [ticks].
 
     Parameters

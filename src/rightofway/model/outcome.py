@@ -1,0 +1,162 @@
+"""What a planner has proven about its answer: the kind, the objective and a lower bound."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from fractions import Fraction
+
+from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.model.route import Track
+from rightofway.model.scenario import Scenario
+from rightofway.model.stays import completions_of, cost_of
+from rightofway.model.units import Tick
+
+
+class Objective(StrEnum):
+    """What a planner minimizes, or proves a bound of [ticks].
+
+    Attributes
+    ----------
+    FLOWTIME
+        The sum of the completion times.
+    COST
+        The flowtime and the surcharges of all edges driven.
+    MAKESPAN
+        The latest completion time.
+    """
+
+    FLOWTIME = "flowtime"
+    COST = "flowtime and surcharges"
+    MAKESPAN = "makespan"
+
+    def of(self, scenario: Scenario, tracks: Sequence[Track]) -> Tick:
+        """Return the value of a plan [ticks].
+
+        Parameters
+        ----------
+        scenario
+            The problem.
+        tracks
+            One track for each robot.
+        """
+        if self is Objective.COST:
+            return cost_of(scenario, tracks)
+        completions = completions_of(scenario, tracks)
+        return Tick(sum(completions)) if self is Objective.FLOWTIME else max(completions)
+
+
+def minimized(scenario: Scenario) -> Objective:
+    """Return what the planners of this package minimize for a scenario.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    """
+    return Objective.COST if scenario.roadmap.surcharges else Objective.FLOWTIME
+
+
+class OutcomeKind(StrEnum):
+    """How a search ended.
+
+    Attributes
+    ----------
+    OPTIMAL
+        No plan has a smaller objective.
+    BOUNDED
+        The plan is at most a factor above the least objective.
+    BEST_FOUND
+        The best plan that was found; how far it is from the optimum is not proven, but for the
+        lower bound.
+    NO_PLAN_EXISTS
+        It is proven that there is no plan.
+    GAVE_UP
+        No plan was found; one may exist.
+    """
+
+    OPTIMAL = "optimal"
+    BOUNDED = "bounded"
+    BEST_FOUND = "best found"
+    NO_PLAN_EXISTS = "no plan exists"
+    GAVE_UP = "gave up"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Proof:
+    """A lower bound that a planner has proven.
+
+    Attributes
+    ----------
+    bound
+        No plan has a smaller objective [ticks].
+    objective
+        What the bound is of.
+    factor
+        The factor above the least objective that the planner claims for its plan, 1 or more; None
+        where it claims none.
+    """
+
+    bound: Tick
+    objective: Objective = Objective.FLOWTIME
+    factor: Fraction | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """How a search ended, and what is proven.
+
+    Attributes
+    ----------
+    kind
+        Optimal, bounded by a factor, best found, no plan exists, or gave up.
+    objective
+        What the bound and the factor are of.
+    bound
+        No plan has a smaller objective [ticks]; None where none is known.
+    factor
+        For a bounded plan the factor above the least objective that it keeps; else None.
+    """
+
+    kind: OutcomeKind
+    objective: Objective = Objective.FLOWTIME
+    bound: Tick | None = None
+    factor: Fraction | None = None
+
+
+def outcome_of_cost(cost: Tick, proof: Proof) -> Outcome:
+    """Return the outcome of a search that found a plan.
+
+    Parameters
+    ----------
+    cost
+        The objective of the plan [ticks]; not below the bound.
+    proof
+        What is proven.
+
+    Notes
+    -----
+    The plan is optimal where the cost is the bound, and bounded where the planner claims a factor
+    and the bound proves it: cost <= factor * bound. Else it is the best plan found.
+    """
+    kind, factor = OutcomeKind.BEST_FOUND, None
+    if cost == proof.bound:
+        kind = OutcomeKind.OPTIMAL
+    elif proof.factor is not None and cost <= proof.factor * proof.bound:
+        kind, factor = OutcomeKind.BOUNDED, proof.factor
+    return Outcome(kind=kind, objective=proof.objective, bound=proof.bound, factor=factor)
+
+
+def outcome_of_error(error: NoPlanExists | GaveUp) -> Outcome:
+    """Return the outcome of a search that found no plan.
+
+    Parameters
+    ----------
+    error
+        What `rightofway.solve` raised.
+    """
+    if isinstance(error, NoPlanExists):
+        return Outcome(kind=OutcomeKind.NO_PLAN_EXISTS)
+    bound = None if error.lower_bound is None else Tick(error.lower_bound)
+    return Outcome(kind=OutcomeKind.GAVE_UP, bound=bound)

@@ -1,0 +1,97 @@
+"""What planners can do, and the refusal of scenarios that need more than a planner can."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from enum import StrEnum
+
+from rightofway.errors import InputError
+from rightofway.model import Problem
+from rightofway.model.problem import refuse_closures, refuse_turn_rates
+from rightofway.model.resources import refuse_sizes
+
+
+class Feature(StrEnum):
+    """Something that a planner can do; a planner without it is refused what needs it.
+
+    Attributes
+    ----------
+    IMPROVES
+        It can start from a plan and make it better, also from one of another scenario.
+    LEAVES_SWAPS
+        Its plans may hold swaps; all other plans keep all rules.
+    SIZES
+        It plans robots that have a size.
+    CLOSURES
+        It keeps clear of closures.
+    BARRED_EDGES
+        It keeps robots off edges that are barred for their type.
+    TURN_RATES
+        It plans robots that need time to turn on the spot.
+    """
+
+    IMPROVES = "improves"
+    LEAVES_SWAPS = "leaves swaps"
+    SIZES = "sizes"
+    CLOSURES = "closures"
+    BARRED_EDGES = "barred edges"
+    TURN_RATES = "turn rates"
+
+
+ANY_FLEET = frozenset({Feature.SIZES, Feature.CLOSURES, Feature.BARRED_EDGES, Feature.TURN_RATES})
+"""What a planner can do that plans every scenario."""
+
+
+def refuse_unknown(
+    problem: Problem,
+    features: Collection[Feature],
+    what: str,
+    remedy: Callable[[Feature], str],
+) -> None:
+    """Refuse a problem that needs a feature which is not there.
+
+    Parameters
+    ----------
+    problem
+        The problem.
+    features
+        What is there.
+    what
+        What refuses, as in "planner paper".
+    remedy
+        What to do where a feature is missing.
+
+    Raises
+    ------
+    InputError
+        For robots with a size, turn rates, closures or barred edges, with the first that is found.
+    """
+    if problem.resources is not None and Feature.SIZES not in features:
+        if Feature.LEAVES_SWAPS in features:
+            why = "it leaves swaps, and robots with a size collide in them"
+            raise InputError.at("", f"{what} is for points: {why} ({remedy(Feature.SIZES)})")
+        refuse_sizes(problem.resources, what, remedy(Feature.SIZES))
+    if Feature.TURN_RATES not in features:
+        refuse_turn_rates(problem, what, remedy(Feature.TURN_RATES))
+    if Feature.CLOSURES not in features:
+        refuse_closures(problem, what, remedy(Feature.CLOSURES))
+    if problem.is_barred and Feature.BARRED_EDGES not in features:
+        message = f"{what} does not know edges that are barred for some robots"
+        raise InputError.at("", f"{message} ({remedy(Feature.BARRED_EDGES)})")
+
+
+def refuse_with_swaps_left(problem: Problem) -> None:
+    """Refuse ``swaps=leave`` for a problem that the published method does not know.
+
+    Parameters
+    ----------
+    problem
+        The problem.
+
+    Raises
+    ------
+    InputError
+        For robots with a size, turn rates and closures.
+    """
+    known = {Feature.BARRED_EDGES}
+    refuse_unknown(problem, known, "swaps=leave", lambda _: "choose swaps=resolve")
