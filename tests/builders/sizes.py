@@ -250,7 +250,7 @@ def _both_ways(seed: int) -> Scenario:
     one_way, robots = crowded_roadmap(draw, vertices=12, edges=22), draw.randint(2, 3)
     names = [one_way.name(vertex) for vertex in range(one_way.n_vertices)]
     lanes = {
-        frozenset((tail, int(one_way.heads[edge]))): one_way.lengths[one_way.length_class[edge]]
+        frozenset((tail, int(one_way.heads[edge]))): one_way.edge_class(edge).length
         for tail in range(one_way.n_vertices)
         for edge in range(int(one_way.indptr[tail]), int(one_way.indptr[tail + 1]))
     }

@@ -26,7 +26,12 @@ def closed(seed: int) -> Scenario:
 def _closed(seed: int) -> Scenario:
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
     drawn = crowded_roadmap(draw, vertices=5, edges=6)
-    roadmap = replace(drawn, lengths=tuple(Fraction(ceil(length)) for length in drawn.lengths))
+    roadmap = replace(
+        drawn,
+        edge_classes=tuple(
+            replace(each, length=Fraction(ceil(each.length))) for each in drawn.edge_classes
+        ),
+    )
     homes, targets = (draw.sample(range(roadmap.n_vertices), 2) for _ in range(2))
     radius, occupancy = draw.choice([(0, "one"), (0, "both"), (3, None), (6, None)])
     robots = tuple(

@@ -65,7 +65,9 @@ def test_a_lane_in_pieces_shares_its_surcharge() -> None:
         "roadmap": {"vertices": {"A": [0, 0], "C": [8, 0]}, "edges": edges},
         "spacing": 2,
     }
-    assert set(scenario_of(document).roadmap.surcharges) == {Fraction(3, 4)}
+    assert {each.surcharge for each in scenario_of(document).roadmap.edge_classes} == {
+        Fraction(3, 4)
+    }
 
 
 @pytest.mark.parametrize(

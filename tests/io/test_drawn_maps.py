@@ -38,7 +38,7 @@ def edge_length(scenario: Scenario, tail: str, head: str) -> Fraction:
     roadmap = scenario.roadmap
     edge = roadmap.edge(roadmap.vertex(tail), roadmap.vertex(head))
     assert edge is not None
-    length: Fraction = roadmap.lengths[roadmap.length_class[edge]]
+    length: Fraction = roadmap.edge_class(edge).length
     return length
 
 

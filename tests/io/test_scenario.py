@@ -162,7 +162,7 @@ def test_a_roadmap_may_be_drawn() -> None:
 
     def length(tail: str, head: str) -> Fraction | None:
         edge = roadmap.edge(roadmap.vertex(tail), roadmap.vertex(head))
-        return None if edge is None else roadmap.lengths[roadmap.length_class[edge]]
+        return None if edge is None else roadmap.edge_class(edge).length
 
     assert roadmap.labels == ("dock", "shelf", "gate")
     assert roadmap.positions.tolist() == [[0, 0], [0.3, 0.4], [1, 0.5]]

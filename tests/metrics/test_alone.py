@@ -184,4 +184,4 @@ def test_the_bound_of_a_robot_alone_is_what_it_reaches_alone(scenario: Scenario)
         assert track is not None
         work = route_of(scenario.roadmap, scenario.problem.itineraries[robot], track).dwell[-1]
         completion = int(track.enter[-1]) + work
-        assert completion >= least if any(scenario.roadmap.surcharges) else completion == least
+        assert completion >= least if scenario.roadmap.has_surcharges else completion == least

@@ -142,7 +142,8 @@ def test_clearance_without_sizes_is_refused() -> None:
 
 def test_an_edge_shorter_than_straight_is_refused() -> None:
     scenario = crossing()
-    roadmap = replace(scenario.roadmap, lengths=(Fraction("3.9"),))
+    short = replace(scenario.roadmap.edge_classes[0], length=Fraction("3.9"))
+    roadmap = replace(scenario.roadmap, edge_classes=(short,))
     with pytest.raises(InputError, match=r"edge from A to B is 3.9 long, but its ends are 4 apart"):
         replace(scenario, roadmap=roadmap)
 

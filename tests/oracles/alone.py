@@ -118,7 +118,7 @@ def _dijkstra(
         missing.discard(vertex)
         edges = slice(roadmap.indptr[vertex], roadmap.indptr[vertex + 1])
         for head, length in zip(
-            roadmap.heads[edges].tolist(), roadmap.length_class[edges].tolist(), strict=True
+            roadmap.heads[edges].tolist(), roadmap.class_of_edge[edges].tolist(), strict=True
         ):
             if head not in settled and pace[length] > 0:
                 heappush(heap, (Tick(ticks + pace[length]), head))
@@ -132,7 +132,7 @@ class _Turns:
         self.heads: list[int] = roadmap.heads.tolist()
         self.longest = int(turning.ticks.max(initial=0))
         self._first: list[int] = roadmap.indptr.tolist()
-        self._drive = [pace[each] for each in roadmap.length_class.tolist()]
+        self._drive = [pace[each] for each in roadmap.class_of_edge.tolist()]
         self._offset: list[int] = turning.angles.offset.tolist()
         self._turn: list[int] = turning.ticks[turning.angles.kind].tolist()
         self._cells = None

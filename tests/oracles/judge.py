@@ -66,7 +66,7 @@ class Site:
         self.headway = ceil(self.rules.headway / self.tick)
         self.squares: dict[tuple[Shape, Shape], Fraction] = {}
         self.edges = {
-            (tail, int(self.roadmap.heads[edge])): int(self.roadmap.length_class[edge])
+            (tail, int(self.roadmap.heads[edge])): self.roadmap.edge_class(edge)
             for tail in range(self.roadmap.n_vertices)
             for edge in range(int(self.roadmap.indptr[tail]), int(self.roadmap.indptr[tail + 1]))
         }
@@ -76,13 +76,13 @@ class Site:
         kind = self.edges.get((edge[0], edge[-1]))
         if kind is None or len(edge) == 1:
             return None
-        barred = [self.roadmap.barred[kind]] if self.roadmap.barred else []
+        barred: list[Collection[str]] = [kind.barred]
         barred += [self.roadmap.barred_vertices.get(vertex, ()) for vertex in edge]  # type: ignore[call-overload]
         if any(robot.type in types for types in barred):
             return None
-        limit = self.roadmap.speed_limits[kind] if self.roadmap.speed_limits else None
+        limit = kind.max_speed
         speed = robot.speed if limit is None else min(robot.speed, limit)
-        return ceil(self.roadmap.lengths[kind] / speed / self.tick)
+        return ceil(kind.length / speed / self.tick)
 
     def turn(self, robot: Robot, before: int, here: int, after: int) -> int:
         """Return how long a robot turns at a vertex from one edge to the next [ticks]."""

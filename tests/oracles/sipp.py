@@ -122,7 +122,7 @@ class _Ticks:
     def _drive(self, state: _State, tick: int) -> Iterator[tuple[int, _State, int]]:
         for edge in range(self.roadmap.indptr[state.vertex], self.roadmap.indptr[state.vertex + 1]):
             head = int(self.roadmap.heads[edge])
-            length_class = self.roadmap.length_class[edge]
+            length_class = self.roadmap.class_of_edge[edge]
             ticks = self.itinerary.edge_ticks[length_class]
             turned = self.turn(state.before, state.vertex, head) if self.turn else 0
             enter, approach = tick + turned + ticks, ticks if self.books_ahead else 0

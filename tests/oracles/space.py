@@ -85,11 +85,11 @@ def drive(scenario: Scenario, robot: int, tail: int, head: int) -> Fraction:
     roadmap = scenario.roadmap
     edge = roadmap.edge(tail, head)
     assert edge is not None
-    kind = int(roadmap.length_class[edge])
-    limit = roadmap.speed_limits[kind] if roadmap.speed_limits else None
+    kind = roadmap.edge_class(edge)
+    limit = kind.max_speed
     own, tick = scenario.robots[robot].speed, scenario.problem.clock.tick
     speed = own if limit is None else min(own, limit)
-    return Fraction(-(-(roadmap.lengths[kind] / speed) // tick))
+    return Fraction(-(-(kind.length / speed) // tick))
 
 
 def zones_with(roadmap: Roadmap, edge: Shape) -> set[int]:

@@ -39,7 +39,7 @@ MISUSE: list[tuple[Callable[[], Any], str]] = [
         r"order\[0\]: 0.5 is none of 2",
     ),
     (lambda: search.FleetSearch(PROBLEM).start(["a"]), r"tracks\[0\]: 'a' is no track"),  # type: ignore[list-item]
-    (lambda: FLOOR.ticks_of_edges(PACE + PACE), "edge_ticks: 2 for 1 length classes"),
+    (lambda: FLOOR.ticks_of_edges(PACE + PACE), "edge_ticks: 2 for 1 edge classes"),
     (lambda: FLOOR.path(-1, 0, PACE), "start: -1 is none of 7"),  # type: ignore[arg-type]
     (lambda: FLOOR.cost((0, 99), PACE), r"path\[1\]: 99 is none of 7"),  # type: ignore[arg-type]
     (lambda: search.plan_by_lacam(PROBLEM, ends_anywhere=[9]), "ends_anywhere: 9 is none of 2"),

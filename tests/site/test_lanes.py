@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
 from itertools import pairwise
 from math import ceil
@@ -15,7 +16,7 @@ from rightofway.errors import InputError
 from rightofway.io import dump_scenario, scenario_of
 from rightofway.model import Scenario
 from rightofway.planners import Feature, registered
-from rightofway.site import Edge
+from rightofway.site import Edge, Roadmap
 from rightofway.site.spacing import SplitLanes, split_lanes
 
 
@@ -33,9 +34,17 @@ def test_no_robot_is_faster_than_the_limit_of_an_edge_and_none_is_slower_for_it(
     """6 long: 3 and 18 time units at 2 and 1/3; 12 and 18 where 1/2 is the limit."""
     roadmap = limited().roadmap
     assert roadmap.lengths == (Fraction(3), Fraction(6), Fraction(6))
-    assert roadmap.speed_limits == (None, None, Fraction(1, 2))
-    assert roadmap.durations(Fraction(2)) == [Fraction(3, 2), Fraction(3), Fraction(12)]
-    assert roadmap.durations(Fraction(1, 3)) == [Fraction(9), Fraction(18), Fraction(18)]
+    assert tuple(each.max_speed for each in roadmap.edge_classes) == (None, None, Fraction(1, 2))
+    assert [each.duration(Fraction(2)) for each in roadmap.edge_classes] == [
+        Fraction(3, 2),
+        Fraction(3),
+        Fraction(12),
+    ]
+    assert [each.duration(Fraction(1, 3)) for each in roadmap.edge_classes] == [
+        Fraction(9),
+        Fraction(18),
+        Fraction(18),
+    ]
 
 
 @pytest.mark.parametrize("planner", sorted(registered()))
@@ -79,6 +88,77 @@ def test_both_directions_of_a_lane_share_its_pieces() -> None:
         ("B", "A"): [("B", "B-A/1"), ("B-A/1", "B-A/2"), ("B-A/2", "A")],
         ("A", "B"): [("A", "B-A/2"), ("B-A/2", "B-A/1"), ("B-A/1", "B")],
     }
+
+
+def split_both_ways() -> Scenario:
+    """Return a robot on a lane of 3 pieces, driven both ways, and a lane of 2 pieces, one way."""
+    fleet = FleetBuilder(spacing=2)
+    for name, x, y in [("A", 0, 0), ("B-1", 6, 0), ("C", 6, 3)]:
+        fleet.add_vertex(name, x, y)
+    fleet.add_edge("B-1", "A").add_edge("B-1", "C", both_ways=False)
+    return fleet.add_robot("R1", home="A", target="B-1", speed=1).scenario()
+
+
+def names(roadmap: Roadmap, vertices: Iterable[int]) -> list[str]:
+    return [roadmap.name(vertex) for vertex in vertices]
+
+
+def test_a_roadmap_keeps_the_pieces_of_each_lane_that_it_split() -> None:
+    roadmap = split_both_ways().roadmap
+    assert [names(roadmap, lane.vertices) for lane in roadmap.lanes] == [
+        ["A", "B-1-A/2", "B-1-A/1", "B-1"],
+        ["B-1", "B-1-A/1", "B-1-A/2", "A"],
+        ["B-1", "B-1-C/1", "C"],
+    ]
+    back = roadmap.lanes[0]
+    assert names(roadmap, back.ends) == ["A", "B-1"]
+    assert names(roadmap, back.joints) == ["B-1-A/2", "B-1-A/1"]
+    assert all(roadmap.edge(*piece) is not None for lane in roadmap.lanes for piece in lane.pieces)
+
+
+def test_a_file_keeps_the_pieces_of_lanes_by_their_names() -> None:
+    """The ends of a lane are found although one of them has a dash in its name."""
+    scenario = split_both_ways()
+    read = scenario_of(dump_scenario(scenario))
+    assert read == scenario
+    assert read.roadmap.lanes == scenario.roadmap.lanes != ()
+
+
+def test_pieces_of_a_file_that_are_split_again_are_pieces_of_the_whole_lane() -> None:
+    document = dump_scenario(split_both_ways())
+    document["map"]["spacing"] = 1
+    roadmap = scenario_of(document).roadmap
+    pieces = {tuple(names(roadmap, lane.ends)): len(lane.pieces) for lane in roadmap.lanes}
+    assert pieces["A", "B-1"] == pieces["B-1", "A"] == 6
+    assert pieces["B-1", "C"] == 4
+
+
+def test_the_ways_along_the_ends_of_a_lane_are_its_drawings() -> None:
+    roadmap = split_both_ways().roadmap
+    a, b, joint = map(roadmap.vertex, ("A", "B-1", "B-1-A/1"))
+    assert [names(roadmap, way) for way in roadmap.ways_along((b, a))] == [
+        ["A", "B-1-A/2", "B-1-A/1", "B-1"]
+    ]
+    assert roadmap.ways_along((joint, b)) == [(joint, b)]
+    assert roadmap.ways_along((a, roadmap.vertex("C"))) == []
+
+
+@pytest.mark.parametrize(
+    ("vertices", "is_along"),
+    [
+        (["A", "B-1-A/1"], True),
+        (["B-1-A/1", "B-1-A/2"], True),
+        (["B-1", "B-1-C/1", "C"], True),
+        (["A", "B-1"], False),
+        (["B-1-A/1", "C"], False),
+        (["B-1-A/1", "B-1-C/1"], False),
+    ],
+)
+def test_vertices_are_along_one_lane_if_one_of_them_is_between_its_pieces(
+    vertices: list[str], is_along: bool
+) -> None:
+    roadmap = split_both_ways().roadmap
+    assert roadmap.is_along_one_lane([roadmap.vertex(name) for name in vertices]) is is_along
 
 
 def test_a_lane_that_is_short_enough_stays_whole() -> None:

@@ -31,7 +31,7 @@ def random_floor(seed: int, share: float) -> NDArray[np.bool_]:
 def edges_of(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction]]:
     for tail in range(roadmap.n_vertices):
         for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1])):
-            length = roadmap.lengths[roadmap.length_class[edge]]
+            length = roadmap.edge_class(edge).length
             yield tail, int(roadmap.heads[edge]), length
 
 

@@ -47,10 +47,10 @@ def test_edges_are_barred_for_robots_that_are_too_wide() -> None:
     into = {
         clear.name(int(clear.heads[edge]))
         for edge in range(clear.n_edges)
-        if not clear.is_barred(int(clear.length_class[edge]), None, Fraction(7, 10))
+        if not clear.edge_class(edge).is_barred(None, Fraction(7, 10))
     }
     assert into == {"N7", "N9", "N19", "N21", "N10", "N16", "N22"}
-    assert not any(clear.is_barred(k, None, Fraction(2, 5)) for k in range(len(clear.lengths)))
+    assert not any(each.is_barred(None, Fraction(2, 5)) for each in clear.edge_classes)
     assert clear_of_walls(roadmap, [Fraction(1, 2)]) is roadmap
 
 

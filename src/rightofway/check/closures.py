@@ -29,13 +29,15 @@ Vector = tuple[Fraction, Fraction]
 
 def judge_barred(visits: Visits, names: Names, collector: FaultCollector) -> None:
     """Find drives along edges that are barred for the robot's type, or too near to a wall."""
-    following = np.roll(visits.vertex, -1)
+    roadmap, following = names.scenario.roadmap, np.roll(visits.vertex, -1)
     for visit in np.flatnonzero(visits.barred).tolist():
         robot, tail, head = (
             int(value) for value in (visits.robot[visit], visits.vertex[visit], following[visit])
         )
-        why = f"is barred for type {names.scenario.robots[robot].type}"
-        if names.scenario.roadmap.widest:
+        robot_type = names.scenario.robots[robot].type
+        edge = roadmap.edge(tail, head)
+        why = f"is barred for type {robot_type}"
+        if edge is None or robot_type not in roadmap.edge_class(edge).barred:
             why = "is nearer to a wall than the robot's radius"
         collector.add(
             Fault(
@@ -128,25 +130,15 @@ class _Shut:
             yield [self.closure.at]
             return
         one, other = self.closure.edge
-        if self._is_edge(one, other):
-            yield [one, other]
-        labels = self.roadmap.labels or ()
-        for begin, end in ((one, other), (other, one)) if labels else ():
-            pieces: dict[int, int] = {}
-            prefix = f"{labels[begin]}-{labels[end]}/"
-            for vertex, label in enumerate(labels):
-                if label.startswith(prefix) and label[len(prefix) :].isdecimal():
-                    pieces[int(label[len(prefix) :])] = vertex
-            way = [begin, *(pieces[k] for k in sorted(pieces)), end]
-            if pieces and all(self._is_edge(*ends) for ends in pairwise(way)):
-                yield way
-
-    def _is_edge(self, one: int, other: int) -> bool:
         indptr, heads = self.roadmap.indptr, self.roadmap.heads
-        return any(
+        if any(
             head in heads[indptr[tail] : indptr[tail + 1]]
             for tail, head in ((one, other), (other, one))
-        )
+        ):
+            yield [one, other]
+        for lane in self.roadmap.lanes:
+            if {lane.vertices[0], lane.vertices[-1]} == self.ends:
+                yield list(lane.vertices)
 
     @cached_property
     def _inside(self) -> set[Place]:

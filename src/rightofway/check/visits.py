@@ -105,6 +105,6 @@ def _drives(
     ticks = np.array(list(paces), integers)
     drive = np.zeros(len(edge), integers)
     driven = edge >= 0
-    classes = plan.scenario.roadmap.length_class[edge[driven]]
+    classes = plan.scenario.roadmap.class_of_edge[edge[driven]]
     drive[driven] = ticks[np.array(pace_of)[robot[driven]], classes]
     return drive

@@ -215,7 +215,7 @@ def _of_speed(scenario: Scenario, graph: TimedEventGraph, place: int, robot: Rob
     drive = np.where(drives, graph.drive[arcs.head], 0)
     turns = _turns_by_speed(scenario, graph, place, robot)
     of, fixed = np.arange(len(arcs)), arcs.length - drive - turns
-    limits = scenario.roadmap.speed_limits
+    limits = [each.max_speed for each in scenario.roadmap.edge_classes]
     if not any(limits):
         return Growth(of=of, fixed=fixed, slope=drive + turns)
     # Of what a drive takes now: at the robot's own speed, and at the limit.
@@ -230,7 +230,7 @@ def _of_speed(scenario: Scenario, graph: TimedEventGraph, place: int, robot: Rob
     before = np.empty(len(graph), np.int64)
     before[graph.after] = np.arange(len(graph))
     edges = scenario.roadmap.edges(graph.vertex[before[arcs.head]], graph.vertex[arcs.head])
-    classes = scenario.roadmap.length_class[edges]
+    classes = scenario.roadmap.class_of_edge[edges]
     limited = np.flatnonzero(drives & (at_limit[classes] > 0))
     slow = drive[limited] * at_limit[classes[limited]]
     return Growth(

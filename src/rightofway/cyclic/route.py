@@ -334,7 +334,7 @@ def _without(roadmap: Roadmap, vertices: set[VertexId]) -> Roadmap:
         roadmap,
         indptr=before[roadmap.indptr].astype(np.int32),
         heads=roadmap.heads[stays],
-        length_class=roadmap.length_class[stays],
+        class_of_edge=roadmap.class_of_edge[stays],
     )
 
 

@@ -56,7 +56,7 @@ def ways_of(roadmap: Roadmap) -> Ways:
     scale = lcm(*(length.denominator for length in roadmap.lengths))
     steps = [int(length * scale) for length in roadmap.lengths]
     heads, first = roadmap.heads.tolist(), roadmap.indptr.tolist()
-    lengths = [steps[each] for each in roadmap.length_class.tolist()]
+    lengths = [steps[each] for each in roadmap.class_of_edge.tolist()]
     against: list[list[int]] = [[] for _ in range(roadmap.n_vertices)]
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
     for tail, head in zip(tails, heads, strict=True):

@@ -365,7 +365,7 @@ def _length_of_a_step(roadmap: Roadmap, ways: Ways) -> Fraction:
     if not ways.along[tail]:
         return Fraction(1)
     first = int(roadmap.indptr[tail])
-    return roadmap.lengths[int(roadmap.length_class[first])] / ways.steps[tail][0]
+    return roadmap.edge_class(first).length / ways.steps[tail][0]
 
 
 def _bottlenecks(

@@ -13,7 +13,6 @@ from rightofway.model.resources import ClosePairs, close_pairs
 from rightofway.phrases import Phrase, counted, joined
 from rightofway.site import Roadmap
 from rightofway.site.geometry import squared_distance
-from rightofway.site.spacing import along_one_lane
 from rightofway.site.walls import reaches_walls
 
 TOUCHING = Fraction(1, 10**6)
@@ -99,7 +98,7 @@ def _near(site: Site) -> Iterator[Finding]:
     pairs = close_pairs(roadmap, room or TOUCHING)
     yield from _near_vertices(site, pairs, need)
     for vertex, (tail, head) in pairs.beside:
-        if along_one_lane(site.names((vertex, tail, head))):
+        if roadmap.is_along_one_lane((vertex, tail, head)):
             continue
         place, ends = site.name(vertex), {"tail": roadmap.name(tail), "head": roadmap.name(head)}
         beside = (
@@ -151,7 +150,7 @@ def smallest_cell(roadmap: Roadmap) -> Fraction | None:
 def _near_vertices(site: Site, pairs: ClosePairs, need: Phrase | None) -> Iterator[Finding]:
     roadmap = site.roadmap
     for one, other in pairs.vertices:
-        if along_one_lane(site.names((one, other))):
+        if roadmap.is_along_one_lane((one, other)):
             continue
         apart = site.units.written_length(rounded_distance(roadmap, one, other))
         both_homes = _homes_clash(site, one, other)

@@ -23,8 +23,8 @@ from rightofway.model.units import NEVER, Clock, Tick
 from rightofway.site import Point, Roadmap, VertexId, squared_distance
 from rightofway.values import coerced, number, optional, vertex
 
-Lane = tuple[VertexId, VertexId]
-"""The two ends of a lane, whichever way it is driven."""
+Ends = tuple[VertexId, VertexId]
+"""The two ends of an edge or a lane, whichever way it is driven."""
 
 Segment = tuple[Point, Point]
 """Both ends of a straight line; of a point, the point twice."""
@@ -59,7 +59,7 @@ class Closure:
     """
 
     at: VertexId | None = None
-    edge: Lane | None = None
+    edge: Ends | None = None
     from_: Fraction = Fraction(0)
     until: Fraction | None = None
     radius: Fraction | None = None
@@ -76,7 +76,7 @@ class Closure:
         )
 
 
-def _ends(value: object) -> Lane:
+def _ends(value: object) -> Ends:
     if isinstance(value, list | tuple) and len(value) == 2:  # noqa: PLR2004 (two ends)
         return VertexId(vertex(value[0])), VertexId(vertex(value[1]))
     raise ValueError(f"{value!r} is no edge (give the vertices at both ends)")
@@ -110,39 +110,9 @@ def closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFault]:
     for key, place in unknown:
         last = roadmap.n_vertices - 1
         yield InputFault(key, f"vertex {place} is not on the roadmap (give 0 to {last})")
-    if closure.edge is not None and not unknown and not ways_along(roadmap, closure.edge):
+    if closure.edge is not None and not unknown and not roadmap.ways_along(closure.edge):
         one, other = map(roadmap.name, closure.edge)
         yield InputFault("edge", f"no edge joins {one} and {other} (name the ends of an edge)")
-
-
-def ways_along(roadmap: Roadmap, lane: Lane) -> list[tuple[VertexId, ...]]:
-    """Return the vertices along a lane, both ends included; nothing if there is no such lane.
-
-    One way for each drawing of the lane: its directions may be driven along different curves.
-
-    Parameters
-    ----------
-    roadmap
-        The vertices and edges.
-    lane
-        Both ends of an edge, or of a lane that `split_lanes` has split.
-    """
-
-    def joined(one: int, other: int) -> bool:
-        return roadmap.edge(one, other) is not None or roadmap.edge(other, one) is not None
-
-    ways: list[tuple[VertexId, ...]] = [lane] if joined(*lane) else []
-    for begin, end in (lane, lane[::-1]) if roadmap.labels is not None else ():
-        inside: list[VertexId] = []
-        try:
-            while True:
-                name = f"{roadmap.name(begin)}-{roadmap.name(end)}/{len(inside) + 1}"
-                inside.append(roadmap.vertex(name))
-        except KeyError:
-            way = (begin, *inside, end)
-        if inside and all(joined(*ends) for ends in pairwise(way)):
-            ways.append(way)
-    return ways
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -301,7 +271,7 @@ def _closed_resources(plane: _Plane, closure: Closure, reach: Fraction | None) -
     ``reach`` is the distance below which what is near is closed, too; None for nothing.
     """
     roadmap = plane.roadmap
-    ways = [] if closure.edge is None else ways_along(roadmap, closure.edge)
+    ways = [] if closure.edge is None else roadmap.ways_along(closure.edge)
     own = {ends for way in ways for pair in pairwise(way) for ends in (pair, pair[::-1])}
     edges = (roadmap.edge(*ends) for ends in own)
     closed: set[int] = {roadmap.n_vertices + edge for edge in edges if edge is not None}

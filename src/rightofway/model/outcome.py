@@ -55,7 +55,7 @@ def minimized(scenario: Scenario) -> Objective:
     scenario
         The problem.
     """
-    return Objective.COST if scenario.roadmap.surcharges else Objective.FLOWTIME
+    return Objective.COST if scenario.roadmap.has_surcharges else Objective.FLOWTIME
 
 
 class OutcomeKind(StrEnum):

@@ -50,9 +50,9 @@ class Itinerary:
     stages
         What it has to do, in order. The vertex of the last one is where it stays for ever.
     edge_ticks
-        Ticks it needs for an edge, by length class of the roadmap; -1 where it is barred.
+        Ticks it needs for an edge, by edge class of the roadmap; -1 where it is barred.
     surcharges
-        Ticks by which an edge of each length class is less liked; empty where all are 0.
+        Ticks by which an edge of each class is less liked; empty where all are 0.
     turning
         How long it turns on the spot between two edges, or None if that takes no time.
     """
@@ -65,7 +65,7 @@ class Itinerary:
 
     @property
     def weights(self) -> tuple[Tick, ...]:
-        """Ticks and surcharge of an edge of each length class; -1 where the robot is barred.
+        """Ticks and surcharge of an edge of each class; -1 where the robot is barred.
 
         A surcharge counts up to `LARGEST_SURCHARGE`, so that weights of paths fit 32 bits.
         """
@@ -273,9 +273,9 @@ def turn_rate(robot: Robot, rules: Rules) -> Fraction | None:
 
 
 def _durations(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
-    for length_class, duration in enumerate(roadmap.durations(robot.speed)):
-        if not roadmap.is_barred(length_class, robot.type, robot.radius):
-            yield duration
+    for edge_class in roadmap.edge_classes:
+        if not edge_class.is_barred(robot.type, robot.radius):
+            yield edge_class.duration(robot.speed)
     yield turning_time(roadmap, robot, rules)
     yield from (stop.work for stop in robot.stops)
 
@@ -300,10 +300,12 @@ def _itinerary(
         stages=tuple(lap * (robot.laps or rules.laps)),
         edge_ticks=tuple(
             Tick(-1)
-            if roadmap.is_barred(length_class, robot.type, robot.radius)
-            else clock.ticks(duration)
-            for length_class, duration in enumerate(roadmap.durations(robot.speed))
+            if edge_class.is_barred(robot.type, robot.radius)
+            else clock.ticks(edge_class.duration(robot.speed))
+            for edge_class in roadmap.edge_classes
         ),
-        surcharges=tuple(map(clock.ticks, roadmap.surcharges)),
+        surcharges=tuple(clock.ticks(edge_class.surcharge) for edge_class in roadmap.edge_classes)
+        if roadmap.has_surcharges
+        else (),
         turning=turning,
     )

@@ -161,12 +161,12 @@ def too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, floa
     if roadmap.grid is not None:
         return
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
-    lengths = np.array([float(length) for length in roadmap.lengths])[roadmap.length_class]
+    lengths = np.array([float(length) for length in roadmap.lengths])[roadmap.class_of_edge]
     begin, end = roadmap.positions[tails], roadmap.positions[roadmap.heads]
     doubt = 1e-14 * np.abs(roadmap.positions).max()  # of coordinates and their differences
     straight = np.hypot(*(end - begin).T) + doubt
     for edge in np.flatnonzero(straight > lengths * (1 + float(ROUNDING) / 2)).tolist():
-        length = roadmap.lengths[roadmap.length_class[edge]]
+        length = roadmap.edge_class(edge).length
         (x, y), (to_x, to_y) = begin[edge].tolist(), end[edge].tolist()
         tail = Fraction(repr(x)), Fraction(repr(y))
         square = squared_distance(tail, (Fraction(repr(to_x)), Fraction(repr(to_y))))

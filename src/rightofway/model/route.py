@@ -225,7 +225,7 @@ def drives_along(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[int]
         gap = int(np.argmin(edges))
         raise KeyError((vertices[gap], vertices[gap + 1]))
     by_class = np.array(itinerary.edge_ticks, np.int64)
-    ticks: list[int] = by_class[roadmap.length_class[edges]].tolist()
+    ticks: list[int] = by_class[roadmap.class_of_edge[edges]].tolist()
     return ticks
 
 

@@ -255,7 +255,7 @@ def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
         elif robot.type in roadmap.barred_vertices.get(VertexId(vertex), frozenset()):
             message = f"{roadmap.name(vertex)} is barred for robots of type {robot.type}"
             yield InputFault(place, f"{message} (give the robot another place, or another type)")
-    if roadmap.widest:
+    if any(each.max_radius is not None for each in roadmap.edge_classes):
         known = [(place, vertex) for place, vertex in places if 0 <= vertex < n_vertices]
         reaches = reaches_walls(roadmap, robot.radius) if known else ()
         for place, vertex in known:

@@ -130,11 +130,11 @@ def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
         One track for each robot.
     """
     cost, roadmap = flowtime_of(scenario, tracks), scenario.roadmap
-    if roadmap.surcharges:
+    if roadmap.has_surcharges:
         for itinerary, track in zip(scenario.problem.itineraries, tracks, strict=True):
             edges = roadmap.edges(track.vertices[:-1], track.vertices[1:])
             by_class = np.array(itinerary.surcharges, np.int64)
-            cost = Tick(cost + int(by_class[roadmap.length_class[edges]].sum()))
+            cost = Tick(cost + int(by_class[roadmap.class_of_edge[edges]].sum()))
     return cost
 
 
@@ -157,9 +157,9 @@ def _drives_of_fleet(
     roadmap, itineraries = scenario.roadmap, scenario.problem.itineraries
     row = {pace: k for k, pace in enumerate({one.edge_ticks: None for one in itineraries})}
     by_class = np.array([[*pace, 0] for pace in row], np.int64)  # the last column: no edge
-    length_class = np.append(roadmap.length_class, -1)
+    class_of_edge = np.append(roadmap.class_of_edge, -1)
     rows = np.repeat(
         [row[itinerary.edge_ticks] for itinerary in itineraries], [len(track) for track in tracks]
     )
-    drives: NDArray[np.int64] = by_class[rows, length_class[edges]]
+    drives: NDArray[np.int64] = by_class[rows, class_of_edge[edges]]
     return np.maximum(drives, 0)  # -1: a track that drives along an edge where it is barred

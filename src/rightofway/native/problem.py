@@ -90,7 +90,7 @@ def roads_of(roadmap: Roadmap) -> _core.Roads:
         Its vertices and directed edges, in rows by tail.
     """
     return _core.Roads(
-        roadmap.indptr, roadmap.heads, roadmap.length_class, n_classes=len(roadmap.lengths)
+        roadmap.indptr, roadmap.heads, roadmap.class_of_edge, n_classes=len(roadmap.edge_classes)
     )
 
 

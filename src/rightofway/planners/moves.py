@@ -377,7 +377,7 @@ class _Floor:
     def _enters(self, timed: _Timed, move: _Move) -> Iterator[tuple[int, int]]:
         """Yield when a move can end at the earliest, and when its vertex is closed next."""
         robot = move.robot
-        drive = self.itineraries[robot].edge_ticks[self._roadmap.length_class[move.edge]]
+        drive = self.itineraries[robot].edge_ticks[self._roadmap.class_of_edge[move.edge]]
         approach = drive if self._ahead else 0
         needed = {self._edge_row(robot, move.edge), self._vertex_row(robot, move.vertex)}
         enter = timed.ready[robot] + drive
@@ -441,7 +441,7 @@ class _Floor:
             for edge in range(first, end):
                 head = int(self._roadmap.heads[edge])
                 needed = 1 << self._vertex_row(robot, head) | 1 << self._edge_row(robot, edge)
-                ticks = self.itineraries[robot].edge_ticks[self._roadmap.length_class[edge]]
+                ticks = self.itineraries[robot].edge_ticks[self._roadmap.class_of_edge[edge]]
                 is_useless = ticks < 0 or self._ways[robot][state.stages[robot]][head] < 0
                 if needed & by_others or is_useless:
                     continue
@@ -482,7 +482,7 @@ def _in_sequence(task: Task, moves: list[_Move]) -> list[Track]:
         if one.turning is not None:
             ready += one.turning.of(edges[robot], edge)
         edges[robot] = edge
-        now = max(now, ready) + one.edge_ticks[roadmap.length_class[edge]]
+        now = max(now, ready) + one.edge_ticks[roadmap.class_of_edge[edge]]
         now += planning_headway(task.scenario)
         vertices[robot].append(VertexId(head))
         enter[robot].append(Tick(now))

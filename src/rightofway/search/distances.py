@@ -52,7 +52,7 @@ class Distances:
         target
             The vertex to reach.
         edge_ticks
-            Ticks for an edge of each length class, -1 for one that is barred.
+            Ticks for an edge of each class, -1 for one that is barred.
 
         Returns
         -------
@@ -75,13 +75,13 @@ class Distances:
             list(pool.map(lambda key: self.to(*key), missing))
 
     def ticks_of_edges(self, edge_ticks: tuple[Tick, ...]) -> NDArray[np.int32]:
-        """Return the ticks of every edge, given those of each length class; shape (E,)."""
+        """Return the ticks of every edge, given those of each edge class; shape (E,)."""
         if edge_ticks not in self._edges:
-            if len(edge_ticks) != len(self.roadmap.lengths):
-                many = f"{len(edge_ticks)} for {len(self.roadmap.lengths)} length classes"
+            if len(edge_ticks) != len(self.roadmap.edge_classes):
+                many = f"{len(edge_ticks)} for {len(self.roadmap.edge_classes)} edge classes"
                 raise InputError.at("edge_ticks", f"{many} (give one for each)")
             by_class = np.array(edge_ticks, np.int32)
-            self._edges[edge_ticks] = by_class[self.roadmap.length_class]
+            self._edges[edge_ticks] = by_class[self.roadmap.class_of_edge]
         return self._edges[edge_ticks]
 
     def cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int | None:

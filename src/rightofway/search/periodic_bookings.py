@@ -32,7 +32,7 @@ class RoundTrip:
     roadmap
         The graph to drive on.
     pace
-        Ticks for an edge of each length class; int32.
+        Ticks for an edge of each class; int32.
     stages
         The stages in order; the last one is home, with the turn there between two laps.
     tables

@@ -11,13 +11,15 @@ from rightofway.site.geometry import (
     straight_length,
 )
 from rightofway.site.grid import roadmap_of_grid
-from rightofway.site.roadmap import Grid, Roadmap
+from rightofway.site.roadmap import EdgeClass, Grid, Lane, Roadmap
 
 __all__ = [
     "Edge",
+    "EdgeClass",
     "Floor",
     "Frame",
     "Grid",
+    "Lane",
     "Obstacle",
     "Point",
     "Roadmap",

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rightofway.errors import InputError
 from rightofway.site.geometry import Frame, VertexId
+from rightofway.site.roadmap import EdgeClass, Lane, Roadmap
 from rightofway.site.zones import NamedZone, zones_of
 from rightofway.values import coerced, names, number, optional
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-from rightofway.site.roadmap import Roadmap
-
-T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,36 +124,32 @@ def roadmap_of_edges(
     return Roadmap(
         indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
         heads=np.array([ids[edge.head] for edge in ordered], np.int32),
-        length_class=np.array([class_of[_edge_class(edge)] for edge in ordered], np.int32),
-        lengths=tuple(one.length for one in classes),
-        speed_limits=_unless_all(None, [one.max_speed for one in classes]),
-        barred=_unless_all(frozenset(), [one.barred for one in classes]),
-        surcharges=_unless_all(Fraction(0), [one.surcharge for one in classes]),
+        class_of_edge=np.array([class_of[_edge_class(edge)] for edge in ordered], np.int32),
+        edge_classes=tuple(classes),
         barred_vertices={VertexId(ids[name]): frozenset(kinds) for name, kinds in barred.items()},
         positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,
         labels=tuple(positions),
         frame=frame or Frame(y_up=y_up),
         sides=None if sides is None else np.array(sides, np.float64),
         zones=zones_of(zones, ids, both_ends, pieces or {}) if zones else (),
+        lanes=_lanes((pieces or {}).values(), ids),
     )
 
 
-class _EdgeClass(NamedTuple):
-    """What edges of one length class have in common."""
-
-    length: Fraction
-    max_speed: Fraction | None
-    barred: frozenset[str]
-    surcharge: Fraction
-
-
-def _edge_class(edge: Edge) -> _EdgeClass:
-    return _EdgeClass(edge.length, edge.max_speed, edge.barred, edge.surcharge)
+def _edge_class(edge: Edge) -> EdgeClass:
+    return EdgeClass(
+        length=edge.length,
+        max_speed=edge.max_speed,
+        barred=edge.barred,
+        surcharge=edge.surcharge,
+    )
 
 
-def _unless_all(usual: T, values: Sequence[T]) -> tuple[T, ...]:
-    """Return the values, or nothing where all are as usual."""
-    return () if all(value == usual for value in values) else tuple(values)
+def _lanes(split: Iterable[Sequence[tuple[str, str]]], ids: Mapping[str, int]) -> tuple[Lane, ...]:
+    """Return the lanes of some pieces each, in an order that does not depend on that of edges."""
+    names = ([pieces[0][0], *(head for _, head in pieces)] for pieces in split)
+    ways = (tuple(VertexId(ids[name]) for name in way) for way in names)
+    return tuple(Lane(vertices=way) for way in sorted(ways))
 
 
 def _check_edges(ids: Mapping[str, int], edges: Sequence[Edge]) -> None:

@@ -16,7 +16,7 @@ from rightofway.values import Number, length
 if TYPE_CHECKING:
     pass
 
-from rightofway.site.roadmap import Grid, Roadmap
+from rightofway.site.roadmap import EdgeClass, Grid, Roadmap
 
 FREE = frozenset(".GS")
 """Grid characters that a robot may stand on; every other one is blocked."""
@@ -70,8 +70,8 @@ def roadmap_of_grid(
     return Roadmap(
         indptr=np.concatenate(([0], np.cumsum(present.sum(axis=1)))).astype(np.int32),
         heads=neighbours[present],
-        length_class=np.zeros(int(present.sum()), np.int32),
-        lengths=(size,),
+        class_of_edge=np.zeros(int(present.sum()), np.int32),
+        edge_classes=(EdgeClass(length=size),),
         positions=np.column_stack((x, y)).astype(np.float64) * float(size),
         grid=Grid(rows=rows, columns=columns, cell_size=size, cells=cells, vertex_at=vertex_at),
         frame=_frame_of_grid(rows * size, size, y_up=y_up, origin=origin, yaw=yaw),

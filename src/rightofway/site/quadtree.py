@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from rightofway.errors import InputError
 from rightofway.site.clustering import MAX_CELLS
 from rightofway.site.geometry import Frame, Point
-from rightofway.site.roadmap import Roadmap
+from rightofway.site.roadmap import EdgeClass, Roadmap
 
 MAX_SMALLEST = 32_000_000
 """The most smallest cells, free and blocked."""
@@ -226,7 +226,7 @@ def roadmap_of_squares(
     squares = squares_of(free, largest=int(largest // smallest), near=near, max_squares=max_squares)
     count = len(squares.side)
     tails, heads, lengths = _edges(squares, y_up=y_up)
-    known, length_class = np.unique(lengths, return_inverse=True)
+    known, class_of_edge = np.unique(lengths, return_inverse=True)
     left, low = (corner[0] - origin[0], corner[1] - origin[1]) if yaw else corner
     half = smallest / 2
     middles = [2 * along + squares.side for along in (squares.column, squares.row)]
@@ -241,8 +241,10 @@ def roadmap_of_squares(
             np.int32
         ),
         heads=heads.astype(np.int32),
-        length_class=length_class.astype(np.int32),
-        lengths=tuple(Fraction(int(twelfths), 12) * smallest for twelfths in known),
+        class_of_edge=class_of_edge.astype(np.int32),
+        edge_classes=tuple(
+            EdgeClass(length=Fraction(int(twelfths), 12) * smallest) for twelfths in known
+        ),
         positions=np.column_stack((x, -y if y_up else y)),
         labels=tuple(squares.names()),
         frame=Frame(y_up=y_up, **turned),

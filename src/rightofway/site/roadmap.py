@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -52,6 +53,69 @@ class Grid:
         return row, column
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EdgeClass:
+    """What edges have in common: how long they are, and who may drive along them how fast.
+
+    Attributes
+    ----------
+    length
+        The length [length unit].
+    max_speed
+        The speed limit [length unit per time unit]; None for none.
+    barred
+        Types of robots that may not drive along the edges.
+    surcharge
+        What makes the edges less liked, not slower [time unit].
+    max_radius
+        The largest radius of robots that may drive along the edges [length unit]; None for any.
+    """
+
+    length: Fraction
+    max_speed: Fraction | None = None
+    barred: frozenset[str] = frozenset()
+    surcharge: Fraction = Fraction(0)
+    max_radius: Fraction | None = None
+
+    def duration(self, speed: Fraction) -> Fraction:
+        """Return how long a robot of a speed drives along an edge [time unit]."""
+        return self.length / (speed if self.max_speed is None else min(speed, self.max_speed))
+
+    def is_barred(self, robot_type: str | None, radius: Fraction) -> bool:
+        """Return whether the edges are barred for robots of a type and radius."""
+        return robot_type in self.barred or (
+            self.max_radius is not None and radius > self.max_radius
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lane:
+    """A lane that was split into pieces, in one direction; each piece is an edge.
+
+    Attributes
+    ----------
+    vertices
+        The vertices along the lane in the order of driving, its ends included: at least 3.
+    """
+
+    vertices: tuple[VertexId, ...]
+
+    @property
+    def ends(self) -> tuple[VertexId, VertexId]:
+        """The vertices that the lane leaves and enters."""
+        return self.vertices[0], self.vertices[-1]
+
+    @property
+    def joints(self) -> tuple[VertexId, ...]:
+        """The vertices between two pieces; both directions share them on one curve."""
+        return self.vertices[1:-1]
+
+    @property
+    def pieces(self) -> tuple[tuple[VertexId, VertexId], ...]:
+        """Tail and head of each piece."""
+        return tuple(pairwise(self.vertices))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Roadmap:
     """A directed graph with edge lengths, in compressed sparse rows.
@@ -61,10 +125,10 @@ class Roadmap:
     indptr, heads
         The edges that leave vertex ``v`` are ``indptr[v]`` to ``indptr[v + 1]`` (exclusive) and
         lead to ``heads`` of those; int32, shapes (V + 1,) and (E,).
-    length_class
-        Index into `lengths` of each edge; int32, shape (E,).
-    lengths
-        The distinct edge lengths [length unit].
+    class_of_edge
+        Index into `edge_classes` of each edge; int32, shape (E,).
+    edge_classes
+        What edges have in common; all differ.
     positions
         Where to draw each vertex, x to the right and y down [length unit]; float64, shape (V, 2).
     labels
@@ -73,23 +137,13 @@ class Roadmap:
         The grid this roadmap was cut from, if any.
     frame
         Where the plane of the positions lies in the site's frame.
-    speed_limits
-        Speed limit of each length class [length unit per time unit], None for none; empty where no
-        edge has one. Classes of one length may differ in it.
-    barred
-        Types of robots that may not drive along an edge of each length class; empty where there is
-        no such type. Classes of one length may differ in it.
-    surcharges
-        What makes an edge of each length class less liked, not slower [time unit]; empty where
-        nothing does. Classes of one length may differ in it.
-    widest
-        The largest radius of robots that may drive along edges of each length class [length unit],
-        None for any; empty where that is so for all.
     barred_vertices
         Vertices with the types of robots that may not be there; every edge into such a vertex is
         barred for these types.
     zones
         Vertices and edges that hold one robot at a time.
+    lanes
+        The lanes that were split into pieces, each direction by itself.
     obstacles
         What blocked cells of a grid are, in the site's frame before its yaw. Only for people: no
         plan depends on it, and roadmaps that differ in it alone are equal.
@@ -102,78 +156,94 @@ class Roadmap:
 
     indptr: NDArray[np.int32]
     heads: NDArray[np.int32]
-    length_class: NDArray[np.int32]
-    lengths: tuple[Fraction, ...]
+    class_of_edge: NDArray[np.int32]
+    edge_classes: tuple[EdgeClass, ...]
     positions: NDArray[np.float64]
     labels: tuple[str, ...] | None = None
     grid: Grid | None = None
     frame: Frame = field(default_factory=Frame)
-    speed_limits: tuple[Fraction | None, ...] = ()
-    barred: tuple[frozenset[str], ...] = ()
-    surcharges: tuple[Fraction, ...] = ()
-    widest: tuple[Fraction | None, ...] = ()
     barred_vertices: Mapping[VertexId, frozenset[str]] = field(default_factory=dict)
     zones: tuple[Zone, ...] = ()
+    lanes: tuple[Lane, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
     drawing: Drawing = field(default_factory=Drawing)
     sides: NDArray[np.float64] | None = None
     _ids: Mapping[str, int] = field(init=False, repr=False)
+    _lane_at: Mapping[int, Lane] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        for array in (self.indptr, self.heads, self.length_class, self.positions):
+        for array in (self.indptr, self.heads, self.class_of_edge, self.positions):
             array.flags.writeable = False
         ids = {name: vertex for vertex, name in enumerate(self.labels or ())}
         object.__setattr__(self, "_ids", ids)
+        at = {joint: lane for lane in reversed(self.lanes) for joint in lane.joints}
+        object.__setattr__(self, "_lane_at", at)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Roadmap):
             return NotImplemented
         return (
-            self.lengths == other.lengths
-            and self.speed_limits == other.speed_limits
-            and self.barred == other.barred
-            and self.surcharges == other.surcharges
-            and self.widest == other.widest
+            self.edge_classes == other.edge_classes
             and self.barred_vertices == other.barred_vertices
             and self.zones == other.zones
+            and self.lanes == other.lanes
             and self.labels == other.labels
             and self.frame == other.frame
             and _same_grid(self.grid, other.grid)
             and np.array_equal(self.indptr, other.indptr)
             and np.array_equal(self.heads, other.heads)
-            and np.array_equal(self.length_class, other.length_class)
+            and np.array_equal(self.class_of_edge, other.class_of_edge)
             and np.array_equal(self.positions, other.positions)
             and _same_sides(self.sides, other.sides)
         )
 
     def __hash__(self) -> int:
-        return hash((self.n_vertices, self.n_edges, self.lengths))
+        return hash((self.n_vertices, self.n_edges, self.edge_classes))
 
     def __repr__(self) -> str:
         grid = self.grid
         cut = f", grid of {grid.columns} x {grid.rows} cells" if grid else ""
         return f"Roadmap({self.n_vertices} vertices, {self.n_edges} edges{cut})"
 
-    def durations(self, speed: Fraction) -> list[Fraction]:
-        """Return how long a robot of a speed drives along an edge of each class [time unit]."""
-        if not self.speed_limits:
-            return [length / speed for length in self.lengths]
-        return [
-            length / (speed if limit is None else min(speed, limit))
-            for length, limit in zip(self.lengths, self.speed_limits, strict=True)
-        ]
+    def edge_class(self, edge: int) -> EdgeClass:
+        """Return what an edge has in common with others of its class."""
+        return self.edge_classes[int(self.class_of_edge[edge])]
 
-    def is_barred(self, length_class: int, robot_type: str | None, radius: Fraction) -> bool:
-        """Return whether edges of a length class are barred for robots of a type and radius."""
-        widest = self.widest[length_class] if self.widest else None
-        if widest is not None and radius > widest:
-            return True
-        return bool(self.barred) and robot_type in self.barred[length_class]
+    @property
+    def lengths(self) -> tuple[Fraction, ...]:
+        """The length of each class of edges [length unit]."""
+        return tuple(each.length for each in self.edge_classes)
+
+    @property
+    def has_surcharges(self) -> bool:
+        """Whether an edge has a surcharge."""
+        return any(each.surcharge for each in self.edge_classes)
 
     @property
     def types(self) -> frozenset[str]:
         """Types of robots that an edge or a vertex is barred for."""
-        return frozenset().union(*self.barred, *self.barred_vertices.values())
+        on_edges = (each.barred for each in self.edge_classes)
+        return frozenset().union(*on_edges, *self.barred_vertices.values())
+
+    def ways_along(self, ends: tuple[VertexId, VertexId]) -> list[tuple[VertexId, ...]]:
+        """Return the vertices along an edge or a split lane, both ends included, in any direction.
+
+        One way for each drawing of the lane: its directions may be driven along different curves.
+        Nothing if no edge or lane has these ends.
+        """
+        ways = [ends] if any(self.edge(*pair) is not None for pair in (ends, ends[::-1])) else []
+        drawn: dict[frozenset[VertexId], tuple[VertexId, ...]] = {}
+        for lane in self.lanes:  # both directions of one curve are one way
+            if lane.ends in (ends, ends[::-1]):
+                drawn.setdefault(frozenset(lane.vertices), lane.vertices)
+        return [*ways, *drawn.values()]
+
+    def is_along_one_lane(self, vertices: Collection[int]) -> bool:
+        """Return whether vertices are joints, or joints and ends, of one lane that was split."""
+        lane = next((self._lane_at[each] for each in vertices if each in self._lane_at), None)
+        return lane is not None and all(
+            self._lane_at.get(each) is lane or each in lane.ends for each in vertices
+        )
 
     @property
     def n_vertices(self) -> int:
@@ -242,7 +312,7 @@ class Roadmap:
             self,
             indptr=np.concatenate(([0], np.cumsum(degree))).astype(np.int32),
             heads=self.heads[is_open],
-            length_class=self.length_class[is_open],
+            class_of_edge=self.class_of_edge[is_open],
             zones=tuple(zones),
         )
 

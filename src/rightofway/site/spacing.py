@@ -77,14 +77,14 @@ def split_lanes(
     [('A', 'A-B/1', '5/3'), ('A-B/1', 'A-B/2', '5/3'), ('A-B/2', 'B', '5/3')]
     """
     curves = {ends: tuple(points) for ends, points in (shapes or {}).items()}
-    longest: dict[Lane, Fraction] = {}
+    longest: dict[_Ends, Fraction] = {}
     for edge in edges:
         lane = _lane(edge, curves)
         longest[lane] = max(longest.get(lane, edge.length), edge.length)
     refuse_many_pieces(longest.values(), spacing)
     found, split = dict(positions), list[Edge]()
     pieces: dict[tuple[str, str], list[tuple[str, str]]] = {}
-    ways: dict[Lane, tuple[list[str], list[Fraction], Fraction]] = {}
+    ways: dict[_Ends, tuple[list[str], list[Fraction], Fraction]] = {}
     for edge in edges:
         lane = _lane(edge, curves)
         if lane not in ways:
@@ -150,11 +150,11 @@ def _each(parts: Sequence[Fraction], use: Callable[[Fraction], Fraction]) -> lis
     return [made[id(part)] for part in parts]
 
 
-Lane = frozenset[str] | tuple[str, str]
+_Ends = frozenset[str] | tuple[str, str]
 """Both ends of a lane; in order where its directions are driven along different curves."""
 
 
-def _lane(edge: Edge, curves: Mapping[tuple[str, str], tuple[Point, ...]]) -> Lane:
+def _lane(edge: Edge, curves: Mapping[tuple[str, str], tuple[Point, ...]]) -> _Ends:
     there, back = curves.get((edge.tail, edge.head), ()), curves.get((edge.head, edge.tail), ())
     ends = (edge.tail, edge.head)
     return frozenset(ends) if there == back[::-1] else ends
@@ -188,22 +188,40 @@ def _cuts(
     return inside[:-1], parts
 
 
-def along_one_lane(names: Collection[str]) -> bool:
-    """Return whether vertices are pieces, or pieces and ends, of one lane that was split.
+def pieces_by_name(
+    names: Collection[str], edges: Collection[tuple[str, str]]
+) -> dict[tuple[str, str], list[tuple[str, str]]]:
+    """Return the pieces of lanes that were split before a file was written, from their names.
 
     Parameters
     ----------
     names
-        Names of vertices.
+        Names of the vertices of the file.
+    edges
+        Tail and head of each of its edges.
+
+    Returns
+    -------
+    dict
+        As `SplitLanes.pieces`.
 
     Examples
     --------
-    >>> along_one_lane(["A", "A-B/1", "A-B/3"]), along_one_lane(["A-B/1", "C"])
-    (True, False)
+    >>> pieces_by_name(["A", "B", "A-B/1"], {("A", "A-B/1"), ("A-B/1", "B"), ("B", "A")})
+    {('A', 'B'): [('A', 'A-B/1'), ('A-B/1', 'B')]}
     """
-    pieces = {name: found[1] for name in names if (found := PIECE.fullmatch(name))}
-    lanes = set(pieces.values())
-    ends = [name for name in names if name not in pieces]
-    return len(lanes) == 1 and all(
-        lane.startswith(f"{end}-") or lane.endswith(f"-{end}") for lane in lanes for end in ends
-    )
+    joints: dict[str, list[str]] = {}
+    for name in names:
+        if piece := PIECE.fullmatch(name):
+            joints.setdefault(piece[1], []).append(name)
+    pieces: dict[tuple[str, str], list[tuple[str, str]]] = {}
+    for lane, unsorted_joints in joints.items():
+        inside = [f"{lane}/{k + 1}" for k in range(len(unsorted_joints))]
+        if set(inside) != set(unsorted_joints):
+            continue
+        for dash in re.finditer("-", lane):  # the names of the ends may have dashes, too
+            way = [lane[: dash.start()], *inside, lane[dash.end() :]]
+            for directed in (way, way[::-1]):
+                if all(piece in edges for piece in pairwise(directed)):
+                    pieces[directed[0], directed[-1]] = list(pairwise(directed))
+    return pieces

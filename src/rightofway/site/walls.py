@@ -16,7 +16,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.site.roadmap import Roadmap
+from rightofway.site.roadmap import EdgeClass, Roadmap
 
 
 @lru_cache(maxsize=8)
@@ -71,7 +71,9 @@ def clear_of_walls(roadmap: Roadmap, radii: Collection[Fraction]) -> Roadmap:
     fits = sum((~reaches_walls(roadmap, radius)).astype(np.int32) for radius in wide)
     return replace(
         roadmap,
-        length_class=np.asarray(fits, np.int32)[roadmap.heads],
-        lengths=(grid.cell_size,) * (len(wide) + 1),
-        widest=(grid.cell_size / 2, *wide[:-1], None),
+        class_of_edge=np.asarray(fits, np.int32)[roadmap.heads],
+        edge_classes=tuple(
+            EdgeClass(length=grid.cell_size, max_radius=radius)
+            for radius in (grid.cell_size / 2, *wide[:-1], None)
+        ),
     )

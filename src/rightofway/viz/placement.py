@@ -75,7 +75,7 @@ def edge_length(roadmap: Roadmap) -> Callable[[int, int], float]:
 
     def length(tail: int, head: int) -> float:
         edge = None if tail == head else roadmap.edge(tail, head)
-        return 0.0 if edge is None else float(roadmap.lengths[roadmap.length_class[edge]])
+        return 0.0 if edge is None else float(roadmap.edge_class(edge).length)
 
     return length
 

@@ -71,7 +71,7 @@ def test_the_slower_of_two_parallel_lanes_counts_for_a_vehicle_type() -> None:
     roadmap = scenario_on("P1", "Press", layout="hall.lif.json", vehicle_type="forklift").roadmap
     edge = roadmap.edge(roadmap.vertex("A"), roadmap.vertex("B"))
     assert edge is not None
-    assert roadmap.speed_limits[roadmap.length_class[edge]] == Fraction(1, 2)
+    assert roadmap.edge_class(edge).max_speed == Fraction(1, 2)
     assert roadmap.labels == ("P1", "A", "B")  # only tuggers drive to C
 
 
@@ -290,8 +290,8 @@ def test_a_scenario_on_a_layout_is_in_metres_and_seconds_unless_it_names_units()
     roadmap: Roadmap = scenario_of(document, HERE).roadmap
     edge = roadmap.edge(roadmap.vertex("Cross"), roadmap.vertex("Dock"))
     assert edge is not None
-    assert roadmap.lengths[roadmap.length_class[edge]] == 4000  # [mm]
-    assert roadmap.speed_limits[roadmap.length_class[edge]] == 18_000  # [mm/min]
+    assert roadmap.edge_class(edge).length == 4000  # [mm]
+    assert roadmap.edge_class(edge).max_speed == 18_000  # [mm/min]
 
 
 @pytest.mark.parametrize(

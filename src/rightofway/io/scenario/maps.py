@@ -35,7 +35,7 @@ from rightofway.site import (
 from rightofway.site.clustering import MAX_CELLS, free_cells
 from rightofway.site.drawing import Drawing
 from rightofway.site.quadtree import MAX_SMALLEST, roadmap_of_squares
-from rightofway.site.spacing import SplitLanes, refuse_many_pieces, split_lanes
+from rightofway.site.spacing import SplitLanes, pieces_by_name, refuse_many_pieces, split_lanes
 from rightofway.site.zones import NamedZone
 
 if TYPE_CHECKING:
@@ -253,6 +253,12 @@ def _drawn(
     is_cut = bool(curves) and has_sizes
     if on.spacing is not None or is_cut:
         split = split_lanes(positions, edges, on.spacing, _shapes(curves, positions, on, has_sizes))
+    written_pieces = {
+        ends: [part for piece in pieces for part in split.pieces.get(piece, (piece,))]
+        for ends, pieces in pieces_by_name(
+            positions, {(edge.tail, edge.head) for edge in edges}
+        ).items()
+    }
     left, low = on.origin if on.origin and on.yaw else (Fraction(0), Fraction(0))
     drawn = {name: (float(x - left), float(y - low)) for name, (x, y) in split.positions.items()}
     frame = Frame(x=left, y=low, y_up=on.y_up, yaw=on.yaw or Fraction(0))
@@ -264,7 +270,7 @@ def _drawn(
         split.edges,
         y_up=on.y_up,
         zones=zones,
-        pieces=split.pieces,
+        pieces=written_pieces | split.pieces,
         sides=sides,
         frame=frame,
         barred={name: it.barred for name, it in document.vertices.items() if it.barred},

@@ -14,7 +14,7 @@ from rightofway.model import Robot, Scenario
 from rightofway.model.attributes import plain_attributes
 from rightofway.model.given import checked_scenario
 from rightofway.quantities import Units
-from rightofway.site import Roadmap, VertexId
+from rightofway.site import EdgeClass, Roadmap, VertexId
 from rightofway.site.drawing import Picture
 from rightofway.values import written
 
@@ -180,9 +180,9 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
         {
             "from": name(tail),
             "to": name(int(roadmap.heads[edge])),
-            "length": written(roadmap.lengths[roadmap.length_class[edge]]),
+            "length": written(roadmap.edge_class(edge).length),
             "both_ways": False,
-            **_of_class(roadmap, int(roadmap.length_class[edge])),
+            **_of_class(roadmap.edge_class(edge)),
             **curves.get((VertexId(tail), VertexId(int(roadmap.heads[edge]))), {}),
         }
         for tail in range(roadmap.n_vertices)
@@ -209,15 +209,15 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
     }
 
 
-def _of_class(roadmap: Roadmap, length_class: int) -> dict[str, Any]:
-    """Return what edges of a length class have beside their length."""
+def _of_class(edge_class: EdgeClass) -> dict[str, Any]:
+    """Return what edges of a class have beside their length."""
     found: dict[str, Any] = {}
-    if roadmap.speed_limits and (limit := roadmap.speed_limits[length_class]) is not None:
-        found["max_speed"] = written(limit)
-    if roadmap.barred and (types := roadmap.barred[length_class]):
-        found["barred"] = sorted(types)
-    if roadmap.surcharges and (surcharge := roadmap.surcharges[length_class]):
-        found["surcharge"] = written(surcharge)
+    if edge_class.max_speed is not None:
+        found["max_speed"] = written(edge_class.max_speed)
+    if edge_class.barred:
+        found["barred"] = sorted(edge_class.barred)
+    if edge_class.surcharge:
+        found["surcharge"] = written(edge_class.surcharge)
     return found
 
 

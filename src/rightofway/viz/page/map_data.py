@@ -62,7 +62,7 @@ def map_data(
             "points": np.round(plane.points, decimals).ravel().tolist(),
             "tails": differences(tails.tolist()),
             "heads": differences(roadmap.heads.tolist()),
-            "lengths": [float(roadmap.lengths[index]) for index in roadmap.length_class],
+            "lengths": [float(roadmap.edge_class(edge).length) for edge in range(roadmap.n_edges)],
         }
     drawing = roadmap.drawing
     sides = () if roadmap.sides is None else roadmap.sides / plane.unit
@@ -130,11 +130,10 @@ def _obstacles(roadmap: Roadmap, grid: Grid) -> list[ObstacleRow]:
 def _limits(roadmap: Roadmap) -> list[tuple[str, list[int]]]:
     """Return the speed limits, each with its edges."""
     edges = defaultdict[str, list[int]](list)
-    if roadmap.speed_limits:
-        for edge, of in enumerate(roadmap.length_class.tolist()):
-            limit = roadmap.speed_limits[of]
-            if limit is not None:
-                edges[str(limit)].append(edge)
+    for edge in range(roadmap.n_edges):
+        limit = roadmap.edge_class(edge).max_speed
+        if limit is not None:
+            edges[str(limit)].append(edge)
     return list(edges.items())
 
 

@@ -30,7 +30,7 @@ from rightofway.model import (
     Tick,
     Track,
 )
-from rightofway.model.closures import Closure, ways_along
+from rightofway.model.closures import Closure
 from rightofway.model.given import checked_plan
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.report.sentences import proof_in_words
@@ -210,7 +210,7 @@ def closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
         The scenario that has it.
     """
     tick = scenario.problem.clock.tick
-    places = [closure.at] if closure.edge is None else ways_along(scenario.roadmap, closure.edge)[0]
+    places = [closure.at] if closure.edge is None else scenario.roadmap.ways_along(closure.edge)[0]
     until = closure.until
     return {
         "vertices": [vertex for vertex in places if vertex is not None],
