@@ -169,7 +169,10 @@ class FleetSearch {
                 alone[index(robot)] = distances_.alone(robot);
             }
             alone_ = std::move(alone);
-            bound_ = std::accumulate(alone_.begin(), alone_.end(), Tick{0});
+            bound_ = 0;
+            for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+                bound_ += problem_.weight(robot) * alone_[index(robot)];
+            }
             is_alone_known_ = true;
         }
         return &alone_;
@@ -277,7 +280,8 @@ class FleetSearch {
                 const std::vector<RobotId> group = in_the_way_of_each_other(first, old, poll);
                 Tick gain = 0;
                 for (const RobotId robot : group) {
-                    gain += plan_.track(robot).cost - old[index(robot)].cost;
+                    gain +=
+                        problem_.weight(robot) * (plan_.track(robot).cost - old[index(robot)].cost);
                 }
                 if (gain < 0) {
                     continue;

@@ -41,6 +41,7 @@ struct BoundRobots {
     Ticks stage_work;
     Ticks stage_turn;
     std::optional<Ints> size_of;
+    std::optional<Ticks> weight;
 };
 
 struct BoundTurning {

@@ -40,7 +40,9 @@ first_stage : int32[R + 1]
 stage_vertex, stage_work, stage_turn : int32[S], int64[S], int64[S]
     Where each stage is, and how long it takes to work and then to turn. [ticks]
 size_of : int32[R] or None
-    The size class of each robot; None where no robot has a size.)";
+    The size class of each robot; None where no robot has a size.
+weight : int64[R] or None
+    How much a tick of each robot counts; None where all count alike.)";
 
 constexpr auto rules_doc = R"(The rules that turn visits into bookings.
 
@@ -117,10 +119,11 @@ void init(Problem* self, const BoundRoads& roads, const BoundRobots& robots,
           const BookingRules& rules, const BoundExcludedRows* lists, const BoundTurning* turning,
           const std::optional<Ticks>& surcharges, const BoundClosures* closures) {
     const ProblemArrays arrays{
-        view(roads.indptr),       view(roads.heads),         view(roads.length_class),
-        view(robots.paces),       view(robots.pace_of),      view(robots.home),
-        view(robots.first_stage), view(robots.stage_vertex), view(robots.stage_work),
-        view(robots.stage_turn),  roads.n_classes,           view_or_empty(surcharges)};
+        view(roads.indptr),          view(roads.heads),         view(roads.length_class),
+        view(robots.paces),          view(robots.pace_of),      view(robots.home),
+        view(robots.first_stage),    view(robots.stage_vertex), view(robots.stage_work),
+        view(robots.stage_turn),     roads.n_classes,           view_or_empty(surcharges),
+        view_or_empty(robots.weight)};
     if (robots.size_of.has_value() != (lists != nullptr)) {
         throw std::invalid_argument(
             "size_of, lists: one of them is given alone (give both, or none)");
@@ -152,10 +155,11 @@ void bind_problem(nb::module_& module) {
         .def(nb::init<Ints, Ints, Ints, std::int32_t>(), array("indptr"), array("heads"),
              array("length_class"), nb::arg("n_classes"));
     nb::class_<BoundRobots>(module, "Robots", robots_doc)
-        .def(nb::init<Ints, Ints, Ints, Ints, Ints, Ticks, Ticks, std::optional<Ints>>(),
+        .def(nb::init<Ints, Ints, Ints, Ints, Ints, Ticks, Ticks, std::optional<Ints>,
+                      std::optional<Ticks>>(),
              array("paces"), array("pace_of"), array("home"), array("first_stage"),
              array("stage_vertex"), array("stage_work"), array("stage_turn"),
-             array("size_of").none() = nb::none());
+             array("size_of").none() = nb::none(), array("weight").none() = nb::none());
     nb::class_<BookingRules>(module, "BookingRules", rules_doc)
         .def(nb::init<Tick, bool, bool>(), nb::arg("headway"), nb::arg("books_ahead"),
              nb::arg("rotations") = true);

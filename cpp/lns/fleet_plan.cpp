@@ -85,7 +85,7 @@ void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
                           [&](std::int32_t mark) { bookings_.erase(mark, time.start, robot); });
         });
     }
-    cost_ += track.cost - own.cost;
+    cost_ += problem_->weight(robot) * (track.cost - own.cost);
     std::swap(own, track);
     for (std::size_t k = 0; k < own.visits.size(); ++k) {
         for_each_row(robot, own, k, [&](std::int32_t row, const Booking& time) {

@@ -25,7 +25,7 @@ class FleetPlan {
     const BookingTable& bookings() const { return bookings_; }
     const TimedTrack& track(RobotId robot) const { return tracks_[index(robot)]; }
     bool has_track(RobotId robot) const { return !track(robot).visits.empty(); }
-    Tick cost() const { return cost_; }  // of all tracks: flowtime and surcharges
+    Tick cost() const { return cost_; }  // the weighted sum over all tracks
     Tracks tracks() const;
 
     const Problem& problem() const { return *problem_; }

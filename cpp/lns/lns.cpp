@@ -102,12 +102,13 @@ void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
     if (task.tracks.size() < n) {
         task.tracks.resize(n);
     }
-    Tick slack = 0;  // allowed sum of completion times above `alone`
+    Tick slack = 0;  // allowed sum of weighted costs above `alone`
     for (std::size_t k = 0; k < n; ++k) {
         task.tracks[k].visits.clear();
         task.tracks[k].cost = 0;
         worker.plan.exchange(task.robots[k], task.tracks[k]);
-        slack += task.tracks[k].cost - alone_[index(task.robots[k])];
+        slack += plan_.problem().weight(task.robots[k]) *
+                 (task.tracks[k].cost - alone_[index(task.robots[k])]);
     }
     const auto restore = [&] {
         for (std::size_t k = 0; k < n; ++k) {
@@ -129,14 +130,15 @@ void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
 bool Lns::find_tracks(Worker& worker, const Task& task, Tick& slack, const StopCondition& is_over) {
     for (const RobotId robot : task.robots) {
         const Tick alone = alone_[index(robot)];
+        const Tick weight = plan_.problem().weight(robot);
         const SearchRequest errand{
-            worker.reader.read(robot), worker.plan.bookings(), {}, alone + slack};
+            worker.reader.read(robot), worker.plan.bookings(), {}, alone + slack / weight};
         if (worker.search.run(errand, is_over) != SearchEnd::found) {
             return false;
         }
         worker.search.track(worker.found.visits);
         worker.found.cost = worker.search.cost();
-        slack -= worker.found.cost - alone;
+        slack -= weight * (worker.found.cost - alone);
         worker.plan.exchange(robot, worker.found);
         worker.found.cost = 0;
     }

@@ -81,15 +81,16 @@ void Neighbourhoods::fill_up(std::size_t size, Random& random) {
 RobotId Neighbourhoods::late_robot(Random& random) {
     const Tick all = plan_.cost();
     Tick bound = 0;
-    for (const Tick one : alone_) {
-        bound += one;
+    for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+        bound += problem_.weight(robot) * alone_[index(robot)];
     }
     if (all <= bound) {
         return static_cast<RobotId>(random.below(alone_.size()));
     }
     Tick left = static_cast<Tick>(random.below(static_cast<std::size_t>(all - bound)));
     RobotId robot = 0;
-    while ((left -= plan_.track(robot).cost - alone_[index(robot)]) >= 0) {
+    while ((left -= problem_.weight(robot) * (plan_.track(robot).cost - alone_[index(robot)])) >=
+           0) {
         ++robot;
     }
     return robot;

@@ -54,7 +54,7 @@ void Prioritized::start(std::span<const RobotId> order) {
         keep_home(robot);
         Tick& expected = expected_[index(robot)];
         expected = distances_.alone(robot);
-        outlook_ += expected;
+        outlook_ += problem_.weight(robot) * expected;
     }
     highest_outlook_ = outlook_;
 }
@@ -84,7 +84,7 @@ bool Prioritized::place(RobotId robot, const StopCondition& is_over) {
         evict_those_met();
     }
     Tick& expected = expected_[index(robot)];
-    outlook_ += track_.cost - expected;
+    outlook_ += problem_.weight(robot) * (track_.cost - expected);
     expected = track_.cost;
     plan_.exchange(robot, track_);
     return true;

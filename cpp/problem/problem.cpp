@@ -13,6 +13,8 @@ namespace {
 // With durations of at most 2^40 ticks, their sum over a plan stays far below `never`.
 constexpr Tick longest_duration = Tick{1} << 40;
 
+constexpr Tick heaviest = 1'000'000;
+
 void require_durations(const char* name, std::span<const Tick> ticks) {
     for (std::size_t k = 0; k < ticks.size(); ++k) {
         if (ticks[k] < 0 || ticks[k] > longest_duration) {
@@ -167,6 +169,10 @@ void Problem::check_robots() const {
     require_length("stage_turn", arrays_.stage_turn.size(), n_stages);
     require_durations("stage_work", arrays_.stage_work);
     require_durations("stage_turn", arrays_.stage_turn);
+    if (!arrays_.weight.empty()) {
+        require_length("weight", arrays_.weight.size(), n_robots);
+        require_ranges("weight", arrays_.weight, 1, heaviest);
+    }
 }
 
 Itinerary Problem::itinerary(RobotId robot) const {

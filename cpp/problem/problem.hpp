@@ -35,6 +35,7 @@ struct ProblemArrays {
     std::span<const Tick> stage_turn;
     std::int32_t n_classes;
     std::span<const Tick> surcharges = {};  // per length class: added to costs; empty: all 0
+    std::span<const Tick> weight = {};      // per robot: of a tick of it; empty: all 1
 };
 
 // Which bookings exclude each other where robots have sizes; empty where none has. A *row* is a
@@ -162,6 +163,10 @@ class Problem {
                    : arrays_.surcharges[index(roads_.length_class[index(edge)])];
     }
     bool has_surcharges() const { return !arrays_.surcharges.empty(); }
+    // How much a tick of a robot's completion time and surcharges counts.
+    Tick weight(RobotId robot) const {
+        return arrays_.weight.empty() ? 1 : arrays_.weight[index(robot)];
+    }
 
     bool has_sizes() const { return !resources_.first.empty(); }
     // Whether drives book edges: where robots have sizes, or an edge is closed.

@@ -43,6 +43,7 @@ FEATURES = (
     "surcharges",
     "turn rates",
     "turns",  # turning times of stops
+    "weights",  # of the robots' completion times
     "zones",
 )
 """What a fleet may have; without any of them it is the paper's: points of speed 1 on a grid."""
@@ -314,6 +315,8 @@ def _own(draw: st.DrawFn, has: set[str]) -> Document:
         robot["turn"] = draw(st.sampled_from([0, "1/2", 2]))
     if "barred" in has and draw(st.booleans()):
         robot["type"] = "wide"
+    if "weights" in has:
+        robot["weight"] = draw(st.sampled_from([1, 3, "1/2"]))
     return robot
 
 

@@ -154,6 +154,19 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         lambda: door().add_robot("R1", home="N0", target="N6", speed=0).scenario(),
         r"robots\[0\].speed: 0 is not positive",
     ),
+    "weight is 0": (
+        lambda: door().add_robot("R1", home="N0", target="N6", weight=0).scenario(),
+        r"robots\[0\].weight: 0 is not positive",
+    ),
+    "weights are too far apart": (
+        lambda: (
+            door()
+            .add_robot("R1", home="N0", target="N6", weight="1/1001")
+            .add_robot("R2", home="N2", target="N8", weight=1000)
+            .scenario()
+        ),
+        r"robots\[1\].weight: 1000 makes weights too far apart .* it is 1001000, above 1000000",
+    ),
     "the grid is ragged": (lambda: FleetBuilder(grid=["...", "."]), r"grid\[1\]: 1 cells, but"),
     "the cells have no size": (
         lambda: door(cell_size=0),

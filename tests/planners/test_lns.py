@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -10,10 +11,11 @@ import pytest
 import rightofway
 from rightofway.errors import GaveUp
 from rightofway.metrics import measure
-from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, cost_of
 from rightofway.planners import Deadline, PrioritizedOptions, Task
 from rightofway.planners.lns import lns
 from rightofway.planners.prioritized import prioritized
+from rightofway.search import FleetSearch
 from tests.builders.fleets import grid_fleet, random_fleet
 
 CROWDED = random_fleet(5, size=10, robots=30, rules=Rules(occupancy="both"))
@@ -45,6 +47,45 @@ def test_it_stops_where_nothing_can_be_better_and_says_so() -> None:
     plan = rightofway.solve(fleet, "lns", time_limit=None)
     assert plan.run.status.startswith("optimal")
     assert time.perf_counter() - began < 5
+
+
+@pytest.mark.parametrize("weight", ["1/5", "5"])
+@pytest.mark.parametrize("planner", ["lns", "auto"])
+def test_the_robot_with_the_larger_weight_goes_first(planner: str, weight: str) -> None:
+    """Two robots cross at a vertex at one tick, so either may wait."""
+    weights = {"R1": Fraction(1), "R2": Fraction(weight)}
+    trips = [("N1", "N7"), ("N3", "N5")]
+    fleet = grid_fleet(["@.@", "...", "@.@"], trips, rules=Rules(ends="none"))
+    robots = tuple(replace(robot, weight=weights[robot.name]) for robot in fleet.robots)
+    plan = rightofway.solve(replace(fleet, robots=robots), planner, options={"iterations": 50})
+    first = max(weights, key=lambda name: weights[name])
+    late = min(weights, key=lambda name: weights[name])
+    assert (plan[first].completion, plan[late].completion) == (2, 3)
+
+
+def test_weights_of_one_ratio_give_one_plan() -> None:
+    def planned(*weights: Fraction) -> list[list[int]]:
+        robots = [replace(robot, weight=weights[k % 2]) for k, robot in enumerate(CROWDED.robots)]
+        fleet = replace(CROWDED, robots=tuple(robots))
+        plan = rightofway.solve(fleet, "lns", options={"iterations": 30})
+        return [track.enter.tolist() for track in plan.tracks]
+
+    assert planned(Fraction(1), Fraction(3)) == planned(Fraction(1, 3), Fraction(1))
+    assert planned(Fraction(7), Fraction(7)) == planned(Fraction(1), Fraction(1))
+
+
+def test_the_search_sums_costs_by_weights() -> None:
+    """The cost that the native core keeps up to date is the cost of its tracks."""
+    robots = tuple(
+        replace(robot, weight=Fraction(1 + k % 3)) for k, robot in enumerate(CROWDED.robots)
+    )
+    fleet = replace(CROWDED, robots=robots)
+    search = FleetSearch(fleet.problem)
+    assert search.prioritize(range(len(robots)), searches=10_000, time_limit=None)
+    before = search.cost
+    assert before == cost_of(fleet, search.tracks())
+    search.improve(40, patience=1000)
+    assert search.cost == cost_of(fleet, search.tracks()) < before
 
 
 def test_progress_tells_flowtime_gap_and_rate() -> None:

@@ -280,6 +280,7 @@ class FleetBuilder:
         size: tuple[Number, Number] | None = None,
         type: str | None = None,  # noqa: A002 (the key of scenario files)
         turn_rate: Number | None = None,
+        weight: Number = 1,
     ) -> Self:
         """Add a robot; the map must be complete.
 
@@ -307,6 +308,8 @@ class FleetBuilder:
             The name of its type, for edges and vertices that are barred for types.
         turn_rate
             How fast it turns on the spot [degrees per time unit], if that differs from the rules.
+        weight
+            How much its completion time counts beside those of the other robots.
 
         Raises
         ------
@@ -341,6 +344,7 @@ class FleetBuilder:
                 radius=radius_of(radius, size),
                 type=type,
                 turn_rate=turn_rate,  # type: ignore[arg-type]
+                weight=weight,  # type: ignore[arg-type]
             )
         except InputError as error:
             raise InputError(error.faults, source) from None

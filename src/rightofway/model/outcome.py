@@ -10,7 +10,7 @@ from fractions import Fraction
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
-from rightofway.model.stays import completions_of, cost_of
+from rightofway.model.stays import completions_of, cost_of, costs_of
 from rightofway.model.units import Tick
 
 
@@ -23,12 +23,16 @@ class Objective(StrEnum):
         The sum of the completion times.
     COST
         The flowtime and the surcharges of all edges driven.
+    WEIGHTED
+        The flowtime and surcharges, where a tick of a robot counts as often as its weight says:
+        whole numbers in the ratio of the weights of robots.
     MAKESPAN
         The latest completion time.
     """
 
     FLOWTIME = "flowtime"
     COST = "flowtime and surcharges"
+    WEIGHTED = "weighted flowtime"
     MAKESPAN = "makespan"
 
     def of(self, scenario: Scenario, tracks: Sequence[Track]) -> Tick:
@@ -41,8 +45,10 @@ class Objective(StrEnum):
         tracks
             One track for each robot.
         """
-        if self is Objective.COST:
+        if self is Objective.WEIGHTED:
             return cost_of(scenario, tracks)
+        if self is Objective.COST:
+            return Tick(sum(costs_of(scenario, tracks)))
         completions = completions_of(scenario, tracks)
         return Tick(sum(completions)) if self is Objective.FLOWTIME else max(completions)
 
@@ -55,6 +61,8 @@ def minimized(scenario: Scenario) -> Objective:
     scenario
         The problem.
     """
+    if any(itinerary.weight != 1 for itinerary in scenario.problem.itineraries):
+        return Objective.WEIGHTED
     return Objective.COST if scenario.roadmap.has_surcharges else Objective.FLOWTIME
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain
+from math import gcd, lcm
 
 from rightofway.errors import InputError
 from rightofway.model.closures import Closure, Closures, closures_of
@@ -17,6 +18,9 @@ from rightofway.site import Roadmap, VertexId
 
 LARGEST_SURCHARGE = 2**27
 """Routes are chosen as if no edge had a larger surcharge [ticks]."""
+
+HEAVIEST = 10**6
+"""The largest weight of a robot in whole numbers, so that weighted costs fit 64 bits."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,6 +59,9 @@ class Itinerary:
         Ticks by which an edge of each class is less liked; empty where all are 0.
     turning
         How long it turns on the spot between two edges, or None if that takes no time.
+    weight
+        How much a tick of it counts beside a tick of the other robots; whole numbers for a fleet,
+        all 1 where robots count alike.
     """
 
     home: VertexId
@@ -62,12 +69,13 @@ class Itinerary:
     edge_ticks: tuple[Tick, ...]
     surcharges: tuple[Tick, ...] = ()
     turning: Turning | None = None
+    weight: int = 1
 
     @property
-    def weights(self) -> tuple[Tick, ...]:
+    def edge_costs(self) -> tuple[Tick, ...]:
         """Ticks and surcharge of an edge of each class; -1 where the robot is barred.
 
-        A surcharge counts up to `LARGEST_SURCHARGE`, so that weights of paths fit 32 bits.
+        A surcharge counts up to `LARGEST_SURCHARGE`, so that costs of paths fit 32 bits.
         """
         if not self.surcharges:
             return self.edge_ticks
@@ -247,8 +255,10 @@ def problem_of(
         books_ahead=rules.books_ahead,
         rotations=rules.rotations,
         itineraries=tuple(
-            _itinerary(roadmap, robot, rules, clock, turning)
-            for robot, turning in zip(robots, turnings_of(roadmap, rates, clock), strict=True)
+            _itinerary(roadmap, robot, rules, clock, turning=turning, weight=weight)
+            for robot, turning, weight in zip(
+                robots, turnings_of(roadmap, rates, clock), whole_weights(robots), strict=True
+            )
         ),
         resources=resources_of(roadmap, radii, rules.clearance),
         closures=closures_of(closures, roadmap, radii, rules.clearance, clock),
@@ -280,8 +290,21 @@ def _durations(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fractio
     yield from (stop.work for stop in robot.stops)
 
 
+def whole_weights(robots: Sequence[Robot]) -> list[int]:
+    """Return the least whole numbers in the ratio of the weights of robots."""
+    common = lcm(*(robot.weight.denominator for robot in robots))
+    whole = [int(robot.weight * common) for robot in robots]
+    return [weight // gcd(*whole) for weight in whole]
+
+
 def _itinerary(
-    roadmap: Roadmap, robot: Robot, rules: Rules, clock: Clock, turning: Turning | None
+    roadmap: Roadmap,
+    robot: Robot,
+    rules: Rules,
+    clock: Clock,
+    *,
+    turning: Turning | None,
+    weight: int,
 ) -> Itinerary:
     turn = clock.ticks(turning_time(roadmap, robot, rules))
     visits = [(stop.at, clock.ticks(stop.work)) for stop in robot.stops]
@@ -308,4 +331,5 @@ def _itinerary(
         if roadmap.has_surcharges
         else (),
         turning=turning,
+        weight=weight,
     )

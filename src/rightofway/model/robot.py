@@ -80,6 +80,8 @@ class Robot:
     turn_rate
         How fast it turns on the spot [degrees per time unit], positive, if that differs from the
         rules.
+    weight
+        How much its completion time counts beside those of the other robots, positive.
 
     Raises
     ------
@@ -125,6 +127,12 @@ class Robot:
         metadata=attribute(
             "positive",
             "how fast it turns on the spot [degrees per time unit]; by default in no time",
+        ),
+    )
+    weight: Fraction = field(
+        default=Fraction(1),
+        metadata=attribute(
+            "positive", "how much its completion time counts beside the others', above 0"
         ),
     )
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.model.above import from_above
 from rightofway.model.closures import Closure, closure_faults
-from rightofway.model.problem import Problem, problem_of
+from rightofway.model.problem import HEAVIEST, Problem, problem_of, whole_weights
 from rightofway.model.resources import too_short_edges
 from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
@@ -193,6 +193,7 @@ def _fleet_faults(scenario: Scenario) -> Iterator[InputFault]:
         yield InputFault("robots", "there is none (give at least one)")
     for index, robot in enumerate(scenario.robots):
         yield from (fault.within(f"robots[{index}]") for fault in _robot_faults(robot, scenario))
+    yield from _weight_faults(scenario.robots)
     name = scenario.roadmap.name
     names = [robot.name for robot in scenario.robots]
     numbers = [f"robots[{index}]" for index in range(len(names))]
@@ -210,6 +211,16 @@ def _twice(key: str, values: list[str], owners: list[str], remedy: str) -> Itera
         if earlier != index:
             message = f"{value} is the {key} of {owners[earlier]} already ({remedy})"
             yield InputFault(f"robots[{index}].{key}", message)
+
+
+def _weight_faults(robots: Sequence[Robot]) -> Iterator[InputFault]:
+    if all(robot.weight > 0 for robot in robots):
+        weights = whole_weights(robots)
+        heaviest = max(weights, default=1)
+        if heaviest > HEAVIEST:
+            message = f"{robots[weights.index(heaviest)].weight} makes weights too far apart or too"
+            message += f" fine: in whole numbers it is {heaviest}, above {HEAVIEST} (round weights)"
+            yield InputFault(f"robots[{weights.index(heaviest)}].weight", message)
 
 
 def _robot_faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
@@ -232,6 +243,8 @@ def _number_faults(robot: Robot) -> Iterator[InputFault]:
         )
     if robot.radius < 0:
         yield InputFault("radius", f"{robot.radius} is negative (give 0 or more)")
+    if robot.weight <= 0:
+        yield InputFault("weight", f"{robot.weight} is not positive (give a number above 0)")
     if robot.laps is not None and robot.laps < 1:
         yield InputFault("laps", f"{robot.laps} is less than one lap (give 1 or more)")
     if not robot.stops:

@@ -120,7 +120,7 @@ def flowtime_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
 
 
 def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
-    """Return what planners minimize: the flowtime and the surcharges of all edges driven [ticks].
+    """Return what planners minimize: the costs of all robots, by their weights [ticks].
 
     Parameters
     ----------
@@ -129,13 +129,29 @@ def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
     tracks
         One track for each robot.
     """
-    cost, roadmap = flowtime_of(scenario, tracks), scenario.roadmap
-    if roadmap.has_surcharges:
-        for itinerary, track in zip(scenario.problem.itineraries, tracks, strict=True):
-            edges = roadmap.edges(track.vertices[:-1], track.vertices[1:])
-            by_class = np.array(itinerary.surcharges, np.int64)
-            cost = Tick(cost + int(by_class[roadmap.class_of_edge[edges]].sum()))
-    return cost
+    costs = zip(scenario.problem.itineraries, costs_of(scenario, tracks), strict=True)
+    return Tick(sum(itinerary.weight * cost for itinerary, cost in costs))
+
+
+def costs_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
+    """Return the completion time of each robot and the surcharges of its edges [ticks].
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    """
+    costs, roadmap = completions_of(scenario, tracks), scenario.roadmap
+    if not roadmap.has_surcharges:
+        return costs
+    more = []
+    for itinerary, track in zip(scenario.problem.itineraries, tracks, strict=True):
+        edges = roadmap.edges(track.vertices[:-1], track.vertices[1:])
+        by_class = np.array(itinerary.surcharges, np.int64)
+        more.append(by_class[roadmap.class_of_edge[edges]].sum())
+    return tuple(Tick(cost + int(extra)) for cost, extra in zip(costs, more, strict=True))
 
 
 def _edges_of_fleet(

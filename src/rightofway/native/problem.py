@@ -58,6 +58,7 @@ def bound(problem: Problem) -> _core.Problem:
                 stage_work=np.array([stage.work for stage in stages], np.int64),
                 stage_turn=np.array([stage.turn for stage in stages], np.int64),
                 size_of=None if sizes is None else sizes.size_of,
+                weight=np.array([robot.weight for robot in robots], np.int64),
             ),
             rules_of(problem),
             lists=None if sizes is None else _core.ExcludedRows(sizes.first, sizes.excluded),

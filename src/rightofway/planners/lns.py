@@ -20,6 +20,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
+
 from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick, Track, cost_of
 from rightofway.model.outcome import minimized
@@ -149,7 +151,8 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     is_open = task.scenario.problem.closures is None
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
     deadline = task.deadline.earlier(retiming * sum(map(len, spaced)))
-    bound, before = int(search.alone().sum()), search.cost
+    weights = [itinerary.weight for itinerary in task.scenario.problem.itineraries]
+    bound, before = int(np.dot(weights, search.alone())), search.cost
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED
     done, ended = 0, ""

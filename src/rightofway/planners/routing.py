@@ -80,7 +80,7 @@ def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:
     The way home from the last stop of a lap is the path that leads there from home, reversed,
     wherever that is a shortest path too.
     """
-    ticks, legs = itinerary.weights, []
+    ticks, legs = itinerary.edge_costs, []
     for place, stage in _trips(itinerary):
         leg = distances.path(place, stage, ticks)
         if stage == itinerary.home:

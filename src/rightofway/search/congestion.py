@@ -108,7 +108,7 @@ class Congestion:
         """
         self.distances.checkpoint()
         checked_index("robot", robot, len(self.problem.itineraries))
-        to_go = self.distances.to(target, self.problem.itineraries[robot].weights)
+        to_go = self.distances.to(target, self.problem.itineraries[robot].edge_costs)
         found = self._kernel.path(robot, start, target, to_go)
         return tuple(VertexId(vertex) for vertex in found.tolist())
 

@@ -81,6 +81,7 @@ export interface RobotData {
   return?: string;
   laps?: Numeral;
   turn_rate?: Numeral;
+  weight?: Numeral;
 }
 
 export interface ClosureData {

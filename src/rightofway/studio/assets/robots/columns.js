@@ -44,7 +44,7 @@ function textOfWork(robot) {
 }
 
 /**
- * @param {"speed" | "radius" | "turn" | "laps" | "turn_rate"} key
+ * @param {"speed" | "radius" | "turn" | "laps" | "turn_rate" | "weight"} key
  * @returns {Column}
  */
 const number = (key) => ({
@@ -113,6 +113,7 @@ export const COLUMNS = [
   word("return"),
   number("laps"),
   number("turn_rate"),
+  number("weight"),
 ];
 
 /**

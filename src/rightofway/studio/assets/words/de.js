@@ -201,6 +201,7 @@ export const GERMAN = {
     return: ["Rückkehr", "Ob er am letzten Ziel bleibt; leer: wie die Regeln sagen", "–"],
     laps: ["Umläufe", "Wie oft er seine Fahrt macht", "1"],
     turn_rate: ["Drehrate", "Wie schnell er auf der Stelle dreht, in Grad je Zeiteinheit", "–"],
+    weight: ["Gewicht", "Wie viel seine Fertigzeit neben denen der anderen zählt", "1"],
   },
   placeRobot: "Auf der Karte platzieren",
   fillDown: "Nach unten füllen",

@@ -202,6 +202,7 @@ export const ENGLISH = {
     return: ["Return", "home, or none: it stays at its last stop", "–"],
     laps: ["Laps", "How often it makes its round trip", "1"],
     turn_rate: ["Turn rate", "How fast it turns on the spot, in degrees per time unit", "–"],
+    weight: ["Weight", "How much its completion time counts beside the others", "1"],
   },
   placeRobot: "Place on the map",
   fillDown: "Fill down",
