@@ -56,8 +56,8 @@ class OutcomeDocument(Document):
     kind: Literal["optimal", "bounded", "best found", "no plan exists", "gave up"] = Field(
         description="optimal, bounded, best found, no plan exists, or gave up"
     )
-    objective: Literal["flowtime", "flowtime and surcharges", "makespan"] = Field(
-        default="flowtime", description="flowtime, flowtime and surcharges, or makespan"
+    objective: Literal["flowtime", "flowtime and surcharges", "weighted flowtime", "makespan"] = (
+        Field(default="flowtime", description="flowtime, flowtime and surcharges, or makespan")
     )
     bound: Ticks | None = Field(
         default=None,
