@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from rightofway.check import check
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
+from rightofway.execution.progress import simulated_progress
 from rightofway.execution.replan import commitment_of, held_by_broken, replan
 from rightofway.model import NEVER, Plan, Scenario, Stage, Tick
 from rightofway.planners import Deadline
@@ -74,7 +75,8 @@ def test_as_many_finish_as_brute_force_finds(fleet: Scenario, planner: str, chan
     adg = with_breakdowns(draw, plan, most=1)
     sample = adg.delay_sample(chance, 0)
     since, broken = min((sample.breakdown(robot), robot) for robot in range(len(plan.tracks)))
-    forecast = Forecast(adg, sample, adg.execute(sample), since, frozenset({broken}))
+    run = adg.execute(sample)
+    forecast = Forecast(adg, simulated_progress(adg, sample, run, since, frozenset({broken})))
     stages = tuple(one.stages for one in plan.scenario.problem.itineraries)
     found = replan(forecast, stages, 0, Deadline())
     assert found is not None

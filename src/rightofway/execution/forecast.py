@@ -1,8 +1,8 @@
 """Forecast of an execution at an instant: past times are fixed, later times are estimated.
 
 A stay or drive that is overdue by n ticks is expected to last n more ticks. A robot that waits for
-its right of way only is expected to move as soon as it gets it. Other durations are as planned. The
-forecast does not use the remaining duration of a delay, which is unknown on a real site, too.
+its right of way only is expected to move as soon as it gets it. Other durations are as planned, and
+longer by a delay that is known. A forecast knows `Progress` only.
 """
 
 from __future__ import annotations
@@ -11,28 +11,20 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rightofway.execution.progress import Activity, Progress, Times
 from rightofway.model import Route, Tick
 from rightofway.planners.task import planning_headway
-from rightofway.precedence import (
-    ActionDependencyGraph,
-    DelaySample,
-    Execution,
-    graph_on,
-)
-
-Times = NDArray[np.int64]  # a time for each visit [ticks]; shape (N,)
+from rightofway.precedence import ActionDependencyGraph, graph_on
 
 
 class Forecast:
     """What is expected at a tick, and what can still be changed.
 
-    Later times of the execution than ``now`` are not looked at. Of robots that are known to be
-    broken nothing more is expected.
-
     Attributes
     ----------
+    adg, progress
+        The plan, and how far its robots have come.
     booked, entered
         Visits that have booked their vertex, and visits that have begun; bool[N].
     graph
@@ -41,18 +33,10 @@ class Forecast:
         Whether all visits can take place in their order, without a swap.
     """
 
-    def __init__(
-        self,
-        adg: ActionDependencyGraph,
-        delay_sample: DelaySample,
-        execution: Execution,
-        now: int,
-        broken: frozenset[int] = frozenset(),
-    ) -> None:
-        self.adg, self.delay_sample, self.execution = adg, delay_sample, execution
-        self.now, self.broken = now, broken
-        self.booked = execution.start <= now
-        self.entered = execution.enter <= now
+    def __init__(self, adg: ActionDependencyGraph, progress: Progress) -> None:
+        self.adg, self.progress = adg, progress
+        self.now, self.broken = progress.now, progress.broken
+        self.booked, self.entered = progress.booked, progress.entered
         self.books_ahead = adg.scenario.rules.books_ahead
         self.graph = graph_on(
             adg.scenario,
@@ -70,29 +54,13 @@ class Forecast:
         first, end = self.adg.first_visit[robot : robot + 2].tolist()
         return int(first + np.count_nonzero(self.entered[first:end]) - 1)
 
-    def is_ready(self, robot: int) -> bool:
-        """Tell whether a robot waits for its right of way only."""
-        visit = self.visit_of(robot)
-        ready = int(self.execution.enter[visit] + self.delay_sample.dwell[visit])
-        if not self.books_ahead:
-            ready += int(self.delay_sample.drive[visit + 1])
-        stands = False
-        for begin, ticks in self.delay_sample.stoppages_of(robot):
-            if self.execution.enter[visit] <= begin < ready:
-                ready += ticks
-            stands |= begin < self.now < begin + ticks
-        return ready <= self.now and not stands
-
     def has_set_off(self, robot: int) -> bool:
         """Tell whether a robot drives to, or waits before, a vertex that it has not booked."""
-        visit = self.visit_of(robot)
-        if self.books_ahead or visit + 1 == self.adg.first_visit[robot + 1]:
-            return False
-        return int(self.execution.enter[visit] + self.delay_sample.dwell[visit]) <= self.now
+        return not self.books_ahead and self.progress.activity[robot] != Activity.STAYS
 
     def is_driving(self, robot: int) -> bool:
         """Tell whether a robot drives to a vertex that it has not booked."""
-        return self.has_set_off(robot) and not self.is_ready(robot)
+        return not self.books_ahead and self.progress.activity[robot] == Activity.DRIVES
 
     def _rights(self) -> Iterator[tuple[int, int]]:
         """Yield the unused rights of way, in the order of planned times."""
@@ -108,7 +76,7 @@ class Forecast:
         """Return a route with actual durations so far and the expected one of the current visit."""
         route, first = self.adg.routes[robot], int(self.adg.first_visit[robot])
         here = self.visit_of(robot) - first
-        lasted = np.diff(self.execution.enter[first : first + here + 1])
+        lasted = np.diff(self.progress.enter[first : first + here + 1])
         dwell = [Tick(ticks - route.drive[k + 1]) for k, ticks in enumerate(lasted.tolist())]
         if here < len(route) - 1:
             dwell.append(Tick(self._lasts(robot, here) - route.drive[here + 1]))
@@ -117,18 +85,20 @@ class Forecast:
     def _lasts(self, robot: int, index: int) -> int:
         """Return the expected ticks from the enter of the current visit to the next enter."""
         route, visit = self.adg.routes[robot], int(self.adg.first_visit[robot]) + index
-        since = self.now - int(self.execution.enter[visit])
-        drive = int(route.drive[index + 1])
+        enter, start = self.progress.enter, self.progress.start
+        since, drive = self.now - int(enter[visit]), int(route.drive[index + 1])
+        is_ready = self.progress.activity[robot] == Activity.WAITS
+        more = self.progress.known_delay(robot) or 0
         if not self.books_ahead:
             least = route.least(index)
-            return max(since, least) if self.is_ready(robot) else _with_overdue(least, since)
+            return max(since, least) if is_ready else _with_overdue(least + more, since)
         if self.booked[visit + 1]:
-            stayed = int(self.execution.start[visit + 1] - self.execution.enter[visit])
+            stayed = int(start[visit + 1] - enter[visit])
             is_lost = robot in self.broken
-            return stayed + (drive if is_lost else _with_overdue(drive, since - stayed))
-        if self.is_ready(robot):
+            return stayed + (drive if is_lost else _with_overdue(drive + more, since - stayed))
+        if is_ready:
             return since + drive
-        return _with_overdue(int(route.dwell[index]), since) + drive
+        return _with_overdue(int(route.dwell[index]) + more, since) + drive
 
 
 def _with_overdue(least: int, since: int) -> int:

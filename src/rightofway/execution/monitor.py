@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.execution.forecast import Forecast
+from rightofway.execution.progress import simulated_progress
 from rightofway.execution.replan import replan
 from rightofway.model import NEVER, ExecutionTrace
 from rightofway.planners import Deadline
@@ -129,7 +130,8 @@ class ExecutionMonitor:
 
     def forecast(self, now: int) -> Forecast:
         """Return the forecast at a tick."""
-        return Forecast(self.adg, self.delay_sample, self.execution, now, self.broken)
+        progress = simulated_progress(self.adg, self.delay_sample, self.execution, now, self.broken)
+        return Forecast(self.adg, progress)
 
     def _execute(self) -> None:
         """Execute the plan; at each delay or breakdown, make a forecast, then reorder or replan."""
@@ -177,7 +179,8 @@ class ExecutionMonitor:
             return
         sample = found.adg.delay_sample(self.seed, self.run).with_stoppages_of(self.delay_sample)
         execution = found.adg.execute(sample)
-        new = Forecast(found.adg, sample, execution, forecast.now, self.broken)
+        progress = simulated_progress(found.adg, sample, execution, forecast.now, self.broken)
+        new = Forecast(found.adg, progress)
         flowtime = int(new.graph.flowtime())
         if new.is_possible and flowtime < limit:
             self.replans += 1

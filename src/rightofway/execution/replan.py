@@ -408,7 +408,7 @@ def _spliced(
         turns_back = old.vertices[next_visit] != route.vertices[next_visit]
         if len(enter) and forecast.broken and forecast.has_set_off(robot) and turns_back:
             since[0] += route.drive[one.visit + 1]
-        enter = np.append(np.minimum(forecast.execution.enter[booked], arrives), enter)
+        enter = np.append(np.minimum(forecast.progress.enter[booked], arrives), enter)
         tracks.append(Track(vertices=np.array(route.vertices, np.int32), enter=enter))
         routes.append(route)
         sinces.append(np.append(adg.since[booked], since))

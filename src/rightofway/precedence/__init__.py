@@ -16,6 +16,7 @@ from rightofway.precedence.graph import (
     graph_on,
 )
 from rightofway.precedence.period_curve import Growth, PeriodPiece, period_curve
+from rightofway.precedence.release_graph import Arrival, Part, ReleaseGraph
 from rightofway.precedence.segments import Segment, SegmentOfSizes, crossing, shared_segment
 from rightofway.precedence.sensitivity import (
     Sensitivity,
@@ -34,6 +35,7 @@ from rightofway.precedence.timed_event_graph import (
 __all__ = [
     "ActionDependencyGraph",
     "Arcs",
+    "Arrival",
     "Circuit",
     "CyclicSchedule",
     "DelayModel",
@@ -41,8 +43,10 @@ __all__ = [
     "Execution",
     "Growth",
     "Meeting",
+    "Part",
     "PeriodPiece",
     "PrecedenceGraph",
+    "ReleaseGraph",
     "RunBatch",
     "Segment",
     "SegmentOfSizes",

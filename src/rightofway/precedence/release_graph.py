@@ -1,0 +1,222 @@
+"""The release graph: which arrivals of other robots a robot waits for before it may go on.
+
+Part j of a robot is edge j and vertex j of its route; part 0 is the vertex where it starts. A robot
+holds the vertex that it has last arrived at and every released part after it. Part j may be
+released when each robot that uses something incompatible first has *arrived* beyond it: at its
+vertex i + 1, if that is its vertex i, and at its vertex i, if that is its edge i. An arrival is a
+fact that stays true, so no clock is read, and no two robots ever hold incompatible parts, however
+late each of them is.
+
+Bookings are those of ``occupancy: both``, whatever the plan's own: a robot drives into a vertex
+only after it has been left. Two things of a plan are times and have no place here: headways and
+closures.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from rightofway.model import Scenario, Track
+from rightofway.model.route import drives_along
+
+
+class Part(NamedTuple):
+    """An edge of a robot's route and the vertex that it leads to; part 0 is the start."""
+
+    robot: int
+    number: int
+
+
+class Arrival(NamedTuple):
+    """A robot has arrived at the vertex of a visit of its route."""
+
+    robot: int
+    visit: int
+
+
+class ReleaseGraph:
+    """Which arrivals each part of each route waits for.
+
+    Parameters
+    ----------
+    lengths
+        The number of parts of each robot's route.
+    waits
+        The arrivals that a part waits for; parts that wait for none may be left out.
+
+    Notes
+    -----
+    A part does not list arrivals that follow from others that it lists, at the same vertex.
+    """
+
+    def __init__(self, lengths: Sequence[int], waits: Mapping[Part, Sequence[Arrival]]) -> None:
+        self.lengths = tuple(lengths)
+        self._waits = {part: tuple(arrivals) for part, arrivals in waits.items() if arrivals}
+        self._after = defaultdict[Arrival, list[Part]](list)
+        for part, arrivals in self._waits.items():
+            for arrival in arrivals:
+                self._after[arrival].append(part)
+
+    @classmethod
+    def of(cls, scenario: Scenario, tracks: Sequence[Track]) -> ReleaseGraph:
+        """Return the release graph of a plan.
+
+        Parameters
+        ----------
+        scenario
+            The problem.
+        tracks
+            A plan that keeps the rules. Its times say which robot goes first, and nothing else.
+        """
+        uses = [_uses_of(scenario, robot, track) for robot, track in enumerate(tracks)]
+        order = defaultdict[int, list[_Use]](list)  # the uses of each row, by begin
+        for use in (use for own in uses for use in own):
+            order[use.row].append(use)
+        for by_row in order.values():
+            by_row.sort()
+        waits = {
+            Part(robot, number): arrivals
+            for robot, own in enumerate(uses)
+            for number, arrivals in _waits_of(scenario, robot, own, order).items()
+        }
+        return cls([len(track) for track in tracks], waits)
+
+    def waits(self, part: Part) -> tuple[Arrival, ...]:
+        """Return the arrivals that a part waits for, by robot.
+
+        Parameters
+        ----------
+        part
+            A part of a route.
+        """
+        return self._waits.get(part, ())
+
+    def after(self, arrival: Arrival) -> tuple[Part, ...]:
+        """Return the parts that wait for an arrival.
+
+        Parameters
+        ----------
+        arrival
+            An arrival of a robot at a vertex of its route.
+        """
+        return tuple(self._after.get(arrival, ()))
+
+    def missing(self, part: Part, arrived: Sequence[int]) -> tuple[Arrival, ...]:
+        """Return the arrivals that a part still waits for: why it may not go.
+
+        Parameters
+        ----------
+        part
+            A part of a route.
+        arrived
+            The visit at whose vertex each robot has last arrived.
+        """
+        return tuple(one for one in self.waits(part) if arrived[one.robot] < one.visit)
+
+    def may_go(self, part: Part, arrived: Sequence[int]) -> bool:
+        """Return whether no robot is in the way of a part any more.
+
+        Parameters
+        ----------
+        part
+            A part of a route; the parts before it are released.
+        arrived
+            The visit at whose vertex each robot has last arrived.
+        """
+        return not self.missing(part, arrived)
+
+    def rotation(self) -> tuple[Part, ...]:
+        """Return parts of which each waits for the next, the last for the first; empty if none do.
+
+        The robots of a cycle move round at one instant in the plan. No robot can go first, so such
+        a plan cannot be released part by part. Every other plan can, to its end.
+        """
+        before = {
+            Part(robot, number): self._released_before(Part(robot, number))
+            for robot, length in enumerate(self.lengths)
+            for number in range(length)
+        }
+        following = defaultdict[Part, list[Part]](list)
+        for part, earlier in before.items():
+            for one in earlier:
+                following[one].append(part)
+        open_arcs = {part: len(earlier) for part, earlier in before.items()}
+        ready = [part for part, count in open_arcs.items() if count == 0]
+        while ready:
+            part = ready.pop()
+            del open_arcs[part]
+            for one in following[part]:
+                open_arcs[one] -= 1
+                if open_arcs[one] == 0:
+                    ready.append(one)
+        if not open_arcs:
+            return ()
+        # Each part that is left waits for another one that is left: walk until one comes again.
+        walked, part = list[Part](), min(open_arcs)
+        while part not in walked:
+            walked.append(part)
+            part = min(one for one in before[part] if one in open_arcs)
+        return tuple(walked[walked.index(part) :])
+
+    def _released_before(self, part: Part) -> set[Part]:
+        """Return the parts that are released before a part: its own last one, and arrivals' own."""
+        own = [Part(part.robot, part.number - 1)] if part.number else []
+        return {*own, *(Part(*arrival) for arrival in self.waits(part))}
+
+
+class _Use(NamedTuple):
+    """A robot books a row; sorted by begin, the uses of a vertex are in their order in the plan."""
+
+    begin: int  # of a time in which it surely books it [ticks]
+    row: int
+    robot: int
+    part: int
+    left: int  # the visit whose arrival ends it
+    is_vertex: bool
+
+
+def _uses_of(scenario: Scenario, robot: int, track: Track) -> list[_Use]:
+    """Return what a robot books: each vertex, and where robots have sizes each edge, too."""
+    resources, roadmap = scenario.problem.resources, scenario.roadmap
+    vertices, enter = track.vertices.tolist(), track.enter.tolist()
+    own = 0 if resources is None else resources.vertex_row(robot, 0)
+    uses = [
+        _Use(enter[k], own + vertex, robot, k, k + 1, is_vertex=True)
+        for k, vertex in enumerate(vertices)
+    ]
+    if resources is not None:
+        edges = roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
+        drives = drives_along(roadmap, scenario.problem.itineraries[robot], vertices)
+        uses += (
+            _Use(enter[k] - ticks, resources.edge_row(robot, edge), robot, k, k, is_vertex=False)
+            for k, (edge, ticks) in enumerate(zip(edges, drives, strict=True), 1)
+        )
+    return uses
+
+
+def _waits_of(
+    scenario: Scenario, robot: int, own: Sequence[_Use], order: Mapping[int, Sequence[_Use]]
+) -> dict[int, list[Arrival]]:
+    """Return the arrivals that each part of a robot waits for."""
+    resources = scenario.problem.resources
+    latest = defaultdict[int, dict[int, int]](dict)  # part: other robot: visit
+    for use in own:
+        rows = [use.row] if resources is None else resources.excluded_by(use.row).tolist()
+        for row in rows:
+            users = order.get(row, ())
+            for k in range(bisect_left(users, (use.begin,)) - 1, -1, -1):
+                other = users[k]
+                if other.robot != robot:
+                    visits = latest[use.part]
+                    visits[other.robot] = max(visits.get(other.robot, 0), other.left)
+                if other.is_vertex:
+                    # The uses of a vertex exclude each other, so the last one was released only
+                    # after all others were left.
+                    break
+    return {
+        part: [Arrival(other, left) for other, left in sorted(visits.items())]
+        for part, visits in latest.items()
+    }

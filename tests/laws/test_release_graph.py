@@ -1,0 +1,65 @@
+"""Plans released part by part, on any fleet: no robots hold the same, and all come to their end."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+
+from hypothesis import strategies as st
+
+from rightofway.check import check
+from rightofway.model import Scenario
+from rightofway.precedence import Arrival, Part, ReleaseGraph
+from tests.builders.any_fleet import any_fleet
+from tests.builders.any_plan import STRICT, planned
+from tests.builders.laws import law, leave
+from tests.oracles.release import Floor
+
+planners, seeds = st.sampled_from(STRICT), st.integers(0, 2**32 - 1)
+
+
+@law(any_fleet(without={"no rotations"}), planners)
+def test_a_plan_has_a_cycle_just_where_it_has_a_rotation(fleet: Scenario, planner: str) -> None:
+    """Those who wait for each other round a circle are those who move round at one instant."""
+    plan = planned(fleet, planner)
+    cycle = ReleaseGraph.of(fleet, plan.tracks).rotation()
+    strict = replace(fleet, rules=replace(fleet.rules, rotations=False))
+    faults = check(replace(plan, scenario=strict)).faults
+    rotating = [set(fault.robots) for fault in faults if fault.kind == "rotation"]
+    assert bool(cycle) == bool(rotating)
+    assert not cycle or {part.robot for part in cycle} in rotating
+
+
+@law(any_fleet(), planners, seeds, st.sampled_from([1, 2, 1000]))
+def test_robots_released_part_by_part_hold_nothing_together_and_come_to_their_end(
+    fleet: Scenario, planner: str, chance: int, ahead: int
+) -> None:
+    """They are released and arrive in any order; at each step the graph equals its oracle."""
+    plan, draw = planned(fleet, planner), random.Random(chance)  # noqa: S311
+    tracks, robots = plan.tracks, range(len(plan.tracks))
+    graph, floor = ReleaseGraph.of(fleet, tracks), Floor(fleet, tracks)
+    if graph.rotation():
+        leave("a rotation is released by no order")
+    ends = [len(track) - 1 for track in tracks]
+    arrived, released = [0 for _ in robots], [0 for _ in robots]
+    while arrived != ends:
+        moves = list[tuple[str, int]]()
+        for robot in robots:
+            if arrived[robot] < released[robot]:
+                moves.append(("arrives", robot))
+            if released[robot] == ends[robot]:
+                continue
+            part = Part(robot, released[robot] + 1)
+            may_go = graph.may_go(part, arrived)
+            assert may_go == floor.may_go(*part, arrived)
+            if may_go and released[robot] - arrived[robot] < ahead:
+                moves.append(("is released", robot))
+        assert moves, f"stuck at {arrived} of {ends}"
+        move, robot = draw.choice(moves)
+        if move == "arrives":
+            arrived[robot] += 1
+            for part in graph.after(Arrival(robot, arrived[robot])):
+                assert Arrival(robot, arrived[robot]) in graph.waits(part)
+        else:
+            released[robot] += 1
+            assert floor.held_together(arrived, released) == []

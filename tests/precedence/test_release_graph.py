@@ -1,0 +1,35 @@
+"""The release graph of plans written by hand: the paper's door, and robots in a circle."""
+
+from __future__ import annotations
+
+from rightofway.model import Robot, Rules, Scenario, Stop, Tick, Track
+from rightofway.precedence import Arrival, Part, ReleaseGraph
+from rightofway.site import VertexId, roadmap_of_grid
+from tests.builders.plans import door
+
+
+def test_the_second_robot_waits_until_the_first_has_arrived_beyond_the_door() -> None:
+    """R1 enters N1, its vertex 1, after R2 has left its own vertex 1: it is at its vertex 2."""
+    plan = door()
+    graph = ReleaseGraph.of(plan.scenario, plan.tracks)
+    assert graph.waits(Part(0, 1)) == (Arrival(1, 2),)
+    assert graph.after(Arrival(1, 2)) == (Part(0, 1),)
+    assert not graph.may_go(Part(0, 1), [0, 1])
+    assert graph.missing(Part(0, 1), [0, 1]) == (Arrival(1, 2),)
+    assert graph.may_go(Part(0, 1), [0, 2])
+    assert graph.waits(Part(1, 1)) == ()
+    assert graph.rotation() == ()
+
+
+def test_robots_that_move_round_a_square_at_one_instant_are_a_cycle() -> None:
+    """Four robots on 2 x 2 cells, each to the next cell clockwise: 0, 1, 3, 2."""
+    roadmap, circle = roadmap_of_grid(("..", "..")), (0, 1, 3, 2)
+    ways = list(zip(circle, (*circle[1:], 0), strict=True))
+    robots = tuple(
+        Robot(name=f"R{k}", home=VertexId(home), stops=(Stop(at=VertexId(to)),))
+        for k, (home, to) in enumerate(ways)
+    )
+    scenario = Scenario(roadmap=roadmap, robots=robots, rules=Rules(ends="none"))
+    tracks = [Track.of(way, [0, Tick(1)]) for way in ways]
+    cycle = ReleaseGraph.of(scenario, tracks).rotation()
+    assert cycle == (Part(0, 1), Part(1, 1), Part(2, 1), Part(3, 1))
