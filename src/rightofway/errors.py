@@ -14,17 +14,17 @@ A message says where, what (with the value) and what to do.
 from __future__ import annotations
 
 import difflib
-import re
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
 from rightofway.phrases import Phrase, joined
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
 __all__ = [
     "Blockage",
@@ -32,14 +32,21 @@ __all__ = [
     "InputError",
     "InputFault",
     "InvalidPlan",
+    "Location",
     "NoPlanExists",
     "RightOfWayError",
+    "Steps",
+    "Where",
+    "in_file",
     "is_printable",
     "kernel_limits",
     "listed",
+    "location_of",
     "nearest",
+    "path_text",
     "printable",
     "shown",
+    "under",
 ]
 
 MAX_REASONS = 50
@@ -51,64 +58,213 @@ FEW = 4
 MANY = 500
 """Known words that are searched for the one that was meant."""
 
-STEP = re.compile(r"\[(\d+)\]|([^.\[]+)")
-"""A list index or a key of a place in a document."""
-
 LONGEST = 60
 """Characters of a value that a message shows."""
 
 
-@dataclass(frozen=True, slots=True)
-class InputFault:
-    """One thing wrong with an input.
+Steps = tuple[str | int, ...]
+"""Keys and list indices that lead to a value: ``("robots", 3, "speed")``."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Location:
+    """Where something stands in an input, part by part: text is made of it, and never read back.
 
     Attributes
     ----------
-    place
-        Where it stands, as a path into the document: ``robots[3].speed``. Empty for the whole.
-    message
-        What is wrong, with the value, and what to do about it in brackets.
+    path
+        Keys and list indices that lead to it; the first one may be a label, as ``--step`` is.
+    file
+        The file or argument; empty for data in no file.
     line
         The line of the file, from 1, where that is known.
-    named
-        The place with the names of its list items: ``robots[3] (R4): speed``, where that is known.
-    about
-        The place as a list of faults has it: ``R4: speed``, where that is known.
+    cell
+        The cell of a workbook, like ``robots!C4``; ``path`` then leads on from there.
+    names
+        For each step of the path the name of the item that it leads to; empty for one without.
+    inner
+        The place in another file, where the document names that file here.
     """
 
-    place: str
-    message: str
+    path: Steps = ()
+    file: str = ""
     line: int | None = None
-    named: str = ""
-    about: str = ""
-
-    def __post_init__(self) -> None:
-        if not self.message.isprintable():
-            object.__setattr__(self, "message", printable(self.message))
+    cell: str = ""
+    names: tuple[str, ...] = ()
+    inner: Location | None = None
 
     def __str__(self) -> str:
-        return self.after("")
+        line = "" if self.line is None else f"line {self.line}"
+        start = f"{self.file}:{self.line}" if self.file and line else self.file or line
+        parts = (start, self.cell, self.named, str(self.inner or ""))
+        return ": ".join(part for part in parts if part)
 
     @property
-    def path(self) -> tuple[str | int, ...]:
-        """The keys and list indices that lead to it: ``("robots", 3, "speed")``."""
-        steps = STEP.findall(self.place)
-        return tuple(int(index) if index else key for index, key in steps)
+    def place(self) -> str:
+        """The cell and the path as text: ``robots[3].speed``."""
+        return ": ".join(part for part in (self.cell, path_text(self.path)) if part)
 
-    def after(self, source: str) -> str:
-        """Return the fault with the name of its file: ``fleet.yaml:31: robots[3]: …``."""
-        line = (
-            "" if self.line is None else f"{source}:{self.line}" if source else f"line {self.line}"
+    @property
+    def named(self) -> str:
+        """The path as text, with the names of list items: ``robots[3] (R4): speed``."""
+        return path_text(self.path, self.names)
+
+    @property
+    def about(self) -> str:
+        """The place as a list of faults has it, a robot by its name: ``R4: speed``."""
+        for index, name in enumerate(self.names):
+            if name and self.path[0] == "robots":
+                rest = path_text(self.path[index + 1 :], self.names[index + 1 :])
+                return f"{name}: {rest}" if rest else name
+        return self.named or self.place
+
+    def within(self, outer: Where) -> Location:
+        """Return the same place seen from outside: one in another file is the inner one there."""
+        whole = location_of(outer)
+        if whole.inner:
+            return replace(whole, inner=self.within(whole.inner))
+        if self.file:
+            return replace(whole, inner=self)
+        return replace(
+            self,
+            path=whole.path + self.path,
+            line=whole.line if self.line is None else self.line,
+            cell=self.cell or whole.cell,
+            file=whole.file,
         )
-        parts = (line or source, self.named or self.place, self.message)
-        return printable(": ".join(part for part in parts if part))
 
-    def within(self, outer: str) -> InputFault:
+
+Where = str | int | Steps | Location
+"""A place as code writes it: a key, an index, several of them, or a location."""
+
+
+def location_of(where: Where) -> Location:
+    """Return a place as a location; the empty text is the whole input."""
+    if isinstance(where, Location):
+        return where
+    if isinstance(where, tuple):
+        return Location(path=where)
+    return Location() if where == "" else Location(path=(where,))
+
+
+def path_text(path: Steps, names: Sequence[str] = ()) -> str:
+    """Return keys and list indices as text: ``robots[3].stops[0].work``.
+
+    Parameters
+    ----------
+    path
+        Keys and list indices.
+    names
+        For each step the name of the item that it leads to, which is shown behind the step.
+    """
+    text = joint = ""
+    for index, step in enumerate(path):
+        if isinstance(step, int):
+            text += f"{joint.removeprefix('.')}[{step}]"
+            joint = "."
+        elif joint == "." and not step.isidentifier():
+            text += f"[{shown(step)}]"
+        else:
+            text += f"{joint}{step}"
+            joint = "." if step.isidentifier() else ": "
+        if index < len(names) and names[index]:
+            text += f" ({names[index]})"
+            joint = ": "
+    return text
+
+
+@dataclass(frozen=True, slots=True, init=False)
+class InputFault:
+    """One thing wrong with an input.
+
+    Parameters
+    ----------
+    where
+        Its place: a key, keys and indices, or a `Location`.
+    words
+        What is wrong, with the value, and what to do about it in brackets. ``{other}`` stands for
+        the other place.
+    other
+        Another place that it has to do with, where there is one.
+    """
+
+    location: Location
+    words: str
+    other: Location | None
+
+    def __init__(self, where: Where, words: str, other: Where | None = None) -> None:
+        object.__setattr__(self, "location", location_of(where))
+        object.__setattr__(self, "words", printable(words))
+        object.__setattr__(self, "other", None if other is None else location_of(other))
+
+    def __str__(self) -> str:
+        text = ": ".join(part for part in (str(self.location), self.message) if part)
+        return printable(text)
+
+    @property
+    def message(self) -> str:
+        """What is wrong, with the value, and what to do about it in brackets."""
+        if self.other is None:
+            return self.words
+        other, path = self.other, self.location.path
+        while other.inner:
+            other = other.inner
+        pairs = zip(path, other.path, strict=False)
+        shared = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
+        line = "" if other.line is None else f"line {other.line}"
+        near = other.cell or line or path_text(other.path[max(shared - 1, 0) :])
+        return self.words.replace("{other}", near)
+
+    @property
+    def path(self) -> Steps:
+        """The keys and list indices that lead to it."""
+        return self.location.path
+
+    @property
+    def place(self) -> str:
+        """The path as text: ``robots[3].speed``; empty for the whole input."""
+        return self.location.place
+
+    @property
+    def line(self) -> int | None:
+        """The line of the file, from 1, where that is known."""
+        return self.location.line
+
+    @property
+    def file(self) -> str:
+        """The file or argument that it stands in; empty for data in no file."""
+        return self.location.file
+
+    def moved(self, move: Callable[[Location], Location]) -> InputFault:
+        """Return the same fault, its places as a function has them."""
+        other = None if self.other is None else move(self.other)
+        return InputFault(move(self.location), self.words, other)
+
+    def within(self, outer: Where) -> InputFault:
         """Return the same fault seen from outside ``outer``: ``a`` holding ``b`` is ``a.b``."""
-        if not self.place:
-            return InputFault(outer, self.message)
-        joint = "" if self.place.startswith("[") else "."
-        return InputFault(f"{outer}{joint}{self.place}", self.message)
+        if self.file:
+            return self.at(self.location.within(outer))
+        return self.moved(lambda place: place.within(outer))
+
+    def relocate(self, starts: Mapping[Steps, Where]) -> InputFault:
+        """Return the same fault, the longest known start of its path as it is known there."""
+
+        def move(place: Location) -> Location:
+            for length in range(len(place.path), -1, -1):
+                if place.path[:length] in starts:
+                    rest = replace(place, path=place.path[length:], names=())
+                    return rest.within(starts[place.path[:length]])
+            return place
+
+        return self.moved(move)
+
+    def at(self, location: Location) -> InputFault:
+        """Return the same fault at another place."""
+        return InputFault(location, self.words, self.other)
+
+    def in_file(self, file: str) -> InputFault:
+        """Return the same fault in a file or argument of this name."""
+        return self.at(replace(self.location, file=file))
 
 
 class RightOfWayError(Exception):
@@ -123,21 +279,57 @@ class InputError(RightOfWayError, ValueError):
     faults
         All independent faults that were found, in the order of the document.
     source
-        The file or argument they stand in, shown before each place.
+        The file or argument in which those stand that name none.
     """
 
     def __init__(self, faults: Iterable[InputFault], source: str = "") -> None:
-        self.faults = tuple(faults)
-        self.source = source
-        super().__init__(self.faults, source)
+        self.faults = tuple(
+            fault.in_file(source) if source and not fault.file else fault for fault in faults
+        )
+        super().__init__(self.faults)
 
     @classmethod
-    def at(cls, place: str, message: str, source: str = "") -> InputError:
+    def at(cls, where: Where, message: str, source: str = "") -> InputError:
         """Make an error of a single fault."""
-        return cls([InputFault(place, message)], source)
+        return cls([InputFault(where, message)], source)
+
+    @property
+    def source(self) -> str:
+        """The file or argument that the faults stand in; empty where none is known."""
+        return next((fault.file for fault in self.faults if fault.file), "")
 
     def __str__(self) -> str:
-        return "\n".join(fault.after(self.source) for fault in self.faults)
+        return "\n".join(map(str, self.faults))
+
+
+@contextmanager
+def under(where: Where) -> Iterator[None]:
+    """Report every fault raised inside as a fault at a place.
+
+    Parameters
+    ----------
+    where
+        The place; where a fault stands in another file, the place that names that file.
+    """
+    try:
+        yield
+    except InputError as error:
+        raise InputError(fault.within(where) for fault in error.faults) from None
+
+
+@contextmanager
+def in_file(source: str) -> Iterator[None]:
+    """Name the file or argument in which the faults raised inside stand.
+
+    Parameters
+    ----------
+    source
+        Its name; faults that stand in a file already keep theirs.
+    """
+    try:
+        yield
+    except InputError as error:
+        raise InputError(error.faults, source) from None
 
 
 @contextmanager
@@ -146,8 +338,7 @@ def kernel_limits() -> Iterator[None]:
     try:
         yield
     except OverflowError as limit:
-        place, _, message = str(limit).partition(": ")
-        raise InputError.at(place, message) from limit
+        raise InputError.at("", str(limit)) from limit
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from fractions import Fraction
 from numbers import Integral, Rational, Real
 from typing import Any, Literal, TypeVar
 
-from rightofway.errors import InputError, InputFault, shown
+from rightofway.errors import InputError, InputFault, Where, shown, under
 
 T = TypeVar("T")
 
@@ -102,15 +102,12 @@ def coerced(value: object, source: str, **readers: Callable[[object], object]) -
     InputError
         With every field that its reader refuses.
     """
-    faults = []
+    faults = list[InputFault]()
     for name, read in readers.items():
-        given = getattr(value, name)
         try:
-            object.__setattr__(value, name, read(given))
+            object.__setattr__(value, name, at(name, read, getattr(value, name)))
         except InputError as error:
-            faults += [fault.within(name) for fault in error.faults]
-        except ValueError as error:
-            faults.append(InputFault(name, str(error)))
+            faults += error.faults
     if faults:
         raise InputError(faults, source)
 
@@ -204,12 +201,12 @@ def list_of(read: Callable[[object], T]) -> Callable[[object], tuple[T, ...]]:
     def read_each(values: object) -> tuple[T, ...]:
         if not isinstance(values, Iterable) or isinstance(values, str | bytes | Mapping):
             raise ValueError(f"{shown(values)} is no list (give a list)")  # noqa: TRY004 (readers raise it)
-        return tuple(at(f"[{index}]", read, value) for index, value in enumerate(values))
+        return tuple(at(index, read, value) for index, value in enumerate(values))
 
     return read_each
 
 
-def at(place: str, read: Callable[[object], T], value: object) -> T:
+def at(where: Where, read: Callable[[object], T], value: object) -> T:
     """Return what a reader makes of a value.
 
     Raises
@@ -217,12 +214,13 @@ def at(place: str, read: Callable[[object], T], value: object) -> T:
     InputError
         At the place, if the reader refuses the value.
     """
-    try:
-        return read(value)
-    except InputError as error:
-        raise InputError(fault.within(place) for fault in error.faults) from None
-    except ValueError as error:
-        raise InputError.at(place, str(error)) from None
+    with under(where):
+        try:
+            return read(value)
+        except InputError:
+            raise
+        except ValueError as error:
+            raise InputError.at("", str(error)) from None
 
 
 def function(value: object) -> Callable[..., Any]:
@@ -244,7 +242,7 @@ def between(least: float, most: float) -> Callable[[object], float]:
     return read
 
 
-def length(value: object, place: str) -> Fraction:
+def length(value: object, where: Where) -> Fraction:
     """Return a length.
 
     Raises
@@ -252,10 +250,7 @@ def length(value: object, place: str) -> Fraction:
     InputError
         If it is no number, or not positive.
     """
-    try:
-        found = number(value)
-    except ValueError as error:
-        raise InputError.at(place, str(error)) from None
+    found = at(where, number, value)
     if found <= 0:
-        raise InputError.at(place, f"{shown(value)} is not positive (give a length above 0)")
+        raise InputError.at(where, f"{shown(value)} is not positive (give a length above 0)")
     return found

@@ -228,7 +228,7 @@ def test_faults_of_a_plan_are_left_to_the_judge(hall: Path) -> None:
         ("schedule:\n  a:\n  - {x: 0, y: 0, t: 1}\n", r"plan:3: schedule.a\[0\]: t 1 stands after"),
         ("schedule:\n  a:\n  - {x: 0, y: 0}\n", r"plan:3: schedule.a\[0\]: .* is no state"),
         ("schedule: 3\n", "plan:1: schedule: 3 is no schedule"),
-        (log(["F,X"]), r"plan:1: actualPaths\[0\].step 1: 'X' is no action \(give one of F, R,"),
+        (log(["F,X"]), r"plan:1: actualPaths\[0\].step\[1\]: 'X' is no action \(give one of F, R,"),
         (log(["F"], actionModel="CAR"), "actionModel: 'CAR' is not known"),
         (log(["F"], actionModel=[1]), r"actionModel: \[1\] is not known"),
         (

@@ -41,17 +41,17 @@ def test_a_map_is_its_rows(tmp_path: Path, text: str) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "faults"),
     [
-        ("type octile", "type hex", ["line 1: type 'hex' is not known (give octile)"]),
-        ("height 2", "hight 2", ["line 2: 'hight' is no line of a header"]),
-        ("height 2", "height two", ["line 2: height 'two' is no size (give a count of cells)"]),
-        ("height 2", "height 0", ["line 2: height '0' is no size (give a count of cells)"]),
+        ("type octile", "type hex", ["1: type 'hex' is not known (give octile)"]),
+        ("height 2", "hight 2", ["2: 'hight' is no line of a header"]),
+        ("height 2", "height two", ["2: height 'two' is no size (give a count of cells)"]),
+        ("height 2", "height 0", ["2: height '0' is no size (give a count of cells)"]),
         ("height 2\n", "", ["the header has no height (give a line like 'height 32')"]),
-        ("map\n", "", ["line 4: '..T' is no line of a header"]),
-        ("\nmap\n..T\nG@S", "", ["line 3: the header has no line 'map'"]),
-        ("G@S", "G@", ["line 6: 2 cells, but width is 3 (mend the row)"]),
-        ("\nG@S", "", ["line 6: 1 rows, but height is 2 (mend the rows, or the header)"]),
-        ("G@S", "G@S\n...", ["line 7: 3 rows, but height is 2"]),
-        ("..T\nG@S", "..\nG@S.", ["line 5: 2 cells", "line 6: 4 cells"]),
+        ("map\n", "", ["4: '..T' is no line of a header"]),
+        ("\nmap\n..T\nG@S", "", ["3: the header has no line 'map'"]),
+        ("G@S", "G@", ["6: 2 cells, but width is 3 (mend the row)"]),
+        ("\nG@S", "", ["6: 1 rows, but height is 2 (mend the rows, or the header)"]),
+        ("G@S", "G@S\n...", ["7: 3 rows, but height is 2"]),
+        ("..T\nG@S", "..\nG@S.", ["5: 2 cells", "6: 4 cells"]),
     ],
 )
 def test_what_is_wrong_with_a_map_is_told_with_its_line(
@@ -64,7 +64,7 @@ def test_what_is_wrong_with_a_map_is_told_with_its_line(
     told = str(caught.value).splitlines()
     assert len(told) == len(faults)
     for line, fault in zip(told, faults, strict=True):
-        assert line.startswith(f"{path}: {fault}")
+        assert line.startswith(f"{path}:{fault}")
 
 
 def test_a_scen_row_says_x_then_y(hall: Path) -> None:
@@ -78,9 +78,9 @@ def test_a_scen_row_says_x_then_y(hall: Path) -> None:
     ("text", "fault"),
     [
         ("version 1\n", "there is no row (give one for each robot)"),
-        ("version 1\n0 hall.map 3 2", "line 2: 4 columns (give bucket, map, width"),
-        ("0 hall.map 3 2 0 0 x 1 0", "line 1: 'x' is no count of cells"),
-        ("0 hall.map 3 2 0 0 -1 1 0", "line 1: '-1' is no count of cells"),
+        ("version 1\n0 hall.map 3 2", "2: 4 columns (give bucket, map, width"),
+        ("0 hall.map 3 2 0 0 x 1 0", "1: 'x' is no count of cells"),
+        ("0 hall.map 3 2 0 0 -1 1 0", "1: '-1' is no count of cells"),
     ],
 )
 def test_what_is_wrong_with_a_scen_is_told_with_its_line(
@@ -90,7 +90,7 @@ def test_what_is_wrong_with_a_scen_is_told_with_its_line(
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError) as caught:
         load_scen(path)
-    assert str(caught.value).startswith(f"{path}: {fault}")
+    assert str(caught.value).startswith(f"{path}:{fault}")
 
 
 def test_a_scen_by_itself_is_classic_mapf(hall: Path) -> None:
@@ -130,13 +130,13 @@ def test_what_is_wrong_with_a_scen_by_itself_is_told_with_its_line(hall: Path) -
     with pytest.raises(InputError) as caught:
         load(hall)
     assert str(caught.value).splitlines() == [
-        f"{hall}: line 3, goal: [1, 1] is blocked by '@' (N1 is free)",
+        f"{hall}:3: goal: [1, 1] is blocked by '@' (N1 is free)",
     ]
     hall.write_text(SCEN.replace("\t0\t0\t0\t1\t1\n", "\t1\t0\t0\t1\t1\n"), encoding="utf-8")
     with pytest.raises(InputError) as caught:
         load(hall)
     assert str(caught.value) == (
-        f"{hall}: line 3, start: line 2 starts there already (a cell holds one robot)"
+        f"{hall}:3: start: line 2 starts there already (a cell holds one robot)"
     )
 
 
@@ -156,7 +156,7 @@ def test_a_scen_for_a_map_of_another_name_is_refused(hall: Path) -> None:
         "format: rightofway-scenario/1\nmap: {file: room.map}\nrobots: {scen: hall.scen}\n",
         encoding="utf-8",
     )
-    with pytest.raises(InputError, match=r"line 2: is for 'hall\.map', but the map is 'room\.map'"):
+    with pytest.raises(InputError, match=r"scen:2: is for 'hall\.map', but the map is 'room\.map'"):
         load(document)
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from rightofway.cli.main import run
 from rightofway.cli.terminal import complain
-from rightofway.errors import InputError, InputFault
+from rightofway.errors import InputError, InputFault, Location
 from rightofway.io import load, load_map, load_plan, read_layout, scenario_of
 from rightofway.io.scenario.shape import MapDocument
 from rightofway.io.text import content_of
@@ -148,9 +148,9 @@ def test_a_scen_file_with_a_map_of_a_long_name_is_refused(tmp_path: Path) -> Non
     ],
 )
 def test_a_message_has_no_characters_that_a_terminal_obeys(text: str, escaped: str) -> None:
-    fault = InputFault(f"robots.{text}", f"{text} is wrong", named=text)
+    fault = InputFault(Location(path=("robots", 0), names=("", text)), f"{text} is wrong")
     assert fault.message == f"{escaped} is wrong"
-    assert str(InputError([fault], text)) == f"{escaped}: {escaped}: {escaped} is wrong"
+    assert str(InputError([fault], text)) == f"{escaped}: robots[0] ({escaped}): {escaped} is wrong"
     other = {**document(GRID), "rules": {text: 1}}
     with pytest.raises(InputError) as caught:
         scenario_of(other)

@@ -52,7 +52,7 @@ def fill(sheet: str, cell: str, colour: str) -> Edit:
 def faults_of(path: Path) -> list[str]:
     with pytest.raises(InputError) as raised:
         rightofway.load(path)
-    return [str(fault) for fault in raised.value.faults]
+    return [str(fault.in_file("")) for fault in raised.value.faults]
 
 
 def test_the_template_is_the_scenario_of_a_door(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from rightofway.io import (
     scenario_of,
     schema,
 )
-from rightofway.io.marks import marked
+from rightofway.io.locations import locate
 from rightofway.io.text import parse_json, parse_yaml
 from rightofway.model import Plan, PlannerRun, Track
 
@@ -174,7 +174,7 @@ def test_marks_say_the_same_faults_with_lines_of_the_text(
     except TypeError:  # no JSON has decimals
         return
     faults = _faults(scenario_of, parse_json(text), HALL)
-    found = tuple(marked(faults, text))
+    found = tuple(locate(faults, text))
     assert [(one.place, one.message) for one in found] == [
         (one.place, one.message) for one in faults
     ]

@@ -261,15 +261,15 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "an unknown option": (
         lambda: solve(pair(), "lns", iteration=3),
-        "option iteration: 'iteration' is unknown to lns .did you mean 'iterations'",
+        "options.iteration: 'iteration' is unknown to lns .did you mean 'iterations'",
     ),
     "an unknown option in a mapping": (
         lambda: solve(pair(), "lns", options={"swap": "leave"}),
-        r"option swap: 'swap' is unknown to lns \(known: iterations\)",
+        r"options.swap: 'swap' is unknown to lns \(known: iterations\)",
     ),
     "a wrong value of an option": (
         lambda: solve(pair(), "lns", iterations=-1),
-        "option iterations: '-1' is not a whole number of 0 or more",
+        "options.iterations: '-1' is not a whole number of 0 or more",
     ),
     "options of another planner": (
         lambda: solve(pair(), options=LnsOptions()),
@@ -277,7 +277,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "an unknown field of options": (
         lambda: LnsOptions(iteration=3),  # type: ignore[call-arg]
-        "option iteration: 'iteration' is unknown to LnsOptions .did you mean 'iterations'",
+        "options.iteration: 'iteration' is unknown to LnsOptions .did you mean 'iterations'",
     ),
     "options given twice": (
         lambda: solve(pair(), "lns", options=LnsOptions(), iterations=3),

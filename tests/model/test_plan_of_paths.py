@@ -56,8 +56,8 @@ def test_paths_that_collide_are_a_plan_that_the_judge_refuses() -> None:
     [
         ({"R3": ["N0"]}, r"paths: no robot is named 'R3' \(robots are R1, R2\)"),
         ({"R1": []}, "paths: R1 has no path"),
-        ({"R1": ["N0", (7, 1)]}, r"paths\['R1'\]\[1\]: "),
-        ({"R1": ["N0", 3.5]}, r"paths\['R1'\]\[1\]: "),
+        ({"R1": ["N0", (7, 1)]}, r"paths\.R1\[1\]: "),
+        ({"R1": ["N0", 3.5]}, r"paths\.R1\[1\]: "),
         ({"R1": ["N0", ("N1", 2)]}, "give a tick to all or none"),
     ],
 )

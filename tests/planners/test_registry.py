@@ -61,7 +61,7 @@ def test_options_cannot_be_changed() -> None:
 
 def test_a_choice_is_one_of_its_words() -> None:
     assert WORD.read("random") == "random"
-    with pytest.raises(InputError, match=r"option order: 'x' is not a choice \(give one of: file,"):
+    with pytest.raises(InputError, match=r"options.order: 'x' is not a choice \(give one of:"):
         WORD.read("x")
 
 
@@ -72,7 +72,7 @@ def test_a_count_is_a_whole_number_however_it_is_written(given: object) -> None:
 
 @pytest.mark.parametrize("given", ["0", "-1", "1.5", "", "many", "\u00b2", True])
 def test_a_count_refuses_what_is_none_or_too_small(given: object) -> None:
-    with pytest.raises(InputError, match=r"option rounds: '.*' is not a whole number of 1 or more"):
+    with pytest.raises(InputError, match=r"options.rounds: '.*' is not a whole number of 1 or"):
         NUMBER.read(given)
 
 
@@ -94,7 +94,7 @@ def test_an_exact_number_is_kept_however_it_is_written(given: Any) -> None:
 
 @pytest.mark.parametrize("given", ["0.99", "201/100", "many", True, float("nan"), "1/0", None])
 def test_an_exact_number_refuses_what_is_none_or_out_of_its_limits(given: object) -> None:
-    message = r"option factor: '.*' is not a number from 1 to 2 \(for example 6/5\)"
+    message = r"options.factor: '.*' is not a number from 1 to 2 \(for example 6/5\)"
     with pytest.raises(InputError, match=message):
         FACTOR.read(given)
 

@@ -156,7 +156,7 @@ def test_a_fleet_without_a_plan_is_told_apart_from_giving_up(client: httpx.Clien
     ("wrong", "place"),
     [
         ({"planner": "lnss"}, "planner"),
-        ({"options": {"iteration": 3}}, "option iteration"),
+        ({"options": {"iteration": 3}}, "options.iteration"),
         ({"time_limit": 0}, "time_limit"),
         ({"seed": -1}, "seed"),
         ({"kind": "plans"}, ""),

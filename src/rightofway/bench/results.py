@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Literal, Self
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, Location, Where
 from rightofway.files import write_whole
 
 try:
@@ -169,7 +169,7 @@ class Results:
             raise self._fault(message) from None
         content, header = self.journal.read_bytes(), _line(HEADER)
         if not content.startswith(header) and not header.startswith(content):
-            raise self._fault(NOT_RESULTS, "line 1")
+            raise self._fault(NOT_RESULTS, Location(line=1))
         whole = content.rfind(b"\n") + 1
         if whole < len(content):
             os.truncate(self._file, whole)
@@ -184,7 +184,7 @@ class Results:
                 }
             except ValueError as error:
                 message = f"this is no row of results: {error} (take the line out)"
-                raise self._fault(message, f"line {number}") from None
+                raise self._fault(message, Location(line=number)) from None
 
     def _write(self, line: bytes) -> None:
         try:
@@ -195,8 +195,8 @@ class Results:
             message = f"cannot be written: {error.strerror} (the next run goes on from here)"
             raise self._fault(message) from None
 
-    def _fault(self, message: str, place: str = "") -> InputError:
-        return InputError.at(place, message, str(self.journal))
+    def _fault(self, message: str, where: Where = "") -> InputError:
+        return InputError.at(where, message, str(self.journal))
 
 
 def _line(cells: list[str]) -> bytes:

@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.bench.fleets import Cell, largest_part, random_grid, scenario_document
-from rightofway.errors import InputError, InputFault
+from rightofway.errors import InputError, Steps, Where, in_file, under
 from rightofway.io import dump_scenario, load, scenario_of
-from rightofway.io.faults import Faults, blaming, checked, under
+from rightofway.io.faults import Faults, checked
 from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT, checked_format
 from rightofway.io.text import parse_toml, read_text
 from rightofway.model import Rules, Scenario
@@ -139,7 +139,7 @@ def read_suite(path: Path | str) -> tuple[Case, ...]:
     from rightofway.io.suite import SuiteDocument
 
     path = Path(path)
-    with blaming(str(path)):
+    with in_file(str(path)):
         data = checked_format(parse_toml(read_text(path)), SUITE_FORMAT)
         found = list(_combinations(checked(SuiteDocument, data), path.parent))
     cases: dict[str, Case] = {}
@@ -156,15 +156,15 @@ def _combinations(document: SuiteDocument, base: Path) -> Iterator[Case]:
 
     faults = Faults()
     maps = [
-        faults.attempt(f"maps[{index}]", _maps, each, document.counts, base)
+        faults.attempt(("maps", index), _maps, each, document.counts, base)
         for index, each in enumerate(document.maps)
     ]
     planners = [
-        faults.attempt(f"planners[{index}]", _planner, each)
+        faults.attempt(("planners", index), _planner, each)
         for index, each in enumerate(document.planners)
     ]
     fleets = [
-        faults.attempt(f"fleets[{index}]", _fleet, each)
+        faults.attempt(("fleets", index), _fleet, each)
         for index, each in enumerate(document.fleets or [SuiteFleetDocument(name="default")])
     ]
     _note_twins(faults, "maps", [each[0].name if each else None for each in maps])
@@ -194,8 +194,8 @@ def _note_twins(faults: Faults, key: str, names: Sequence[str | None]) -> None:
     for index, name in enumerate(names):
         first = names.index(name)
         if name is not None and first != index:
-            message = f"{name!r} is the name of {key}[{first}] already (give each its own)"
-            faults.note(f"{key}[{index}].name", message)
+            message = f"{name!r} is the name of {{other}} already (give each its own)"
+            faults.note((key, index, "name"), message, (key, first))
 
 
 def _maps(document: MapCasesDocument, counts: Sequence[int] | None, base: Path) -> tuple[_Map, ...]:
@@ -239,10 +239,12 @@ def _with_rows(document: MapCasesDocument, index: int, counts: tuple[int, ...], 
     try:
         scenario = scenario_of(whole, base)
     except InputError as error:
-        keys = {"map.file": "file", "robots.scen": f"scens[{index}]", "robots.count": "counts"}
-        raise InputError(
-            InputFault(keys.get(fault.place, fault.place), fault.message) for fault in error.faults
-        ) from None
+        keys: dict[Steps, Where] = {
+            ("map", "file"): ("file",),
+            ("robots", "scen"): ("scens", index),
+            ("robots", "count"): ("counts",),
+        }
+        raise InputError(fault.relocate(keys) for fault in error.faults) from None
     grid = scenario.roadmap.grid
     assert grid is not None, "or its reader would have refused the rows"
     return _Map(
@@ -286,8 +288,9 @@ def _try_out(speeds: Sequence[Fraction], rules: Mapping[str, Any]) -> None:
         scenario_of(document)
     except InputError as error:
         first = error.faults[0]  # the robots are alike, and so are their faults
-        key = first.place.removeprefix("rules.")
-        raise InputError.at("speeds" if key == "robots" else key, first.message) from None
+        section, *rest = first.path
+        where: Where = "speeds" if section == "robots" else tuple(rest)
+        raise InputError.at(where, first.message) from None
 
 
 def _planner(document: PlannerDocument) -> tuple[str, Mapping[str, Any]]:
@@ -301,14 +304,9 @@ def _planner(document: PlannerDocument) -> tuple[str, Mapping[str, Any]]:
         return LAPS, _laps_options(options)
     try:
         spec = find(document.name)
-        return spec.name, spec.settle(options)
     except InputError as error:
-        # The registry knows of no document: it names the option after the planner.
-        options_of = [(fault.place.partition(" ")[2], fault.message) for fault in error.faults]
-        raise InputError(
-            InputFault(f"options.{option}" if option else "name", message)
-            for option, message in options_of
-        ) from None
+        raise InputError(fault.relocate({("planner",): "name"}) for fault in error.faults) from None
+    return spec.name, spec.settle(options)
 
 
 def _laps_options(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -320,8 +318,8 @@ def _laps_options(given: Mapping[str, Any]) -> dict[str, Any]:
     for name, value in given.items():
         if name not in choices:
             message = f"{LAPS} has no such option here (it has {', '.join(choices)})"
-            raise InputError.at(f"options.{name}", message)
+            raise InputError.at(("options", name), message)
         if value not in choices[name]:
             message = f"{value!r} is none of them (choose {', '.join(choices[name])})"
-            raise InputError.at(f"options.{name}", message)
+            raise InputError.at(("options", name), message)
     return {name: given.get(name, known[0]) for name, known in choices.items()}

@@ -184,7 +184,7 @@ def _write_layout(source: str, path: str, name: str | None, radius: Fraction | N
     try:
         text, losses = layout_text(layout, name)
     except InputError as error:
-        raise InputError(error.faults, source) from None
+        raise InputError(fault.in_file(source) for fault in error.faults) from None
     put_text(text, path)
     for note in (*layout.notes, *losses):
         say(f"{path}: {note}")

@@ -230,9 +230,9 @@ def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     refuse_closures(scenario.problem, "repeated work", remedy)
     refuse_turn_rates(scenario.problem, "repeated work", "give turn, the time to turn at each stop")
     if scenario.rules.ends == "none" and all(one.ends != "home" for one in scenario.robots):
-        raise InputError.at("rules.return", NOTHING_REPEATS)
+        raise InputError.at(("rules", "return"), NOTHING_REPEATS)
     faults = [
-        fault.within(f"robots[{index}]")
+        fault.within(("robots", index))
         for index, robot in enumerate(scenario.robots)
         for fault in _faults(robot, scenario)
     ]

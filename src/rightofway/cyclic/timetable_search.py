@@ -159,7 +159,7 @@ def _checked_weights(weights: Sequence[Fraction] | None, n_robots: int) -> tuple
         raise InputError.at("weights", f"{len(weights)} for {n_robots} robots (give one for each)")
     for index, weight in enumerate(weights):
         if weight <= 0:
-            raise InputError.at(f"weights[{index}]", f"{weight} is not above 0")
+            raise InputError.at(("weights", index), f"{weight} is not above 0")
     return weights
 
 

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Literal, Self
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, Where, shown
 from rightofway.files import path_of
 from rightofway.fleet_builder.lanes import DrawnLanes, lanes_of_graph
 from rightofway.fleet_builder.values import (
@@ -258,9 +258,9 @@ class FleetBuilder:
         within(place, at, "name", text, name)
         named = within(place, at, "vertices", list_of(text), vertices)
         listed = within(place, at, "edges", list_of(lambda ends: ends), edges)
-        pairs = tuple(ends_of(f"{place}: edges[{k}]", ends) for k, ends in enumerate(listed))
+        pairs = tuple(ends_of((place, "edges", k), ends) for k, ends in enumerate(listed))
         for k, ends in enumerate(pairs):
-            within(place, at, f"edges[{k}]", list_of(text), ends)
+            within(place, at, ("edges", k), list_of(text), ends)
         self._drawn.zones.append(NamedZone(name=name, vertices=named, edges=pairs))
         return self
 
@@ -322,11 +322,10 @@ class FleetBuilder:
         if (target is None) == (stops is None):
             what = "has nowhere to go" if target is None else "has both target and stops"
             raise InputError.at("", f"{what} (give either target or stops)", source)
-        if stops is None:
-            trip = [("target", target, work)]
-        else:
+        trip: list[tuple[Where, Any, Number]] = [("target", target, work)]
+        if stops is not None:
             given = within(source, at, "stops", list_of(lambda stop: stop), stops)
-            trip = [(f"stops[{k}]", *place_and_work(stop)) for k, stop in enumerate(given)]
+            trip = [(("stops", k), *place_and_work(stop)) for k, stop in enumerate(given)]
         from rightofway.io.scenario.homes import HOMELESS
 
         try:
@@ -347,7 +346,7 @@ class FleetBuilder:
                 weight=weight,  # type: ignore[arg-type]
             )
         except InputError as error:
-            raise InputError(error.faults, source) from None
+            raise InputError(fault.in_file(source) for fault in error.faults) from None
         self._robots.append(robot)
         return self
 
@@ -393,7 +392,7 @@ class FleetBuilder:
                 radius=radius,  # type: ignore[arg-type]
             )
         except InputError as error:
-            raise InputError(error.faults, source) from None
+            raise InputError(fault.in_file(source) for fault in error.faults) from None
         if faults := list(closure_faults(closure, self.roadmap())):
             raise InputError(faults, source)
         self._closures.append(closure)
@@ -443,7 +442,7 @@ class FleetBuilder:
             self._roadmap = self._drawn.roadmap(spacing=self._spacing, y_up=self._y_up)
         return self._roadmap
 
-    def _vertex(self, key: str, place: Any) -> VertexId:
+    def _vertex(self, key: Where, place: Any) -> VertexId:
         """Return the vertex of a place as users write it."""
         roadmap = self.roadmap()
         if not isinstance(place, str) and str(place) in (roadmap.labels or ()):

@@ -56,9 +56,9 @@ class DrawnLanes:
         if name in self.positions:
             raise InputError.at(place, "is there already (give each vertex a name of its own)")
         self.positions[name] = point_of(place, x, y)
-        if types := types_of(f"{place}: barred", barred):
+        if types := types_of((place, "barred"), barred):
             self.barred[name] = types
-        if more := surcharge_of(f"{place}: surcharge", surcharge):
+        if more := surcharge_of((place, "surcharge"), surcharge):
             self.surcharges[name] = more
 
     def add_edge(
@@ -79,14 +79,14 @@ class DrawnLanes:
                 near = nearest(name, self.positions)
                 hint = f"did you mean {near!r}?" if near else "add it first"
                 raise InputError.at(place, f"no vertex is named {shown(name)} ({hint})")
-        given = None if length is None else exact_length(length, f"{place}: length")
+        given = None if length is None else exact_length(length, (place, "length"))
         if given is None:
             within(place, straight_length, self._square(tail, head))
-        limit = None if max_speed is None else exact_length(max_speed, f"{place}: max_speed")
+        limit = None if max_speed is None else exact_length(max_speed, (place, "max_speed"))
         more = {
             "max_speed": limit,
-            "barred": types_of(f"{place}: barred", barred),
-            "surcharge": surcharge_of(f"{place}: surcharge", surcharge),
+            "barred": types_of((place, "barred"), barred),
+            "surcharge": surcharge_of((place, "surcharge"), surcharge),
         }
         self.edges.append((tail, head, given, more))
         if both_ways:

@@ -59,7 +59,7 @@ def plan_of_paths(scenario: Scenario, paths: Mapping[str, Sequence[Any]]) -> Pla
     missing = [name for name in names if _is_missing(paths.get(name))]
     if missing:
         raise InputError.at("paths", f"{missing[0]} has no path (give at least its home)")
-    read = {name: at(f"paths[{name!r}]", list_of(lambda item: item), paths[name]) for name in names}
+    read = {name: at(("paths", name), list_of(lambda item: item), paths[name]) for name in names}
     tracks = [_track(scenario, name, read[name]) for name in names]
     return Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun())
 
@@ -68,7 +68,7 @@ def _track(scenario: Scenario, name: str, path: Sequence[Any]) -> Track:
     """Return the visits of a path; a robot that stays makes one of them."""
     vertices, enter = list[int](), list[int]()
     for index, (place, tick) in enumerate(_timed(scenario, name, path)):
-        where = f"paths[{name!r}][{index}]"
+        where = ("paths", name, index)
         read = within(where, as_place, place, scenario.roadmap)
         vertex = within(where, vertex_at, scenario.roadmap, read, units=scenario.units)
         if not vertices or vertices[-1] != vertex:
@@ -84,13 +84,13 @@ def _timed(scenario: Scenario, name: str, path: Sequence[Any]) -> Iterator[tuple
     for index, item in enumerate(path):
         if pairs[index] != pairs[0]:
             message = f"{shown(item)} is a pair, or another item is (give a tick to all or none)"
-            raise InputError.at(f"paths[{name!r}][{index}]", message)
+            raise InputError.at(("paths", name, index), message)
         if pairs[index]:
             yield item[0], item[1]
         elif (index * per_unit).denominator != 1:
             tick = scenario.problem.clock.tick
             message = f"a tick is {tick}, no part of a time unit (give pairs of place and tick)"
-            raise InputError.at(f"paths[{name!r}]", message)
+            raise InputError.at(("paths", name), message)
         else:
             yield item, int(index * per_unit)
 

@@ -7,7 +7,7 @@ from dataclasses import fields, replace
 from fractions import Fraction
 from typing import Any
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, Where, shown, under
 from rightofway.model import Rules
 from rightofway.model.resources import circle_around
 from rightofway.quantities import Units
@@ -16,12 +16,10 @@ from rightofway.site.places import is_cell
 from rightofway.values import Number, coordinate, length, names, number
 
 
-def within(place: str, make: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
+def within(place: Where, make: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
     """Call a function; its faults are faults of the place."""
-    try:
+    with under(place):
         return make(*arguments, **named)
-    except InputError as error:
-        raise InputError(fault.within(place) for fault in error.faults) from None
 
 
 def rules_of(given: dict[str, Any]) -> Rules:
@@ -52,7 +50,7 @@ def units_of(given: Units | Mapping[str, Any] | None) -> Units:
     return Units(**given)
 
 
-def types_of(place: str, given: Iterable[str]) -> frozenset[str]:
+def types_of(place: Where, given: Iterable[str]) -> frozenset[str]:
     """Return types of robots; a text alone is no list of them."""
     try:
         return names(given if isinstance(given, str) else list(given))
@@ -61,7 +59,7 @@ def types_of(place: str, given: Iterable[str]) -> frozenset[str]:
         raise InputError.at(place, message) from None
 
 
-def surcharge_of(place: str, given: Number) -> Fraction:
+def surcharge_of(place: Where, given: Number) -> Fraction:
     """Return a surcharge, which is not negative [time unit]."""
     try:
         found = number(given)
@@ -72,21 +70,21 @@ def surcharge_of(place: str, given: Number) -> Fraction:
     return found
 
 
-def pair_of(place: str, given: Any) -> tuple[Any, Any]:
+def pair_of(place: Where, given: Any) -> tuple[Any, Any]:
     """Return both parts of (x, y)."""
     if not isinstance(given, list | tuple) or len(given) != 2:  # noqa: PLR2004 (x and y)
         raise InputError.at(place, f"{shown(given)} is no point (give (x, y))")
     return given[0], given[1]
 
 
-def ends_of(place: str, given: Any) -> tuple[Any, Any]:
+def ends_of(place: Where, given: Any) -> tuple[Any, Any]:
     """Return both ends of an edge."""
     if not isinstance(given, list | tuple) or len(given) != 2:  # noqa: PLR2004 (tail and head)
         raise InputError.at(place, f"{shown(given)} is no edge (give (tail, head))")
     return given[0], given[1]
 
 
-def point_of(place: str, x: Number, y: Number) -> Point:
+def point_of(place: Where, x: Number, y: Number) -> Point:
     """Return a point, exactly [length unit]."""
     try:
         return coordinate(x), coordinate(y)
@@ -98,7 +96,7 @@ def radius_of(radius: Number | None, size: tuple[Number, Number] | None) -> Frac
     """Return the radius of a robot, or of the circle around its sides [length unit]."""
     if size is None:
         return Fraction(0) if radius is None else radius  # type: ignore[return-value]
-    long, wide = (length(side, f"size[{k}]") for k, side in enumerate(size))
+    long, wide = (length(side, ("size", k)) for k, side in enumerate(size))
     return circle_around(long, wide)
 
 

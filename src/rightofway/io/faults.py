@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
-from rightofway.errors import InputError, InputFault, nearest, shown
+from rightofway.errors import InputError, InputFault, Where, nearest, shown, under
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -28,10 +26,10 @@ class Faults:
     def __init__(self) -> None:
         self._faults: list[InputFault] = []
 
-    def attempt(self, place: str, read: Callable[..., T], *arguments: Any) -> T | None:
-        """Return ``read(*arguments)``, or None after noting its faults under ``place``."""
+    def attempt(self, where: Where, read: Callable[..., T], *arguments: Any) -> T | None:
+        """Return ``read(*arguments)``, or None after noting its faults under a place."""
         try:
-            with under(place):
+            with under(where):
                 return read(*arguments)
         except InputError as error:
             self._faults += error.faults
@@ -43,9 +41,9 @@ class Faults:
         """Attempt to read the part under a key; the document's frame reports a missing key."""
         return self.attempt(key, read, document[key], *arguments) if key in document else None
 
-    def note(self, place: str, message: str) -> None:
+    def note(self, where: Where, message: str, other: Where | None = None) -> None:
         """Note one fault."""
-        self._faults.append(InputFault(place, message))
+        self._faults.append(InputFault(where, message, other))
 
     def add(self, faults: Iterable[InputFault]) -> None:
         """Note faults that were found elsewhere."""
@@ -68,30 +66,8 @@ class Faults:
 
 
 def _rank(fault: InputFault, ranks: dict[str, int]) -> tuple[int, int]:
-    key, index = re.match(r"([^.\[]*)(?:\[(\d+)\])?", fault.place).groups()  # type: ignore[union-attr]
-    return ranks.get(key, len(ranks)), int(index or -1)
-
-
-@contextmanager
-def under(place: str) -> Iterator[None]:
-    """Report every fault raised inside as a fault of the document at ``place``."""
-    try:
-        yield
-    except InputError as error:
-        if error.source:  # the fault lies in another file, which the document names
-            raise InputError(
-                InputFault(place, each.after(error.source)) for each in error.faults
-            ) from None
-        raise InputError(each.within(place) if place else each for each in error.faults) from None
-
-
-@contextmanager
-def blaming(source: str) -> Iterator[None]:
-    """Name the file or argument in which the faults raised inside stand."""
-    try:
-        yield
-    except InputError as error:
-        raise InputError(error.faults, error.source or source) from None
+    key, index = (*fault.path, "", "")[:2]
+    return ranks.get(str(key), len(ranks)), index if isinstance(index, int) else -1
 
 
 def checked(model: type[M], data: Any, context: Any = None) -> M:
@@ -109,12 +85,12 @@ def checked(model: type[M], data: Any, context: Any = None) -> M:
 
 
 def _translated(details: ErrorDetails, model: type[BaseModel]) -> Iterator[InputFault]:
-    place = place_of(part for part in details["loc"] if part != "[key]")
+    path = tuple(step for step in details["loc"] if step != "[key]")
     error = details.get("ctx", {}).get("error")
     if isinstance(error, InputError):  # raised by a validator of ours, perhaps at places inside
-        yield from (fault.within(place) if place else fault for fault in error.faults)
+        yield from (fault.within(path) for fault in error.faults)
     else:
-        yield InputFault(place, _said(details, model))
+        yield InputFault(path, _said(details, model))
 
 
 _KINDS = {
@@ -201,14 +177,3 @@ def _model_in(annotation: Any) -> type[BaseModel] | None:
         return annotation  # type: ignore[no-any-return]
     inside = (_model_in(argument) for argument in get_args(annotation))
     return next((found for found in inside if found), None)
-
-
-def place_of(parts: Iterable[str | int]) -> str:
-    """Return a path into a document as text: ``robots[3].stops[0].work``."""
-    place = ""
-    for part in parts:
-        if isinstance(part, str) and part.isidentifier():
-            place += f".{part}" if place else part
-        else:
-            place += f"[{part if type(part) is int else shown(part)}]"
-    return place

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from rightofway.errors import InputError, InputFault, shown
+from rightofway.errors import InputError, InputFault, Location, in_file, shown
 from rightofway.files import write_whole
-from rightofway.io.faults import Faults, blaming
+from rightofway.io.faults import Faults
 from rightofway.io.text import read_text
 from rightofway.model import Robot, Rules, Scenario, Stop
 from rightofway.site import Grid, Roadmap, roadmap_of_grid
@@ -52,27 +52,27 @@ def load_map(path: Path | str) -> tuple[str, ...]:
         For a header without height and width, a type other than a grid's, or rows that do not
         agree with the header; the place is the line.
     """
-    with blaming(str(path)):
+    with in_file(str(path)):
         lines = read_text(Path(path)).rstrip().split("\n")
         header: dict[str, str] = {}
         for number, line in enumerate(lines, start=1):
             key, _, value = line.strip().partition(" ")
             if key == "map":
                 return _checked_rows(lines[number:], header, number)
-            _check_header(key, value.strip(), f"line {number}")
+            _check_header(key, value.strip(), Location(line=number))
             header[key] = value.strip()
         message = "the header has no line 'map' (put it before the rows)"
-        raise InputError.at(f"line {len(lines)}", message)
+        raise InputError.at(Location(line=len(lines)), message)
 
 
-def _check_header(key: str, value: str, line: str) -> None:
+def _check_header(key: str, value: str, where: Location) -> None:
     if key not in {"type", "height", "width"}:
         remedy = "give type, height, width, map, in this order"
-        raise InputError.at(line, f"{shown(key)} is no line of a header ({remedy})")
+        raise InputError.at(where, f"{shown(key)} is no line of a header ({remedy})")
     if key == "type" and value not in {"octile", "tile"}:
-        raise InputError.at(line, f"type {shown(value)} is not known (give octile)")
+        raise InputError.at(where, f"type {shown(value)} is not known (give octile)")
     if key != "type" and not (_SIZE.fullmatch(value) and int(value)):
-        raise InputError.at(line, f"{key} {shown(value)} is no size (give a count of cells)")
+        raise InputError.at(where, f"{key} {shown(value)} is no size (give a count of cells)")
 
 
 def _checked_rows(lines: list[str], header: dict[str, str], above: int) -> tuple[str, ...]:
@@ -84,10 +84,11 @@ def _checked_rows(lines: list[str], header: dict[str, str], above: int) -> tuple
     rows = tuple(row.rstrip() for row in lines)
     for line, row in enumerate(rows[:height], start=above + 1):
         if len(row) != width:
-            faults.note(f"line {line}", f"{len(row)} cells, but width is {width} (mend the row)")
+            message = f"{len(row)} cells, but width is {width} (mend the row)"
+            faults.note(Location(line=line), message)
     if len(rows) != height:
         message = f"{len(rows)} rows, but height is {height} (mend the rows, or the header)"
-        faults.note(f"line {above + 1 + min(len(rows), height)}", message)
+        faults.note(Location(line=above + 1 + min(len(rows), height)), message)
     faults.stop()
     return rows
 
@@ -106,11 +107,11 @@ def load_scen(path: Path | str) -> tuple[ScenRow, ...]:
         For rows that are not made of nine columns; the place is the line.
     """
     faults, rows = Faults(), list[ScenRow | None]()
-    with blaming(str(path)):
+    with in_file(str(path)):
         lines = read_text(Path(path)).rstrip().split("\n")
         for number, line in enumerate(lines, start=1):
             if number > 1 or not line.startswith("version"):
-                rows.append(faults.attempt(f"line {number}", _scen_row, number, line))
+                rows.append(faults.attempt(Location(line=number), _scen_row, number, line))
         faults.stop()
         if not rows:
             raise InputError.at("", "there is no row (give one for each robot)")
@@ -188,7 +189,7 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
     grid = _grid_of(scenario.roadmap)
     faults = [
         InputFault(
-            f"robots[{index}].stops",
+            ("robots", index, "stops"),
             f"{len(robot.stops)} stops, a .scen row has one goal (leave one, or write .yaml)",
         )
         for index, robot in enumerate(scenario.robots)

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from pathlib import Path
 
-from rightofway.errors import InputError, InputFault, shown
+from rightofway.errors import InputError, Steps, Where, in_file, shown
 from rightofway.files import path_of
-from rightofway.io.faults import blaming
 from rightofway.io.foreign import read_foreign, recognized
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import refuse_layout
-from rightofway.io.marks import document_of
+from rightofway.io.locations import document_of
 from rightofway.io.movingai import load_scen
 from rightofway.io.plan.reader import plan_of
 from rightofway.io.scenario.reader import Loaded, read_scenario
@@ -56,12 +54,12 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
     """
     path = path_of(path)
     if path.suffix.lower() == ".scen":
-        with blaming(str(path)):
+        with in_file(str(path)):
             return _classic(path, count)
     if path.suffix.lower() in WORKBOOKS:
         _refuse_count(count)
         return load_workbook_scenario(path)
-    with blaming(str(path)):
+    with in_file(str(path)):
         _refuse_count(count)
         refuse_layout(path)
         text = read_text(path)
@@ -129,7 +127,7 @@ def load_either(
     path = path_of(path)
     if path.suffix.lower() in {".scen", *WORKBOOKS}:
         return load_with_notes(path, count)
-    with blaming(str(path)):
+    with in_file(str(path)):
         _refuse_count(count)
     text, foreign = _foreign(path, map_file, scen)
     if foreign is not None:
@@ -158,12 +156,11 @@ def _classic(path: Path, count: int | None) -> Loaded:
     }
     try:
         return read_scenario(document, path.parent)
-    except InputError as error:  # places in the document mean nothing to the user of the file
+    except InputError as error:  # paths in the document mean nothing to the user of the file
+        starts: dict[Steps, Where] = {("robots", "scen"): "", ("robots",): ""}
+        moved = (fault.relocate(starts) for fault in error.faults)
         raise InputError(
-            InputFault("", fault.message.removeprefix(f"{path}: "))
-            if fault.place == "robots.scen"
-            else replace(fault, place=fault.place.removeprefix("robots."))
-            for fault in error.faults
+            it.at(it.location.inner) if it.location.inner else it for it in moved
         ) from None
 
 
@@ -184,7 +181,7 @@ def _foreign(
     path: Path, map_file: Path | str | None, scen: Path | str | None
 ) -> tuple[str, Plan | None]:
     """Return the text of a file, and its plan if it is one of another program."""
-    with blaming(str(path)):
+    with in_file(str(path)):
         refuse_layout(path)
         text = read_text(path)
         places = {"map_file": map_file, "scen": scen}

@@ -8,11 +8,11 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError
-from rightofway.io.faults import blaming, checked
+from rightofway.errors import InputError, in_file
+from rightofway.io.faults import checked
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import described, is_layout, read_layout
-from rightofway.io.marks import document_of
+from rightofway.io.locations import document_of
 from rightofway.io.opening import load_with_notes
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.reader import read_scenario
@@ -102,7 +102,7 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
 
 def _level(path: Path, found: Layout, choice: Choice) -> Level:
     """Return the level that is wanted, with lanes of the vehicle type that is wanted."""
-    with blaming(str(path)):
+    with in_file(str(path)):
         if choice.cell_size is not None:
             message = "is given with a layout of lanes, which has no cells (take it out)"
             raise InputError.at("cell_size", message)

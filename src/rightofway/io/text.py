@@ -21,8 +21,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 from weakref import WeakKeyDictionary
 
-from rightofway.errors import InputError, InputFault, shown
-from rightofway.io.faults import blaming, place_of
+from rightofway.errors import InputError, InputFault, Location, in_file, shown
 
 MAX_BYTES = 2**29
 """Largest file that is read [bytes]."""
@@ -50,7 +49,7 @@ SPREAD_KEYS |= {"planner", "decisions", "reroutes", "steady"}
 """Values of these keys are spread over lines in JSON; each item in them stays on one line."""
 
 _ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
-_TOML_PLACE = re.compile(r"(?P<what>.*) \((?P<place>at .*)\)", re.DOTALL)
+_TOML_PLACE = re.compile(r"(?P<what>.*) \(at line (?P<line>\d+), (?P<column>.*)\)", re.DOTALL)
 
 # What is read as a number here is read as one by YAML 1.1 and 1.2 alike; all else stays text.
 _INTEGER = re.compile(r"[+-]?(0|[1-9][0-9]*)")
@@ -89,7 +88,7 @@ def load_delays(path: Path | str) -> tuple[str, ...]:
     InputError
         If there is no such file, or no list of texts in it.
     """
-    with blaming(str(path)):
+    with in_file(str(path)):
         found = parse_document(read_text(Path(path)), Path(path))
         if isinstance(found, dict) and list(found) == ["delays"]:
             found = found["delays"]
@@ -102,7 +101,7 @@ def load_delays(path: Path | str) -> tuple[str, ...]:
 def read_text(path: Path) -> str:
     """Return the text of a file, UTF-8 with any kind of line end; ``-`` is standard input."""
     source = str(path)
-    with blaming(source):
+    with in_file(source):
         data = content_of(path)
     if not data or data.isspace():
         raise InputError.at("", "the file is empty (give it some content)", source)
@@ -231,7 +230,7 @@ def _decoded(data: bytes | bytearray, source: str) -> str:
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         message = f"byte {data[error.start]:#x} is not UTF-8 (save the file as UTF-8)"
-        raise InputError([InputFault("", message, line)], source) from None
+        raise InputError.at(Location(line=line), message, source) from None
 
 
 def whole(token: str) -> int | str:
@@ -274,7 +273,7 @@ def parse_json(text: str) -> Any:
     if doubled:
         raise InputError(
             InputFault(
-                place_of(_path_to(mapping, data)),
+                _path_to(mapping, data),
                 f"the key {shown(key)} is given twice (take one out)",
             )
             for mapping, key in doubled
@@ -317,7 +316,7 @@ def check_depth(data: Any) -> None:
 
 def _too_deep(line: int | None = None) -> InputError:
     message = f"values are nested more than {MAX_DEPTH} deep (a document needs no such depth)"
-    return InputError([InputFault("", message, line)])
+    return InputError.at(Location(line=line), message)
 
 
 def parse_toml(text: str) -> dict[str, Any]:
@@ -330,9 +329,10 @@ def parse_toml(text: str) -> dict[str, Any]:
         raise InputError.at("", "it is nested too deeply (make it flatter)") from None
     except ValueError as error:
         found = _TOML_PLACE.fullmatch(str(error))
-        what, place = (found["what"], found["place"]) if found else (str(error), "")
+        what = found["what"] if found else str(error)
         message = f"this is no TOML: {what[:1].lower()}{what[1:]} (mend it)"
-        raise InputError.at(place.removeprefix("at "), message) from None
+        where = Location(line=int(found["line"]), path=(found["column"],)) if found else ""
+        raise InputError.at(where, message) from None
 
 
 def parse_yaml(text: str, *, number_keys: bool = False) -> Any:
@@ -366,7 +366,7 @@ def parse_yaml(text: str, *, number_keys: bool = False) -> Any:
 
 
 def _fault(line: int, message: str) -> InputError:
-    return InputError([InputFault("", message, line)])
+    return InputError.at(Location(line=line), message)
 
 
 @dataclass(slots=True)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from numbers import Integral
 from typing import Any
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, Where, shown
 from rightofway.model.plan import Plan
 from rightofway.model.scenario import Scenario
 from rightofway.values import at, function, one_of, optional, truth
@@ -15,7 +15,7 @@ LARGEST_SEED = 2**32 - 1
 """Planners draw from this many streams."""
 
 
-def checked_scenario(scenario: Scenario, place: str = "scenario") -> Scenario:
+def checked_scenario(scenario: Scenario, place: Where = "scenario") -> Scenario:
     """Return what a caller gave as a scenario.
 
     Parameters
@@ -34,7 +34,7 @@ def checked_scenario(scenario: Scenario, place: str = "scenario") -> Scenario:
     return at(place, one_of(Scenario, "no scenario", remedy), scenario)
 
 
-def checked_plan(plan: Plan, place: str = "plan") -> Plan:
+def checked_plan(plan: Plan, place: Where = "plan") -> Plan:
     """Return what a caller gave as a plan; parameters and errors as for `checked_scenario`."""
     return at(place, one_of(Plan, "no plan", "load a file with rightofway.load_plan"), plan)
 
@@ -62,7 +62,7 @@ def checked_seed(seed: int) -> int:
     return checked_number("seed", seed, 0, LARGEST_SEED, "is no seed")
 
 
-def checked_number(place: str, value: int, least: int, most: int, what: str = "") -> int:
+def checked_number(place: Where, value: int, least: int, most: int, what: str = "") -> int:
     """Return what a caller gave as a whole number from ``least`` to ``most``.
 
     Parameters
@@ -88,7 +88,7 @@ def checked_number(place: str, value: int, least: int, most: int, what: str = ""
     return int(value)
 
 
-def checked_index(place: str, index: int, count: int) -> int:
+def checked_index(place: Where, index: int, count: int) -> int:
     """Return what a caller gave as the number of a robot, or of another one of ``count``."""
     if not isinstance(index, Integral) or not 0 <= index < count:
         known = f"give 0 to {count - 1}" if count else "there are none"

@@ -391,7 +391,7 @@ def _in_zones(roadmap: Roadmap) -> Iterator[Pairs]:
         if n_pairs > MOST_PAIRS_IN_ZONES:
             message = f"zone {shown(zone.name)} holds {len(members)} vertices and lanes, and zones"
             message += f" up to it {n_pairs} pairs of them, more than {MOST_PAIRS_IN_ZONES}"
-            raise InputError.at("map.zones", f"{message} (draw smaller zones)")
+            raise InputError.at(("map", "zones"), f"{message} (draw smaller zones)")
         left, right = np.triu_indices(len(members), k=1)
         yield members[left], members[right]
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from rightofway.errors import InputError, InputFault, shown
+from rightofway.errors import InputError, InputFault, Where, shown
 from rightofway.model.above import from_above
 from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.problem import HEAVIEST, Problem, problem_of, whole_weights
@@ -65,7 +65,7 @@ class Scenario:
             faults = [*_rule_faults(self), *_fleet_faults(self), *_space_faults(self)]
             for index, closure in enumerate(self.closures):
                 found = closure_faults(closure, self.roadmap)
-                faults += [fault.within(f"closures[{index}]") for fault in found]
+                faults += [fault.within(("closures", index)) for fault in found]
         if faults:
             raise InputError(faults)
         object.__setattr__(
@@ -110,7 +110,7 @@ def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
         return
     for index, robot in enumerate(robots):
         if not isinstance(robot, Robot):
-            yield InputFault(f"robots[{index}]", f"{shown(robot)} is no robot (give a Robot)")
+            yield InputFault(("robots", index), f"{shown(robot)} is no robot (give a Robot)")
     if not isinstance(rules, Rules):
         yield InputFault("rules", f"{shown(rules)} are no rules (give Rules)")
     if not isinstance(scenario.closures, list | tuple):
@@ -120,7 +120,7 @@ def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
         for index, closure in enumerate(scenario.closures):
             if not isinstance(closure, Closure):
                 message = f"{shown(closure)} is no closure (give a Closure)"
-                yield InputFault(f"closures[{index}]", message)
+                yield InputFault(("closures", index), message)
     yield from _measure_faults(scenario)
 
 
@@ -135,20 +135,20 @@ def _measure_faults(scenario: Scenario) -> Iterator[InputFault]:
 def _rule_faults(scenario: Scenario) -> Iterator[InputFault]:
     rules = scenario.rules
     if rules.headway < 0:
-        yield InputFault("rules.headway", f"{rules.headway} is negative (give 0 or more)")
+        yield InputFault(("rules", "headway"), f"{rules.headway} is negative (give 0 or more)")
     if rules.laps < 1:
-        yield InputFault("rules.laps", f"{rules.laps} is less than one lap (give 1 or more)")
-    yield from _turn_faults(rules.turn, "rules.turn", scenario.roadmap)
-    yield from _rate_faults(rules.turn_rate, "rules.turn_rate")
+        yield InputFault(("rules", "laps"), f"{rules.laps} is less than one lap (give 1 or more)")
+    yield from _turn_faults(rules.turn, ("rules", "turn"), scenario.roadmap)
+    yield from _rate_faults(rules.turn_rate, ("rules", "turn_rate"))
 
 
-def _rate_faults(rate: Fraction | None, place: str) -> Iterator[InputFault]:
+def _rate_faults(rate: Fraction | None, place: Where) -> Iterator[InputFault]:
     if rate is not None and rate <= 0:
         remedy = "give degrees per time unit, like 90; leave it out if turning takes no time"
         yield InputFault(place, f"{rate} is not positive ({remedy})")
 
 
-def _turn_faults(turn: Turn | None, place: str, roadmap: Roadmap) -> Iterator[InputFault]:
+def _turn_faults(turn: Turn | None, place: Where, roadmap: Roadmap) -> Iterator[InputFault]:
     if turn == "cell":
         if roadmap.grid is None:
             yield InputFault(place, "'cell' needs a grid (give a time, like 0 or 1/2)")
@@ -161,23 +161,23 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
     rules = scenario.rules
     if rules.walls == "strict" and scenario.roadmap.grid is None:
         message = "'strict' needs a grid or a floor in cells of one size (take it out)"
-        yield InputFault("rules.walls", message)
+        yield InputFault(("rules", "walls"), message)
     if rules.clearance < 0:
-        yield InputFault("rules.clearance", f"{rules.clearance} is negative (give 0 or more)")
+        yield InputFault(("rules", "clearance"), f"{rules.clearance} is negative (give 0 or more)")
     if scenario.roadmap.zones and rules.occupancy == "one":
         message = "'one' does not go with zones (give both, so that robots book ahead)"
-        yield InputFault("rules.occupancy", message)
+        yield InputFault(("rules", "occupancy"), message)
     if all(robot.radius <= 0 for robot in scenario.robots):
         if rules.clearance > 0:
             message = (
                 f"{decimal(rules.clearance)} is for robots with a size (give a robot a radius)"
             )
-            yield InputFault("rules.clearance", message)
+            yield InputFault(("rules", "clearance"), message)
         return
     if rules.occupancy == "one":
         remedy = "give both, or leave it out"
         message = f"'one' is for robots without a size, and a robot has a radius ({remedy})"
-        yield InputFault("rules.occupancy", message)
+        yield InputFault(("rules", "occupancy"), message)
     for tail, head, length, about in too_short_edges(scenario.roadmap):
         name = scenario.roadmap.name
         yield InputFault(
@@ -192,12 +192,11 @@ def _fleet_faults(scenario: Scenario) -> Iterator[InputFault]:
     if not scenario.robots:
         yield InputFault("robots", "there is none (give at least one)")
     for index, robot in enumerate(scenario.robots):
-        yield from (fault.within(f"robots[{index}]") for fault in _robot_faults(robot, scenario))
+        yield from (fault.within(("robots", index)) for fault in _robot_faults(robot, scenario))
     yield from _weight_faults(scenario.robots)
     name = scenario.roadmap.name
     names = [robot.name for robot in scenario.robots]
-    numbers = [f"robots[{index}]" for index in range(len(names))]
-    yield from _twice("name", names, numbers, "give each its own")
+    yield from _twice("name", names, ["{other}"] * len(names), "give each its own")
     homes = [robot.home for robot in scenario.robots]
     if all(0 <= home < scenario.roadmap.n_vertices for home in homes):
         remedy = "a vertex holds one robot; move one of them"
@@ -210,7 +209,7 @@ def _twice(key: str, values: list[str], owners: list[str], remedy: str) -> Itera
         earlier = first.setdefault(value, index)
         if earlier != index:
             message = f"{value} is the {key} of {owners[earlier]} already ({remedy})"
-            yield InputFault(f"robots[{index}].{key}", message)
+            yield InputFault(("robots", index, key), message, ("robots", earlier))
 
 
 def _weight_faults(robots: Sequence[Robot]) -> Iterator[InputFault]:
@@ -220,7 +219,7 @@ def _weight_faults(robots: Sequence[Robot]) -> Iterator[InputFault]:
         if heaviest > HEAVIEST:
             message = f"{robots[weights.index(heaviest)].weight} makes weights too far apart or too"
             message += f" fine: in whole numbers it is {heaviest}, above {HEAVIEST} (round weights)"
-            yield InputFault(f"robots[{weights.index(heaviest)}].weight", message)
+            yield InputFault(("robots", weights.index(heaviest), "weight"), message)
 
 
 def _robot_faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
@@ -251,14 +250,14 @@ def _number_faults(robot: Robot) -> Iterator[InputFault]:
         yield InputFault("stops", "there is none (give at least one place to work at)")
     for index, stop in enumerate(robot.stops):
         if stop.work < 0:
-            yield InputFault(f"stops[{index}].work", f"{stop.work} is negative (give 0 or more)")
+            yield InputFault(("stops", index, "work"), f"{stop.work} is negative (give 0 or more)")
 
 
 def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
     n_vertices = roadmap.n_vertices
-    places: Iterable[tuple[str, int]] = [
+    places: Iterable[tuple[Where, int]] = [
         ("home", robot.home),
-        *((f"stops[{index}].at", stop.at) for index, stop in enumerate(robot.stops)),
+        *((("stops", index, "at"), stop.at) for index, stop in enumerate(robot.stops)),
     ]
     for place, vertex in places:
         if not 0 <= vertex < n_vertices:

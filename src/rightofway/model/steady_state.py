@@ -48,7 +48,7 @@ class SteadyState:
         for index, (robot, _) in enumerate(self.critical):
             if robot not in self.robots:
                 message = f"robot {robot} is not of this group (name one of its robots)"
-                raise InputError.at(f"critical[{index}]", message)
+                raise InputError.at(("critical", index), message)
 
 
 def _visit(value: object) -> tuple[int, int]:
@@ -81,16 +81,16 @@ def refuse_unknown_robots(
         for robot in group.robots:
             if not 0 <= robot < len(names):
                 message = f"there is no robot {robot} (give 0 to {len(names) - 1})"
-                raise InputError.at(f"steady[{index}].robots", message)
+                raise InputError.at(("steady", index, "robots"), message)
             if robot in seen:
                 message = f"{names[robot]} is there already (give each robot one period)"
-                raise InputError.at(f"steady[{index}].robots", message)
+                raise InputError.at(("steady", index, "robots"), message)
             seen.add(robot)
         for place, (robot, visit) in enumerate(group.critical):
             last = visits[robot] - 1
             if not 0 <= visit <= last:
                 message = f"{names[robot]} has no visit {visit} (give 0 to {last})"
-                raise InputError.at(f"steady[{index}].critical[{place}]", message)
+                raise InputError.at(("steady", index, "critical", place), message)
 
 
 def within(steady: Sequence[SteadyState], visits: Sequence[int]) -> tuple[SteadyState, ...]:

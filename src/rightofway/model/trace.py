@@ -57,4 +57,4 @@ class ExecutionTrace:
                 given = len(getattr(self, name)[robot])
                 if given != len(track):
                     message = f"{given} for {len(track)} visits (give one for each)"
-                    raise InputError.at(f"{name}[{robot}]", message)
+                    raise InputError.at((name, robot), message)

@@ -119,7 +119,7 @@ def turnings_of(
             if ticks and ticks[-1] > LONGEST_TURN:
                 longest = f"a turn takes {shown(ticks[-1])} ticks of {shown(clock.tick)}"
                 message = f"{shown(rate)} is too slow: {longest} (give a faster one)"
-                raise InputError.at(f"robots[{robot}].turn_rate", message)
+                raise InputError.at(("robots", robot, "turn_rate"), message)
             made[rate] = Turning(angles=angles, ticks=np.array(ticks, np.int64))
     return [made[rate] for rate in rates]
 

@@ -34,7 +34,7 @@ def auto(task: Task) -> Draft:
     if task.options["swaps"] == "leave":
         if task.start is not None:
             message = "leave cannot start from a plan (choose swaps=resolve)"
-            raise InputError.at("option swaps", message)
+            raise InputError.at(("options", "swaps"), message)
         refuse_with_swaps_left(task.scenario.problem)
         return paper(task)
     explained = None

@@ -80,7 +80,7 @@ class Option:
             if number is not None and self.least <= number <= (self.most or number):
                 return number
             remedy = f"is not a {self.numbers} (for example {self.default})"
-        raise InputError.at(f"option {self.name}", f"{text!r} {remedy}")
+        raise InputError.at(("options", self.name), f"{text!r} {remedy}")
 
     def _number(self, given: object) -> int | Fraction | None:
         """Return the number that was given; None if it is none, or not whole where it has to be."""
@@ -134,7 +134,7 @@ class PlannerOptions:
         known = [field.name for field in fields(cls)]
         for name in given:
             if name not in known:
-                raise InputError.at(f"option {name}", unknown(name, cls.__name__, known))
+                raise InputError.at(("options", name), unknown(name, cls.__name__, known))
         return object.__new__(cls)
 
     def __post_init__(self) -> None:

@@ -68,7 +68,7 @@ class PlannerSpec:
         for name in given:
             if name not in known:
                 message = options.unknown(str(name), self.name, known)
-                raise InputError.at(f"option {name}", message)
+                raise InputError.at(("options", name), message)
         return self.options_type(**given).as_dict()
 
 

@@ -186,7 +186,7 @@ def _arrays(
     """Return where each robot's visits begin, their vertices, and when they begin."""
     for k, track in enumerate(tracks):
         if track is not None and not isinstance(track, Track):
-            raise InputError.at(f"tracks[{k}]", f"{shown(track)} is no track")
+            raise InputError.at(("tracks", k), f"{shown(track)} is no track")
     known = [track for track in tracks if track is not None]
     lengths = [0 if track is None else len(track) for track in tracks]
     return (

@@ -78,7 +78,7 @@ def _floor_faults(floor: Floor) -> Iterator[InputFault]:
         )
         return
     for index, obstacle in enumerate(floor.obstacles):
-        place = f"obstacles[{index}].rect"
+        place = ("obstacles", index, "rect")
         if obstacle.width <= 0 or obstacle.height <= 0:
             size = f"{obstacle.width} by {obstacle.height}"
             yield InputFault(place, f"is {size}, not positive (give [x, y, width, height])")

@@ -161,7 +161,7 @@ def _check_edges(ids: Mapping[str, int], edges: Sequence[Edge]) -> None:
         if not fault and edge.surcharge < 0:
             fault = f"surcharge {edge.surcharge} is negative (give 0 or more)"
         if fault:
-            raise InputError.at(f"edges[{index}]", fault)
+            raise InputError.at(("edges", index), fault)
         seen.add((edge.tail, edge.head))
 
 

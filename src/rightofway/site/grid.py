@@ -104,7 +104,7 @@ def _check_lines(lines: Sequence[str]) -> None:
     for row, line in enumerate(lines):
         if len(line) != width:
             message = f"{len(line)} cells, but row 0 has {width} (make all rows equally long)"
-            raise InputError.at(f"[{row}]", message)
+            raise InputError.at(row, message)
 
 
 def _meant_by(lines: Sequence[str]) -> str:

@@ -73,7 +73,7 @@ def zones_of(
     faults = []
     names: set[str] = set()
     for index, zone in enumerate(named):
-        faults += [fault.within(f"zones[{index}]") for fault in _faults(zone, names, ids, lanes)]
+        faults += [fault.within(("zones", index)) for fault in _faults(zone, names, ids, lanes)]
         names.add(zone.name)
     if faults:
         raise InputError(faults)
@@ -104,8 +104,8 @@ def _faults(
         if name not in ids:
             near = nearest(name, ids)
             hint = f"did you mean {near!r}?" if near else f"name one of the {len(ids)} vertices"
-            yield InputFault(f"vertices[{index}]", f"no vertex is named {shown(name)} ({hint})")
+            yield InputFault(("vertices", index), f"no vertex is named {shown(name)} ({hint})")
     for index, (tail, head) in enumerate(zone.edges):
         if (tail, head) not in lanes:
             message = f"no edge leads from {shown(tail)} to {shown(head)} (name an edge)"
-            yield InputFault(f"edges[{index}]", message)
+            yield InputFault(("edges", index), message)

@@ -59,7 +59,7 @@ def as_error(error: BaseException) -> dict[str, Any]:
     match error:
         case InputError():
             listed = [fault_data(fault) for fault in error.faults]
-            message = "\n".join(fault.after("") for fault in error.faults)
+            message = "\n".join(str(fault.in_file("")) for fault in error.faults)
             return {"kind": "input", "message": message, "faults": listed}
         case NoPlanExists():
             return {"kind": "no_plan", "message": f"no plan exists: {error}", **error.as_dict()}
@@ -83,11 +83,12 @@ def fault_data(fault: InputFault) -> dict[str, Any]:
     fault
         One thing wrong with an input.
     """
+    inner = str(fault.location.inner or "")
     return {
         "place": fault.place,
         "path": list(fault.path),
-        "message": fault.message,
+        "message": f"{inner}: {fault.message}" if inner else fault.message,
         "line": fault.line,
-        "named": fault.named,
-        "about": fault.about or fault.place,
+        "named": fault.location.named,
+        "about": fault.location.about,
     }

@@ -149,7 +149,7 @@ class Workspace:
             try:
                 write_whole(path, content)
             except InputError as error:
-                raise InputError(error.faults, name) from None
+                raise InputError(fault.in_file(name) for fault in error.faults) from None
         return revision_of(content)
 
     def revision(self, name: str) -> str | None:

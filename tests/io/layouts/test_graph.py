@@ -68,8 +68,8 @@ def test_every_fault_of_a_graph_is_named() -> None:
         layout_of_graph(wrong)
     assert str(error.value).splitlines() == [
         "node 'a': has no position (give x and y, or pos=(x, y))",
-        "node 'b': 'left' is not a number (write it like 3, 0.5 or 1/3)",
-        "edge 'a' to 'b': [1] is not a number (write it like 3, 0.5 or 1/3)",
+        "node 'b': x: 'left' is not a number (write it like 3, 0.5 or 1/3)",
+        "edge 'a' to 'b': length: [1] is not a number (write it like 3, 0.5 or 1/3)",
     ]
     with pytest.raises(InputError, match="'hall' is no graph"):
         layout_of_graph("hall")

@@ -161,7 +161,7 @@ def test_what_does_not_fit_is_told_with_place_and_remedy(
         (
             "a.map",
             "type octile\nheight 1000000000\nwidth 1000000000\nmap\n..",
-            "line 2: height '1000000000' is no size",
+            "a.map:2: height '1000000000' is no size",
         ),
     ],
 )

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
-from rightofway.errors import InputError, InputFault
+from rightofway.errors import InputError
 from rightofway.io.foreign import lacam, lns2, planviz, schedule
 from rightofway.io.foreign.trajectories import ForeignPlan, plan_of_trajectories
-from rightofway.io.marks import marked
+from rightofway.io.locations import lines_of
 from rightofway.io.text import read_text
 from rightofway.model import Plan
-
-_LINE = re.compile("line ([0-9]+)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,19 +108,8 @@ def read_foreign(
     found = recognized(text)
     if found is None:
         return None
-    try:
+    with lines_of(text) if found.is_document else nullcontext():
         return plan_of_trajectories(found.read(text), path, map_file, scen)
-    except InputError as error:
-        if error.source:
-            raise
-        faults = marked(error.faults, text) if found.is_document else map(_lined, error.faults)
-        raise InputError(faults) from None
-
-
-def _lined(fault: InputFault) -> InputFault:
-    """Return a fault at ``line 3`` as a fault of that line."""
-    match = _LINE.fullmatch(fault.place)
-    return InputFault("", fault.message, int(match[1])) if match else fault
 
 
 def foreign_text(plan: Plan, name: str) -> str:

@@ -19,7 +19,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, Location, shown
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     Cell,
@@ -58,14 +58,14 @@ def read(text: str) -> ForeignPlan:
         if match:
             if int(match[1]) != len(steps):
                 message = f"step {match[1]} stands where step {len(steps)} is expected"
-                faults.note(f"line {number}", f"{message} (give every step once, in order)")
-            steps.append(faults.attempt(f"line {number}", _cells, match[2]))
+                faults.note(Location(line=number), f"{message} (give every step once, in order)")
+            steps.append(faults.attempt(Location(line=number), _cells, match[2]))
             lines.append(number)
         elif sign and not steps:
             header[key] = value
         elif bare:
             message = f"{shown(line.strip())} is no step (write 0:(x,y),(x,y), …)"
-            faults.note(f"line {number}", message)
+            faults.note(Location(line=number), message)
     _check_counts(steps, lines, faults)
     faults.stop()
     goals = _cells(header["goals"]) if header.get("goals") else []
@@ -94,7 +94,7 @@ def _check_counts(steps: list[list[Cell] | None], lines: list[int], faults: Faul
     for cells, line in zip(steps, lines, strict=True):
         if cells is not None and len(cells) != expected:
             message = f"{len(cells)} agents, the first step has {expected} (give all at each step)"
-            faults.note(f"line {line}", message)
+            faults.note(Location(line=line), message)
 
 
 def write(plan: Plan) -> str:

@@ -16,7 +16,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, Location, shown
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     ForeignPlan,
@@ -54,19 +54,19 @@ def read(text: str) -> ForeignPlan:
         if not match:
             if bare:
                 message = f"{shown(line.strip())} is no path (write Agent 0: (row,column)->…)"
-                faults.note(f"line {number}", message)
+                faults.note(Location(line=number), message)
             continue
         agent = int(match[1])
         if agent in paths:
             message = f"agent {agent} has a path in line {paths[agent][0]} already (take one out)"
-            faults.note(f"line {number}", message)
-        paths[agent] = number, faults.attempt(f"line {number}", _visits, match[2])
+            faults.note(Location(line=number), message)
+        paths[agent] = number, faults.attempt(Location(line=number), _visits, match[2])
     missing = next((number for number in range(len(paths)) if number not in paths), None)
     if missing is not None:
         faults.note("", f"agent {missing} has no path (give one for each agent, from 0 on)")
     faults.stop()
     agents = [
-        Trajectory(name=f"A{agent}", cells=visits[0], steps=visits[1], place=f"line {line}")
+        Trajectory(name=f"A{agent}", cells=visits[0], steps=visits[1], location=Location(line=line))
         for agent, (line, visits) in sorted(paths.items())
         if visits
     ]

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, Location, shown
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     MAX_STEP,
@@ -108,9 +108,9 @@ def read(text: str) -> ForeignPlan:
         stops = [cell for _, cell in errands.get(index, [])]
         if stops[-1:] != [(row, column)]:
             stops.append((row, column))
-        place = f"{key}[{index}]"
+        where = Location(path=(key, index))
         agents.append(
-            Trajectory(name=f"A{index}", cells=cells, steps=steps, place=place, stops=stops)
+            Trajectory(name=f"A{index}", cells=cells, steps=steps, location=where, stops=stops)
         )
     return ForeignPlan(agents=agents, steps_per_move=steps_per_move)
 
@@ -125,15 +125,15 @@ def _all_visits(
     """Return the visits of each agent, or fewer after noting faults."""
     found, n_moves = list[Visits](), 0
     for index, (path, start) in enumerate(zip(log[key], log["start"], strict=False)):
-        begin = faults.attempt(f"start[{index}]", _start, start, changes)
-        place = f"{key}[{index}]"
-        runs = faults.attempt(place, _runs, path, changes)
+        begin = faults.attempt(("start", index), _start, start, changes)
+        where = (key, index)
+        runs = faults.attempt(where, _runs, path, changes)
         if begin is None or runs is None:
             continue
         n_moves += int(runs[1].sum()) // steps_per_move
         if n_moves > MAX_MOVES:
-            raise InputError.at(place, f"more than {MAX_MOVES} moves (read a part of the plan)")
-        visits = faults.attempt(place, _visits, begin, *runs, changes, steps_per_move)
+            raise InputError.at(where, f"more than {MAX_MOVES} moves (read a part of the plan)")
+        visits = faults.attempt(where, _visits, begin, *runs, changes, steps_per_move)
         found += [] if visits is None else [visits]
     return found
 
@@ -156,7 +156,7 @@ def _visits(
         run = at[int(np.argmax(broken))]
         message = f"{chr(actions[run])} ends after {progress[run] % steps_per_move} of"
         remedy = "finish it before the next action"
-        raise InputError.at(f"step {ends[run]}", f"{message} {steps_per_move} steps ({remedy})")
+        raise InputError.at(("step", ends[run]), f"{message} {steps_per_move} steps ({remedy})")
     marks = steps_per_move * np.arange(1, progress[-1:].sum() // steps_per_move + 1)
     runs = np.searchsorted(progress, marks)  # that complete the moves and turns
     steps = ends[runs] - (progress[runs] - marks)
@@ -234,7 +234,7 @@ def _runs(path: Any, changes: Mapping[str, Cell]) -> tuple[NDArray[np.uint8], ND
     if unknown:
         index = next(index for index, action in enumerate(actions) if action in unknown)
         message = f"{shown(actions[index])} is no action (give one of {', '.join(known)})"
-        raise InputError.at(f"step {sum(lengths[:index])}", message)
+        raise InputError.at(("step", sum(lengths[:index])), message)
     if sum(lengths) > MAX_STEPS:
         raise InputError.at("", f"{sum(lengths)} steps are too many (give at most {MAX_STEPS})")
     return np.frombuffer("".join(actions).encode(), np.uint8), np.array(lengths, np.int64)
@@ -255,7 +255,7 @@ def _counted(bare: str) -> tuple[list[str], list[int]]:
             match = _RUN.fullmatch(run)
             if not match:
                 message = f"{shown(run)} is no run of actions (write F 10)"
-                raise InputError.at(f"step {step}", message)
+                raise InputError.at(("step", step), message)
             actions.append(match[1])
             lengths.append(int(match[2]))
             step += lengths[-1]
@@ -270,16 +270,16 @@ def _errands(log: dict[str, Any]) -> Errands:
             raise InputError.at(key, f"{shown(value)} is no list (leave it out, or give a list)")
     faults, places = Faults(), dict[tuple[int, int], Cell]()
     for index, task in enumerate(tasks):
-        for number, cell in enumerate(faults.attempt(f"tasks[{index}]", _cells_of, task) or ()):
+        for number, cell in enumerate(faults.attempt(("tasks", index), _cells_of, task) or ()):
             places[task[0], number] = cell
     finished: list[tuple[int, int, tuple[int, int]]] = []  # step, agent, (task, number of errand)
     for index, event in enumerate(events):
-        for row in faults.attempt(f"events[{index}]", _finished, event, index) or ():
+        for row in faults.attempt(("events", index), _finished, event, index) or ():
             if row[2] in places:
                 finished.append(row)
             else:
                 message = f"task {row[2][0]} has no errand {row[2][1] + 1} (give it in tasks)"
-                faults.note(f"events[{index}]", message)
+                faults.note(("events", index), message)
     faults.stop()
     errands: Errands = {}
     for step, agent, errand in sorted(finished):

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from rightofway.errors import InputError, is_printable, shown
+from rightofway.errors import InputError, Location, is_printable, shown
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     MAX_STEP,
@@ -53,10 +53,11 @@ def read(text: str) -> ForeignPlan:
     faults, agents = Faults(), list[Trajectory]()
     for key, states in schedule.items():
         name = str(key)
-        visits = faults.attempt(f"schedule.{name}", _visits, name, states)
+        visits = faults.attempt(("schedule", name), _visits, name, states)
         if visits:
             cells, steps = visits
-            agents.append(Trajectory(name=name, cells=cells, steps=steps, place=f"schedule.{name}"))
+            where = Location(path=("schedule", name))
+            agents.append(Trajectory(name=name, cells=cells, steps=steps, location=where))
     faults.stop()
     return ForeignPlan(agents=agents)
 
@@ -69,15 +70,14 @@ def _visits(name: str, states: Any) -> Visits:
     faults, cells, steps = Faults(), list[Cell](), list[int]()
     latest = -1
     for index, state in enumerate(states):
-        place = f"[{index}]"
         numbers: list[Any] = [state.get(key) for key in "xyt"] if isinstance(state, dict) else [""]
         if not all(type(each) is int and 0 <= each <= MAX_STEP for each in numbers):
-            faults.note(place, f"{shown(state)} is no state (give whole numbers x, y and t)")
+            faults.note(index, f"{shown(state)} is no state (give whole numbers x, y and t)")
             continue
         x, y, t = numbers
         if t <= latest or (latest < 0 < t):
             remedy = "begin with t 0, and let t grow"
-            faults.note(place, f"t {t} stands after {max(latest, 0)} ({remedy})")
+            faults.note(index, f"t {t} stands after {max(latest, 0)} ({remedy})")
         latest = t
         cells.append((y, x))
         steps.append(t)

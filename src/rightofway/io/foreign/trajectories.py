@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import FEW, InputError, InputFault, shown
+from rightofway.errors import FEW, InputError, InputFault, Location, path_text, shown
 from rightofway.io.faults import Faults
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.movingai import ScenRow, load_map, load_scen
@@ -51,7 +51,7 @@ class Trajectory:
         Where it is, visit by visit: row and column; int64, shape (n, 2). It stays at the last cell.
     steps
         When each visit begins; int64, shape (n,).
-    place
+    location
         Where the agent stands in the file.
     lines
         Where each of its steps stands in the file, if each has a line of its own.
@@ -62,13 +62,13 @@ class Trajectory:
     name: str
     cells: NDArray[np.int64]
     steps: NDArray[np.int64]
-    place: str = ""
+    location: Location = Location()  # noqa: RUF009 (it cannot change)
     lines: Sequence[int] = ()
     stops: Sequence[Cell] = ()
 
-    def place_of(self, step: int) -> str:
+    def location_of(self, step: int) -> Location:
         """Return where a step stands in the file."""
-        return f"line {self.lines[step]}" if self.lines else self.place
+        return Location(line=self.lines[step]) if self.lines else self.location
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -174,11 +174,12 @@ def _scenario(found: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow])
 
 def _renamed(fault: InputFault, found: ForeignPlan) -> InputFault:
     """Return a fault of a robot at the line of its agent."""
-    head, _, rest = fault.place.partition("]")
-    if not head.startswith("robots["):
+    section, index, *rest = (*fault.path, "", "")
+    if section != "robots" or not isinstance(index, int):
         return fault
-    agent = found.agents[int(head.removeprefix("robots["))]
-    return InputFault(agent.place_of(0), f"{agent.name}{rest}: {fault.message}")
+    agent = found.agents[index]
+    what = path_text((agent.name, *filter(None, rest)))
+    return InputFault(agent.location_of(0), f"{what}: {fault.message}")
 
 
 def _refuse_walls(found: ForeignPlan, lines: Sequence[str]) -> None:
@@ -202,7 +203,7 @@ def _refuse_walls(found: ForeignPlan, lines: Sequence[str]) -> None:
             if not inside[first]:
                 where = f"is outside {free.shape[0]} rows and {free.shape[1]} columns"
             entered = f"{agent.name} enters [{row}, {column}] at step {step}"
-            faults.note(agent.place_of(step), f"{entered}, which {where} (give its own map)")
+            faults.note(agent.location_of(step), f"{entered}, which {where} (give its own map)")
     if wrong > FEW:
         faults.note("", f"{wrong - FEW} more agents leave the map (give the map of this plan)")
     faults.stop()

@@ -6,26 +6,20 @@ import csv
 import io
 import re
 from collections.abc import Iterator
-from fractions import Fraction
 from pathlib import Path
 
-from rightofway.errors import InputError, shown
-from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
-from rightofway.io.layouts.parts import Part, number_in
+from rightofway.errors import InputError, Location
+from rightofway.io.layouts.attributes import add_lanes, add_vertex
+from rightofway.io.layouts.draft import Draft, LevelDraft
+from rightofway.io.source import Source
 from rightofway.io.text import is_regular, read_text
-from rightofway.site.layout import Layout, LayoutVertex
+from rightofway.site.layout import Layout
 
 NAMES = ("name", "id", "node", "vertex", "nodeid", "node_id")
 TAILS = ("from", "source", "start", "tail", "startid")
 HEADS = ("to", "target", "end", "head", "endid")
-LENGTHS = ("length", "distance", "weight")
-SPEEDS = ("max_speed", "maxspeed", "speed_limit")
 LONGEST_HEADINGS = 10_000
 """Characters of a row of headings; a JSON file may be one line of millions."""
-
-TRUE, FALSE = ("true", "yes", "1"), ("false", "no", "0", "")
-
-Row = tuple[int, dict[str, str]]
 
 
 def recognizes(text: str) -> bool:
@@ -57,10 +51,10 @@ def read(text: str, path: Path) -> Layout:
     nodes, edges = (text, other) if "x" in _headings(text) else (other, text)
     draft = Draft("CSV pair")
     level = draft.level()
-    for line, row in _rows(nodes):
-        draft.faults.attempt("", _add_node, level, line, row)
-    for line, row in _rows(edges):
-        draft.faults.attempt("", _add_edge, level, line, row)
+    for row in _rows(nodes):
+        draft.faults.attempt("", _add_node, level, row)
+    for row in _rows(edges):
+        draft.faults.attempt("", _add_edge, level, row)
     return draft.layout()
 
 
@@ -80,8 +74,8 @@ def _beside(path: Path, is_nodes: bool) -> Path:
     raise InputError.at("", f"these are {mine} without their {wanted} ({remedy})")
 
 
-def _rows(text: str) -> Iterator[Row]:
-    """Yield the rows by heading, in lower case, with their lines."""
+def _rows(text: str) -> Iterator[Source]:
+    """Yield the rows as mappings from headings in lower case, without empty values."""
     first = text.partition("\n")[0]
     delimiter = max(",;\t", key=first.count)
     reader = csv.reader(io.StringIO(text), delimiter=delimiter)
@@ -90,55 +84,22 @@ def _rows(text: str) -> Iterator[Row]:
         for cells in reader:
             if not headings:
                 headings = [cell.strip().lower() for cell in cells]
-            elif any(cell.strip() for cell in cells):
-                yield reader.line_num, dict(zip(headings, map(str.strip, cells), strict=False))
+            elif row := {
+                heading: cell.strip()
+                for heading, cell in zip(headings, cells, strict=False)
+                if cell.strip()
+            }:
+                yield Source(row, line=reader.line_num)
     except csv.Error as error:
-        raise InputError.at(f"line {reader.line_num}", f"{error} (mend the row)") from None
+        raise InputError.at(Location(line=reader.line_num), f"{error} (mend the row)") from None
 
 
-def _first(row: dict[str, str], names: tuple[str, ...], place: str) -> str:
-    found = next((row[name] for name in names if row.get(name)), "")
-    if not found:
-        raise InputError.at(place, f"has no {names[0]} (add it)")
-    return Part(found, (place,)).text()
+def _add_node(level: LevelDraft, row: Source) -> None:
+    at = row.need("x").number(), row.need("y").number()
+    add_vertex(level, row, row.need(*NAMES).text(), at)
 
 
-def _optional(row: dict[str, str], names: tuple[str, ...], place: str) -> Fraction | None:
-    found = next((row[name] for name in names if row.get(name)), None)
-    return None if found is None else number_in(found, place)
-
-
-def _flag(row: dict[str, str], names: tuple[str, ...], place: str) -> bool:
-    found = next((row[name].lower() for name in names if row.get(name)), "")
-    if found not in (*TRUE, *FALSE):
-        raise InputError.at(place, f"{shown(found)} is neither true nor false (mend it)")
-    return found in TRUE
-
-
-def _add_node(level: LevelDraft, line: int, row: dict[str, str]) -> None:
-    place = f"line {line}"
-    level.add(
-        LayoutVertex(
-            name=_first(row, NAMES, place),
-            at=(number_in(row.get("x"), place), number_in(row.get("y"), place)),
-            is_parking=_flag(row, ("parking", "is_parking"), place),
-            is_charging=_flag(row, ("charging", "is_charging"), place),
-        ),
-        place,
-    )
-
-
-def _add_edge(level: LevelDraft, line: int, row: dict[str, str]) -> None:
-    place = f"line {line}"
-    tail, head = _first(row, TAILS, place), _first(row, HEADS, place)
-    both = _flag(row, ("both_ways", "bidirectional"), place)
-    for one, other in ((tail, head), (head, tail)) if both else ((tail, head),):
-        level.connect(
-            Lane(
-                place=place,
-                tail=one,
-                head=other,
-                length=_optional(row, LENGTHS, place),
-                max_speed=_optional(row, SPEEDS, place),
-            )
-        )
+def _add_edge(level: LevelDraft, row: Source) -> None:
+    both = row.get("both_ways", "bidirectional")
+    ends = row.need(*TAILS).text(), row.need(*HEADS).text()
+    add_lanes(level, row, *ends, both is not None and both.flag())

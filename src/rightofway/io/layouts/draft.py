@@ -10,7 +10,7 @@ from itertools import groupby, pairwise
 
 from rightofway.errors import InputError, is_printable, nearest, shown
 from rightofway.io.faults import Faults
-from rightofway.io.layouts.parts import LONGEST_NAME
+from rightofway.io.source import LONGEST_NAME, Source
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import Point, rounding_step, squared_distance, straight_length
 from rightofway.site.layout import Layout, LayoutEdge, LayoutVertex, Level, Station
@@ -35,7 +35,7 @@ class Lane:
 
     Attributes
     ----------
-    place
+    source
         Where it stands in the file.
     tail, head, max_speed, types, shape
         As those of `LayoutEdge`.
@@ -49,7 +49,7 @@ class Lane:
         How far at most that curve is from the straight lines between these points [m].
     """
 
-    place: str
+    source: Source
     tail: str
     head: str
     length: Fraction | None = None
@@ -72,22 +72,22 @@ class LevelDraft:
     zones: list[NamedZone] = field(default_factory=list)
     picture: Picture | None = None
 
-    def add(self, vertex: LayoutVertex, place: str) -> None:
+    def add(self, vertex: LayoutVertex, source: Source) -> None:
         """Take a vertex; InputError if its name is taken, or there are too many."""
         if vertex.name in self.vertices:
             message = f"a vertex is named {shown(vertex.name)} already (rename one)"
-            raise InputError.at(place, message)
+            raise source.fault(message)
         if any(MICRO % number.denominator for number in vertex.at):
             x, y = (Fraction(round(number * MICRO), MICRO) for number in vertex.at)
             vertex = replace(vertex, at=(x, y))
         if len(self.vertices) == MAX_VERTICES:
-            raise InputError.at(place, f"more than {MAX_VERTICES} vertices (give a part of it)")
+            raise source.fault(f"more than {MAX_VERTICES} vertices (give a part of it)")
         self.vertices[vertex.name] = vertex
 
     def connect(self, lane: Lane) -> None:
         """Take a lane; InputError if there are too many."""
         if len(self.lanes) == MAX_EDGES:
-            raise InputError.at(lane.place, f"more than {MAX_EDGES} lanes (give a part of it)")
+            raise lane.source.fault(f"more than {MAX_EDGES} lanes (give a part of it)")
         self.lanes.append(lane)
 
 
@@ -182,15 +182,14 @@ class Draft:
                 near = nearest(missing[0], vertices)
                 hint = f"did you mean {near!r}?" if near else "name one that the file has"
                 message = f"no vertex is named {shown(missing[0])} ({hint})"
-                self.faults.note(lane.place, message)
+                self.faults.note(lane.source.location, message)
             elif missing:
                 links += 1
             elif lane.tail == lane.head:
                 self.repair("a lane from a vertex to itself is left out")
             elif lane.max_speed is not None and lane.max_speed <= 0:
-                self.faults.note(
-                    lane.place, f"speed limit {lane.max_speed} is not positive (give m/s)"
-                )
+                message = f"speed limit {lane.max_speed} is not positive (give m/s)"
+                self.faults.note(lane.source.location, message)
             else:
                 edge = self._edge(lane, square, straight[square])
                 if lane.curve:

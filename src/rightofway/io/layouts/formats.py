@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from contextlib import nullcontext
+from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any, Literal
 
-from rightofway.errors import InputError, InputFault, listed
-from rightofway.io.faults import blaming
+from rightofway.errors import InputError, Location, in_file, listed
 from rightofway.io.layouts import csv_pair, graphml, lif, nav2, open_rmf, opentcs, ros_map
 from rightofway.io.layouts.xml_tree import Element, parse_xml
-from rightofway.io.marks import marked
+from rightofway.io.locations import lines_of
 from rightofway.io.movingai import load_map
 from rightofway.io.text import is_regular, parse_json, parse_yaml, read_text
 from rightofway.site.layout import Layout
@@ -126,7 +126,7 @@ def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
         If the format is not known, and with every fault, its place and remedy.
     """
     path = Path(path)
-    with blaming(str(path)):
+    with in_file(str(path)):
         _refuse_picture(path)
         text = read_text(path)
         found = _opened(text)
@@ -135,12 +135,8 @@ def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
             raise InputError.at("", message)
         format_of, content = found
         try:
-            return format_of.read(content, path)
-        except InputError as error:
-            if error.source:
-                raise
-            faults = marked(error.faults, text) if format_of.content == "data" else error.faults
-            raise InputError(map(_lined, faults)) from None
+            with lines_of(text) if format_of.content == "data" else nullcontext():
+                return format_of.read(content, path)
         except RecursionError:
             raise InputError.at("", "it is nested too deeply (is it the right file?)") from None
 
@@ -193,7 +189,7 @@ def refuse_layout(path: Path, text: str | None = None) -> None:
     try:
         what = described(read_layout(path))
     except InputError as error:
-        first = str(error).splitlines()[0].removeprefix(f"{path}:").strip()
+        first = error.faults[0].in_file("")
         what = f"a layout with a fault: {first}; mend it first"
     name = path.name
     remedy = f"write a scenario with map: {{layout: {name}}}"
@@ -248,7 +244,7 @@ def _opened(text: str) -> tuple[LayoutFormat, Any] | None:
     found = next(known, None)
     if found is None and isinstance(content, Element):
         message = f"an XML file of <{content.name}> is no layout (known: GraphML, openTCS 0.0.4 on)"
-        raise InputError([InputFault("", message, content.line)])
+        raise InputError.at(Location(line=content.line), message)
     return None if found is None else (found, content)
 
 
@@ -263,11 +259,3 @@ def _refuse_picture(path: Path) -> None:
     if begin.startswith(PICTURES):
         message = "this is a picture (give the YAML file beside it, which has its resolution)"
         raise InputError.at("", message)
-
-
-def _lined(fault: InputFault) -> InputFault:
-    """Return a fault at ``line 3`` as a fault of that line."""
-    word, _, number = fault.place.partition(" ")
-    if word == "line" and number.isdecimal():
-        return replace(fault, place="", line=int(number))
-    return fault

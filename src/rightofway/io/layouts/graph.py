@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from fractions import Fraction
 from typing import Any
 
-from rightofway.errors import InputError, is_printable, shown
-from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
-from rightofway.io.layouts.graphml import LENGTHS, PAIRS, SPEEDS
-from rightofway.io.layouts.parts import LONGEST_NAME, number_in
+from rightofway.errors import InputError, shown
+from rightofway.io.layouts.attributes import PAIRS, add_lanes, add_vertex
+from rightofway.io.layouts.draft import Draft, LevelDraft
+from rightofway.io.source import Source
 from rightofway.site.geometry import Point
-from rightofway.site.layout import Layout, LayoutVertex
+from rightofway.site.layout import Layout
 
 
 def layout_of_graph(graph: Any) -> Layout:
@@ -44,59 +42,27 @@ def layout_of_graph(graph: Any) -> Layout:
     if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
         raise InputError.at("graph", f"{shown(graph)} is no graph (give a networkx graph)")
     draft = Draft("networkx graph")
-    level = draft.level()
+    level, both_ways = draft.level(), not graph.is_directed()
     for node, data in graph.nodes(data=True):
-        draft.faults.attempt("", _add_node, level, node, data)
+        name = f"node {shown(str(node))}"
+        draft.faults.attempt("", _add_node, level, node, Source(dict(data), (name,)))
     for tail, head, data in graph.edges(data=True):
-        draft.faults.attempt("", _add_edge, level, (tail, head), data, graph.is_directed())
+        name = f"edge {shown(str(tail))} to {shown(str(head))}"
+        own, ends = Source(dict(data), (name,)), (str(tail), str(head))
+        draft.faults.attempt("", add_lanes, level, own, *ends, both_ways)
     return draft.layout()
 
 
-def _add_node(level: LevelDraft, node: object, data: Mapping[str, Any]) -> None:
-    name = str(node)
-    place = f"node {shown(name)}"
-    if not is_printable(name) or len(name) > LONGEST_NAME:
-        raise InputError.at(place, "is no name (give printable text)")
-    level.add(
-        LayoutVertex(
-            name=name,
-            at=_position(node, data, place),
-            is_parking=bool(data.get("parking")),
-            is_charging=bool(data.get("charging")),
-        ),
-        place,
-    )
+def _add_node(level: LevelDraft, node: object, own: Source) -> None:
+    name = Source(str(node), own.path).text()
+    add_vertex(level, own, name, _position(node, own))
 
 
-def _position(node: Any, data: Mapping[str, Any], place: str) -> Point:
-    pair: Any = next((data[name] for name in PAIRS if name in data), node)
-    if {"x", "y"} <= data.keys():
-        pair = data["x"], data["y"]
-    if isinstance(pair, str) or not hasattr(pair, "__len__") or len(pair) != 2:  # noqa: PLR2004
-        raise InputError.at(place, f"has no position (give x and y, or {PAIRS[0]}=(x, y))")
-    x, y = pair
-    return number_in(x, place), number_in(y, place)
-
-
-def _add_edge(
-    level: LevelDraft, ends: tuple[object, object], data: Mapping[str, Any], is_directed: bool
-) -> None:
-    tail, head = map(str, ends)
-    place = f"edge {shown(tail)} to {shown(head)}"
-
-    def first(names: tuple[str, ...]) -> tuple[str, Fraction | None]:
-        found = next((name for name in names if data.get(name) is not None), "")
-        return found, number_in(data[found], place) if found else None
-
-    (attribute, length), (_, max_speed) = first(LENGTHS), first(SPEEDS)
-    for one, other in ((tail, head),) if is_directed else ((tail, head), (head, tail)):
-        level.connect(
-            Lane(
-                place=place,
-                tail=one,
-                head=other,
-                length=length,
-                attribute=attribute,
-                max_speed=max_speed,
-            )
-        )
+def _position(node: Any, own: Source) -> Point:
+    pair = own.get(*PAIRS) or Source(node, own.path)
+    if own.get("x") and own.get("y"):
+        return own.need("x").number(), own.need("y").number()
+    if isinstance(pair.value, str) or not hasattr(pair.value, "__len__") or len(pair.value) != 2:  # noqa: PLR2004
+        raise own.fault(f"has no position (give x and y, or {PAIRS[0]}=(x, y))")
+    x, y = pair.value
+    return pair.child(0, x).number(), pair.child(1, y).number()

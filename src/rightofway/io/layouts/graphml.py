@@ -3,22 +3,14 @@
 from __future__ import annotations
 
 import re
-from fractions import Fraction
 
-from rightofway.errors import InputError, shown
-from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
-from rightofway.io.layouts.parts import number_in
+from rightofway.errors import shown
+from rightofway.io.layouts.attributes import PAIRS, add_lanes, add_vertex
+from rightofway.io.layouts.draft import Draft, LevelDraft
 from rightofway.io.layouts.xml_tree import Element
+from rightofway.io.source import Source
 from rightofway.site.geometry import Point
-from rightofway.site.layout import Layout, LayoutVertex
-
-PAIRS = ("pos", "coords", "coordinates", "position")
-"""Names of attributes that hold x and y in one text, like ``70,182`` or ``(70, 182)``."""
-
-LENGTHS = ("length", "distance", "weight")
-SPEEDS = ("max_speed", "maxspeed", "speed_limit")
-
-Attributes = dict[str, str]
+from rightofway.site.layout import Layout
 
 
 def recognizes(root: Element) -> bool:
@@ -36,9 +28,9 @@ def read(root: Element) -> Layout:
     """
     draft = Draft("GraphML graph")
     level = draft.level()
-    keys = {key.need("id"): key.get("attr.name") or key.need("id") for key in root.all("key")}
+    keys = {key.need("id").value: key.need("attr.name", "id").value for key in root.all("key")}
     for graph in root.all("graph"):
-        is_directed = graph.get("edgedefault") != "undirected"
+        is_directed = graph.value.get("edgedefault") != "undirected"
         for node in graph.descendants("node"):
             draft.faults.attempt("", _add_node, level, node, keys, draft)
         for edge in graph.descendants("edge"):
@@ -46,66 +38,42 @@ def read(root: Element) -> Layout:
     return draft.layout()
 
 
-def _attributes(element: Element, keys: dict[str, str]) -> Attributes:
+def _attributes(element: Element, keys: dict[str, str]) -> Source:
     """Return the values of an element by name in lower case; a key that is not declared counts."""
-    found = {key.lower(): value for key, value in element.attributes.items()}
+    found = {key.lower(): value for key, value in element.value.items()}
     for data in element.all("data"):
-        key = data.need("key")
-        found[keys.get(key, key).lower()] = data.text.strip()
-    return found
+        key = data.need("key").value
+        found[keys.get(key, key).lower()] = data.content.strip() or None
+    return Source(found, element.path, element.line)
 
 
 def _add_node(level: LevelDraft, node: Element, keys: dict[str, str], draft: Draft) -> None:
-    own, name = _attributes(node, keys), node.label("id")
-    drawn = next(node.descendants("Geometry"), None)
-    if "x" in own and "y" in own:
-        at = number_in(own["x"], node.place), number_in(own["y"], node.place)
-    elif any(pair in own for pair in PAIRS):
-        at = _pair(next(own[pair] for pair in PAIRS if pair in own), node)
+    own, name = _attributes(node, keys), node.need("id").text()
+    drawn, pair = next(node.descendants("Geometry"), None), own.get(*PAIRS)
+    if own.get("x") and own.get("y"):
+        at = own.need("x").number(), own.need("y").number()
+    elif pair is not None:
+        at = _pair(pair)
     elif drawn is not None:
         draft.repair("a node lies where it is drawn, y negated")
-        half = [number_in(drawn.get(key) or "0", drawn.place) / 2 for key in ("width", "height")]
-        at = drawn.number("x") + half[0], -drawn.number("y") - half[1]
+        half = [(drawn.get(key) or Source(0)).number() / 2 for key in ("width", "height")]
+        at = drawn.need("x").number() + half[0], -drawn.need("y").number() - half[1]
     else:
         known = ", ".join(("x and y", *PAIRS))
-        message = f"the node {shown(name)} has no coordinates (give one of {known})"
-        raise InputError.at(node.place, message)
-    level.add(
-        LayoutVertex(
-            name=name,
-            at=at,
-            is_parking=own.get("parking", "").lower() in {"true", "1"},
-            is_charging=own.get("charging", "").lower() in {"true", "1"},
-        ),
-        node.place,
-    )
+        raise node.fault(f"the node {shown(name)} has no coordinates (give one of {known})")
+    add_vertex(level, own, name, at)
 
 
-def _pair(text: str, node: Element) -> Point:
-    numbers = re.split(r"[,;\s]+", text.strip("()[] \t\n"))
+def _pair(pair: Source) -> Point:
+    """Return the point of a text like ``70,182`` or ``(70, 182)``."""
+    numbers = re.split(r"[,;\s]+", pair.value.strip("()[] \t\n"))
     if len(numbers) not in {2, 3}:
-        raise InputError.at(node.place, f"{shown(text)} is no point (give x,y)")
-    return number_in(numbers[0], node.place), number_in(numbers[1], node.place)
+        raise pair.fault(f"{shown(pair.value)} is no point (give x,y)")
+    return pair.child(0, numbers[0]).number(), pair.child(1, numbers[1]).number()
 
 
 def _add_edge(level: LevelDraft, edge: Element, keys: dict[str, str], is_directed: bool) -> None:
-    own = _attributes(edge, keys)
-    one_way = own.get("directed", str(is_directed)).lower() in {"true", "1"}
-    tail, head = edge.label("source"), edge.label("target")
-
-    def first(names: tuple[str, ...]) -> tuple[str, Fraction | None]:
-        found = next((name for name in names if own.get(name)), "")
-        return found, number_in(own[found], edge.place) if found else None
-
-    (attribute, length), (_, max_speed) = first(LENGTHS), first(SPEEDS)
-    for ends in ((tail, head),) if one_way else ((tail, head), (head, tail)):
-        level.connect(
-            Lane(
-                place=edge.place,
-                tail=ends[0],
-                head=ends[1],
-                length=length,
-                attribute=attribute,
-                max_speed=max_speed,
-            )
-        )
+    own, ends = _attributes(edge, keys), (edge.need("source").text(), edge.need("target").text())
+    directed = own.get("directed")
+    is_one_way = is_directed if directed is None else directed.flag()
+    add_lanes(level, own, *ends, not is_one_way)

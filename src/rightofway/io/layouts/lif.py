@@ -20,7 +20,7 @@ import numpy as np
 from rightofway.errors import InputError
 from rightofway.io.layouts.draft import MICRO, Draft, Lane, LevelDraft
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
-from rightofway.io.layouts.parts import Part
+from rightofway.io.source import Source
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout, LayoutVertex, Station
 
@@ -55,7 +55,7 @@ def read(document: Any) -> Layout:
     InputError
         With every node, edge and station that cannot be used.
     """
-    draft, root = Draft("LIF layout"), Part(document)
+    draft, root = Draft("LIF layout"), Source(document)
     for _ in _numbers_as_text(document):
         draft.repair("a number is written as text")
     origins = [root] if root.get("origins") is None else root.need("origins").items()
@@ -71,7 +71,7 @@ def read(document: Any) -> Layout:
     return draft.layout()
 
 
-def _level_names(layouts: list[Part]) -> list[str]:
+def _level_names(layouts: list[Source]) -> list[str]:
     """Return the levels' names where they differ, else the layouts' names."""
     for key in ("layoutLevelId", "layoutId"):
         found = [layout.get(key) for layout in layouts]
@@ -81,7 +81,7 @@ def _level_names(layouts: list[Part]) -> list[str]:
     return [str(number) for number in range(1, len(layouts) + 1)]
 
 
-def _items(part: Part, key: str, draft: Draft) -> list[Part]:
+def _items(part: Source, key: str, draft: Draft) -> list[Source]:
     found = part.get(key)
     if found is None:
         draft.repair(f"the list of {key} is missing and counts as empty")
@@ -101,7 +101,7 @@ def _numbers_as_text(value: Any, is_number: bool = False) -> Iterator[str]:
         yield value
 
 
-def _add_node(level: LevelDraft, node: Part) -> None:
+def _add_node(level: LevelDraft, node: Source) -> None:
     name, at = node.need("nodeId").text(), node.need("nodePosition")
     level.add(
         LayoutVertex(
@@ -109,37 +109,31 @@ def _add_node(level: LevelDraft, node: Part) -> None:
             at=(at.need("x").number(), at.need("y").number()),
             is_charging=any(
                 action.value.get("actionType") == CHARGING
-                for own in _listed(node, *NODE_PROPERTIES)
-                for action in _listed(own, *ACTIONS)
+                for own in node.items_under(*NODE_PROPERTIES)
+                for action in own.items_under(*ACTIONS)
                 if isinstance(action.value, dict)
             ),
         ),
-        node.place,
+        node,
     )
 
 
-def _listed(part: Part, *keys: str) -> list[Part]:
-    """Return the items of all lists under some keys."""
-    found = (part.get(key) for key in keys)
-    return [item for each in found if each is not None for item in each.items()]
-
-
-def _add_edge(level: LevelDraft, edge: Part, draft: Draft) -> None:
+def _add_edge(level: LevelDraft, edge: Source, draft: Draft) -> None:
     tail, head = edge.need("startNodeId").text(), edge.need("endNodeId").text()
-    own = _listed(edge, *EDGE_PROPERTIES)
+    own = edge.items_under(*EDGE_PROPERTIES)
     if not own:
         draft.repair("an edge without a vehicle type is free for all")
-        level.connect(Lane(place=edge.place, tail=tail, head=head))
+        level.connect(Lane(source=edge, tail=tail, head=head))
     ways: dict[tuple[Fraction | None, Curve], set[str]] = {}
     for each in own:
-        speed = next(filter(None, map(each.get, SPEEDS)), None)
+        speed = each.get(*SPEEDS)
         limit = None if speed is None else speed.number()
         way = limit, _curve(each, draft)
         ways.setdefault(way, set()).update(_types(each))
     for (limit, (curve, error)), types in ways.items():  # one lane for all types with one way
         level.connect(
             Lane(
-                place=edge.place,
+                source=edge,
                 tail=tail,
                 head=head,
                 max_speed=limit,
@@ -150,7 +144,7 @@ def _add_edge(level: LevelDraft, edge: Part, draft: Draft) -> None:
         )
 
 
-def _types(own: Part) -> list[str]:
+def _types(own: Source) -> list[str]:
     """Return the vehicle types that properties are for: an id, or series of robots."""
     series = own.get("mobileRobotTypes")
     if series is None:
@@ -158,7 +152,7 @@ def _types(own: Part) -> list[str]:
     return [each.need("seriesName").text() for each in series.items()]
 
 
-def _curve(own: Part, draft: Draft) -> Curve:
+def _curve(own: Source, draft: Draft) -> Curve:
     """Return points of a trajectory [m], and how far it is from the lines between them [m]."""
     trajectory = own.get("trajectory")
     if trajectory is None:
@@ -177,7 +171,7 @@ def _curve(own: Part, draft: Draft) -> Curve:
     return points, error
 
 
-def _nurbs(trajectory: Part) -> Nurbs:
+def _nurbs(trajectory: Source) -> Nurbs:
     degree = trajectory.get("degree")
     controls = trajectory.need("controlPoints").items()
     knots = [float(each.number()) for each in trajectory.need("knotVector").items()]
@@ -190,6 +184,6 @@ def _nurbs(trajectory: Part) -> Nurbs:
     )
 
 
-def _add_station(level: LevelDraft, station: Part) -> None:
+def _add_station(level: LevelDraft, station: Source) -> None:
     nodes = [node.text() for node in station.need("interactionNodeIds").items()]
     level.stations.append(Station(name=station.need("stationId").text(), vertices=tuple(nodes)))

@@ -9,7 +9,7 @@ from typing import Any
 
 from rightofway.errors import InputError, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
-from rightofway.io.layouts.parts import Part
+from rightofway.io.source import Source
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout, LayoutVertex
 
@@ -36,17 +36,17 @@ def read(document: Any) -> Layout:
     """
     draft = Draft("Nav2 route graph")
     level = draft.level()
-    for feature in Part(document).need("features").items():
+    for feature in Source(document).need("features").items():
         draft.faults.attempt("", _add, level, feature, draft)
     return draft.layout()
 
 
-def _add(level: LevelDraft, feature: Part, draft: Draft) -> None:
+def _add(level: LevelDraft, feature: Source, draft: Draft) -> None:
     geometry, own = feature.need("geometry"), feature.need("properties")
     kind = geometry.need("type")
     if kind.value == "Point":
         x, y = _point(geometry.need("coordinates"))
-        level.add(LayoutVertex(name=own.need("id").text(), at=(x, y)), feature.place)
+        level.add(LayoutVertex(name=own.need("id").text(), at=(x, y)), feature)
     elif kind.value in LINES:
         _add_edge(level, feature, draft)
     else:
@@ -54,7 +54,7 @@ def _add(level: LevelDraft, feature: Part, draft: Draft) -> None:
         raise kind.fault(f"{shown(kind.value)} is no node and no edge (give one of {known})")
 
 
-def _add_edge(level: LevelDraft, feature: Part, draft: Draft) -> None:
+def _add_edge(level: LevelDraft, feature: Source, draft: Draft) -> None:
     own = feature.need("properties")
     metadata = own.get("metadata")
     limit = None if metadata is None else metadata.get("speed_limit")
@@ -66,7 +66,7 @@ def _add_edge(level: LevelDraft, feature: Part, draft: Draft) -> None:
         draft.repair("a speed_limit counts as m/s; Nav2 may be set to read it as a percentage")
     level.connect(
         Lane(
-            place=feature.place,
+            source=feature,
             tail=own.need("startid").text(),
             head=own.need("endid").text(),
             max_speed=max_speed,
@@ -75,7 +75,7 @@ def _add_edge(level: LevelDraft, feature: Part, draft: Draft) -> None:
     )
 
 
-def _shape(geometry: Part, draft: Draft) -> tuple[Point, ...]:
+def _shape(geometry: Source, draft: Draft) -> tuple[Point, ...]:
     """Return the points between the ends of a line; a drawing that cannot be read is left out."""
     coordinates = geometry.get("coordinates")
     if coordinates is None:
@@ -90,7 +90,7 @@ def _shape(geometry: Part, draft: Draft) -> tuple[Point, ...]:
         return ()
 
 
-def _point(part: Part) -> Point:
+def _point(part: Source) -> Point:
     numbers = part.items()
     if len(numbers) not in {2, 3}:
         raise part.fault(f"{shown(part.value)} is no point (give [x, y])")

@@ -15,7 +15,7 @@ from typing import Any
 
 from rightofway.errors import InputError, listed, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
-from rightofway.io.layouts.parts import Part
+from rightofway.io.source import Source
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout, LayoutVertex
@@ -49,11 +49,11 @@ def read(document: Any, path: Path) -> Layout:
     InputError
         With every vertex and lane that cannot be used; for a building in degrees, or without scale.
     """
-    root = Part(document)
+    root = Source(document)
     is_building = any(
         len(vertex.value) > 2 and not isinstance(vertex.value[2], dict)  # noqa: PLR2004 - x, y
         for _, level in root.need("levels").entries()
-        for vertex in _listed(level, "vertices")[:1]
+        for vertex in level.items_under("vertices")[:1]
         if isinstance(vertex.value, list)
     )
     draft = Draft("Open-RMF building" if is_building else "Open-RMF navigation graph")
@@ -67,7 +67,7 @@ def read(document: Any, path: Path) -> Layout:
     return draft.layout()
 
 
-def _note_lifts(root: Part, draft: Draft) -> None:
+def _note_lifts(root: Source, draft: Draft) -> None:
     """Note that plans use no lift, and which levels there are to choose from."""
     lifts = root.get("lifts")
     if lifts is None or not lifts.mapping():
@@ -79,7 +79,7 @@ def _note_lifts(root: Part, draft: Draft) -> None:
     draft.repair(f"{several} not used, a plan stays on one level{remedy}")
 
 
-def _picture(level: Part, transform: Transform, folder: Path, draft: Draft) -> Picture | None:
+def _picture(level: Source, transform: Transform, folder: Path, draft: Draft) -> Picture | None:
     """Return the picture that a level is drawn over, and where its pixels lie."""
     drawing = level.value.get("drawing")
     name = drawing.get("filename") if isinstance(drawing, dict) else None
@@ -107,19 +107,14 @@ def _picture(level: Part, transform: Transform, folder: Path, draft: Draft) -> P
     return Picture(file=folder / name, pixel=pixel, corner=(x, y), yaw=yaw)
 
 
-def _listed(part: Part, key: str) -> list[Part]:
-    found = part.get(key)
-    return [] if found is None else found.items()
-
-
-def _read_level(level: LevelDraft, part: Part, transform: Transform | None, draft: Draft) -> None:
+def _read_level(level: LevelDraft, part: Source, transform: Transform | None, draft: Draft) -> None:
     """Read vertices and lanes; with a transform, of a building."""
     groups: Groups = {}
     names = [
         draft.faults.attempt("", _add_vertex, level, vertex, index, transform, groups)
-        for index, vertex in enumerate(_listed(part, "vertices"))
+        for index, vertex in enumerate(part.items_under("vertices"))
     ]
-    lanes = _listed(part, "lanes")
+    lanes = part.items_under("lanes")
     owns = [draft.faults.attempt("", _own, lane, 2) or {} for lane in lanes]
     has_graphs = len({str(own.get("graph_idx", 0)) for own in owns}) > 1
     for lane in lanes:
@@ -131,7 +126,7 @@ def _read_level(level: LevelDraft, part: Part, transform: Transform | None, draf
         level.zones.append(NamedZone(name=name, vertices=tuple(vertices), edges=tuple(edges)))
 
 
-def _own(item: Part, at: int) -> dict[str, Any]:
+def _own(item: Source, at: int) -> dict[str, Any]:
     """Return the parameters of a vertex or lane; those of a building are [type, value]."""
     found = item.items()[at:]
     if not found or found[0].value is None:
@@ -143,13 +138,13 @@ def _own(item: Part, at: int) -> dict[str, Any]:
     }
 
 
-def _named(own: dict[str, Any], key: str, item: Part) -> str:
+def _named(own: dict[str, Any], key: str, item: Source) -> str:
     """Return a name among the parameters of a vertex or lane."""
-    return Part(own[key], (*item.steps, key)).text()
+    return item.child(key, own[key]).text()
 
 
 def _add_vertex(
-    level: LevelDraft, vertex: Part, index: int, transform: Transform | None, groups: Groups
+    level: LevelDraft, vertex: Source, index: int, transform: Transform | None, groups: Groups
 ) -> str:
     items = vertex.items()
     if len(items) < 2:  # noqa: PLR2004 - x and y
@@ -161,7 +156,7 @@ def _add_vertex(
     else:
         at, own = transform(at), _own(vertex, 4)
         given = items[3].value if len(items) > 3 else None  # noqa: PLR2004 - x, y, z, name
-    name = Part(given, vertex.steps).text() if given else f"v{index}"
+    name = Source(given, vertex.path).text() if given else f"v{index}"
     if name in level.vertices:
         name = f"{name} (v{index})"
     level.add(
@@ -171,7 +166,7 @@ def _add_vertex(
             is_parking=own.get("is_parking_spot") is True,
             is_charging=own.get("is_charger") is True,
         ),
-        vertex.place,
+        vertex,
     )
     if own.get("mutex"):
         groups.setdefault(_named(own, "mutex", vertex), ([], []))[0].append(name)
@@ -179,7 +174,7 @@ def _add_vertex(
 
 
 def _add_lane(
-    level: LevelDraft, lane: Part, names: list[str | None], groups: Groups, has_graphs: bool
+    level: LevelDraft, lane: Source, names: list[str | None], groups: Groups, has_graphs: bool
 ) -> None:
     items = lane.items()
     if len(items) < 2:  # noqa: PLR2004 - from and to
@@ -188,20 +183,18 @@ def _add_lane(
     if tail is None or head is None:
         return  # the vertex has a fault of its own
     own = _own(lane, 2)
-    speed = Part(own.get("speed_limit", 0), (*lane.steps, "speed_limit")).number()
+    speed = lane.child("speed_limit", own.get("speed_limit", 0)).number()
     both = own.get("bidirectional") is True or own.get("is_bidirectional") is True
     own.setdefault("graph_idx", 0)
     types = frozenset([f"graph {_named(own, 'graph_idx', lane)}"]) if has_graphs else None
     max_speed = speed if speed > 0 else None
     for one, other in ((tail, head), (head, tail)) if both else ((tail, head),):
-        level.connect(
-            Lane(place=lane.place, tail=one, head=other, max_speed=max_speed, types=types)
-        )
+        level.connect(Lane(source=lane, tail=one, head=other, max_speed=max_speed, types=types))
         if own.get("mutex"):
             groups.setdefault(_named(own, "mutex", lane), ([], []))[1].append((one, other))
 
 
-def _vertex(item: Part, names: list[str | None]) -> str | None:
+def _vertex(item: Source, names: list[str | None]) -> str | None:
     index = item.value
     if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(names):
         last = len(names) - 1
@@ -209,7 +202,7 @@ def _vertex(item: Part, names: list[str | None]) -> str | None:
     return names[index]
 
 
-def _transforms(root: Part, draft: Draft) -> dict[str, Transform]:
+def _transforms(root: Source, draft: Draft) -> dict[str, Transform]:
     """Return for each level of a building how its points become metres of the site."""
     system = root.value.get("coordinate_system")
     levels = dict(root.need("levels").entries())
@@ -231,7 +224,7 @@ def _transforms(root: Part, draft: Draft) -> dict[str, Transform]:
         scale = scales[name] or base
         if scale is None:
             message = "has no measurement, so the length of a pixel is not known (add one)"
-            draft.faults.note(level.place, message)
+            draft.faults.note(level.location, message)
             continue
         if name != reference:
             draft.repair("a level without two fiducials of the reference level keeps its frame")
@@ -254,19 +247,19 @@ def _moved(laid: tuple[complex, complex], scale: Fraction) -> Transform:
     return move
 
 
-def _scale(level: Part) -> Fraction | None:
+def _scale(level: Source) -> Fraction | None:
     """Return the length of a pixel [m], the mean of all measurements; None without one."""
-    vertices, found = _listed(level, "vertices"), list[float]()
-    for measurement in _listed(level, "measurements"):
+    vertices, found = level.items_under("vertices"), list[float]()
+    for measurement in level.items_under("measurements"):
         items = measurement.items()
         ends = []
         for item in items[:2]:
             index = item.value
             if not isinstance(index, int) or not 0 <= index < len(vertices):
                 raise item.fault(f"{shown(index)} is no vertex (mend the measurement)")
-            x, y, *_ = [*vertices[index].items(), Part(0), Part(0)]
+            x, y, *_ = [*vertices[index].items(), Source(0), Source(0)]
             ends.append((float(x.number()), float(y.number())))
-        metres = Part(_own(measurement, 2).get("distance"), measurement.steps).number()
+        metres = Source(_own(measurement, 2).get("distance"), measurement.path).number()
         pixels = hypot(*(a - b for a, b in zip(*ends, strict=True))) if len(ends) == 2 else 0.0  # noqa: PLR2004
         if pixels <= 0 or metres <= 0:
             raise measurement.fault("has no length (take it out)")
@@ -274,11 +267,11 @@ def _scale(level: Part) -> Fraction | None:
     return Fraction(repr(sum(found) / len(found))) if found else None
 
 
-def _fiducials(level: Part) -> dict[str, complex]:
-    found, items = {}, _listed(level, "fiducials")
+def _fiducials(level: Source) -> dict[str, complex]:
+    found, items = {}, level.items_under("fiducials")
     if len(items) > MAX_FIDUCIALS:
         message = f"{len(items)} fiducials are more than {MAX_FIDUCIALS} (a few are enough)"
-        raise Part(None, (*level.steps, "fiducials")).fault(message)
+        raise level.need("fiducials").fault(message)
     for fiducial in items:
         parts = fiducial.items()
         if len(parts) < 3:  # noqa: PLR2004 - x, y, name
@@ -287,7 +280,7 @@ def _fiducials(level: Part) -> dict[str, complex]:
     return found
 
 
-def _laid_over(reference: Part, level: Part) -> tuple[complex, complex] | None:
+def _laid_over(reference: Source, level: Source) -> tuple[complex, complex] | None:
     """Return turn-and-scale and shift that lay a level's fiducials over those of another.
 
     Of all pairs of common fiducials, the turn is the circular mean of the differences of bearings,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.site.layout import Layout, LayoutVertex, Station
@@ -16,6 +16,7 @@ from rightofway.site.zones import NamedZone
 
 VERSIONS = ("0.0.4", "0.0.5", "6.0.0", "7.0.0")
 MILLIMETRE = Fraction(1, 1000)
+X, Y = ("positionX", "xPosition"), ("positionY", "yPosition")
 
 
 def recognizes(root: Element) -> bool:
@@ -40,15 +41,15 @@ def read(root: Element) -> Layout:
     for path in root.all("path"):
         draft.faults.attempt("", _add_path, level, path, paths, draft)
     chargers = {
-        kind.get("name")
+        kind.value.get("name")
         for kind in root.all("locationType")
         for operation in kind.all("allowedOperation")
-        if "charge" in operation.need("name").lower()
+        if "charge" in operation.need("name").value.lower()
     }
     charging: set[str] = set()
     for location in root.all("location"):
         points = draft.faults.attempt("", _add_location, level, location, draft) or []
-        if location.get("type") in chargers:
+        if location.value.get("type") in chargers:
             charging.update(points)
     level.vertices = {
         name: _charging(vertex) if name in charging else vertex
@@ -66,40 +67,40 @@ def _charging(vertex: LayoutVertex) -> LayoutVertex:
 
 
 def _check_version(root: Element) -> None:
-    version = root.get("version")
+    version = root.value.get("version")
     if version is None or (version not in VERSIONS and not version.startswith(("6.", "7."))):
         message = f"a plant model of version {shown(version)} (open and save it with openTCS 6)"
-        raise InputError.at(root.place, message)
+        raise root.fault(message)
 
 
 def _add_point(level: LevelDraft, point: Element) -> None:
-    x, y = point.number("positionX", "xPosition"), point.number("positionY", "yPosition")
+    x, y = (point.need(*keys).number() for keys in (X, Y))
     level.add(
         LayoutVertex(
-            name=point.label("name"),
+            name=point.need("name").text(),
             at=(x * MILLIMETRE, y * MILLIMETRE),
-            is_parking=point.get("type") == "PARK_POSITION",
+            is_parking=point.value.get("type") == "PARK_POSITION",
         ),
-        point.place,
+        point,
     )
 
 
 def _add_path(
     level: LevelDraft, path: Element, paths: dict[str, list[tuple[str, str]]], draft: Draft
 ) -> None:
-    tail, head = path.label("sourcePoint"), path.label("destinationPoint")
-    lanes = paths.setdefault(path.label("name"), [])
-    if path.get("locked") == "true":
+    tail, head = path.need("sourcePoint").text(), path.need("destinationPoint").text()
+    lanes = paths.setdefault(path.need("name").text(), [])
+    if path.value.get("locked") == "true":
         draft.repair("a locked path is left out")
         return
-    length = path.number("length") * MILLIMETRE if path.get("length") else None
-    speeds = path.number("maxVelocity"), path.number("maxReverseVelocity")
+    length = path.need("length").number() * MILLIMETRE if path.value.get("length") else None
+    speeds = (path.need(key).number() for key in ("maxVelocity", "maxReverseVelocity"))
     for ends, speed in zip(((tail, head), (head, tail)), speeds, strict=True):
         if speed > 0:
             lanes.append(ends)
             level.connect(
                 Lane(
-                    place=path.place,
+                    source=path,
                     tail=ends[0],
                     head=ends[1],
                     length=length,
@@ -110,23 +111,23 @@ def _add_path(
 
 def _add_location(level: LevelDraft, location: Element, draft: Draft) -> list[str]:
     """Add a location as a station, and return its points."""
-    points = [link.label("point") for link in location.all("link")]
-    if location.get("locked") == "true":
+    points = [link.need("point").text() for link in location.all("link")]
+    if location.value.get("locked") == "true":
         draft.repair("a locked location is left out")
         return []
-    level.stations.append(Station(name=location.label("name"), vertices=tuple(points)))
+    level.stations.append(Station(name=location.need("name").text(), vertices=tuple(points)))
     return points
 
 
 def _add_block(
     level: LevelDraft, block: Element, paths: dict[str, list[tuple[str, str]]], draft: Draft
 ) -> None:
-    members = [member.label("name") for member in block.all("member")]
-    if block.get("type") == "SAME_DIRECTION_ONLY":
+    members = [member.need("name").text() for member in block.all("member")]
+    if block.value.get("type") == "SAME_DIRECTION_ONLY":
         draft.repair("a block of SAME_DIRECTION_ONLY counts as one for a single robot")
     level.zones.append(
         NamedZone(
-            name=block.label("name"),
+            name=block.need("name").text(),
             vertices=tuple(name for name in members if name in level.vertices),
             edges=tuple(ends for name in members for ends in paths.get(name, ())),
         )

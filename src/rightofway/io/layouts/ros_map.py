@@ -18,9 +18,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, shown
-from rightofway.io.faults import under
-from rightofway.io.layouts.parts import Part
+from rightofway.errors import InputError, shown, under
+from rightofway.io.source import Source
 from rightofway.io.text import refuse_special
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import Frame
@@ -70,7 +69,7 @@ def read(document: Any, path: Path) -> Occupancy:
     InputError
         With every key that does not fit, and for a picture that cannot be read.
     """
-    root, notes = Part(document), list[str]()
+    root, notes = Source(document), list[str]()
     resolution, mode = root.need("resolution"), root.get("mode")
     if resolution.number() <= 0:
         raise resolution.fault(f"{shown(resolution.value)} is not positive (give metres)")
@@ -138,12 +137,12 @@ def _raw_table(largest: int) -> NDArray[np.uint8]:
     return table
 
 
-def _picture(image: Part, path: Path) -> tuple[NDArray[Any], int, NDArray[np.bool_] | None]:
+def _picture(image: Source, path: Path) -> tuple[NDArray[Any], int, NDArray[np.bool_] | None]:
     """Return the values of a picture's pixels, the largest possible one, and which are clear."""
     from PIL import Image
 
     file = path.parent / image.text()
-    with under(image.place):
+    with under(image.location):
         refuse_special(file)
     try:
         with warnings.catch_warnings():

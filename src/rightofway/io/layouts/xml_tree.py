@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from fractions import Fraction
 from xml.parsers import expat
 
-from rightofway.errors import InputError, InputFault, is_printable, shown
-from rightofway.io.layouts.parts import LONGEST_NAME, number_in
+from rightofway.errors import InputError, Location, shown
+from rightofway.io.source import Source
 
 MAX_DEPTH = 64
 """Elements inside each other, at most."""
@@ -22,19 +21,12 @@ MAX_ELEMENTS = 1_000_000
 
 
 @dataclass(slots=True)
-class Element:
-    """An element of an XML file."""
+class Element(Source):
+    """An element of an XML file: its value is the mapping of its attributes."""
 
-    name: str
-    attributes: dict[str, str]
-    line: int
+    name: str = ""
     children: list[Element] = field(default_factory=list)
-    text: str = ""
-
-    @property
-    def place(self) -> str:
-        """Where it stands in the file."""
-        return f"line {self.line}"
+    content: str = ""
 
     def all(self, name: str) -> Iterator[Element]:
         """Yield the children of a name."""
@@ -46,28 +38,6 @@ class Element:
             if child.name == name:
                 yield child
             yield from child.descendants(name)
-
-    def get(self, *names: str) -> str | None:
-        """Return the first of several attributes that is there, or None."""
-        return next((self.attributes[name] for name in names if name in self.attributes), None)
-
-    def need(self, *names: str) -> str:
-        """Return an attribute of the first name that is there."""
-        found = self.get(*names)
-        if found is None:
-            raise InputError.at(self.place, f"<{self.name}> has no {names[0]} (add it)")
-        return found
-
-    def label(self, *names: str) -> str:
-        """Return an attribute that is a name."""
-        found = self.need(*names)
-        if not is_printable(found) or len(found) > LONGEST_NAME:
-            raise InputError.at(self.place, f"{shown(found)} is no name (give printable text)")
-        return found
-
-    def number(self, *names: str) -> Fraction:
-        """Return an attribute that is a number."""
-        return number_in(self.need(*names), self.place)
 
 
 def parse_xml(text: str) -> Element:
@@ -81,7 +51,7 @@ def parse_xml(text: str) -> Element:
     parser = expat.ParserCreate("utf-8", " ")  # whatever encoding the text declares
     parser.buffer_text = True
     parser.SetParamEntityParsing(expat.XML_PARAM_ENTITY_PARSING_NEVER)
-    document = Element("", {}, 1)
+    document = Element({})
     opened, count = [document], 0
 
     def start(name: str, attributes: dict[str, str]) -> None:
@@ -90,9 +60,10 @@ def parse_xml(text: str) -> Element:
         if len(opened) > MAX_DEPTH or count > MAX_ELEMENTS:
             what = f"more than {MAX_DEPTH} deep" if count <= MAX_ELEMENTS else "too many"
             message = f"its elements are {what} (is it the right file?)"
-            raise InputError([InputFault("", message, line)])
+            raise InputError.at(Location(line=line), message)
         plain = {key.rpartition(" ")[2]: value for key, value in attributes.items()}
-        element = Element(name.rpartition(" ")[2], plain, line)
+        bare = name.rpartition(" ")[2]
+        element = Element(plain, line=line, name=bare)
         opened[-1].children.append(element)
         opened.append(element)
 
@@ -100,11 +71,11 @@ def parse_xml(text: str) -> Element:
         opened.pop()
 
     def characters(data: str) -> None:
-        opened[-1].text += data
+        opened[-1].content += data
 
     def entity(name: str, *_: object) -> None:
         message = f"the entity {shown(name)} is not allowed (write out what is meant)"
-        raise InputError([InputFault("", message, parser.CurrentLineNumber)])
+        raise InputError.at(Location(line=parser.CurrentLineNumber), message)
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
     parser.CharacterDataHandler, parser.EntityDeclHandler = characters, entity
@@ -112,7 +83,6 @@ def parse_xml(text: str) -> Element:
         parser.Parse(text.encode(), True)
     except expat.ExpatError as error:
         reason = expat.ErrorString(error.code)
-        raise InputError(
-            [InputFault("", f"this is no XML: {reason} (check it there)", error.lineno)]
-        ) from None
+        message = f"this is no XML: {reason} (check it there)"
+        raise InputError.at(Location(line=error.lineno), message) from None
     return document.children[0]

@@ -9,8 +9,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from rightofway.errors import InputError, nearest, shown
-from rightofway.io.faults import Faults, blaming, checked, under
+from rightofway.errors import InputError, Where, in_file, nearest, shown, under
+from rightofway.io.faults import Faults, checked
 from rightofway.io.formats import PLAN_FORMAT, checked_format
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.reader import (
@@ -65,7 +65,7 @@ def plan_of(document: Any, source: str = "", pictures: Path | None = None) -> Pl
     """
     from rightofway.io.plan.shape import PlanFrame
 
-    with blaming(source):
+    with in_file(source):
         document = checked_format(document, PLAN_FORMAT)
         faults = Faults()
         frame = faults.attempt("", checked, PlanFrame, document)
@@ -101,7 +101,7 @@ class _Names:
             on=LoadedMap(roadmap=scenario.roadmap, lines=grid.lines() if grid else ()),
         )
 
-    def robot(self, place: str, name: str) -> int:
+    def robot(self, place: Where, name: str) -> int:
         """Return the index of a robot; InputError if there is none."""
         if name not in self.robots:
             near = nearest(name, self.robots)
@@ -109,7 +109,7 @@ class _Names:
             raise InputError.at(place, f"no robot is named {shown(name)} ({hint})")
         return self.robots[name]
 
-    def vertex(self, place: str, name: str) -> VertexId:
+    def vertex(self, place: Where, name: str) -> VertexId:
         """Return the vertex of a name; InputError if there is none."""
         if name not in self.vertices:
             with under(place):
@@ -125,9 +125,9 @@ def _each(
         raise InputError.at("", f"{shown(data)} is not a list (give one {item})")
     faults, found = Faults(), list[T | None]()
     for index, each in enumerate(data):
-        document = faults.attempt(f"[{index}]", checked, shape, each)
+        document = faults.attempt(index, checked, shape, each)
         if document is not None and names:
-            found.append(faults.attempt(f"[{index}]", read, document, names))
+            found.append(faults.attempt(index, read, document, names))
     faults.stop()
     return [each for each in found if each is not None]
 
@@ -146,7 +146,7 @@ def _tracks(data: Any, names: _Names | None) -> tuple[Track, ...]:
         vertices = [
             names.vertices[name]
             if name in names.vertices  # most are, and this loop is a large plan's reading time
-            else names.vertex(f"vertices[{index}]", name)
+            else names.vertex(("vertices", index), name)
             for index, name in enumerate(document.vertices)
         ]
         tracks[robot] = Track.of(vertices, document.enter)
@@ -167,10 +167,9 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
         return None
     faults, decisions, reroutes = Faults(), list[Decision | None](), list[Reroute]()
     for index, decision in enumerate(document.decisions):
-        place = f"decisions[{index}]"
-        decisions.append(faults.attempt(place, _decision, decision, names))
+        decisions.append(faults.attempt(("decisions", index), _decision, decision, names))
     for index, reroute in enumerate(document.reroutes):
-        robot = faults.attempt(f"reroutes[{index}]", names.robot, "robot", reroute.robot)
+        robot = faults.attempt(("reroutes", index), names.robot, "robot", reroute.robot)
         reroutes.append(Reroute(robot=robot or 0, because=reroute.because))
     faults.stop()
     return PlannerRun(
@@ -233,11 +232,11 @@ def _steady(data: Any, names: _Names | None) -> tuple[SteadyState, ...]:
 
 def _steady_state(document: SteadyDocument, names: _Names) -> SteadyState:
     robots = tuple(
-        names.robot(f"robots[{index}]", name) for index, name in enumerate(document.robots)
+        names.robot(("robots", index), name) for index, name in enumerate(document.robots)
     )
     critical = []
     for index, visit in enumerate(document.critical):
-        place = f"critical[{index}].robot"
+        place = ("critical", index, "robot")
         robot = names.robot(place, visit.robot)
         if robot not in robots:
             message = f"{shown(visit.robot)} is not of this group (name one of its robots)"

@@ -37,7 +37,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     for index, track in enumerate(plan.tracks):
         if not 0 <= track.vertices.min() <= track.vertices.max() < n_vertices:
             message = f"a vertex is not on the roadmap (give 0 to {n_vertices - 1})"
-            raise InputError.at(f"robots[{index}].vertices", message)
+            raise InputError.at(("robots", index, "vertices"), message)
     names = [scenario.roadmap.name(vertex) for vertex in range(n_vertices)]
     document = {
         "format": PLAN_FORMAT,

@@ -11,13 +11,13 @@ from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rightofway.errors import InputError, InputFault, shown
-from rightofway.io.faults import Faults, blaming, checked, under
+from rightofway.errors import InputError, InputFault, Location, Steps, in_file, shown, under
+from rightofway.io.faults import Faults, checked
 from rightofway.io.movingai import ScenRow, load_scen
-from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.homes import HOMELESS, housed
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
 from rightofway.io.scenario.maps import file_beside
+from rightofway.io.tables import CellDocument, robots_of_csv
 from rightofway.model import Robot, Rules, Stop
 from rightofway.model.robot import ROBOT_ATTRIBUTES
 from rightofway.site import VertexId
@@ -32,7 +32,7 @@ DEFAULT_SPEED = Fraction(1)
 HOME = f"the place it starts from: {kinds_of_places(None)}"
 
 
-def robots_in_table(data: dict[str, Any], base: Path | None) -> Located:
+def robots_in_table(data: dict[str, Any], base: Path | None) -> CellDocument:
     """Return the robots of a CSV file that the document names."""
     from rightofway.io.scenario.shape import RobotDocument, RobotTableDocument
 
@@ -40,7 +40,7 @@ def robots_in_table(data: dict[str, Any], base: Path | None) -> Located:
         name = checked(RobotTableDocument, data).table
         with under("table"):
             known = [field.alias or key for key, field in RobotDocument.model_fields.items()]
-            return robots_of_csv(file_beside(base, name), known)
+            return robots_of_csv(file_beside(base, name), known, ("robots", "table"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,19 +83,21 @@ class ListedRobot:
     faults: Sequence[InputFault] = ()
 
     @property
-    def place(self) -> str:
+    def place(self) -> Steps:
         """Where it stands in the document."""
-        return f"robots[{self.index}]"
+        return ("robots", self.index)
 
-    def find(self, on: LoadedMap | None, faults: Faults) -> dict[str, VertexId]:
+    def find(self, on: LoadedMap | None, faults: Faults) -> dict[Steps, VertexId]:
         """Return the vertices of its places by their keys, or note why there are none."""
         if not isinstance(self.data, dict):
             return {}
         stops = self.data.get("stops")
-        written = {key: self.data[key] for key in ("home", "target") if key in self.data}
+        written: dict[Steps, Any] = {
+            (key,): self.data[key] for key in ("home", "target") if key in self.data
+        }
         for index, stop in enumerate(stops if isinstance(stops, list) else ()):
             if isinstance(stop, dict) and "at" in stop:
-                written[f"stops[{index}].at"] = stop["at"]
+                written["stops", index, "at"] = stop["at"]
         find: Callable[[Any], Any] = on.find if on else as_place
         found = {key: faults.attempt(key, find, place) for key, place in written.items()}
         return {key: vertex for key, vertex in found.items() if on and vertex is not None}
@@ -141,8 +143,8 @@ class Placed:
     """A robot, its place in the document, and keys of it that stand elsewhere."""
 
     robot: Robot
-    place: str
-    aliases: Mapping[str, str]
+    place: Steps
+    aliases: Mapping[Steps, Steps]
 
 
 def written_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
@@ -165,11 +167,11 @@ def written_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
     return FleetRows(document=document, file=file, rows=rows[: document.count])
 
 
-def _place_of_laps(document: Document, place: str) -> str:
+def _place_of_laps(document: Document, place: Steps) -> Steps:
     """Return where the document asks a robot without a way back for several laps."""
     if document.given("laps"):
-        return f"{place}.laps"
-    return f"{place}.return" if document.given("ends") else "rules.laps"
+        return (*place, "laps")
+    return (*place, "return") if document.given("ends") else ("rules", "laps")
 
 
 def placed_robots(
@@ -187,7 +189,7 @@ def placed_robots(
     for robot in fleet.robots:
         if not deals and isinstance(robot.data, dict) and "home" not in robot.data:
             message = f"is missing (give {HOME}, or homes: parking for all)"
-            faults.note(f"{robot.place}.home", message)
+            faults.note((*robot.place, "home"), message)
         found = faults.attempt(robot.place, _placed, robot, on)
         if found and (deals or found.robot.home != HOMELESS):
             placed.append(found)
@@ -204,16 +206,16 @@ def _placed(robot: ListedRobot, on: LoadedMap | None) -> Placed | None:
     faults.stop(it.alias or name for name, it in RobotDocument.model_fields.items())
     if document is None or on is None:
         return None
-    trip = [("target", document.work)] if document.stops is None else [
-        (f"stops[{index}].at", stop.work) for index, stop in enumerate(document.stops)
-    ]  # fmt: skip
+    trip: list[tuple[Steps, Fraction | None]] = [(("target",), document.work)]
+    if document.stops is not None:
+        trip = [(("stops", k, "at"), stop.work) for k, stop in enumerate(document.stops)]
     stops = tuple(Stop(at=found[at], work=work or Fraction(0)) for at, work in trip)
-    home = found.get("home", HOMELESS)
-    aliases = {"laps": _place_of_laps(document, place)}
+    home = found.get(("home",), HOMELESS)
+    aliases: dict[Steps, Steps] = {("laps",): _place_of_laps(document, place)}
     if "turn_rate" not in robot.own:
-        aliases["turn_rate"] = "rules.turn_rate"
+        aliases["turn_rate",] = ("rules", "turn_rate")
     if document.target is not None:
-        aliases["stops[0].at"] = f"{place}.target"
+        aliases["stops", 0, "at"] = (*place, "target")
     made = Robot(name=document.name, home=home, stops=stops, **robot.own)
     return Placed(robot=made, place=place, aliases=aliases)
 
@@ -232,41 +234,44 @@ def _housed(
 def _dealt(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[Placed]:
     """Return the robots on the rows of a file, or none after noting why."""
     document, placed = robots.document, list[Placed]()
-    ends = faults.attempt("robots.scen", _starts_and_goals, robots, on) or []
+    ends = faults.attempt(("robots", "scen"), _starts_and_goals, robots, on) or []
     speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
     own = document.own(Robot)
-    aliases = {it.name: f"robots.{it.key}" for it in ROBOT_ATTRIBUTES if it.name in own}
-    aliases |= {"laps": _place_of_laps(document, "robots")}
+    aliases: dict[Steps, Steps] = {
+        (it.name,): ("robots", it.key) for it in ROBOT_ATTRIBUTES if it.name in own
+    }
+    aliases["laps",] = _place_of_laps(document, ("robots",))
     if "turn_rate" not in own:
-        aliases["turn_rate"] = "rules.turn_rate"
+        aliases["turn_rate",] = ("rules", "turn_rate")
     dealt = zip(ends, speeds, works, strict=False)
     for number, ((home, goal), speed, work) in enumerate(dealt, start=1):
         stops = (Stop(at=goal, work=work),)
         robot = Robot(name=f"R{number}", home=home, stops=stops, speed=speed, **own)
-        placed.append(Placed(robot=robot, place="robots.scen", aliases=aliases))
+        placed.append(Placed(robot=robot, place=("robots", "scen"), aliases=aliases))
     return placed
 
 
 def _starts_and_goals(robots: FleetRows, on: LoadedMap) -> list[tuple[VertexId, VertexId]]:
     faults, ends, taken = Faults(), list[tuple[VertexId, VertexId]](), dict[VertexId, int]()
-    with blaming(str(robots.file)):
+    with in_file(str(robots.file)):
         for row in robots.rows:
             _check_map(row, on)  # stops at the first: the others are for the same map
         for row in robots.rows:
-            start = faults.attempt(f"line {row.line}, start", on.find, row.start)
-            goal = faults.attempt(f"line {row.line}, goal", on.find, row.goal)
+            begin, end = (Location(line=row.line, path=(key,)) for key in ("start", "goal"))
+            start = faults.attempt(begin, on.find, row.start)
+            goal = faults.attempt(end, on.find, row.goal)
             if start is None or goal is None:
                 continue
             if taken.setdefault(start, row.line) != row.line:
-                message = f"line {taken[start]} starts there already (a cell holds one robot)"
-                faults.note(f"line {row.line}, start", message)
+                message = "{other} starts there already (a cell holds one robot)"
+                faults.note(begin, message, Location(line=taken[start]))
             ends.append((start, goal))
         faults.stop()
     return ends
 
 
 def _check_map(row: ScenRow, on: LoadedMap) -> None:
-    grid, place = on.roadmap.grid, f"line {row.line}"
+    grid, place = on.roadmap.grid, Location(line=row.line)
     if grid is None:
         raise InputError.at("", "its rows need a grid (give the map as grid, file or floor)")
     if (row.width, row.height) != (grid.columns, grid.rows):

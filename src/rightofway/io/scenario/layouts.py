@@ -7,8 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rightofway.errors import InputError
-from rightofway.io.faults import under
+from rightofway.errors import InputError, under
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap, curve_note, joined_note
 from rightofway.quantities import Units

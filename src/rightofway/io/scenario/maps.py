@@ -8,8 +8,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rightofway.errors import InputError, nearest, shown
-from rightofway.io.faults import Faults, under
+from rightofway.errors import InputError, nearest, shown, under
+from rightofway.io.faults import Faults
 from rightofway.io.movingai import load_map
 from rightofway.io.scenario.curves import LaneCurve, lane_curve, spaced
 from rightofway.io.scenario.layouts import laid_out
@@ -215,7 +215,7 @@ def _drawn(
     }
     step = rounding_step(squares.values())
     for index, edge in enumerate(document.edges):
-        place, square = f"edges[{index}]", squares.get(index)
+        place, square = ("edges", index), squares.get(index)
         found = faults.attempt(place, _length, edge, positions, square, step)
         length, curve = found or (None, None)
         lengths.append(length)
@@ -229,8 +229,8 @@ def _drawn(
         for tail, head in (there, back) if edge.both_ways else (there,):
             earlier = first.setdefault((tail, head), index)
             if earlier != index:
-                message = f"leads from {tail!r} to {head!r} as edges[{earlier}] does (take one out)"
-                faults.note(place, message)
+                message = f"leads from {tail!r} to {head!r} as {{other}} does (take one out)"
+                faults.note(place, message, ("edges", earlier))
                 break
             edges.append(
                 Edge(
@@ -329,11 +329,11 @@ def _places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:
             raise InputError.at("", f"no vertex is named {shown(name)} ({hint})") from None
 
     def known(key: str, names: Sequence[str]) -> tuple[VertexId, ...]:
-        found = [faults.attempt(f"{key}[{at}]", vertex, name) for at, name in enumerate(names)]
+        found = [faults.attempt((key, at), vertex, name) for at, name in enumerate(names)]
         return tuple(each for each in found if each is not None)
 
     stations = [
-        (name, faults.attempt(f"stations.{name}", vertex, at))
+        (name, faults.attempt(("stations", name), vertex, at))
         for name, at in document.stations.items()
     ]
     parking, charging = known("parking", document.parking), known("charging", document.charging)

@@ -7,8 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rightofway.errors import InputError, shown
-from rightofway.io.faults import under
+from rightofway.errors import InputError, shown, under
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.text import refuse_special
 from rightofway.site.drawing import Picture

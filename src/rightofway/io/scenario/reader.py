@@ -6,15 +6,14 @@ A file becomes plain data (`document_of`), the data become checked parts (`shape
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from rightofway.errors import InputError, InputFault, nearest, shown
-from rightofway.io.faults import Faults, blaming, checked
+from rightofway.errors import InputError, Steps, Where, in_file, nearest, shown
+from rightofway.io.faults import Faults, checked
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
 from rightofway.io.scenario.crossings import crossing_note
 from rightofway.io.scenario.fleet import (
@@ -32,9 +31,6 @@ from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 from rightofway.quantities import Units
 from rightofway.site import Roadmap
-
-if TYPE_CHECKING:
-    pass
 
 MAX_STAGES = 1_000_000
 """Stops and ways home of a whole fleet, laps unrolled, at most."""
@@ -80,7 +76,7 @@ def scenario_of(document: dict[str, Any], base: Path | None = None, source: str 
     InputError
         With every independent fault, its place, value and remedy.
     """
-    with blaming(source):
+    with in_file(source):
         return read_scenario(document, base).scenario
 
 
@@ -106,7 +102,7 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     given = document.get("robots")
     if isinstance(given, dict) and "table" in given:
         table = robots_in_table(given, base)
-        with table.naming_cells():
+        with table.locate():
             return read_scenario({**document, "robots": table.part}, base, pictures)
     faults = Faults()
     faults.attempt("", checked, ScenarioFrame, document)
@@ -119,7 +115,7 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
         rules = replace(rules, clearance=rules.clearance + 2 * loaded.chord_error)
     if loaded and loaded.keeps_clear and rules.walls == "strict":
         remedy = "robots keep clear of what a map in pixels shows; take it out"
-        faults.note("rules.walls", f"'strict' is for grids and floors ({remedy})")
+        faults.note(("rules", "walls"), f"'strict' is for grids and floors ({remedy})")
     placed, more = placed_robots(robots, loaded, rules, faults, deals=deals)
     closures = faults.part(document, "closures", _closures, loaded) or []
     scenario = None
@@ -158,7 +154,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
         raise InputError.at("", f"{shown(data)} is no list of closures ({remedy})")
     faults, found = Faults(), list[Closure]()
     for index, each in enumerate(data):
-        document = faults.attempt(f"[{index}]", checked, ClosureDocument, each, on)
+        document = faults.attempt(index, checked, ClosureDocument, each, on)
         if document is None or on is None:
             continue
         closure = Closure(
@@ -167,7 +163,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
             **document.given("from_", "until", "radius"),
         )
         for fault in closure_faults(closure, on.roadmap):
-            faults.note(f"[{index}].{fault.place}".rstrip("."), fault.message)
+            faults.add([fault.within(index)])
         found.append(closure)
     faults.stop()
     return found
@@ -187,8 +183,11 @@ def _assembled(
         scenario = Scenario(roadmap=roadmap, robots=robots, **others)
         _check_ticks(scenario)
     except InputError as error:
-        for fault in error.faults:
-            faults.note(*_in_document(fault, placed))
+        starts = dict[Steps, Where]()
+        for index, it in enumerate(placed):  # the model numbers those robots that have no faults
+            starts["robots", index] = it.place
+            starts |= {("robots", index, *steps): place for steps, place in it.aliases.items()}
+        faults.add(fault.relocate(starts) for fault in error.faults)
         return None
     return scenario
 
@@ -204,21 +203,6 @@ def _check_ticks(scenario: Scenario) -> None:
         ticks = f"{shown(longest)} ticks of {shown(problem.clock.tick)}"
         message = f"a duration of {ticks} is too long (bring speeds and times closer together)"
         raise InputError.at("robots", message)
-
-
-def _in_document(fault: InputFault, placed: Sequence[Placed]) -> tuple[str, str]:
-    """Return place and message of a fault of the model as the document has them.
-
-    The model numbers the robots that it was given, among which those with faults are missing.
-    """
-    found = re.fullmatch(r"robots\[(\d+)\]\.(.*)", fault.place)
-    if not found:
-        return fault.place, fault.message
-    it, key, message = placed[int(found[1])], found[2], fault.message
-    other = re.match(r"(.*) of robots\[(\d+)\] already", message)
-    if other:
-        message = f"{other[1]} of {placed[int(other[2])].place} already{message[other.end() :]}"
-    return it.aliases.get(key, f"{it.place}.{key}"), message
 
 
 def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:

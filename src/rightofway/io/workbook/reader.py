@@ -6,11 +6,11 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, nearest, shown
-from rightofway.io.faults import Faults, blaming, place_of
+from rightofway.errors import InputError, Steps, Where, in_file, nearest, shown
+from rightofway.io.faults import Faults
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.robot_table import NOTES, Located, heading_key, robots_of_rows, value_of
 from rightofway.io.scenario.reader import Loaded, read_scenario
+from rightofway.io.tables import NOTES, CellDocument, heading_key, robots_of_rows, value_of
 from rightofway.io.workbook.sheets import Sheet, read_sheets, reference
 from rightofway.model.robot import RULE_ATTRIBUTES
 
@@ -45,18 +45,18 @@ def load_workbook_scenario(path: Path | str) -> Loaded:
         With every independent fault, its sheet and cell, its value and the remedy.
     """
     path = Path(path)
-    with blaming(str(path)):
+    with in_file(str(path)):
         faults, notes = Faults(), list[str]()
         found = _document(read_sheets(path, SHEETS, faults), faults, notes)
-        with found.naming_cells():
+        with found.locate():
             loaded = read_scenario(found.part, path.parent)
         return Loaded(scenario=loaded.scenario, notes=(*notes, *loaded.notes))
 
 
-def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[str]) -> Located:
+def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[str]) -> CellDocument:
     """Return the scenario document of the sheets, and where each place of it stands."""
     document: dict[str, Any] = {"format": SCENARIO_FORMAT}
-    cells: dict[str, str] = {}
+    cells: dict[Steps, Where] = {}
     offset = (1, 1)
     if "map" in sheets and "vertices" in sheets:
         faults.note("map", "a map and vertices are given (take one of the two sheets out)")
@@ -76,35 +76,34 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[str]) -> 
     if "robots" in sheets:
         robots = _robots(sheets["robots"], offset)
         document["robots"] = robots.part
-        cells |= {"robots": sheets["robots"].name, **robots.cells}
-        for fault in robots.faults:
-            faults.note(fault.place, fault.message)
+        cells |= {("robots",): sheets["robots"].location, **robots.cells}
+        faults.add(robots.faults)
     else:
         faults.note("", "the sheet robots is missing (add it; `rightofway new` writes one)")
     if "rules" in sheets:
         _add_rules(sheets["rules"], document, cells, faults)
-        cells["rules"] = sheets["rules"].name
+        cells["rules",] = sheets["rules"].location
     document |= _closures(sheets, offset, cells, faults)
     if not document.get("robots") or "map" not in document:
         faults.stop()
-    return Located(part=document, cells=cells, faults=faults.found)
+    return CellDocument(part=document, cells=cells, faults=faults.found)
 
 
 def _grid(
     sheet: Sheet, notes: list[str]
-) -> tuple[list[str], tuple[int, int], dict[str, str]] | None:
+) -> tuple[list[str], tuple[int, int], dict[Steps, Where]] | None:
     """Return the rows of a map, its first row and column, and the cells of its rows."""
     used = sheet.values.keys() | sheet.dark.keys()
     if not used:
         message = "the map is empty (write . for free and @ for blocked, or fill cells)"
-        raise InputError.at(sheet.name, message)
+        raise InputError.at(sheet.location, message)
     top, left = min(row for row, _ in used), min(column for _, column in used)
     bottom, right = max(row for row, _ in used), max(column for _, column in used)
     count = (bottom - top + 1) * (right - left + 1)
     if count > MAX_CELLS:
         last = sheet.cell(*max(used, key=lambda each: (each[0] + each[1], each)))
         message = (
-            f"the map reaches from {sheet.cell(top, left)} to here: {count} cells, more than"
+            f"the map reaches from {sheet.cell(top, left).cell} to here: {count} cells, more than"
             f" {MAX_CELLS} (clear what stands beside the map)"
         )
         raise InputError.at(last, message)
@@ -129,13 +128,13 @@ def _grid(
         count_as = (
             "empty cell of the map counts" if len(empty) == 1 else "empty cells of the map count"
         )
-        notes.append(f"{len(empty)} {count_as} as free, the first is {sheet.cell(*empty[0])}")
-    cells = {"map": sheet.name, "map.grid": sheet.name}
-    cells |= {f"map.grid[{k}]": sheet.cell(top + k, left) for k in range(len(lines))}
+        notes.append(f"{len(empty)} {count_as} as free, the first is {sheet.cell(*empty[0]).cell}")
+    cells: dict[Steps, Where] = {("map",): sheet.location, ("map", "grid"): sheet.location}
+    cells |= {("map", "grid", k): sheet.cell(top + k, left) for k in range(len(lines))}
     return lines, (top, left), cells
 
 
-def _robots(sheet: Sheet, offset: tuple[int, int]) -> Located:
+def _robots(sheet: Sheet, offset: tuple[int, int]) -> CellDocument:
     from rightofway.io.scenario.shape import RobotDocument
 
     known = [field.alias or name for name, field in RobotDocument.model_fields.items()]
@@ -147,7 +146,7 @@ def _robots(sheet: Sheet, offset: tuple[int, int]) -> Located:
 
 
 def _closures(
-    sheets: Mapping[str, Sheet], offset: tuple[int, int], cells: dict[str, str], faults: Faults
+    sheets: Mapping[str, Sheet], offset: tuple[int, int], cells: dict[Steps, Where], faults: Faults
 ) -> dict[str, Any]:
     """Return the part of a document with the closures in the rows of a sheet, if there is one."""
     from rightofway.io.scenario.shape import ClosureDocument
@@ -158,9 +157,9 @@ def _closures(
     known = [field.alias or name for name, field in ClosureDocument.model_fields.items()]
     closures = list[dict[str, Any]]()
     for row, found, columns in faults.attempt("", _table, sheet, known) or ():
-        place = f"closures[{len(closures)}]"
+        place = ("closures", len(closures))
         cells[place] = sheet.cell(row, 1)
-        cells |= {f"{place}.{key}": sheet.cell(row, column) for key, column in columns.items()}
+        cells |= {(*place, key): sheet.cell(row, column) for key, column in columns.items()}
         read = {
             key: faults.attempt(
                 sheet.cell(row, columns[key]), value_of, key, _in_map(value, offset)
@@ -180,7 +179,7 @@ def _in_map(value: Any, offset: tuple[int, int]) -> Any:
 
 
 def _add_rules(
-    sheet: Sheet, document: dict[str, Any], cells: dict[str, str], faults: Faults
+    sheet: Sheet, document: dict[str, Any], cells: dict[Steps, Where], faults: Faults
 ) -> None:
     """Add the rows of the rules sheet: rules, units, and what belongs to the map."""
     from rightofway.io.scenario.shape import MAPS, MapDocument, RulesDocument
@@ -205,7 +204,7 @@ def _add_rules(
             continue
         seen.add(key)
         part = "units" if key in UNIT_KEYS else "map" if key in of_map else "rules"
-        cells[f"{part}.{UNIT_KEYS.get(key, key)}"] = sheet.cell(row, 2)
+        cells[part, UNIT_KEYS.get(key, key)] = sheet.cell(row, 2)
         read = (
             faults.attempt(sheet.cell(row, 2), value_of, key, value) if value is not None else None
         )
@@ -222,7 +221,7 @@ def _add_rules(
         document["map"] |= parts["map"]
 
 
-def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[str, str]) -> dict[str, Any]:
+def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[Steps, Where]) -> dict[str, Any]:
     """Return the roadmap of a sheet of vertices and a sheet of edges."""
     from rightofway.io.scenario.shape import EdgeDocument
 
@@ -234,19 +233,19 @@ def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[str, str]) -> dict[str, 
             message = f"has no {' and no '.join(missing)} (give name, x and y)"
             faults.note(vertices.cell(row, 1), message)
         if name in first_row:
-            at = vertices.cell(first_row[name], 1)
-            faults.note(vertices.cell(row, 1), f"{shown(name)} is in {at} already (take one out)")
+            message = f"{shown(name)} is in {{other}} already (take one out)"
+            faults.note(vertices.cell(row, 1), message, vertices.cell(first_row[name], 1))
         first_row.setdefault(name, row)
         position = [found.get("x", 0), found.get("y", 0)]
         more = {key: value_of(key, found[key]) for key in ("barred", "surcharge") if key in found}
         positions[name] = {"at": position, **more} if more else position
-        cells[place_of(("map", "roadmap", "vertices", name))] = vertices.cell(row, 1)
+        cells["map", "roadmap", "vertices", name] = vertices.cell(row, 1)
     known = [field.alias or name for name, field in EdgeDocument.model_fields.items()]
     ways = list[dict[str, Any]]()
     for row, found, columns in faults.attempt("", _table, edges, known) or ():
-        place = f"map.roadmap.edges[{len(ways)}]"
+        place = ("map", "roadmap", "edges", len(ways))
         cells[place] = edges.cell(row, 1)
-        cells |= {f"{place}.{key}": edges.cell(row, column) for key, column in columns.items()}
+        cells |= {(*place, key): edges.cell(row, column) for key, column in columns.items()}
         way = dict[str, Any]()
         for key, value in found.items():
             at = edges.cell(row, columns[key])
@@ -257,8 +256,9 @@ def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[str, str]) -> dict[str, 
             way["both_ways"] = YES_NO.get(both.lower(), both)
         ways.append(way)
     faults.stop()
-    cells |= {"map": vertices.name, "map.roadmap.vertices": vertices.name}
-    cells |= {"map.roadmap": vertices.name, "map.roadmap.edges": edges.name}
+    drawn = ("map", "roadmap")
+    cells |= {drawn[:1]: vertices.location, drawn: vertices.location}
+    cells |= {(*drawn, "vertices"): vertices.location, (*drawn, "edges"): edges.location}
     return {"vertices": positions, "edges": ways}
 
 

@@ -18,7 +18,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, nearest, shown
+from rightofway.errors import InputError, Location, nearest, shown
 from rightofway.io.faults import Faults
 from rightofway.io.text import content_of
 
@@ -70,11 +70,16 @@ class Sheet:
     values: dict[Position, Any] = field(default_factory=dict)
     dark: dict[Position, bool] = field(default_factory=dict)
 
-    def cell(self, row: int, column: int) -> str:
-        """Return how messages call a cell: ``robots!E4``."""
+    @property
+    def location(self) -> Location:
+        """The sheet as a place."""
+        return Location(cell=self.name)
+
+    def cell(self, row: int, column: int) -> Location:
+        """Return the place of a cell: ``robots!E4``."""
         from openpyxl.utils import get_column_letter  # type: ignore[import-untyped]
 
-        return f"{self.name}!{get_column_letter(column)}{row}"
+        return Location(cell=f"{self.name}!{get_column_letter(column)}{row}")
 
     def rows(self) -> Iterator[tuple[int, dict[int, Any]]]:
         """Yield the rows that are not empty: their number, and their values by column."""
@@ -108,11 +113,12 @@ def read_sheets(path: Path, wanted: Collection[str], faults: Faults) -> dict[str
             key = name.strip().lower()
             if key in wanted and hasattr(workbook[name], "iter_rows"):  # a chart sheet has no rows
                 if key in sheets:
-                    faults.note(name, f"two sheets are called {key} (take one out)")
+                    faults.note(Location(cell=name), f"two sheets are called {key} (take one out)")
                     continue
                 merged = _merged(data, workbook[name])
                 for cells in merged:
-                    faults.note(f"{name}!{cells}", "these cells are merged (unmerge them)")
+                    where = Location(cell=f"{name}!{cells}")
+                    faults.note(where, "these cells are merged (unmerge them)")
                 sheets[key] = _sheet(workbook[name], faults, data)
         if not sheets:
             raise _no_sheet(workbook.sheetnames, wanted)

@@ -9,8 +9,8 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError
-from rightofway.io.faults import checked, under
+from rightofway.errors import InputError, under
+from rightofway.io.faults import checked
 from rightofway.io.fields import positive
 from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of

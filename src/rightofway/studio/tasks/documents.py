@@ -22,7 +22,7 @@ from rightofway.io import (
     read_layout,
 )
 from rightofway.io.layouts import described
-from rightofway.io.marks import document_of, marked
+from rightofway.io.locations import document_of, locate
 from rightofway.io.opening import WORKBOOKS
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.scenario.writer import yaml_of
@@ -98,8 +98,8 @@ def loaded_of(document: Any, folder: str) -> Loaded:
 
 def _named(faults: Sequence[InputFault], document: Any) -> list[InputFault]:
     """Return faults with the names of list items; lines mean nothing here."""
-    text = json.dumps(document)
-    return [replace(fault, line=None) for fault in marked(faults, text)]
+    found = locate(faults, json.dumps(document))
+    return [it.at(replace(it.location, line=None)) for it in found]
 
 
 def validated(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:

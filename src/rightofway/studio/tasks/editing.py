@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import re
 from collections import OrderedDict
 from collections.abc import Hashable, Sequence
 from dataclasses import asdict, replace
@@ -34,8 +33,6 @@ Result = tuple[Any, ...]
 
 SHOWN = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 """Endings of pictures that a browser shows as they are."""
-
-ROBOT = re.compile(r"robots\[(\d+)\](?:\.(\w+))?")
 
 KEPT = 8
 """Sites whose findings a worker keeps: a change of a speed or of a work time changes none."""
@@ -152,11 +149,12 @@ def _without(
     """
     wrong: dict[int, set[str]] = {}
     for each in faults:
-        if found := ROBOT.match(each.place):
-            wrong.setdefault(int(found[1]), set()).add(found[2] or "")
+        section, index, key = (*each.path, "", "", "")[:3]
+        if section == "robots" and isinstance(index, int):
+            wrong.setdefault(index, set()).add(str(key))
     rest = dict(document)
     for key in ("closures", "rules"):
-        if any(each.place.startswith(key) for each in faults):
+        if any(each.path[:1] == (key,) for each in faults):
             rest.pop(key, None)
     drawn = [_mended(document["robots"][at], wrong.get(at, set())) for at in _robots(document)]
     whole = [None if at in wrong else document["robots"][at] for at in _robots(document)]

@@ -61,20 +61,21 @@ class Background:
     def __post_init__(self) -> None:
         if not isinstance(self.picture, str | os.PathLike):
             fault = f"{shown(self.picture)} is no file (give text or a Path)"
-            raise InputError.at("background.picture", fault)
-        at("background.scale", optional(coordinate), self.scale)
+            raise InputError.at(("background", "picture"), fault)
+        at(("background", "scale"), optional(coordinate), self.scale)
         for place, number in (("yaw", self.yaw), ("opacity", self.opacity)):
-            at(f"background.{place}", coordinate, number)
+            at(("background", place), coordinate, number)
         for place, point in (("origin", self.origin), ("corner", self.corner)):
-            read = at(f"background.{place}", optional(list_of(coordinate)), point)
+            read = at(("background", place), optional(list_of(coordinate)), point)
             if read is not None and len(read) != 2:  # noqa: PLR2004 (x and y)
                 fault = f"{shown(point)} is no point (give (x, y))"
-                raise InputError.at(f"background.{place}", fault)
+                raise InputError.at(("background", place), fault)
         if self.scale is not None and not self.scale > 0:
-            raise InputError.at("background.scale", f"{self.scale} is not positive (give a length)")
+            fault = f"{self.scale} is not positive (give a length)"
+            raise InputError.at(("background", "scale"), fault)
         if not 0 <= self.opacity <= 1:
             fault = f"{self.opacity} is not from 0 to 1 (give a share)"
-            raise InputError.at("background.opacity", fault)
+            raise InputError.at(("background", "opacity"), fault)
         if self.origin is not None and self.corner is not None:
             raise InputError.at("background", "has both origin and corner (give one of them)")
 

@@ -175,9 +175,9 @@ def _refuse_other_kinds(
     for index, other in enumerate(at("others", list_of(lambda pair: pair), others)):
         if not isinstance(other, list | tuple) or len(other) != 2:  # noqa: PLR2004 (plan, title)
             message = f"{shown(other)} is no plan with a title (give (plan, title))"
-            raise InputError.at(f"others[{index}]", message)
-        checked_plan(other[0], f"others[{index}][0]")
-        at(f"others[{index}][1]", text, other[1])
+            raise InputError.at(("others", index), message)
+        checked_plan(other[0], ("others", index, 0))
+        at(("others", index, 1), text, other[1])
 
 
 def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> FaultsData:
@@ -339,7 +339,7 @@ def _until(group: SteadyState, track: Track) -> int:
 def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> FloorData:
     if len(actual.tracks) != len(plan.tracks):
         counts = f"{len(actual.tracks)} for {len(plan.tracks)} robots"
-        raise InputError.at("actual.tracks", f"{counts} (give one for each)")
+        raise InputError.at(("actual", "tracks"), f"{counts} (give one for each)")
     still = actual.stoppages or ((),) * len(trips)
     stays = tuple(map(_executed_stays, actual.tracks, actual.dwell, actual.drive, still))
     driven = trips_of(replace(plan, tracks=actual.tracks, steady=()))

@@ -1,12 +1,11 @@
-"""Faults of a document with the line of its text that they stand in, and the names of list items.
+"""The lines of a document's faults, and the names of the list items in which they stand.
 
-Marks are taken only when there is a fault: the text is then read once more, by the YAML library,
-which knows the line of each value. JSON is read in the same way, because it is YAML as well.
+Lines are looked up only when there is a fault: the text is then read once more, by the library for
+YAML, which knows the line of each value. JSON is read in the same way, because it is YAML as well.
 """
 
 from __future__ import annotations
 
-import ast
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -14,8 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rightofway.errors import InputError, InputFault, is_printable
-from rightofway.io.faults import blaming
+from rightofway.errors import InputError, InputFault, Location, in_file, is_printable
 from rightofway.io.text import MAX_DEPTH, parse_document, read_text
 
 if TYPE_CHECKING:
@@ -27,7 +25,6 @@ MAX_CHARACTERS = 500_000
 LONGEST_NAME = 40
 """A longer name is not shown beside a place."""
 
-_STEP = re.compile(r"\.?(?P<key>[^\W\d]\w*)|\[(?P<index>\d+)\]|\[(?P<text>'[^']*'|\"[^\"]*\")\]")
 _JSON_ONLY = re.compile(r"\\u[dD][89a-fA-F][0-9a-fA-F]{2}|\\/|\t")
 
 
@@ -42,32 +39,46 @@ def document_of(path: Path, text: str | None = None) -> Iterator[Any]:
     text
         Its content, where that is known already.
     """
-    with blaming(str(path)):
+    with in_file(str(path)):
         text = read_text(path) if text is None else text
         data = parse_document(text, path)
-        try:
+        with lines_of(text):
             yield data
-        except InputError as error:
-            if error.source:
-                raise
-            raise InputError(marked(error.faults, text)) from None
 
 
-def marked(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
+@contextmanager
+def lines_of(text: str) -> Iterator[None]:
+    """Add lines and names to the faults that are raised inside.
+
+    Parameters
+    ----------
+    text
+        The text of the document that is read inside.
+    """
+    try:
+        yield
+    except InputError as error:
+        raise InputError(locate(error.faults, text)) from None
+
+
+def locate(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
     """Yield faults of a document with lines and names, as far as its text shows them.
 
     Parameters
     ----------
     faults
-        The faults, with places in the document.
+        The faults, with paths into the document.
     text
         The text that the document was read from.
     """
     faults = list(faults)
-    has_places = any(fault.place and fault.line is None for fault in faults)
-    root = _root(text) if has_places else None
-    for fault in faults:
-        yield _marked(fault, root) if root and fault.place and fault.line is None else fault
+    has_no_lines = [bool(it.path) and it.line is None and not it.file for it in faults]
+    root = _root(text) if any(has_no_lines) else None
+    for fault, has_no_line in zip(faults, has_no_lines, strict=True):
+        if root is None or not has_no_line:
+            yield fault
+        else:
+            yield fault.at(_located(fault.location, root))
 
 
 def _root(text: str) -> yaml.Node | None:
@@ -88,7 +99,7 @@ def _root(text: str) -> yaml.Node | None:
 
 
 def _is_deep(events: Iterable[yaml.Event]) -> bool:
-    """Tell whether values are nested too deeply to be read by recursion, as the library does."""
+    """Return whether values are nested too deeply to be read by recursion, as the library does."""
     import yaml
 
     depth = 0
@@ -100,44 +111,31 @@ def _is_deep(events: Iterable[yaml.Event]) -> bool:
     return False
 
 
-def _marked(fault: InputFault, root: yaml.Node) -> InputFault:
-    """Follow a fault's place from the root of the document, as far as there are values."""
-    node, line, named, reached = root, root.start_mark.line, "", 0
-    robot = whole = ""  # the name of the robot that it is about; what is named up to there
-    for step in _STEP.finditer(fault.place):
-        found = _child(node, step) if step.start() == reached else None
+def _located(location: Location, root: yaml.Node) -> Location:
+    """Return a location with line and names, its path followed as far as there are values."""
+    node, line, names = root, root.start_mark.line, list[str]()
+    for step in location.path:
+        found = _child(node, step)
         if found is None:
             break
         node, line = found
-        reached = step.end()
-        named += step[0].removeprefix(".") if named.endswith(": ") else step[0]
-        name = _name(node) if step["index"] else ""
-        named += f" ({name}): " if name else ""
-        if name and not robot and fault.path[0] == "robots":
-            robot, whole = name, named
-    rest = fault.place[reached:]
-    named += rest.removeprefix(".") if named.endswith(": ") else rest
-    about = f"{robot}: {named[len(whole) :]}" if robot else named
-    named, about = named.removesuffix(": "), about.removesuffix(": ")
-    return replace(fault, line=line + 1, named=named, about=about)
+        names.append(_name(node) if isinstance(step, int) else "")
+    return replace(location, line=line + 1, names=tuple(names))
 
 
-def _child(node: yaml.Node, step: re.Match[str]) -> tuple[yaml.Node, int] | None:
-    """Return the value that a step of a place leads to, and its line, from 0; None without one."""
+def _child(node: yaml.Node, step: str | int) -> tuple[yaml.Node, int] | None:
+    """Return the value that a step of a path leads to, and its line, from 0; None without one."""
     import yaml
 
-    if step["index"]:
-        index = int(step["index"])
-        if isinstance(node, yaml.SequenceNode) and index < len(node.value):
-            item: yaml.Node = node.value[index]
+    if isinstance(step, int):
+        if isinstance(node, yaml.SequenceNode) and step < len(node.value):
+            item: yaml.Node = node.value[step]
             return item, item.start_mark.line
         if isinstance(node, yaml.ScalarNode) and node.style == "|":  # rows of a grid
-            return node, node.start_mark.line + 1 + index
-        return None
-    key = step["key"] or ast.literal_eval(step["text"])
-    if isinstance(node, yaml.MappingNode):
+            return node, node.start_mark.line + 1 + step
+    elif isinstance(node, yaml.MappingNode):
         for name, value in node.value:
-            if isinstance(name, yaml.ScalarNode) and name.value == key:
+            if isinstance(name, yaml.ScalarNode) and name.value == step:
                 return value, name.start_mark.line
     return None
 

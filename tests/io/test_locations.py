@@ -9,7 +9,7 @@ import pytest
 
 from rightofway.errors import InputError, InputFault
 from rightofway.io import load, load_either, load_plan
-from rightofway.io.marks import MAX_CHARACTERS, marked
+from rightofway.io.locations import MAX_CHARACTERS, locate
 
 HEAD = "format: rightofway-scenario/1\nmap:\n  grid: |\n    ...\n    ...\nrobots:\n"
 GOOD = "  - {name: R1, home: N0, target: N2}\n"
@@ -88,7 +88,7 @@ def test_a_file_without_faults_is_read_once(
 ) -> None:
     path = tmp_path / "fleet.yaml"
     path.write_text(HEAD + GOOD, encoding="utf-8")
-    monkeypatch.setattr("rightofway.io.marks._root", lambda _: pytest.fail("looked for lines"))
+    monkeypatch.setattr("rightofway.io.locations._root", lambda _: pytest.fail("looked for lines"))
     assert load(path).robots[0].name == "R1"
     with pytest.raises(pytest.fail.Exception):
         load_plan(path)
@@ -96,5 +96,5 @@ def test_a_file_without_faults_is_read_once(
 
 def test_a_text_that_is_nested_too_deeply_is_reported_without_lines() -> None:
     """The YAML library reads values in values by recursion, and would end the process."""
-    (fault,) = marked([InputFault("planner", "is unknown")], "[" * 100_000)
+    (fault,) = locate([InputFault("planner", "is unknown")], "[" * 100_000)
     assert fault == InputFault("planner", "is unknown")

@@ -14,8 +14,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, InputFault, nearest, shown
-from rightofway.io.faults import Faults, blaming
+from rightofway.errors import (
+    InputError,
+    InputFault,
+    Location,
+    Steps,
+    Where,
+    in_file,
+    nearest,
+    shown,
+)
+from rightofway.io.faults import Faults
 from rightofway.io.text import parse_yaml, read_text
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 
@@ -39,58 +48,43 @@ WHOLE = re.compile(r"[+-]?[0-9]{1,9}")
 Row = tuple[int, Mapping[int, Any]]
 """The number of a row, and its values by column."""
 
-CellName = Callable[[int, int], str]
-"""How a message calls the cell in a row and a column."""
+CellOf = Callable[[int, int], Location]
+"""Returns the place of a row and a column."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Located:
-    """A part of a document that was read from cells, and where each place of it stands.
+class CellDocument:
+    """A part of a document that was read from cells, and where each value of it stands.
 
     Attributes
     ----------
     part
         Plain data, as a document has it.
     cells
-        For places in the document, like ``robots[2].speed``, how a message calls the cell.
+        For paths into the document, like ``("robots", 2, "speed")``, the place of the cell.
     faults
         What is wrong with cells, so that they are no part of the document.
     """
 
     part: Any
-    cells: dict[str, str] = field(default_factory=dict)
+    cells: dict[Steps, Where] = field(default_factory=dict)
     faults: tuple[InputFault, ...] = ()
 
     @contextmanager
-    def naming_cells(self) -> Iterator[None]:
+    def locate(self) -> Iterator[None]:
         """Report faults of the document read inside at their cells, after those of the cells."""
         try:
             yield
         except InputError as error:
-            faulty = {fault.place for fault in self.faults}
-            named = (self._in_cells(fault) for fault in error.faults)
-            more = [fault for fault in named if fault.place not in faulty]
-            raise InputError([*self.faults, *more], error.source) from None
+            places = {fault.location for fault in self.faults}
+            moved = (fault.relocate(self.cells) for fault in error.faults)
+            more = (fault for fault in moved if fault.location not in places)
+            raise InputError([*self.faults, *more]) from None
         if self.faults:
             raise InputError(self.faults)
 
-    def _in_cells(self, fault: InputFault) -> InputFault:
-        place, rest = fault.place, ""
-        while place and place not in self.cells:
-            step = re.search(r"(\.[^.\[\]]*|\[[^\[\]]*\]|^[^.\[\]]+|.)$", place)
-            assert step, "the last alternative fits any place"
-            place, rest = place[: step.start()], step[0] + rest
-        message = re.sub(
-            r"\b(robots|edges)\[\d+\]",
-            lambda found: self.cells.get(found[0], found[0]),
-            fault.message,
-        )
-        if not place:
-            return InputFault(fault.place, message)
-        return InputFault(", ".join(filter(None, (self.cells[place], rest.lstrip(".")))), message)
 
-
-def robots_of_rows(rows: Iterable[Row], cell: CellName, known: Iterable[str]) -> Located:
+def robots_of_rows(rows: Iterable[Row], cell: CellOf, known: Iterable[str]) -> CellDocument:
     """Return the robots of a table.
 
     Parameters
@@ -98,13 +92,13 @@ def robots_of_rows(rows: Iterable[Row], cell: CellName, known: Iterable[str]) ->
     rows
         The rows that are not empty; the first holds the headings.
     cell
-        How messages call a cell.
+        Returns the place of a cell.
     known
         The keys of a robot.
 
     Returns
     -------
-    Located
+    CellDocument
         The list of robots. Faults are headings that are unknown or given twice, and values without
         a heading.
     """
@@ -116,17 +110,17 @@ def robots_of_rows(rows: Iterable[Row], cell: CellName, known: Iterable[str]) ->
     if not reading.robots:
         message = "there is no robot (write headings, then one robot a row)"
         reading.faults.note(cell(first, 1), message)
-    return Located(part=reading.robots, cells=reading.cells, faults=reading.faults.found)
+    return CellDocument(part=reading.robots, cells=reading.cells, faults=reading.faults.found)
 
 
 class _Reading:
     """The robots read so far, where their keys stand, and what is wrong with the table."""
 
-    def __init__(self, cell: CellName) -> None:
+    def __init__(self, cell: CellOf) -> None:
         self.cell = cell
         self.columns: dict[int, str] = {}
         self.robots: list[dict[str, Any]] = []
-        self.cells: dict[str, str] = {}
+        self.cells: dict[Steps, Where] = {}
         self.faults = Faults()
 
     def take_headings(self, row: int, headings: Mapping[int, Any], known: Sequence[str]) -> None:
@@ -145,7 +139,7 @@ class _Reading:
 
     def take_robot(self, row: int, values: Mapping[int, Any]) -> None:
         """Add the robot of a row."""
-        place, robot = f"robots[{len(self.robots)}]", dict[str, Any]()
+        place, robot = ("robots", len(self.robots)), dict[str, Any]()
         stops: dict[int, dict[str, Any]] = {}
         self.cells[place] = self.cell(row, 1)
         for column in values.keys() - self.columns.keys():
@@ -158,11 +152,11 @@ class _Reading:
                 target = stops.setdefault(int(stop[2]), {})
                 key = "at" if stop[1] == "stop" else "work"
                 index = sorted(stops).index(int(stop[2]))
-                self.cells.setdefault(f"{place}.stops[{index}]", here)
-                self.cells[f"{place}.stops[{index}].{key}"] = here
+                self.cells.setdefault((*place, "stops", index), here)
+                self.cells[*place, "stops", index, key] = here
             else:
                 target, key = robot, heading
-                self.cells[f"{place}.{key}"] = here
+                self.cells[*place, key] = here
             if column in values:
                 value = self.faults.attempt(here, value_of, key, values[column])
                 target |= {} if value is None else {key: value}
@@ -190,7 +184,10 @@ def value_of(key: str, value: Any) -> Any:
     if not isinstance(value, str):
         return str(value) if key in WORD_KEYS and not isinstance(value, bool) else value
     if key not in WORD_KEYS and value[0] in "[{":
-        return parse_yaml(value)
+        try:
+            return parse_yaml(value)
+        except InputError as error:  # its line is one of the cell
+            raise InputError.at("", error.faults[0].words) from None
     if key in WORD_KEYS | PLACE_KEYS:
         return value
     if WHOLE.fullmatch(value):
@@ -198,7 +195,7 @@ def value_of(key: str, value: Any) -> Any:
     return value.replace(",", ".") if DECIMAL_COMMA.fullmatch(value) else value
 
 
-def robots_of_csv(path: Path, known: Iterable[str]) -> Located:
+def robots_of_csv(path: Path, known: Iterable[str], names_it: Where) -> CellDocument:
     """Return the robots of a CSV file: columns between commas, semicolons or tabs.
 
     Parameters
@@ -207,34 +204,30 @@ def robots_of_csv(path: Path, known: Iterable[str]) -> Located:
         The file.
     known
         The keys of a robot.
+    names_it
+        Where the document names the file.
 
     Raises
     ------
     InputError
         If it cannot be read.
     """
-    with blaming(str(path)):
+    with in_file(str(path)):
         lines = read_text(path).splitlines()
         delimiter = max(",;\t", key=lines[0].count) if lines else ","
         try:
             rows = list(csv.reader(lines, delimiter=delimiter, strict=True))
         except csv.Error as error:
             raise InputError.at("", f"{error} (check the quotes)") from None
-
-        filled = (
-            (number, {at: text.strip() for at, text in enumerate(row, 1) if text.strip()})
-            for number, row in enumerate(rows, 1)
-        )
-        headings = [heading_key(text) for text in rows[0]] if rows else []
-
-        def cell(row: int, column: int) -> str:
-            name = headings[column - 1] if row > 1 and column <= len(headings) else ""
-            return f"line {row}, {name}" if name and column > 1 else f"line {row}"
-
-        found = robots_of_rows(((number, row) for number, row in filled if row), cell, known)
-    source = f"robots.table: {path}"
-    return Located(
-        part=found.part,
-        cells={place: f"{source}: {where}" for place, where in found.cells.items()},
-        faults=tuple(InputFault(f"{source}: {each.place}", each.message) for each in found.faults),
+    filled = (
+        (number, {at: text.strip() for at, text in enumerate(row, 1) if text.strip()})
+        for number, row in enumerate(rows, 1)
     )
+    headings = [heading_key(text) for text in rows[0]] if rows else []
+
+    def cell(row: int, column: int) -> Location:
+        is_named = row > 1 and 1 < column <= len(headings)
+        steps = (headings[column - 1],) if is_named and headings[column - 1] else ()
+        return Location(file=str(path), line=row, path=steps).within(names_it)
+
+    return robots_of_rows(((number, row) for number, row in filled if row), cell, known)

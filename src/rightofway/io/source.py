@@ -1,0 +1,118 @@
+"""A value of a file and its place in that file: what the readers of all formats are given.
+
+JSON, YAML and graphs become mappings and lists, with a path; elements of XML and rows of CSV become
+mappings, with a line. What does not fit is a fault at the place of the value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+from rightofway.errors import InputError, Location, Steps, is_printable, shown
+from rightofway.values import DIGITS, coordinate
+
+BILLION = 10**9
+
+LONGEST_NAME = 200
+"""Characters of the longest name."""
+
+TRUE, FALSE = ("true", "yes", "1"), ("false", "no", "0", "")
+"""How files write whether something holds, in any case of letters."""
+
+
+@dataclass(slots=True)
+class Source:
+    """A value of a file, and the keys, the indices and the line that lead to it."""
+
+    value: Any
+    path: Steps = ()
+    line: int | None = None
+
+    @property
+    def location(self) -> Location:
+        """Its place in the file."""
+        return Location(path=self.path, line=self.line)
+
+    def fault(self, message: str) -> InputError:
+        """Return the fault that this value is."""
+        return InputError.at(self.location, message)
+
+    def child(self, step: str | int, value: Any) -> Source:
+        """Return a value inside this one."""
+        return Source(value, (*self.path, step), self.line)
+
+    def get(self, *keys: str) -> Source | None:
+        """Return the value under the first of several keys that has one, or None."""
+        mapping = self.mapping()
+        for key in keys:
+            value = mapping.get(key)
+            if value is not None:
+                return Source(value, (*self.path, key), self.line)
+        return None
+
+    def need(self, *keys: str) -> Source:
+        """Return the value under the first of several keys that has one."""
+        found = self.get(*keys)
+        if found is None:
+            raise self.child(keys[0], None).fault("is missing (add it)")
+        return found
+
+    def mapping(self) -> dict[str, Any]:
+        """Return the value as a mapping."""
+        if not isinstance(self.value, dict):
+            raise self.fault(f"{shown(self.value)} is not a mapping of keys to values (mend it)")
+        return self.value
+
+    def entries(self) -> Iterator[tuple[str, Source]]:
+        """Yield keys and values of a mapping."""
+        for key, value in self.mapping().items():
+            yield key, self.child(key, value)
+
+    def items(self) -> list[Source]:
+        """Return the items of a list."""
+        if not isinstance(self.value, list):
+            raise self.fault(f"{shown(self.value)} is not a list (mend it)")
+        return [self.child(index, item) for index, item in enumerate(self.value)]
+
+    def items_under(self, *keys: str) -> list[Source]:
+        """Return the items of all lists that stand under some keys; none for a missing one."""
+        lists = (self.get(key) for key in keys)
+        return [item for found in lists if found is not None for item in found.items()]
+
+    def text(self) -> str:
+        """Return the value as text that can be shown; whole numbers count as text."""
+        value = self.value
+        if isinstance(value, int) and not isinstance(value, bool):
+            value = str(value)
+        if not isinstance(value, str) or not is_printable(value) or len(value) > LONGEST_NAME:
+            raise self.fault(f"{shown(self.value)} is no name (give printable text)")
+        return value
+
+    def number(self) -> Fraction:
+        """Return the value as a number, to a billionth; text counts where a number is written."""
+        value = self.value
+        try:
+            return _number(value) if isinstance(value, Hashable) else _number.__wrapped__(value)
+        except ValueError as error:
+            raise self.fault(str(error)) from None
+
+    def flag(self) -> bool:
+        """Return the value as true or false; 0 and 1 count, too."""
+        word = self.value.lower() if isinstance(self.value, str) else self.value
+        if word in (True, *TRUE):
+            return True
+        if word in (False, *FALSE):
+            return False
+        raise self.fault(f"{shown(self.value)} is neither true nor false (mend it)")
+
+
+@lru_cache(maxsize=2**16, typed=True)  # the numbers of a site repeat
+def _number(value: Hashable) -> Fraction:
+    found = coordinate(value.strip() if isinstance(value, str) else value)
+    if abs(found) > 10 ** (DIGITS // 2):
+        raise ValueError(f"{shown(value)} is out of range (check the unit)")
+    return found if BILLION % found.denominator == 0 else Fraction(round(found * BILLION), BILLION)
