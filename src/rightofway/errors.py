@@ -159,7 +159,7 @@ def path_text(path: Steps, names: Sequence[str] = ()) -> str:
     """
     text = joint = ""
     for index, step in enumerate(path):
-        if isinstance(step, int):
+        if not isinstance(step, str):
             text += f"{joint.removeprefix('.')}[{step}]"
             joint = "."
         elif joint == "." and not step.isidentifier():

@@ -45,7 +45,7 @@ def test_a_map_is_its_rows(tmp_path: Path, text: str) -> None:
         ("height 2", "hight 2", ["2: 'hight' is no line of a header"]),
         ("height 2", "height two", ["2: height 'two' is no size (give a count of cells)"]),
         ("height 2", "height 0", ["2: height '0' is no size (give a count of cells)"]),
-        ("height 2\n", "", ["the header has no height (give a line like 'height 32')"]),
+        ("height 2\n", "", [" the header has no height (give a line like 'height 32')"]),
         ("map\n", "", ["4: '..T' is no line of a header"]),
         ("\nmap\n..T\nG@S", "", ["3: the header has no line 'map'"]),
         ("G@S", "G@", ["6: 2 cells, but width is 3 (mend the row)"]),
@@ -77,7 +77,7 @@ def test_a_scen_row_says_x_then_y(hall: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("version 1\n", "there is no row (give one for each robot)"),
+        ("version 1\n", " there is no row (give one for each robot)"),
         ("version 1\n0 hall.map 3 2", "2: 4 columns (give bucket, map, width"),
         ("0 hall.map 3 2 0 0 x 1 0", "1: 'x' is no count of cells"),
         ("0 hall.map 3 2 0 0 -1 1 0", "1: '-1' is no count of cells"),

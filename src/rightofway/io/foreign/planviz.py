@@ -156,7 +156,7 @@ def _visits(
         run = at[int(np.argmax(broken))]
         message = f"{chr(actions[run])} ends after {progress[run] % steps_per_move} of"
         remedy = "finish it before the next action"
-        raise InputError.at(("step", ends[run]), f"{message} {steps_per_move} steps ({remedy})")
+        raise InputError.at(("step", int(ends[run])), f"{message} {steps_per_move} steps ({remedy})")
     marks = steps_per_move * np.arange(1, progress[-1:].sum() // steps_per_move + 1)
     runs = np.searchsorted(progress, marks)  # that complete the moves and turns
     steps = ends[runs] - (progress[runs] - marks)
@@ -234,7 +234,7 @@ def _runs(path: Any, changes: Mapping[str, Cell]) -> tuple[NDArray[np.uint8], ND
     if unknown:
         index = next(index for index, action in enumerate(actions) if action in unknown)
         message = f"{shown(actions[index])} is no action (give one of {', '.join(known)})"
-        raise InputError.at(("step", sum(lengths[:index])), message)
+        raise InputError.at(("step", int(sum(lengths[:index]))), message)
     if sum(lengths) > MAX_STEPS:
         raise InputError.at("", f"{sum(lengths)} steps are too many (give at most {MAX_STEPS})")
     return np.frombuffer("".join(actions).encode(), np.uint8), np.array(lengths, np.int64)
