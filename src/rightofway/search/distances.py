@@ -89,7 +89,7 @@ class Distances:
         vertices = np.array(path, np.int32)
         if len(path) and not 0 <= vertices.min() <= vertices.max() < self.roadmap.n_vertices:
             k = int(np.argmax((vertices < 0) | (vertices >= self.roadmap.n_vertices)))
-            checked_index(f"path[{k}]", path[k], self.roadmap.n_vertices)
+            checked_index(("path", k), path[k], self.roadmap.n_vertices)
         edges = self.roadmap.edges(vertices[:-1], vertices[1:])
         ticks = self.ticks_of_edges(edge_ticks)[edges]
         is_open = min(edges.min(initial=0), ticks.min(initial=0)) >= 0

@@ -108,7 +108,7 @@ class FleetSearch:
 
     def _robots(self, order: Sequence[int]) -> NDArray[np.int32]:
         for k, robot in enumerate(order):
-            checked_index(f"order[{k}]", robot, self._n_robots)
+            checked_index(("order", k), robot, self._n_robots)
         return np.array(order, np.int32)
 
     def go_on(self, *, searches: int, time_limit: float | None) -> bool:

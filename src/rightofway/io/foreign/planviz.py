@@ -155,8 +155,8 @@ def _visits(
     if broken.any():
         run = at[int(np.argmax(broken))]
         message = f"{chr(actions[run])} ends after {progress[run] % steps_per_move} of"
-        remedy = "finish it before the next action"
-        raise InputError.at(("step", int(ends[run])), f"{message} {steps_per_move} steps ({remedy})")
+        message += f" {steps_per_move} steps (finish it before the next action)"
+        raise InputError.at(("step", int(ends[run])), message)
     marks = steps_per_move * np.arange(1, progress[-1:].sum() // steps_per_move + 1)
     runs = np.searchsorted(progress, marks)  # that complete the moves and turns
     steps = ends[runs] - (progress[runs] - marks)
