@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from rightofway.check import Fault, Report, check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
+from rightofway.figures import PackageFigures as _PackageFigures
 from rightofway.fleet_builder import FleetBuilder, plan_of_paths
 from rightofway.model import (
     Decision,
@@ -41,6 +42,7 @@ from rightofway.model import (
     Track,
     Wait,
 )
+from rightofway.model.figures import provide as _provide
 from rightofway.planners import (
     AutoOptions,
     LacamOptions,
@@ -73,6 +75,8 @@ if _TYPE_CHECKING:
     from rightofway.viz.palette import Theme
 
 __version__ = "0.1.0"
+
+_provide(_PackageFigures())
 
 _ROOMS = {
     "cyclic": ("CyclicResult", "best_timetable", "plan_of", "run_laps"),

@@ -1,7 +1,8 @@
 """Where each completion time goes: alone + detours + making room + waiting = completion.
 
-Waits have a cause: the next visit on the route that begins to book its vertex at the very tick at
-which another robot's booking ends. Were the wait shorter, the robot would wait there. Waits that
+Waits have a cause: the next visit on the route that a right of way binds, which begins as soon as
+the visit of another robot that goes first is over. Were the wait shorter, the robot would wait
+there. Waits that
 follow each other behind one robot, along vertices that both visit in the same order, are joined.
 
 Making room is what a last-exit decomposition of the route cuts out: between two stops, from each

@@ -1,4 +1,4 @@
-"""The waits of a plan, read from its tracks alone: robot, place, ticks, robot waited for."""
+"""The waits of a plan: robot, place, ticks, and the robot whose right of way they are due to."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.metrics.collisions import Bookings, bookings_of
-from rightofway.model import Plan, Scenario, Stays, Tick, Track, Wait, stays_of
+from rightofway.model import NEVER, Plan, Route, Scenario, Stays, Tick, Track, Wait, stays_of
 from rightofway.model.given import checked_plan
-from rightofway.model.resources import Resources
-from rightofway.site import Roadmap, VertexId
+from rightofway.native import BookedRows
+from rightofway.precedence import PrecedenceGraph, order_of
+from rightofway.precedence.graph import Pairs
+from rightofway.site import VertexId
 
 Visits = NDArray[np.int64]
 """Numbers of visits, counted robot by robot along the tracks."""
@@ -69,7 +70,10 @@ def waits_in(
 
 
 def freed_by(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]) -> Visits:
-    """Return, for each visit, which visit of another robot ends its booking as this one begins.
+    """Return, for each visit, the visit of another robot whose right of way binds it.
+
+    A right of way binds where the second visit begins to book as soon as the first one, and the
+    headway, is over: were the first one later, the second one would be.
 
     Parameters
     ----------
@@ -84,54 +88,55 @@ def freed_by(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
     -------
     ndarray
         Numbers of visits, counted robot by robot along the tracks, or `NOBODY`; int64, shape (n,).
-        Visits that a robot with a size elsewhere makes possible have them only as far as a wait is
-        explained: from each wait on up to the next visit that has one.
     """
-    problem, bookings = scenario.problem, bookings_of(scenario, tracks, stays)
+    problem, last = scenario.problem, np.cumsum([len(track) for track in tracks]) - 1
+    enter = np.concatenate([track.enter for track in tracks])
+    drive_in = np.roll(np.concatenate([stay.drive for stay in stays]), 1)  # that of the last is 0
+    start = enter - drive_in * scenario.rules.books_ahead
+    end = np.append(enter[1:] + problem.headway, NEVER)
+    end[last] = NEVER
+    robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
+    first, second = rights_of_way(scenario, tracks, stays).T
     # Where rotations are forbidden, planners keep one tick between two bookings of a vertex.
     gap = 0 if problem.rotations or problem.headway else 1
-    before, after = slice(-1), slice(1, None)
-    frees = np.full(len(bookings.robot), NOBODY)
-    ends_as_begins = (
-        (bookings.vertex[before] == bookings.vertex[after])
-        & np.isin(bookings.start[after] - bookings.end[before], (0, gap))
-        & (bookings.robot[before] != bookings.robot[after])
-    )
-    frees[bookings.visit[after][ends_as_begins]] = bookings.visit[before][ends_as_begins]
-    resources = problem.resources
-    if resources is not None:
-        waiting = np.flatnonzero(np.concatenate([stay.waits for stay in stays]) > 0)
-        _add_places_apart(scenario.roadmap, resources, bookings, waiting, frees)
+    binds = np.isin(start[second] - end[first], (0, gap)) & (robot[first] != robot[second])
+    frees = np.full(len(enter), NOBODY)
+    frees[second[binds][::-1]] = first[binds][::-1]  # of several, the first in order
     return frees
 
 
-def _add_places_apart(
-    roadmap: Roadmap, resources: Resources, bookings: Bookings, waiting: Visits, frees: Visits
-) -> None:
-    """Add the visits of robots that were too near, at another vertex or on an edge."""
-    order = np.argsort(bookings.visit)
-    robot, vertex = bookings.robot[order], bookings.vertex[order]
-    start, end = bookings.start[order], bookings.end[order]
-    base = resources.size_of[robot] * (resources.n_vertices + resources.n_edges)
-    at_vertex = base + vertex
-    edge = np.append(roadmap.edges(vertex[:-1], vertex[1:]), -1)
-    on_edge = np.where(edge < 0, at_vertex, base + resources.n_vertices + edge)
-    by_end = np.argsort(end, kind="stable")
-    sorted_ends = end[by_end]
-    explained: set[int] = set()
-    for wait in waiting[::-1].tolist():
-        visit = wait + 1
-        while visit < len(robot) and robot[visit] == robot[wait] and visit not in explained:
-            explained.add(visit)
-            if frees[visit] != NOBODY:
-                break
-            first, last = np.searchsorted(sorted_ends, (start[visit], start[visit] + 1))
-            ended = by_end[first:last]
-            ended = ended[robot[ended] != robot[wait]]
-            rows = (int(at_vertex[visit]), int(on_edge[visit - 1]))
-            excluded = np.concatenate([resources.excluded_by(row) for row in rows])
-            near = np.isin(at_vertex[ended], excluded) | np.isin(on_edge[ended], excluded)
-            if near.any():
-                frees[visit] = ended[near][0]
-                break
-            visit += 1
+def rights_of_way(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]) -> Pairs:
+    """Return which visit goes before which, as the tracks have it, by the second visit.
+
+    Parameters
+    ----------
+    scenario, tracks, stays
+        As for `freed_by`.
+
+    Returns
+    -------
+    ndarray
+        Pairs (first, second) of visits; int32, shape (m, 2). None for robots with a size whose
+        tracks break the rules, so that no order explains them.
+    """
+    vertices = [track.vertices for track in tracks]
+    rows = BookedRows.of(scenario, vertices)
+    if rows is None:
+        enter = np.concatenate([track.enter for track in tracks])
+        return order_of(np.concatenate(vertices), enter)
+    routes = [
+        Route(
+            vertices=tuple(map(VertexId, track.vertices.tolist())),
+            dwell=tuple(map(Tick, stay.dwell.tolist())),
+            drive=tuple(map(Tick, [0, *stay.drive[:-1].tolist()])),
+        )
+        for track, stay in zip(tracks, stays, strict=True)
+    ]
+    may_last = all((np.diff(track.enter) > 0).all() for track in tracks)
+    graph = PrecedenceGraph(
+        routes, headway=scenario.problem.headway, books_ahead=scenario.rules.books_ahead, rows=rows
+    )
+    if not may_last or not graph.keeps_order([track.enter for track in tracks]):
+        return np.empty((0, 2), np.int32)
+    rights = graph.rights()
+    return rights[np.lexsort((rights[:, 0], rights[:, 1]))]

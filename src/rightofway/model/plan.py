@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import Any, Literal, TypeVar
 
 from rightofway.errors import InputError, nearest, shown
-from rightofway.model.above import from_above
+from rightofway.model.figures import provided
 from rightofway.model.lost_time import LostTime
 from rightofway.model.outcome import Outcome
 from rightofway.model.robot import Robot
@@ -215,8 +215,8 @@ class Wait:
     towards
         The vertex where the robot goes next.
     for_robot
-        The robot that frees that vertex, or for robots with a size one too near to it, at the very
-        tick from which the waiting robot books it. None if no robot does: then the reason lies
+        The robot whose right of way binds the visit of that vertex: the waiting robot books it as
+        soon as that robot is out of the way. None if no right of way does: then the reason lies
         further on the route.
     """
 
@@ -284,13 +284,11 @@ class Plan:
 
     def _repr_html_(self) -> str:
         """Return the page of the plan in a frame, for notebooks."""
-        page: str = from_above("frame_of")(self)
-        return page
+        return provided().plan_html(self)
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, Any]:
         """Return the page of the plan as a live part of a notebook that has anywidget."""
-        bundle: dict[str, Any] = from_above("bundle_of")(self)
-        return bundle
+        return provided().plan_bundle(self)
 
     def once(self, figure: str, compute: Callable[[], T]) -> T:
         """Return a figure of this plan; it is computed at the first request and kept by name."""
@@ -325,13 +323,13 @@ class Plan:
         NoPlanExists
             If no way leads from one place of a robot's trip to the next.
         """
-        alone = self.run.alone or from_above("alone_completions")(self.scenario)
+        alone = self.run.alone or provided().alone_completions(self.scenario)
         return Tick(sum(alone))
 
     @property
     def waits(self) -> tuple[Wait, ...]:
         """Every wait of every robot, by tick, then by robot."""
-        return self.once("waits", lambda: from_above("waits")(self))
+        return provided().waits(self)
 
     @property
     def lost_time(self) -> tuple[LostTime, ...]:
@@ -342,7 +340,7 @@ class Plan:
         NoPlanExists
             If no way leads from one place of a robot's trip to the next.
         """
-        return self.once("lost time", lambda: from_above("lost_time")(self))
+        return provided().lost_time(self)
 
     def __getitem__(self, name: str) -> RobotPlan:
         """Return the part of one robot.
@@ -396,7 +394,7 @@ class Plan:
                 module = import_module(name)
             except ImportError:
                 continue
-            columns = from_above("event_columns")(self)
+            columns = provided().event_columns(self)
             return getattr(module, "table" if name == "pyarrow" else "DataFrame")(columns)
         which = f"none of {', '.join(wanted)} is" if library is None else f"{library} is not"
         raise InputError.at("library", f"{which} installed (run: pip install {wanted[0]})")

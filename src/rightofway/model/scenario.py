@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from rightofway.errors import InputError, InputFault, Where, shown
-from rightofway.model.above import from_above
 from rightofway.model.closures import Closure, closure_faults
+from rightofway.model.figures import provided
 from rightofway.model.problem import HEAVIEST, Problem, problem_of, whole_weights
 from rightofway.model.resources import too_short_edges
 from rightofway.model.robot import Robot, Rules, Turn
@@ -81,8 +81,7 @@ class Scenario:
 
     def _repr_html_(self) -> str:
         """Return the map and the robots, for notebooks."""
-        made: str = from_above("scenario_html")(self)
-        return made
+        return provided().scenario_html(self)
 
     @property
     def quantities(self) -> Quantities:

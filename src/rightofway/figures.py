@@ -1,0 +1,57 @@
+"""The answers of plans and scenarios that rooms above the model give; provided by the package.
+
+Rooms are imported at the first answer, so that ``import rightofway`` stays fast.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rightofway.model import LostTime, Plan, Scenario, Tick, Wait
+
+
+class PackageFigures:
+    """`rightofway.model.figures.Figures` by the rooms of this package."""
+
+    def alone_completions(self, scenario: Scenario) -> tuple[Tick, ...]:
+        """Return the least completion of each robot without the others [ticks]."""
+        from rightofway.metrics import alone_completions
+
+        return alone_completions(scenario)
+
+    def waits(self, plan: Plan) -> tuple[Wait, ...]:
+        """Return all waits of a plan."""
+        from rightofway.metrics import waits
+
+        return waits(plan)
+
+    def lost_time(self, plan: Plan) -> tuple[LostTime, ...]:
+        """Return what each robot of a plan loses to others."""
+        from rightofway.metrics import lost_time
+
+        return lost_time(plan)
+
+    def event_columns(self, plan: Plan) -> dict[str, list[Any]]:
+        """Return the columns of the table of all visits of a plan."""
+        from rightofway.metrics import event_columns
+
+        return event_columns(plan)
+
+    def plan_html(self, plan: Plan) -> str:
+        """Return the page of a plan in a frame."""
+        from rightofway.viz import frame_of
+
+        return frame_of(plan)
+
+    def plan_bundle(self, plan: Plan) -> dict[str, Any]:
+        """Return the page of a plan as a live part of a notebook."""
+        from rightofway.viz import bundle_of
+
+        return bundle_of(plan)
+
+    def scenario_html(self, scenario: Scenario) -> str:
+        """Return the map and the robots of a scenario."""
+        from rightofway.viz import scenario_html
+
+        return scenario_html(scenario)

@@ -1,0 +1,53 @@
+"""What plans and scenarios answer although rooms above the model compute or draw it.
+
+The model imports no room above. The package, which may import all of them, provides one object with
+these answers when it is imported: see `rightofway.figures`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from rightofway.model.lost_time import LostTime
+    from rightofway.model.plan import Plan, Wait
+    from rightofway.model.scenario import Scenario
+    from rightofway.model.units import Tick
+
+
+class Figures(Protocol):
+    """Figures of plans, and how plans and scenarios look in a notebook."""
+
+    def alone_completions(self, scenario: Scenario) -> tuple[Tick, ...]:
+        """Return the least completion of each robot without the others [ticks]."""
+
+    def waits(self, plan: Plan) -> tuple[Wait, ...]:
+        """Return all waits of a plan."""
+
+    def lost_time(self, plan: Plan) -> tuple[LostTime, ...]:
+        """Return what each robot of a plan loses to others."""
+
+    def event_columns(self, plan: Plan) -> dict[str, list[Any]]:
+        """Return the columns of the table of all visits of a plan."""
+
+    def plan_html(self, plan: Plan) -> str:
+        """Return the page of a plan in a frame."""
+
+    def plan_bundle(self, plan: Plan) -> dict[str, Any]:
+        """Return the page of a plan as a live part of a notebook."""
+
+    def scenario_html(self, scenario: Scenario) -> str:
+        """Return the map and the robots of a scenario."""
+
+
+_provided: list[Figures] = []
+
+
+def provide(figures: Figures) -> None:
+    """Set what plans and scenarios answer from."""
+    _provided[:] = [figures]
+
+
+def provided() -> Figures:
+    """Return what was provided."""
+    return _provided[0]
