@@ -33,6 +33,13 @@ types: node-modules
 node-modules:
     [ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --silent
 
+# A wheel for this Python in build/wheels, its tag, and a try without a compiler on each of PYTHONS
+wheel *pythons="python3":
+    rm -rf build/wheels
+    pip wheel -q --no-deps -w build/wheels .
+    if [ "$(uname)" = Linux ]; then auditwheel repair -w build/wheels/repaired build/wheels/*.whl; fi
+    .ci/try_wheel "$(ls build/wheels/repaired/*.whl build/wheels/*.whl 2>/dev/null | head -n 1)" {{ pythons }}
+
 # Who may import whom
 contracts:
     lint-imports

@@ -150,14 +150,12 @@ std::optional<Route> find_route(const PeriodicBookings& self, const BoundRoads& 
                                 std::optional<double> time_limit, std::int32_t first_row) {
     const Roads roads = bound.roads();
     const VertexId home = given.stage_vertex.size() == 0 ? 0 : view(given.stage_vertex).back();
-    Trip trip{home,
-              view(given.stage_vertex),
-              view(given.stage_work),
-              view(given.stage_turn),
-              view(given.pace),
-              {},
-              {},
-              {}};
+    Trip trip;
+    trip.home = home;
+    trip.stage_vertex = view(given.stage_vertex);
+    trip.stage_work = view(given.stage_work);
+    trip.stage_turn = view(given.stage_turn);
+    trip.pace = view(given.pace);
     for (std::size_t k = 0; k < given.stage_tables.size(); ++k) {
         require_length("stage_tables[" + std::to_string(k) + "]", given.stage_tables[k].size(),
                        bound.indptr.size() == 0 ? 0 : bound.indptr.size() - 1);
