@@ -23,7 +23,7 @@ from click.testing import CliRunner
 
 from rightofway.bench import COLUMNS
 from rightofway.cli.main import commands
-from rightofway.execution import CAUSES, DEFAULT
+from rightofway.execution import CAUSES, DEFAULT_DELAYS
 from rightofway.io import schema
 from rightofway.model import Robot, Rules, Stop
 from rightofway.planners import Option, find
@@ -167,7 +167,7 @@ def result_columns() -> Iterable[str]:
 def delay_causes() -> Iterable[str]:
     """Return what makes robots late, and how it is written."""
     examples = chain.from_iterable(cause.examples for cause in CAUSES.values())
-    default = {DEFAULT: "; this is the default"}
+    default = {DEFAULT_DELAYS: "; this is the default"}
     rows = ((f"`{text}`", what + default.get(text, "")) for text, what in examples)
     return table(("cause", "what happens"), rows)
 

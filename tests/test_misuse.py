@@ -9,6 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import networkx as nx  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 
@@ -16,6 +17,10 @@ import rightofway as rw
 
 DOOR = rw.load(Path(__file__).parents[1] / "examples/door.yaml")
 PLAN = rw.solve(DOOR, seed=1, time_limit=0.1)
+
+QUANTITIES = rw.Quantities(units=DOOR.units, tick=Fraction(1))
+ENDS = np.array([0, 1], np.int32)
+SITE = rw.layout_of_graph(nx.DiGraph([((0, 0), (1, 0))]))
 
 STRANGE: list[Any] = [
     None,
@@ -90,12 +95,36 @@ GOOD: dict[str, tuple[Callable[[], Callable[..., Any]], dict[str, Any]]] = {
     "best_timetable": (lambda: rw.best_timetable, {"scenario": DOOR, "rounds": 0}),
     "check": (lambda: rw.check, {"plan": PLAN}),
     "improve": (lambda: rw.improve, {"plan": PLAN, "time_limit": 0.01}),
+    "Layout.level": (lambda: SITE.level, {}),
+    "LostTime.as_dict": (lambda: PLAN.lost_time[0].as_dict, {}),
+    "Objective.of": (
+        lambda: rw.Objective.FLOWTIME.of,
+        {"scenario": DOOR, "tracks": PLAN.tracks},
+    ),
+    "Plan.__getitem__": (lambda: PLAN.__getitem__, {"name": "R1"}),
+    "Plan.once": (lambda: PLAN.once, {"figure": "of a test", "compute": list}),
+    "Plan.to_dataframe": (lambda: PLAN.to_dataframe, {"library": "pandas"}),
+    "Quantities.cell": (lambda: QUANTITIES.cell, {"ticks": 1}),
+    "Quantities.duration": (lambda: QUANTITIES.duration, {"ticks": 1}),
+    "Quantities.length": (lambda: QUANTITIES.length, {"value": 1}),
+    "Quantities.moment": (lambda: QUANTITIES.moment, {"ticks": 1}),
+    "Quantities.speed": (lambda: QUANTITIES.speed, {"value": 1}),
+    "Quantities.heading": (lambda: QUANTITIES.heading, {"words": "time"}),
+    "Roadmap.edge": (lambda: DOOR.roadmap.edge, {"tail": 0, "head": 1}),
+    "Roadmap.edge_class": (lambda: DOOR.roadmap.edge_class, {"edge": 0}),
+    "Roadmap.is_along_one_lane": (lambda: DOOR.roadmap.is_along_one_lane, {"vertices": (0, 1)}),
+    "Roadmap.ways_along": (lambda: DOOR.roadmap.ways_along, {"ends": (0, 1)}),
+    "Roadmap.edges": (lambda: DOOR.roadmap.edges, {"tails": ENDS[:1], "heads": ENDS[1:]}),
+    "Roadmap.name": (lambda: DOOR.roadmap.name, {"vertex": 0}),
+    "Roadmap.point": (lambda: DOOR.roadmap.point, {"vertex": 0}),
+    "Roadmap.vertex": (lambda: DOOR.roadmap.vertex, {"name": "N0"}),
+    "Roadmap.without": (lambda: DOOR.roadmap.without, {"closed": {1}, "edges": [(0, 1)]}),
     "layout_of_graph": (lambda: rw.layout_of_graph, {}),
     "load": (lambda: rw.load, {"path": "fleet.yaml"}),
     "load_plan": (lambda: rw.load_plan, {"path": "plan.json"}),
     "lost_time": (lambda: rw.lost_time, {}),
     "measure": (lambda: rw.measure, {}),
-    "plan_of": (lambda: rw.plan_of, {"result": rw.run_laps(DOOR)}),
+    "plan_of_laps": (lambda: rw.plan_of_laps, {"result": rw.run_laps(DOOR)}),
     "plan_of_paths": (lambda: rw.plan_of_paths, {"scenario": DOOR, "paths": {}}),
     "run_laps": (lambda: rw.run_laps, {"scenario": DOOR}),
     "simulate": (lambda: rw.simulate, {"plan": PLAN, "runs": 1}),
@@ -134,6 +163,23 @@ RESULTS = (
 
 def test_every_export_is_either_tried_or_made_by_the_package() -> None:
     assert set(rw.__all__) == RESULTS | {name for name in GOOD if "." not in name}
+
+
+def methods() -> set[str]:
+    """Return the methods that exported classes add and that take arguments."""
+    return {
+        f"{name}.{method}"
+        for name in rw.__all__
+        if inspect.isclass(cls := getattr(rw, name))
+        for method in vars(cls)
+        if not method.startswith("_") or method == "__getitem__"
+        if inspect.isroutine(inspect.unwrap(call := getattr(cls, method)))
+        if set(inspect.signature(call).parameters) - {"self"}
+    }
+
+
+def test_every_method_of_an_export_is_tried() -> None:
+    assert methods() == {"InputError.at"} | {name for name in GOOD if "." in name}
 
 
 CALLS = [

@@ -7,6 +7,7 @@ import copy
 import json
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -20,8 +21,13 @@ ENTRY = re.compile(r'^  (?:"((?:[^"\\]|\\.)+)"|(\w+)):\s+"((?:[^"\\]|\\.)+)",$',
 VALUE = re.compile(r"\{(\w+)\}")
 
 
-def templates() -> Iterator[str]:
-    """Yield the templates of all phrases in the library."""
+@cache
+def templates() -> frozenset[str]:
+    """Return the templates of all phrases in the library."""
+    return frozenset(_templates())
+
+
+def _templates() -> Iterator[str]:
     for path in SOURCES.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
             if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)):
@@ -40,11 +46,11 @@ def german() -> dict[str, str]:
 
 
 def test_every_phrase_of_the_library_has_its_german() -> None:
-    assert set(templates()) - set(german()) == set()
+    assert templates() - set(german()) == set()
 
 
 def test_no_translation_is_left_of_a_phrase_that_is_gone() -> None:
-    assert set(german()) - set(templates()) == set()
+    assert set(german()) - templates() == set()
 
 
 def test_a_translation_has_the_values_of_its_template() -> None:

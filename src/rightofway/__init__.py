@@ -61,7 +61,7 @@ from rightofway.site.layout import Layout
 from rightofway.solve import improve, solve
 
 if _TYPE_CHECKING:
-    from rightofway.cyclic import CyclicResult, best_timetable, plan_of, run_laps
+    from rightofway.cyclic import CyclicResult, best_timetable, plan_of_laps, run_laps
     from rightofway.execution import SimulationResult, simulate
     from rightofway.io import (
         layout_of_graph,
@@ -79,7 +79,7 @@ __version__ = "0.1.0"
 _provide(_PackageFigures())
 
 _ROOMS = {
-    "cyclic": ("CyclicResult", "best_timetable", "plan_of", "run_laps"),
+    "cyclic": ("CyclicResult", "best_timetable", "plan_of_laps", "run_laps"),
     "execution": ("SimulationResult", "simulate"),
     "io": (
         "layout_of_graph",
@@ -148,7 +148,7 @@ __all__ = [
     "load_plan",
     "lost_time",
     "measure",
-    "plan_of",
+    "plan_of_laps",
     "plan_of_paths",
     "run_laps",
     "simulate",

@@ -11,6 +11,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Literal, get_args
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.phrases import counted
 
@@ -163,6 +164,7 @@ class Quantities:
             message = f"{shown(self.in_ticks)} is neither true nor false (give True or False)"
             raise InputError.at("in_ticks", message)
 
+    @checks_arguments
     def duration(self, ticks: Value) -> str:
         """Return how long a number of ticks lasts: ``6 min 23 s``, ``2 time units``."""
         if self.in_ticks:
@@ -173,12 +175,14 @@ class Quantities:
             return counted(decimal(time), "time unit", "time units")
         return self._clock(time * seconds)
 
+    @checks_arguments
     def moment(self, ticks: Value) -> str:
         """Return a point in time: ``6 min 23 s`` after the start, ``time 2``, ``tick 4``."""
         if self.in_ticks:
             return f"tick {decimal(ticks)}"
         return self.duration(ticks) if self.units.time else f"time {self.cell(ticks)}"
 
+    @checks_arguments
     def cell(self, ticks: Value) -> str:
         """Return a time as the bare number of a table's cell; `time_unit` is for its heading."""
         return decimal(ticks if self.in_ticks else self._time(ticks))
@@ -188,14 +192,17 @@ class Quantities:
         """The unit of `cell`: ``s``, ``ticks``; empty where the scenario names none."""
         return "ticks" if self.in_ticks else self.units.time or ""
 
+    @checks_arguments
     def heading(self, words: str) -> str:
         """Return the heading of a column of times: ``completes [s]``."""
         return f"{words} [{self.time_unit}]" if self.time_unit else words
 
+    @checks_arguments
     def length(self, value: Value) -> str:
         """Return a length: ``0.45 m``, ``0.45 length units``."""
         return self.units.written_length(value)
 
+    @checks_arguments
     def speed(self, value: Value) -> str:
         """Return a speed: ``1.2 m/s``; a bare number where the scenario names no units."""
         length, time = self.units.length, self.units.time

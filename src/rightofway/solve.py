@@ -33,7 +33,7 @@ from rightofway.model.given import (
 )
 from rightofway.model.outcome import outcome_of_cost
 from rightofway.planners import (
-    DEFAULT,
+    DEFAULT_PLANNER,
     IMPROVER,
     Draft,
     Feature,
@@ -54,7 +54,7 @@ JUDGING = 0.4e-6
 
 def solve(
     scenario: Scenario,
-    planner: str = DEFAULT,
+    planner: str = DEFAULT_PLANNER,
     time_limit: float | None = 10,
     seed: int = 0,
     *,

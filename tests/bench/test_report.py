@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from rightofway.bench import COLUMNS, Group, Quantiles, Row, by_planner, write_report
+from rightofway.bench import COLUMNS, Group, Quartiles, Row, by_planner, write_report
 from rightofway.bench.summary import by_robots
 from rightofway.errors import InputError
 
@@ -37,7 +37,7 @@ def test_a_group_has_medians_of_what_is_solved() -> None:
     assert (group.cases, group.solved, group.memory) == (5, 4, 40)
     assert group.ratio is not None
     assert astuple(group.ratio) == pytest.approx((1.175, 1.25, 1.325))
-    assert group.seconds == Quantiles(1.75, 2.5, 3.25)
+    assert group.seconds == Quartiles(1.75, 2.5, 3.25)
     assert group.statuses == {"solved": 4, "gave up": 1}
 
 

@@ -66,11 +66,18 @@ def grid_fleet(
 
 
 def random_fleet(
-    seed: int, *, size: int = 12, robots: int = 8, walls: float = 0.1, rules: Rules | None = None
+    seed: int,
+    *,
+    size: int = 12,
+    robots: int = 8,
+    walls: float = 0.1,
+    rules: Rules | None = None,
+    apart: bool = False,
 ) -> Scenario:
-    """Return a random fleet in the largest open part of a random grid; targets all differ."""
+    """Return a random fleet in the largest open part of a random grid; see `fleet_on`."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
-    return fleet_on(random_grid(draw, size=size, walls=walls), draw, robots=robots, rules=rules)
+    grid = random_grid(draw, size=size, walls=walls)
+    return fleet_on(grid, draw, robots=robots, rules=rules, apart=apart)
 
 
 def fleet_on(
@@ -80,11 +87,17 @@ def fleet_on(
     robots: int,
     work: int = 5,
     rules: Rules | None = None,
+    apart: bool = False,
 ) -> Scenario:
-    """Return a random fleet in the largest open part of a grid; targets all differ."""
+    """Return a random fleet in the largest open part of a grid; targets all differ.
+
+    With ``apart``, no robot works at its own home, as laps ask for.
+    """
     roadmap = roadmap_of_grid(grid)
     places = largest_part(roadmap)
     homes, targets = draw.sample(places, robots), draw.sample(places, robots)
+    while apart and any(home == target for home, target in zip(homes, targets, strict=True)):
+        targets = draw.sample(places, robots)
     speeds = [Fraction(1), Fraction(1, 2), Fraction(1, 3)]
     return grid_fleet(
         grid,

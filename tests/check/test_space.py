@@ -60,13 +60,13 @@ def test_points_may_cross() -> None:
 
 
 def test_two_points_beside_a_robot_with_a_size_are_judged_as_points() -> None:
-    """A and B cross D and C; the third robot with a size is far away."""
+    """Two points pass at 1, less than the clearance; the robot with a size is 2.2 away, not 2."""
     fleet = grid_fleet(
         ["....", "....", "...."],
         [("N0", "N1"), ("N5", "N4"), ("N11", "N11")],
         rules=Rules(ends="none"),
     )
-    mixed = with_radii(fleet, [Fraction(0), Fraction(0), Fraction(1, 2)])
+    mixed = with_radii(fleet, [Fraction(0), Fraction(0), Fraction(1, 2)], Fraction(3, 2))
     assert check(plan_of(mixed, ([0, 1], [0, 1]), ([5, 4], [0, 1]), ([11], [0]))).ok
 
 

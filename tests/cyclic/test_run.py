@@ -7,7 +7,7 @@ from typing import cast
 
 import pytest
 
-from rightofway import GaveUp, InputError, check, plan_of, run_laps
+from rightofway import GaveUp, InputError, check, plan_of_laps, run_laps
 from rightofway.cyclic import cyclic_routes
 from rightofway.cyclic.pattern import pattern_of
 from rightofway.cyclic.result import GroupResult
@@ -154,7 +154,7 @@ def test_work_and_turn_at_home_are_part_of_a_lap() -> None:
     [endless] = cyclic_routes(scenario)
     assert endless.lap.duration == 9
     assert endless.lap.dwell == (4, 0, 1, 0)
-    assert check(plan_of(run_laps(scenario), laps=4)).ok
+    assert check(plan_of_laps(run_laps(scenario), laps=4)).ok
 
 
 def test_the_period_is_the_least_one_and_the_transient_too() -> None:
@@ -167,7 +167,7 @@ def test_the_period_is_the_least_one_and_the_transient_too() -> None:
 
 
 def test_whole_laps_are_a_plan_that_the_judge_accepts() -> None:
-    plan = plan_of(run_laps(CASES["door-2"]), laps=5)
+    plan = plan_of_laps(run_laps(CASES["door-2"]), laps=5)
     assert [robot.laps for robot in plan.scenario.robots] == [5, 5]
     assert check(plan).ok
 
@@ -176,12 +176,12 @@ def test_a_robot_that_is_home_for_good_in_the_way_of_others_makes_no_plan() -> N
     """R2 lives on R1's way: with one lap each it is home, for ever, before R1 is back."""
     scenario = grid_fleet(["....", "@.@@"], [("N0", "N3"), ("N2", "N5")], work=(9, 0))
     with pytest.raises(GaveUp, match="whole laps make no plan here"):
-        plan_of(run_laps(scenario, routes="shortest"), laps=1)
+        plan_of_laps(run_laps(scenario, routes="shortest"), laps=1)
 
 
 def test_no_plan_is_made_of_a_robot_that_waits_for_ever() -> None:
     with pytest.raises(GaveUp, match="R2 waits for ever"):
-        plan_of(run_laps(CASES["door-2"], "fixed-order", routes="shortest"))
+        plan_of_laps(run_laps(CASES["door-2"], "fixed-order", routes="shortest"))
 
 
 def test_trips_without_a_way_back_and_rules_unknown_are_refused() -> None:

@@ -13,8 +13,9 @@ from rightofway.cyclic.simulator import Deadlock
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline
+from rightofway.site import roadmap_of_grid
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
-from tests.builders.fleets import fleet_on, random_grid
+from tests.builders.fleets import fleet_on, largest_part, random_grid
 from tests.builders.laws import law, leave
 from tests.oracles.lap_rules import rolling
 
@@ -34,8 +35,11 @@ def groups_of(
 ) -> list[GroupContext]:
     """Return the groups of a random fleet, on any routes; none if a robot has nowhere to go."""
     grid = random_grid(draw, size=size, walls=walls)
+    most = len(largest_part(roadmap_of_grid(grid)))
     try:
-        scenario: Scenario = fleet_on(grid, draw, robots=robots, rules=rules)
+        scenario: Scenario = fleet_on(
+            grid, draw, robots=min(robots, most), rules=rules, apart=most > 1
+        )
         groups = independent_groups(scenario, cyclic_routes(scenario, draw.choice(ROUTES)))
     except (InputError, NoPlanExists, ValueError):
         leave("a robot has nowhere to go")

@@ -91,6 +91,6 @@ def test_a_wrong_value_does_not_fit(key: str, value: Any) -> None:
 
 def test_there_is_no_schema_of_anything_else() -> None:
     with pytest.raises(
-        InputError, match=r"'fleet' is no kind of document \(give one of: scenario, plan, suite"
+        InputError, match=r"kind: 'fleet' does not fit \(give 'scenario' or 'plan' or 'suite'"
     ):
         schema("fleet")  # type: ignore[arg-type]

@@ -8,7 +8,13 @@ from fractions import Fraction
 import pytest
 from hypothesis import strategies as st
 
-from rightofway.cyclic import Comparison, CyclicResult, best_timetable, plan_of, run_laps
+from rightofway.cyclic import (
+    BaselineComparison,
+    CyclicResult,
+    best_timetable,
+    plan_of_laps,
+    run_laps,
+)
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import planning_headway
@@ -38,7 +44,7 @@ def fleets(draw: st.DrawFn, least_size: int = 4) -> Scenario:
     )
 
 
-def comparisons(result: CyclicResult) -> list[Comparison]:
+def comparisons(result: CyclicResult) -> list[BaselineComparison]:
     """Return how the timetable of each group compares."""
     return [group.comparison for group in result.groups if group.comparison is not None]
 
@@ -98,7 +104,7 @@ def test_the_judge_passes_its_laps_as_a_plan(scenario: Scenario) -> None:
     homes = {robot.home for robot in scenario.robots}
     if any(homes.intersection(lap.vertices[1:]) for g in run.groups for lap in g.context.laps):
         leave("a home lies on a lap")
-    plan = plan_of(run)
+    plan = plan_of_laps(run)
     assert min(robot.laps or 0 for robot in plan.scenario.robots) >= 2
 
 

@@ -17,16 +17,27 @@ GRIDS = (["...", "@.@"], [".....", "@@.@@"], ["....", "@@@@", "...."], ["......"
 
 @st.composite
 def fleets(draw: st.DrawFn) -> Scenario:
-    """Draw two to four robots on a narrow grid, each with home and target in one row."""
-    grid = draw(st.sampled_from(GRIDS))
-    free = [f"N{k}" for k, cell in enumerate("".join(grid)) if cell == "."]
-    homes = draw(st.lists(st.sampled_from(free), min_size=2, max_size=4, unique=True))
+    """Draw two to four robots on a narrow grid, each with home and target in one row.
+
+    In most fleets the first two have to pass each other in a row, which most grids make impossible.
+    """
+    grid, pass_each_other = draw(st.sampled_from(GRIDS)), draw(st.sampled_from((True, True, False)))
     columns = len(grid[0])
+    free = [k for k, cell in enumerate("".join(grid)) if cell == "."]
+    homes = draw(st.lists(st.sampled_from(free), min_size=2, max_size=4, unique=True))
+    if pass_each_other:
+        rows = [[k for k in free if k // columns == row] for row in range(len(grid))]
+        row = draw(st.sampled_from([row for row in rows if len(row) > 1]))
+        left, right = sorted(draw(st.sets(st.sampled_from(row), min_size=2, max_size=2)))
+        homes = [left, right, *(home for home in homes if home not in {left, right})]
     trips = []
-    for home in homes:
-        row = int(home[1:]) // columns
-        near = [place for place in free if int(place[1:]) // columns == row]
-        trips.append((home, draw(st.sampled_from(near))))
+    for number, home in enumerate(homes):
+        near = [k for k in free if k // columns == home // columns]
+        if pass_each_other and number == 0:
+            near = [k for k in near if k >= homes[1]]
+        elif pass_each_other and number == 1:
+            near = [k for k in near if k <= homes[0]]
+        trips.append((f"N{home}", f"N{draw(st.sampled_from(near))}"))
     return grid_fleet(grid, trips, rules=Rules(ends="home"))
 
 

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import strategies as st
 
 import rightofway
-from rightofway.cyclic import best_timetable, plan_of, run_laps
+from rightofway.cyclic import best_timetable, plan_of_laps, run_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.planners.routing import shortest_routes
@@ -114,12 +114,12 @@ def test_moving_a_roadmap_changes_no_plan(fleet: Scenario, planner: str) -> None
 def test_laps_of_a_robot_alone_are_as_short_as_the_second_judge_allows(fleet: Scenario) -> None:
     """None of its visits may begin a tick sooner. Laps refuse closures, turn rates, one way."""
     try:
-        plan = plan_of(run_laps(fleet))
+        plan = plan_of_laps(run_laps(fleet))
     except (NoPlanExists, GaveUp):
         leave("no laps")
     except InputError:  # its only way has length 0: it stays at home
         leave("the robot does not drive")
-    assert faults(plan) == faults(plan_of(best_timetable(fleet, rounds=5))) == set()
+    assert faults(plan) == faults(plan_of_laps(best_timetable(fleet, rounds=5))) == set()
     [track] = plan.tracks
     for visit in range(1, len(track)):
         sooner = track.enter.copy()

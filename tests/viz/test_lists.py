@@ -16,7 +16,7 @@ from rightofway.model import Plan, Tick, completions_of
 from rightofway.planners.routing import free_running_tracks
 from rightofway.quantities import Units
 from rightofway.viz.table import (
-    Column,
+    ListColumn,
     Listing,
     chosen_events,
     collision_list,
@@ -135,7 +135,7 @@ def test_each_decision_goes_on_from_what_the_one_before_has_left() -> None:
 def test_a_long_list_is_cut_and_says_so() -> None:
     made = Listing(
         title="numbers",
-        columns=(Column(heading="n", values=range(5), kind="number"),),
+        columns=(ListColumn(heading="n", values=range(5), kind="number"),),
         quantities=in_seconds().scenario.quantities,
     )
     assert made.as_text(3).splitlines() == [

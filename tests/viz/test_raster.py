@@ -21,7 +21,7 @@ from rightofway.viz import Film, write_gif, write_png
 from rightofway.viz.palette import DARK, LIGHT, robot_colours
 from rightofway.viz.raster.canvas import Pen, Scene
 from rightofway.viz.raster.map import draw_robots, to_the_right
-from rightofway.viz.raster.names import Names
+from rightofway.viz.raster.names import MapNames
 from rightofway.viz.raster.sizes import sizes_of
 from tests.builders.plans import crowd, door, door_shifted, hostile, loop, yard
 
@@ -59,7 +59,7 @@ def test_no_name_covers_another_or_leaves_the_picture(plan: Plan, scale: float) 
     pen = Pen(Image.new("RGB", size), origin=(scale / 2, scale / 2), scale=scale, fineness=1)
     bounds = (-scale / 2, -scale / 2, size[0] - scale / 2, size[1] - scale / 2)
     sizes = sizes_of(scene, scale)
-    names = Names(scene, sizes, scale, bounds)
+    names = MapNames(scene, sizes, scale, bounds)
     for tick in (0, 3.5, 9):
         found = draw_robots(pen, scene, sizes, names, tick)
         assert found or scale < 10

@@ -9,13 +9,13 @@ from rightofway.bench.process import machine, run_here
 from rightofway.bench.report import write_report
 from rightofway.bench.results import COLUMNS, Results, Row, need
 from rightofway.bench.suite import Case, read_suite
-from rightofway.bench.summary import Group, Quantiles, by_planner
+from rightofway.bench.summary import Group, Quartiles, by_planner
 
 __all__ = [
     "COLUMNS",
     "Case",
     "Group",
-    "Quantiles",
+    "Quartiles",
     "Results",
     "Row",
     "by_planner",

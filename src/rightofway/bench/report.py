@@ -10,10 +10,11 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from rightofway.arguments import checks_arguments
 from rightofway.bench.results import Row, needed
 from rightofway.bench.summary import (
     Group,
-    Quantiles,
+    Quartiles,
     by_planner,
     by_robots,
     grouped,
@@ -68,6 +69,7 @@ LEAST_SECONDS = 0.001
 """Shorter times are drawn as this one, since a logarithmic axis has no 0."""
 
 
+@checks_arguments
 def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
     """Write a report.
 
@@ -137,7 +139,7 @@ def _details(rows: Sequence[Row]) -> Table:
 
 
 def _figures(group: Group) -> Iterator[str]:
-    def spread(found: Quantiles | None, form: str) -> str:
+    def spread(found: Quartiles | None, form: str) -> str:
         if found is None:
             return ""
         quartiles = (found.first_quartile, found.median, found.third_quartile)

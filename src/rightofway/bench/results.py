@@ -12,6 +12,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Literal, Self
 
+from rightofway.arguments import checks_arguments, value_of
 from rightofway.errors import InputError, Location, Where
 from rightofway.files import write_whole
 
@@ -76,6 +77,7 @@ EXTRAS = {"matplotlib": "bench", "pyarrow": "bench", "distributed": "dask"}
 NOT_RESULTS = "this is no file of results as they are now (give another file)"
 
 
+@checks_arguments
 def need(library: str, purpose: str) -> None:
     """Refuse with `InputError`, before any work, if an optional library is not installed.
 
@@ -86,8 +88,9 @@ def need(library: str, purpose: str) -> None:
     purpose
         What needs it, for the message.
     """
+    extra = value_of(EXTRAS, library, "library")
     if find_spec(library) is None:
-        remedy = f"pip install 'rightofway[{EXTRAS[library]}]'"
+        remedy = f"pip install 'rightofway[{extra}]'"
         raise InputError.at("", f"{purpose} needs {library} ({remedy})")
 
 

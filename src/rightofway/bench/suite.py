@@ -11,6 +11,7 @@ from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rightofway.arguments import checks_arguments
 from rightofway.bench.fleets import Cell, largest_part, random_grid, scenario_document
 from rightofway.errors import InputError, Steps, Where, in_file, under
 from rightofway.io import dump_scenario, load, scenario_of
@@ -120,6 +121,7 @@ class Case:
         return scenario_of(document)
 
 
+@checks_arguments
 def read_suite(path: Path | str) -> tuple[Case, ...]:
     """Read a suite and every file that it names; return every combination of what it lists.
 

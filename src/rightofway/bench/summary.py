@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from rightofway.arguments import checks_arguments
 from rightofway.bench.results import Row
 
 
 @dataclass(frozen=True, slots=True)
-class Quantiles:
+class Quartiles:
     """Median and quartiles of some numbers."""
 
     first_quartile: float
@@ -21,7 +22,7 @@ class Quantiles:
     third_quartile: float
 
     @classmethod
-    def of(cls, values: Iterable[float | None]) -> Quantiles | None:
+    def of(cls, values: Iterable[float | None]) -> Quartiles | None:
         """Return those of the known values, or None if there is none."""
         known = [value for value in values if value is not None]
         return cls(*map(float, np.percentile(known, [25, 50, 75]))) if known else None
@@ -47,8 +48,8 @@ class Group:
 
     cases: int
     solved: int
-    ratio: Quantiles | None
-    seconds: Quantiles | None
+    ratio: Quartiles | None
+    seconds: Quartiles | None
     memory: float | None
     statuses: Mapping[str, int]
 
@@ -59,8 +60,8 @@ class Group:
         return cls(
             cases=len(rows),
             solved=sum(row["solved"] for row in rows),
-            ratio=Quantiles.of(row["ratio"] for row in rows if row["solved"]),
-            seconds=Quantiles.of(row["first_plan_seconds"] for row in rows),
+            ratio=Quartiles.of(row["ratio"] for row in rows if row["solved"]),
+            seconds=Quartiles.of(row["first_plan_seconds"] for row in rows),
             memory=max(memory, default=None),
             statuses=dict(Counter(row["status"] for row in rows)),
         )
@@ -93,6 +94,7 @@ def planner_names(rows: Iterable[Row]) -> dict[str, str]:
     return names
 
 
+@checks_arguments
 def by_planner(rows: Sequence[Row], names: Mapping[str, str] | None = None) -> dict[str, list[Row]]:
     """Return the rows of each planner; names are those among all rows, if these are only some.
 

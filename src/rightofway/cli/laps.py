@@ -96,7 +96,7 @@ def laps(
     Where a scenario names no unit of time, throughput_per_hour of --json is laps in 3600 time
     units.
     """
-    from rightofway.cyclic import RULES, TIMETABLE, best_timetable, excerpt, plan_of, run_laps
+    from rightofway.cyclic import RULES, TIMETABLE, best_timetable, excerpt, plan_of_laps, run_laps
     from rightofway.model.deadline import WorkLimit, limited_work
     from rightofway.model.steady_state import within
     from rightofway.report.laps import laps_report
@@ -135,7 +135,7 @@ def laps(
         write_page(plan, page, steady=steady, title=file_title(scenario))
         say(f"wrote {page}")
     if output:
-        plan, steady = plan_of(run), excerpt(run)[1]
+        plan, steady = plan_of_laps(run), excerpt(run)[1]
         write(replace(plan, steady=within(steady, list(map(len, plan.tracks)))), output)
     ends = {group.ends for group in run.groups}
     return 1 if "deadlock" in ends else 3 if "open" in ends else 0

@@ -32,7 +32,7 @@ from rightofway.cli.terminal import (
     width,
 )
 from rightofway.errors import NoPlanExists
-from rightofway.planners import DEFAULT, IMPROVER, Feature, PlannerSpec, find, registered
+from rightofway.planners import DEFAULT_PLANNER, IMPROVER, Feature, PlannerSpec, find, registered
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -119,7 +119,7 @@ def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[.
 @count_option
 @click.option("--start", type=click.Path(), metavar="PLAN", shell_complete=files(*PLANS),
               help="Start from the PLAN of this SCENARIO before it was changed.")  # fmt: skip
-@_planning_options(DEFAULT)
+@_planning_options(DEFAULT_PLANNER)
 def plan(*, scenario: str, count: int | None, **given: Any) -> int:
     """Plan a SCENARIO (YAML, JSON, .xlsx or .scen) and check the plan.
 

@@ -92,14 +92,14 @@ def simulate(
     """
     if run is not None and not 0 <= run < runs:
         raise click.UsageError(f"--run {run} is not among the {runs} runs (0 is the first)")
-    from rightofway.execution import DEFAULT
+    from rightofway.execution import DEFAULT_DELAYS
     from rightofway.execution import simulate as execute
     from rightofway.io import DELAY_FILES, load_delays
     from rightofway.report.execution import report
     from rightofway.report.plan_data import measures
 
     texts: list[str] = []
-    for text in delays or [DEFAULT]:
+    for text in delays or [DEFAULT_DELAYS]:
         texts += load_delays(text) if text.lower().endswith(DELAY_FILES) else [text]
     found = read_plan(plan)
     with progress() as reported:

@@ -9,20 +9,20 @@ from rightofway.cyclic.bottleneck import (
 )
 from rightofway.cyclic.parameter_curves import CurvePiece, ParameterCurve, parameter_curves
 from rightofway.cyclic.pattern import Pattern
-from rightofway.cyclic.result import Comparison, CyclicResult, GroupResult, LapWait
+from rightofway.cyclic.result import BaselineComparison, CyclicResult, GroupResult, LapWait
 from rightofway.cyclic.route import ROUTES, CyclicRoute, GroupContext, cyclic_routes
 from rightofway.cyclic.rules import RULES, TIMETABLE
 from rightofway.cyclic.run import run_laps
 from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects
 from rightofway.cyclic.timetable_search import best_timetable
-from rightofway.cyclic.to_plan import excerpt, plan_of, visits_along
+from rightofway.cyclic.to_plan import excerpt, plan_of_laps, visits_along
 
 __all__ = [
     "ROUTES",
     "RULES",
     "TIMETABLE",
+    "BaselineComparison",
     "Bottleneck",
-    "Comparison",
     "CurvePiece",
     "CyclicResult",
     "CyclicRoute",
@@ -41,7 +41,7 @@ __all__ = [
     "in_words",
     "parameter_curves",
     "parameter_effects",
-    "plan_of",
+    "plan_of_laps",
     "run_laps",
     "visits_along",
 ]

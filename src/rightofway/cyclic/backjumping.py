@@ -25,13 +25,13 @@ from rightofway.precedence import Meeting
 
 
 @dataclass(frozen=True, slots=True)
-class Decision:
+class LapDecision:
     """The rights of way given at one meeting, and the opposite rights of way."""
 
     rights: tuple[NumberedRight, ...]
     others: tuple[NumberedRight, ...]
 
-    def beyond(self, window: Window) -> Decision:
+    def beyond(self, window: Window) -> LapDecision:
         """Return the part of a decision with visits after the cut of a window."""
 
         def inside(rights: Iterable[NumberedRight]) -> tuple[NumberedRight, ...]:
@@ -39,14 +39,14 @@ class Decision:
 
         open_rights = (right for right in self.rights if not window.is_past(*right[1]))
         reversible = not any(window.is_past(*second) for _, second in self.others)
-        return Decision(inside(open_rights), inside(self.others if reversible else ()))
+        return LapDecision(inside(open_rights), inside(self.others if reversible else ()))
 
 
 @dataclass(slots=True)
 class _Frame:
     """One level of the search: a decision, the graph's mark before it, and its culprits."""
 
-    decision: Decision
+    decision: LapDecision
     mark: int
     is_reversed: bool
     culprits: set[int]
@@ -55,7 +55,7 @@ class _Frame:
 class RightOfWaySearch:
     """The decisions of a window in order; decisions from before the cut come first."""
 
-    def __init__(self, window: Window, carried: Sequence[Decision]) -> None:
+    def __init__(self, window: Window, carried: Sequence[LapDecision]) -> None:
         self.window = window
         self._frames: list[_Frame] = []
         self._frame_of: dict[Right, int] = {}
@@ -65,7 +65,7 @@ class RightOfWaySearch:
             assert possible, "what was possible before the cut still is"
 
     @property
-    def decisions(self) -> list[Decision]:
+    def decisions(self) -> list[LapDecision]:
         """All decisions, for the next window."""
         return [frame.decision for frame in self._frames]
 
@@ -94,7 +94,7 @@ class RightOfWaySearch:
         culprits: set[int] = set()
         self._circle = []
         for is_reversed in (False, True):
-            decision = Decision(others, rights) if is_reversed else Decision(rights, others)
+            decision = LapDecision(others, rights) if is_reversed else LapDecision(rights, others)
             if self._push(decision, is_reversed=is_reversed, culprits=culprits):
                 return
             culprits |= self._culprits()
@@ -106,7 +106,7 @@ class RightOfWaySearch:
         tick = Tick(self.window.begins + meeting.tick)
         return Deadlock(meeting.robots, vertex, tick, circle)
 
-    def _push(self, decision: Decision, *, is_reversed: bool, culprits: set[int]) -> bool:
+    def _push(self, decision: LapDecision, *, is_reversed: bool, culprits: set[int]) -> bool:
         """Take a decision; return false and change nothing if it is impossible."""
         graph, visit, mark = self.window.graph, self.window.visit, self.window.graph.checkpoint()
         rights = [(visit(*first), visit(*second)) for first, second in decision.rights]
@@ -128,7 +128,7 @@ class RightOfWaySearch:
             culprits = (culprits - {latest}) | frame.culprits
             if frame.is_reversed or not frame.decision.others:
                 continue
-            decision = Decision(frame.decision.others, frame.decision.rights)
+            decision = LapDecision(frame.decision.others, frame.decision.rights)
             if self._push(decision, is_reversed=True, culprits=culprits):
                 return True
             culprits |= self._culprits()

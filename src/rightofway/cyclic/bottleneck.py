@@ -12,6 +12,7 @@ from fractions import Fraction
 from itertools import groupby
 from typing import Literal
 
+from rightofway.arguments import checks_arguments
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
 from rightofway.precedence import TimedEventGraph
@@ -65,6 +66,7 @@ class Bottleneck:
         return tuple(dict.fromkeys(piece.robot for piece in self.pieces))
 
 
+@checks_arguments
 def bottleneck_of(graph: TimedEventGraph, *, time_limit: float | None = None) -> Bottleneck:
     """Return a critical circuit of a timed event graph, in pieces.
 
@@ -83,6 +85,7 @@ def bottleneck_of(graph: TimedEventGraph, *, time_limit: float | None = None) ->
     return bottleneck_along(graph, graph.critical_circuit(time_limit=time_limit).arcs.tolist())
 
 
+@checks_arguments
 def bottleneck_along(graph: TimedEventGraph, circuit: Sequence[int]) -> Bottleneck:
     """Return a circuit in pieces; its cycle time is less than that of the graph if not critical.
 
@@ -148,6 +151,7 @@ def _joined(pieces: Iterator[Piece]) -> Iterator[Piece]:
         yield Piece(kind="way", robot=robot, places=places, ticks=ticks)
 
 
+@checks_arguments
 def in_words(bottleneck: Bottleneck, scenario: Scenario, *, most: int = 12) -> str:
     """Describe a bottleneck: ``R2 enters N4, drives to N8, works, drives home; R1 enters N4``.
 

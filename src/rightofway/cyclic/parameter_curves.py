@@ -20,6 +20,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import checks_arguments
 from rightofway.cyclic.sensitivity import stages_at
 from rightofway.model import Robot, Scenario
 from rightofway.model.problem import turning_time
@@ -87,6 +88,7 @@ class ParameterCurve:
         return piece.fixed + piece.slope * (1 / value if self.kind == "speed" else value)
 
 
+@checks_arguments
 def parameter_curves(
     scenario: Scenario,
     graph: TimedEventGraph,

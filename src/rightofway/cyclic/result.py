@@ -58,7 +58,7 @@ class LapWait:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Comparison:
+class BaselineComparison:
     """Comparison of a chosen timetable with its baseline, first come first served.
 
     Attributes
@@ -107,7 +107,7 @@ class GroupResult:
     history: tuple[Sequence[int], ...]
     pattern: Pattern | None = None
     why: str = ""
-    comparison: Comparison | None = None
+    comparison: BaselineComparison | None = None
 
     @property
     def robots(self) -> tuple[int, ...]:

@@ -18,7 +18,7 @@ from typing import Literal
 
 import numpy as np
 
-from rightofway.cyclic.backjumping import Decision, RightOfWaySearch
+from rightofway.cyclic.backjumping import LapDecision, RightOfWaySearch
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.simulator import DEFAULT, Deadlock, HorizonParams, choose_pacemaker
 from rightofway.cyclic.window import AnySegment, FrozenPrefix, TooShort, Window, WindowRule
@@ -40,7 +40,7 @@ def two_level(window: Window, meeting: Meeting, segment: AnySegment) -> Literal[
     return 0 if graph.enter(graph.visit(j, segment.j_first)) < i_enters else 1
 
 
-_Checkpoint = tuple[int, tuple[int, ...], tuple[Decision, ...]]
+_Checkpoint = tuple[int, tuple[int, ...], tuple[LapDecision, ...]]
 """The tick of a cut, the visits of each robot begun by the cut, and the open decisions."""
 
 
@@ -68,7 +68,7 @@ class RollingHorizon:
         self._least_lag: int = context.laps[self._pacemaker].duration
         self._lag: int = self._least_lag
         self._prefix = FrozenPrefix(0, [[0] for _ in context.routes])
-        self._decisions: tuple[Decision, ...] = ()
+        self._decisions: tuple[LapDecision, ...] = ()
         self._trouble = 0  # a deadlock lies before this tick
         self._taken_back = 1
         self._seen: dict[Hashable, int] = {}
@@ -118,7 +118,7 @@ class RollingHorizon:
     def _first_ahead(self) -> list[int]:
         return [self._params.window_lags * self._lag] * len(self.context)
 
-    def _window(self, ahead: Sequence[int], decisions: Iterable[Decision]) -> Window:
+    def _window(self, ahead: Sequence[int], decisions: Iterable[LapDecision]) -> Window:
         """Return a window with the next cut and all visits of the decisions."""
         stop = [0] * len(ahead)
         stop[self._pacemaker] = self._next_home(self._pacemaker) + 1

@@ -10,6 +10,7 @@ from itertools import accumulate, chain
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault
 from rightofway.model import Lap, Resources, Robot, Route, Scenario, Tick, lap_of
 from rightofway.model.problem import refuse_closures, refuse_turn_rates
@@ -184,6 +185,7 @@ class GroupContext:
         return 1 + self.headway + (max(drives) if self.books_ahead else 0)
 
 
+@checks_arguments
 def cyclic_routes(scenario: Scenario, routes: str = "clear") -> list[CyclicRoute]:
     """Choose the round trip of each robot, for all its laps.
 

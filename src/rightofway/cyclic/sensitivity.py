@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import checks_arguments
 from rightofway.model import Itinerary, Lap, Scenario, Stage, serving_visits
 from rightofway.precedence import (
     Sensitivity,
@@ -58,6 +59,7 @@ class ParameterEffect:
     ten_per_cent: Fraction
 
 
+@checks_arguments
 def parameter_effects(
     scenario: Scenario, graph: TimedEventGraph, *, most: int = 5, time_limit: float | None = None
 ) -> tuple[ParameterEffect, ...]:

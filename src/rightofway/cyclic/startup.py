@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.cyclic.pattern import Pattern
-from rightofway.cyclic.result import Comparison, GroupResult
+from rightofway.cyclic.result import BaselineComparison, GroupResult
 from rightofway.cyclic.route import CyclicRoute, GroupContext
 from rightofway.model import Scenario, Tick, least_dwell, stages_at_home
 from rightofway.precedence import CyclicSchedule
@@ -22,7 +22,7 @@ from rightofway.precedence import CyclicSchedule
 def start(
     scenario: Scenario,
     timetable: CyclicSchedule,
-    comparison: Comparison,
+    comparison: BaselineComparison,
     *,
     periods: int = 3,
     most_begins: int = 200,

@@ -16,7 +16,7 @@ from rightofway.cyclic.from_plan import one_lap, repeated_plan
 from rightofway.cyclic.from_run import SimulatedRun, choose_runs, extract_cycle
 from rightofway.cyclic.lns import fill, improve, insert_all
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
-from rightofway.cyclic.result import BaselineEnds, Comparison, CyclicResult, GroupResult
+from rightofway.cyclic.result import BaselineComparison, BaselineEnds, CyclicResult, GroupResult
 from rightofway.cyclic.route import (
     CyclicRoute,
     GroupContext,
@@ -95,8 +95,8 @@ def best_timetable(
     Returns
     -------
     CyclicResult
-        One result with a `Comparison` for each independent group; or one for all robots if a group
-        needs the vertices of other groups to avoid a deadlock.
+        One result with a `BaselineComparison` for each independent group; or one for all robots if
+        a group needs the vertices of other groups to avoid a deadlock.
 
     Raises
     ------
@@ -397,7 +397,7 @@ def _whole(problem: CyclicProblem, candidate: Candidate, params: ChoiceParams) -
 def _started(
     problem: CyclicProblem, chosen: Candidate, ends: BaselineEnds, baseline: Fraction
 ) -> GroupResult:
-    comparison = Comparison(
+    comparison = BaselineComparison(
         throughput=problem.value(chosen),
         fairness=problem.fairness(chosen.timetable.counts, chosen.cycle_time),
         baseline_ends=ends,

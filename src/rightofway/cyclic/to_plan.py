@@ -9,6 +9,7 @@ from math import ceil
 
 import numpy as np
 
+from rightofway.arguments import checks_arguments
 from rightofway.check import check
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
@@ -21,7 +22,7 @@ MOST_LAPS = 10**6
 """Laps of each robot that a plan may be asked for."""
 
 
-def plan_of(result: CyclicResult, laps: int | None = None) -> Plan:
+def plan_of_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     """Turn a cyclic result into a plan that the judge has passed.
 
     Parameters
@@ -57,7 +58,7 @@ def plan_of(result: CyclicResult, laps: int | None = None) -> Plan:
 
 
 def whole_laps(result: CyclicResult, laps: int | None = None) -> Plan:
-    """Return the plan that `plan_of` judges; robots at home may block other robots.
+    """Return the plan that `plan_of_laps` judges; robots at home may block other robots.
 
     Raises
     ------
@@ -82,6 +83,7 @@ def whole_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     return _plan(result, "whole laps", laps_and_visits)
 
 
+@checks_arguments
 def excerpt(
     result: CyclicResult, periods: int = 4, *, most_visits: int = 200_000
 ) -> tuple[Plan, tuple[SteadyState, ...]]:
@@ -202,6 +204,7 @@ def _critical_visits(group: GroupResult, pattern: Pattern) -> tuple[tuple[int, i
     return visits_along(group, pattern, graph, circuit.arcs.tolist())
 
 
+@checks_arguments
 def visits_along(
     group: GroupResult, pattern: Pattern, graph: TimedEventGraph, circuit: Sequence[int]
 ) -> tuple[tuple[int, int], ...]:

@@ -1,6 +1,13 @@
 """Execution of a plan with delays: collisions by the clock, none by right of way."""
 
-from rightofway.execution.delays import CAUSES, DEFAULT, Cause, Delay, delay_model_of, read_delays
+from rightofway.execution.delays import (
+    CAUSES,
+    DEFAULT_DELAYS,
+    Cause,
+    Delay,
+    delay_model_of,
+    read_delays,
+)
 from rightofway.execution.simulation import replay, simulate
 from rightofway.execution.statistics import (
     Collisions,
@@ -14,7 +21,7 @@ from rightofway.execution.statistics import (
 
 __all__ = [
     "CAUSES",
-    "DEFAULT",
+    "DEFAULT_DELAYS",
     "Cause",
     "Collisions",
     "Delay",

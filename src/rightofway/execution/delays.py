@@ -8,12 +8,13 @@ from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.model import NEVER, Scenario
 from rightofway.precedence import DelayModel, Stoppage
 from rightofway.values import at, exact, list_of, text
 
-DEFAULT = "exponential:0.2"
+DEFAULT_DELAYS = "exponential:0.2"
 """The default delays."""
 
 
@@ -93,6 +94,7 @@ CAUSES = {
 _BETWEEN = re.compile(rf"\s*,\s*(?=(?:{'|'.join(CAUSES)})\s*:)")
 
 
+@checks_arguments
 def read_delays(given: str | Iterable[str], scenario: Scenario) -> tuple[Delay, ...]:
     """Read causes of delay.
 
@@ -160,6 +162,7 @@ def _complaints(delay: Delay) -> list[tuple[str, bool]]:
     ]  # fmt: skip
 
 
+@checks_arguments
 def delay_model_of(delays: Sequence[Delay], scenario: Scenario) -> DelayModel:
     """Return the delay model of causes, in the ticks of a scenario.
 

@@ -9,9 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import checks_arguments
 from rightofway.check import check
 from rightofway.errors import InputError, kernel_limits
-from rightofway.execution.delays import DEFAULT, Delay, delay_model_of, read_delays
+from rightofway.execution.delays import DEFAULT_DELAYS, Delay, delay_model_of, read_delays
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import (
     Collisions,
@@ -37,7 +38,7 @@ MOST_RUNS = 10**9
 @kernel_limits()
 def simulate(
     plan: Plan,
-    delays: str | Iterable[str] = DEFAULT,
+    delays: str | Iterable[str] = DEFAULT_DELAYS,
     runs: int = 1000,
     seed: int = 0,
     *,
@@ -147,9 +148,10 @@ def simulate(
     )
 
 
+@checks_arguments
 def replay(
     plan: Plan,
-    delays: str | Iterable[str] = DEFAULT,
+    delays: str | Iterable[str] = DEFAULT_DELAYS,
     run: int = 0,
     seed: int = 0,
     *,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, nearest, shown
 
 SCENARIO_FORMAT = "rightofway-scenario/1"
@@ -41,6 +42,7 @@ def _not_wanted(found: object, known: str) -> str:
     return f"not known here (give {known}, or update)"
 
 
+@checks_arguments
 def schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
     """Return the JSON Schema (2020-12) of a kind of document.
 
@@ -70,9 +72,6 @@ def schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
         "plan": PlanDocument,
         "suite": SuiteDocument,
     }
-    if kind not in models:
-        message = f"{kind!r} is no kind of document (give one of: {', '.join(models)})"
-        raise InputError.at("", message)
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
     return {**dialect, **_without_titles(models[kind].model_json_schema())}
 

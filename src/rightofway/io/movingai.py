@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault, Location, in_file, shown
 from rightofway.files import write_whole
 from rightofway.io.faults import Faults
@@ -38,6 +39,7 @@ class ScenRow:
     goal: tuple[int, int]
 
 
+@checks_arguments
 def load_map(path: Path | str) -> tuple[str, ...]:
     """Return the rows of a `.map` file.
 
@@ -93,6 +95,7 @@ def _checked_rows(lines: list[str], header: dict[str, str], above: int) -> tuple
     return rows
 
 
+@checks_arguments
 def load_scen(path: Path | str) -> tuple[ScenRow, ...]:
     """Return the rows of a `.scen` file.
 
@@ -137,6 +140,7 @@ def _scen_row(line: int, text: str) -> ScenRow:
     )
 
 
+@checks_arguments
 def write_map(roadmap: Roadmap, path: Path | str) -> None:
     """Write a grid as a `.map` file.
 
@@ -157,6 +161,7 @@ def write_map(roadmap: Roadmap, path: Path | str) -> None:
     write_whole(path, "\n".join((*header, *grid.lines())) + "\n")
 
 
+@checks_arguments
 def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[str, ...]:
     """Write the homes and targets of a fleet as a `.scen` file.
 

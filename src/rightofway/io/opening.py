@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Steps, Where, in_file, shown
 from rightofway.files import path_of
 from rightofway.io.foreign import read_foreign, recognized
@@ -42,6 +43,7 @@ def load(path: Path | str, count: int | None = None) -> Scenario:
     return load_with_notes(path, count).scenario
 
 
+@checks_arguments
 def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
     """Return the scenario of a file with the notes of its reader; otherwise as `load`.
 
@@ -102,6 +104,7 @@ def load_plan(
         return plan_of(document, pictures=path.parent)
 
 
+@checks_arguments
 def load_either(
     path: Path | str,
     count: int | None = None,

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from rightofway.arguments import checks_arguments, value_of
 from rightofway.io.text import json_line
 from rightofway.metrics.events import events
 from rightofway.model import Plan, Stays, Track, stays_of
@@ -57,6 +58,7 @@ class SitePlanFormat:
     write: Callable[[Plan], str]
 
 
+@checks_arguments
 def site_plan_text(plan: Plan, name: str) -> tuple[str, tuple[str, ...]]:
     """Return a plan as the text of a file for a program on the site.
 
@@ -72,7 +74,7 @@ def site_plan_text(plan: Plan, name: str) -> tuple[str, tuple[str, ...]]:
     tuple
         The text, and what had to be assumed, a sentence each.
     """
-    return SITE_PLAN_FORMATS[name].write(plan), tuple(_assumed(plan, name))
+    return value_of(SITE_PLAN_FORMATS, name, "name").write(plan), tuple(_assumed(plan, name))
 
 
 def _assumed(plan: Plan, name: str) -> Iterator[str]:

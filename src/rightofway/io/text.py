@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 from weakref import WeakKeyDictionary
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault, Location, in_file, shown
 
 MAX_BYTES = 2**29
@@ -75,6 +76,7 @@ def parse_document(text: str, path: Path) -> Any:
     return parse_json(text) if is_json else parse_yaml(text)
 
 
+@checks_arguments
 def load_delays(path: Path | str) -> tuple[str, ...]:
     """Return the lines of a YAML or JSON file with a list of delays, or one under ``delays``.
 

@@ -6,12 +6,14 @@ from functools import lru_cache
 
 import numpy as np
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
 from rightofway.model import Scenario, Tick
 from rightofway.search import least_completions
 from rightofway.search.missing_ways import missing_ways
 
 
+@checks_arguments
 @lru_cache(maxsize=4)
 def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
     """Return each robot's least completion time without the others, and without closures.

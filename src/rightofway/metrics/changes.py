@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from rightofway.arguments import checks_arguments
 from rightofway.model import Robot, Scenario
 from rightofway.model.attributes import Attribute
 from rightofway.model.closures import Closure
@@ -57,6 +58,7 @@ class Change:
         return {**named, "text": self.text}
 
 
+@checks_arguments
 def changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
     """Return in what a scenario differs from another one.
 

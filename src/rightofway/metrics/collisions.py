@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import checks_arguments, one_for_each
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, stays_of
 from rightofway.model.resources import Resources
 from rightofway.model.sorting import order_by
@@ -19,7 +20,7 @@ from rightofway.site import VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Bookings:
+class BookedPlaces:
     """All bookings of a fleet, by vertex, then by start; each array has shape (n,)."""
 
     visit: NDArray[np.int64]  # counted robot by robot along the tracks
@@ -29,7 +30,9 @@ class Bookings:
     end: NDArray[np.int64]  # [ticks]
 
 
-def bookings_of(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]) -> Bookings:
+def bookings_of(
+    scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
+) -> BookedPlaces:
     """Return what a fleet books under the scenario's rules."""
     lengths = [len(track) for track in tracks]
     last = np.cumsum(lengths) - 1
@@ -41,11 +44,12 @@ def bookings_of(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Sta
     drive_in = np.roll(np.concatenate([stay.drive for stay in stays]), 1)  # that of the last is 0
     start = enter - drive_in * scenario.rules.books_ahead
     order = order_by(vertex, start)  # stable, so by robot where all else is equal
-    return Bookings(
+    return BookedPlaces(
         visit=order, robot=robot[order], vertex=vertex[order], start=start[order], end=end[order]
     )
 
 
+@checks_arguments
 def free_running(plan: Plan) -> tuple[Track, ...]:
     """Return tracks of the same routes and work, without any wait.
 
@@ -83,6 +87,7 @@ class Collision:
     end: Tick | None
 
 
+@checks_arguments
 def collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, ...]:
     """Return where bookings of any tracks overlap, by start, then by robots.
 
@@ -97,6 +102,7 @@ def collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, 
     -----
     The paper's list counts the ticks of these intervals one by one.
     """
+    one_for_each(scenario.robots, tracks=tracks)
     bookings = bookings_of(scenario, tracks, stays_of(scenario, tracks))
     columns = (bookings.vertex, bookings.start, bookings.end, bookings.robot)
     found: list[Collision] = []
@@ -136,6 +142,7 @@ class Swap:
     tick: Tick
 
 
+@checks_arguments
 def swaps(tracks: Sequence[Track]) -> tuple[Swap, ...]:
     """Return where two robots of any tracks exchange vertices, by tick, then by robots.
 
@@ -144,6 +151,8 @@ def swaps(tracks: Sequence[Track]) -> tuple[Swap, ...]:
     tracks
         One track for each robot.
     """
+    if not tracks:
+        return ()
     tail = np.concatenate([track.vertices[:-1] for track in tracks])
     head = np.concatenate([track.vertices[1:] for track in tracks])
     tick = np.concatenate([track.enter[1:] for track in tracks])
@@ -186,6 +195,7 @@ class NearMiss:
     end: Tick | None
 
 
+@checks_arguments
 def near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, ...]:
     """Return where robots of any tracks are too near for their sizes, by start, then by robots.
 
@@ -201,6 +211,7 @@ def near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, 
     Bookings of places that exclude each other overlap. What follows without a gap for the same two
     robots is one near miss.
     """
+    one_for_each(scenario.robots, tracks=tracks)
     resources = scenario.problem.resources
     if resources is None:
         return ()
@@ -240,6 +251,7 @@ class NamedCollision(NamedTuple):
     kind: str
 
 
+@checks_arguments
 def named_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NamedCollision, ...]:
     """Return the collisions, swaps and near misses of any tracks, by time, with names of places.
 

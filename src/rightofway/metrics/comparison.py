@@ -12,6 +12,7 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import Any
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.metrics.changes import Change, changes
 from rightofway.metrics.measure import measure
@@ -107,6 +108,7 @@ class Comparison:
             yield [column.get(name) for column in columns]
 
 
+@checks_arguments
 def compare(plans: Sequence[Plan], titles: Sequence[str] = ()) -> Comparison:
     """Put plans beside each other; their scenarios may differ.
 
@@ -122,6 +124,8 @@ def compare(plans: Sequence[Plan], titles: Sequence[str] = ()) -> Comparison:
     InputError
         If there are too many, or one counts its times in a unit and another one in none.
     """
+    if not plans:
+        raise InputError.at("plans", "there are none (give two or more)")
     if len(plans) > MAX_COMPARED:
         message = f"{len(plans)} plans are too many to compare (give at most {MAX_COMPARED})"
         raise InputError.at("", message)

@@ -11,6 +11,7 @@ from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
 from rightofway.metrics.lost_time import joined_waits, lost_time
 from rightofway.model import Loss, Plan, Scenario, Stays, Tick, stays_of
@@ -55,6 +56,7 @@ class Event(NamedTuple):
     to_leave: VertexId | None
 
 
+@checks_arguments
 def events(plan: Plan) -> tuple[Event, ...]:
     """Return the visits of all robots, by robot and in order.
 
@@ -134,6 +136,7 @@ def _purposes(scenario: Scenario, robot: int, stay: Stays, n_visits: int) -> dic
     }
 
 
+@checks_arguments
 def event_columns(plan: Plan, chosen: Iterable[Event] | None = None) -> dict[str, list[Any]]:
     """Return visits as named columns, for a data frame or a file.
 

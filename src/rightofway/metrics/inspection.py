@@ -13,6 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import listed
 from rightofway.metrics.connectivity import (
     Corridor,
@@ -68,6 +69,7 @@ LISTED_CORRIDORS = 10
 """Corridors that are looked at in detail: those that most shortest routes use."""
 
 
+@checks_arguments
 def inspect(site: Site) -> Inspection:
     """Return how large a site is, and what will hurt on it.
 

@@ -19,7 +19,8 @@ from itertools import groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.metrics.collisions import Bookings, bookings_of
+from rightofway.arguments import checks_arguments, one_for_each
+from rightofway.metrics.collisions import BookedPlaces, bookings_of
 from rightofway.metrics.measure import measure
 from rightofway.metrics.waits import NOBODY, freed_by
 from rightofway.model import (
@@ -98,6 +99,7 @@ def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
     return tuple(found)
 
 
+@checks_arguments
 def joined_waits(
     scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> tuple[Loss, ...]:
@@ -112,6 +114,7 @@ def joined_waits(
     stays
         The parts of their visits.
     """
+    one_for_each(scenario.robots, tracks=tracks, stays=stays)
     return tuple(_joined_waits(scenario, tracks, stays))
 
 
@@ -195,7 +198,7 @@ def _joined(
 
 
 def _room_made(
-    robot: int, track: Track, stay: Stays, bookings: Bookings, turning: int
+    robot: int, track: Track, stay: Stays, bookings: BookedPlaces, turning: int
 ) -> Iterator[Loss]:
     """Yield the drives of one robot away from a vertex and back to it, between its stops.
 
@@ -247,7 +250,7 @@ def _with_turns(
             yield replace(loss, ticks=Tick(ticks))
 
 
-def _visitor(bookings: Bookings, robot: int, vertex: int, leave: int, until: int) -> int | None:
+def _visitor(bookings: BookedPlaces, robot: int, vertex: int, leave: int, until: int) -> int | None:
     """Return the first other robot that books a vertex while a robot is away."""
     first, after = np.searchsorted(bookings.vertex, (vertex, vertex + 1))
     inside = (

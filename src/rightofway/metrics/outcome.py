@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from rightofway.arguments import checks_arguments
 from rightofway.metrics.measure import measure
 from rightofway.model import Outcome, OutcomeKind, Plan, Proof
 from rightofway.model.outcome import outcome_of_cost
 
 
+@checks_arguments
 def outcome_of(plan: Plan) -> Outcome:
     """Return what its planner has proven of a plan, or what the sum of the robots alone proves.
 

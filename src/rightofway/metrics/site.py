@@ -10,6 +10,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Literal
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import listed
 from rightofway.model import Robot, Rules
 from rightofway.model.place_names import middle
@@ -196,6 +197,7 @@ class Site:
         return tuple(map(self.roadmap.name, vertices))
 
 
+@checks_arguments
 def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
     """Return how large a site is and how it hangs together, in whole sentences.
 

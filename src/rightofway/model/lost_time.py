@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
+from rightofway.arguments import checks_arguments
 from rightofway.model.units import Tick
 from rightofway.site import VertexId
 
@@ -96,6 +97,7 @@ class LostTime:
         """How much later that is than without the others [ticks]."""
         return Tick(self.detours + self.making_room + self.waiting)
 
+    @checks_arguments
     def as_dict(
         self, robot: Callable[[int], Any] = int, place: Callable[[int], Any] = int
     ) -> dict[str, Any]:

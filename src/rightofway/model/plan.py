@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, Literal, TypeVar
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, nearest, shown
 from rightofway.model.figures import provided
 from rightofway.model.lost_time import LostTime
@@ -290,6 +291,7 @@ class Plan:
         """Return the page of the plan as a live part of a notebook that has anywidget."""
         return provided().plan_bundle(self)
 
+    @checks_arguments
     def once(self, figure: str, compute: Callable[[], T]) -> T:
         """Return a figure of this plan; it is computed at the first request and kept by name."""
         if figure not in self._figures:
@@ -342,6 +344,7 @@ class Plan:
         """
         return provided().lost_time(self)
 
+    @checks_arguments
     def __getitem__(self, name: str) -> RobotPlan:
         """Return the part of one robot.
 

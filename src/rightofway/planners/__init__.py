@@ -17,7 +17,7 @@ from rightofway.planners.options import (
     RandomPriorityOptions,
     TwoLevelOptions,
 )
-from rightofway.planners.registry import DEFAULT, IMPROVER, PlannerSpec, find, registered
+from rightofway.planners.registry import DEFAULT_PLANNER, IMPROVER, PlannerSpec, find, registered
 from rightofway.planners.task import (
     Draft,
     Planner,
@@ -28,7 +28,7 @@ from rightofway.planners.task import (
 
 __all__ = [
     "ANY_FLEET",
-    "DEFAULT",
+    "DEFAULT_PLANNER",
     "IMPROVER",
     "AutoOptions",
     "Deadline",

@@ -9,6 +9,7 @@ from functools import cache
 from importlib import import_module
 from typing import Any, cast
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.planners import options
 from rightofway.planners.features import ANY_FLEET, Feature
@@ -144,13 +145,14 @@ PLANNERS = (
     ),
 )
 
-DEFAULT = "auto"
+DEFAULT_PLANNER = "auto"
 """The planner where none is named."""
 
 IMPROVER = "lns"
 """The planner that makes a plan better where none is named."""
 
 
+@checks_arguments
 def registered() -> dict[str, PlannerSpec]:
     """Return every planner by name: ours, then those of other packages.
 
@@ -187,6 +189,7 @@ def able(feature: Feature) -> str:
     return " or ".join(name for name, spec in registered().items() if feature in spec.features)
 
 
+@checks_arguments
 def find(name: str) -> PlannerSpec:
     """Return the planner of that name.
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import checks_arguments
 from rightofway.model import Decision, Improvement, Problem, Proof, Reroute, Scenario, Tick, Track
 from rightofway.model.deadline import NO_DEADLINE, Deadline
 
@@ -91,6 +92,7 @@ Raises `NoPlanExists` if it is proven that there is no plan, and `GaveUp` if non
 """
 
 
+@checks_arguments
 def planning_headway(scenario: Scenario) -> Tick:
     """Return the headway to plan with [ticks].
 
@@ -105,6 +107,7 @@ def planning_headway(scenario: Scenario) -> Tick:
     return Tick(max(scenario.problem.headway, 0 if scenario.rules.rotations else 1))
 
 
+@checks_arguments
 def planning_problem(scenario: Scenario) -> Problem:
     """Return the problem with the headway to plan with.
 

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.arguments import checks_arguments, one_for_each
 from rightofway.model import Route, Scenario, Tick, Track, route_of
 from rightofway.native import BookedRows, ClosedPlaces, native_closures, native_rows
 from rightofway.precedence.segments import (
@@ -309,6 +310,7 @@ class PrecedenceGraph:
         ]
 
 
+@checks_arguments
 def graph_on(
     scenario: Scenario,
     routes: Sequence[Route],
@@ -329,6 +331,7 @@ def graph_on(
     forbid_swaps
         Whether a swap counts as a conflict.
     """
+    one_for_each(scenario.robots, routes=routes)
     return PrecedenceGraph(
         routes,
         headway=scenario.problem.headway if headway is None else headway,
@@ -339,6 +342,7 @@ def graph_on(
     )
 
 
+@checks_arguments
 def graph_of(
     scenario: Scenario, tracks: Sequence[Track], *, headway: Tick | None = None
 ) -> PrecedenceGraph:
@@ -357,6 +361,7 @@ def graph_of(
     -----
     With the headway of the scenario, no robot is later in the timetable than in the plan.
     """
+    one_for_each(scenario.robots, tracks=tracks)
     itineraries = scenario.problem.itineraries
     routes = [
         route_of(scenario.roadmap, itinerary, track)

@@ -20,6 +20,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
 from rightofway.precedence.timed_event_graph import Arcs, TimedEventGraph, circuit_of
 
@@ -70,6 +71,7 @@ class PeriodPiece:
         return self.fixed + self.slope * x
 
 
+@checks_arguments
 def period_curve(
     graph: TimedEventGraph,
     growth: Growth,

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
 from rightofway.precedence.timed_event_graph import Arcs, Circuit, TimedEventGraph, circuit_of
 
@@ -46,6 +47,7 @@ class Sensitivity:
     at_best: Fraction
 
 
+@checks_arguments
 def sensitivity(
     graph: TimedEventGraph,
     share: NDArray[np.int64],

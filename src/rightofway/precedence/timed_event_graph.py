@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick, visits_of_laps
 from rightofway.native import BookedRows
@@ -58,6 +59,7 @@ class CyclicSchedule:
     enter: tuple[NDArray[np.int64], ...]
 
 
+@checks_arguments
 def unrolled(timetable: CyclicSchedule, times: int) -> CyclicSchedule:
     """Return the same timetable with several of its periods as one.
 

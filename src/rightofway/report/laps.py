@@ -11,7 +11,7 @@ from fractions import Fraction
 from itertools import islice
 
 from rightofway.cyclic import (
-    Comparison,
+    BaselineComparison,
     CyclicResult,
     GroupResult,
     LapWait,
@@ -221,7 +221,7 @@ def _change(scenario: Scenario, effect: ParameterEffect) -> str:
     return f"{robot.name} 10% less work at {where}"
 
 
-def comparison_lines(found: Comparison) -> Iterator[str]:
+def comparison_lines(found: BaselineComparison) -> Iterator[str]:
     """Yield how a timetable compares with its baseline, and how fair it is."""
     baseline = {
         "repeats": "first come first served",

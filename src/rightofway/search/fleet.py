@@ -10,12 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, shown
 from rightofway.model import Problem, Scenario, Tick, Track
 from rightofway.model.given import checked_index, checked_number, checked_scenario, checked_seed
 from rightofway.native import bound, tracks_of
 
 
+@checks_arguments
 def least_completions(
     scenario: Scenario, *, time_limit: float | None = None
 ) -> NDArray[np.int64] | None:

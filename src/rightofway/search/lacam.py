@@ -15,6 +15,7 @@ from collections.abc import Collection
 import numpy as np
 
 from rightofway import _core
+from rightofway.arguments import checks_arguments
 from rightofway.errors import Blockage, NoPlanExists
 from rightofway.model import Problem, Track
 from rightofway.model.given import checked_index, checked_seed
@@ -23,6 +24,7 @@ from rightofway.native import bound, tracks_of
 FOUND, PROVEN_NONE = 0, 1
 
 
+@checks_arguments
 def plan_by_lacam(
     problem: Problem,
     *,

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from rightofway import _core
+from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp, InputError
 from rightofway.model import NEVER, Problem, Tick, Track, drives_along
 from rightofway.model.given import checked_index
@@ -119,6 +120,7 @@ class Bookings:
         }
 
 
+@checks_arguments
 def earliest_track(
     robot: int,
     bookings: Bookings,

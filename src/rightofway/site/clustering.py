@@ -17,6 +17,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault
 
 MAX_CELLS = 1_000_000
@@ -89,6 +90,7 @@ def _floor_faults(floor: Floor) -> Iterator[InputFault]:
             yield InputFault(place, "lies outside the floor (move it, or take it out)")
 
 
+@checks_arguments
 def node_length(speeds: Iterable[Fraction]) -> Fraction:
     """Return the cell size of node clustering: the least ``1 / v`` of the fleet.
 
@@ -102,9 +104,13 @@ def node_length(speeds: Iterable[Fraction]) -> Fraction:
     >>> node_length([Fraction(1), Fraction(2)])
     Fraction(1, 2)
     """
-    return min(1 / speed for speed in speeds)
+    fleet = tuple(speeds)
+    if not fleet or min(fleet) <= 0:
+        raise InputError.at("speeds", "give the speed of at least one robot, each above 0")
+    return min(1 / speed for speed in fleet)
 
 
+@checks_arguments
 def steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
     """Return how many cells of that length a robot drives in a unit of time: ``speed / length``.
 
@@ -123,6 +129,7 @@ def steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
     return speed / length
 
 
+@checks_arguments
 def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) -> tuple[str, ...]:
     """Return the rows of a floor's `free_cells`: ``.`` for free, ``@`` for blocked.
 

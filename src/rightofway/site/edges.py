@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.site.geometry import Frame, VertexId
 from rightofway.site.roadmap import EdgeClass, Lane, Roadmap
 from rightofway.site.zones import NamedZone, zones_of
 from rightofway.values import coerced, names, number, optional
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,6 +48,7 @@ class Edge:
         )
 
 
+@checks_arguments
 def roadmap_of_edges(
     positions: Mapping[str, tuple[float, float]],
     edges: Sequence[Edge],

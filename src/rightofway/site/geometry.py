@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NewType
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.values import DIGITS
 
@@ -76,6 +77,7 @@ def squared_distance(tail: Point, head: Point) -> Fraction:
     return (tail[0] - head[0]) ** 2 + (tail[1] - head[1]) ** 2
 
 
+@checks_arguments
 def rounding_step(squares: Iterable[Fraction]) -> Fraction:
     """Return the step to which the lengths of a map are rounded up.
 

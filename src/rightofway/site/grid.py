@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, shown
 from rightofway.site.geometry import Frame, Point
 from rightofway.values import Number, length
@@ -25,6 +26,7 @@ EAST_SOUTH_WEST_NORTH = ((0, 1), (1, 0), (0, -1), (-1, 0))
 """Steps in (row, column), in the order that decides between equally short paths."""
 
 
+@checks_arguments
 def roadmap_of_grid(
     lines: Sequence[str],
     *,

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, listed, nearest, shown
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.site.edges import Edge, roadmap_of_edges
@@ -162,6 +163,7 @@ class Layout:
     levels: tuple[Level, ...]
     notes: tuple[str, ...] = ()
 
+    @checks_arguments
     def level(self, name: str | None = None) -> Level:
         """Return a level by name; None for the only one.
 

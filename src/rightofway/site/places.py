@@ -11,10 +11,10 @@ from typing import TypeGuard
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, InputFault, is_printable, nearest, shown
+from rightofway.errors import InputError, InputFault, is_printable, shown
 from rightofway.quantities import Units, decimal
 from rightofway.site.geometry import Point, VertexId, squared_distance
-from rightofway.site.roadmap import Grid, Roadmap
+from rightofway.site.roadmap import Grid, Roadmap, UnknownVertex
 from rightofway.values import coordinate, exact
 
 
@@ -186,10 +186,8 @@ def _named(place: str | tuple[int, int], roadmap: Roadmap) -> VertexId:
         raise InputError.at("", message)
     try:
         return roadmap.vertex(place)
-    except KeyError:
-        near = nearest(place, roadmap.labels or ())
-        hint = f"did you mean {near!r}?" if near else "give one of the map's vertices"
-        raise InputError.at("", f"no vertex is named {shown(place)} ({hint})") from None
+    except UnknownVertex as error:
+        raise InputError.at("", error.faults[0].message) from None
 
 
 def _numbered(place: str, grid: Grid) -> tuple[int, int]:

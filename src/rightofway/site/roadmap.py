@@ -2,22 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import checks_arguments
+from rightofway.errors import InputError, InputFault, nearest, shown
 from rightofway.site.clustering import Obstacle
 from rightofway.site.drawing import Drawing
 from rightofway.site.geometry import Frame, Point, VertexId
 from rightofway.site.zones import Zone
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
+WHOLE = (int, np.int32, np.int64)
+"""Types of numbers of vertices and edges."""
+
+
+class UnknownVertex(InputError, KeyError):
+    """No vertex has this name, or this number."""
+
+    @classmethod
+    def named(cls, name: object, known: Collection[str]) -> UnknownVertex:
+        """Return the error for a name, with the nearest known one."""
+        near = nearest(name, known) if isinstance(name, str) else None
+        remedy = f"did you mean {near!r}?" if near else "give one of the map's vertices"
+        return cls([InputFault("name", f"no vertex is named {shown(name)} ({remedy})")])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -207,6 +219,8 @@ class Roadmap:
 
     def edge_class(self, edge: int) -> EdgeClass:
         """Return what an edge has in common with others of its class."""
+        if type(edge) not in WHOLE or not 0 <= edge < self.n_edges:
+            raise InputError.at("edge", f"{shown(edge)} is none of {self.n_edges} edges")
         return self.edge_classes[int(self.class_of_edge[edge])]
 
     @property
@@ -225,6 +239,7 @@ class Roadmap:
         on_edges = (each.barred for each in self.edge_classes)
         return frozenset().union(*on_edges, *self.barred_vertices.values())
 
+    @checks_arguments
     def ways_along(self, ends: tuple[VertexId, VertexId]) -> list[tuple[VertexId, ...]]:
         """Return the vertices along an edge or a split lane, both ends included, in any direction.
 
@@ -238,6 +253,7 @@ class Roadmap:
                 drawn.setdefault(frozenset(lane.vertices), lane.vertices)
         return [*ways, *drawn.values()]
 
+    @checks_arguments
     def is_along_one_lane(self, vertices: Collection[int]) -> bool:
         """Return whether vertices are joints, or joints and ends, of one lane that was split."""
         lane = next((self._lane_at[each] for each in vertices if each in self._lane_at), None)
@@ -262,6 +278,7 @@ class Roadmap:
 
     def name(self, vertex: int) -> str:
         """Return the name of a vertex: its label, or ``N<row-major number>`` on a grid."""
+        self._refuse_unknown("vertex", vertex)
         if self.labels is not None:
             return self.labels[vertex]
         return f"N{int(self.grid.cells[vertex]) if self.grid else vertex}"
@@ -271,24 +288,36 @@ class Roadmap:
 
         Raises
         ------
-        KeyError
-            If no free vertex has that name.
+        UnknownVertex
+            An `InputError`, and a `KeyError`, if no free vertex has that name.
         """
+        if not isinstance(name, str):
+            raise UnknownVertex.named(name, ())
         if self.labels is not None:
+            if name not in self._ids:
+                raise UnknownVertex.named(name, self._ids)
             return VertexId(self._ids[name])
         number = name[1:]
         if not (name.startswith("N") and number.isascii() and number.isdecimal()):
-            raise KeyError(name)
+            raise UnknownVertex.named(name, ())
         vertex = int(number)
         if self.grid is not None:
             cells = self.grid.vertex_at
             vertex = int(cells[vertex]) if vertex < len(cells) else -1
         if not 0 <= vertex < self.n_vertices:
-            raise KeyError(name)
+            raise UnknownVertex.named(name, ())
         return VertexId(vertex)
+
+    def _refuse_unknown(self, place: str, vertex: int) -> None:
+        """Refuse what is no vertex; this is asked for each visit, and has to be quick."""
+        if type(vertex) not in WHOLE or not 0 <= vertex < self.n_vertices:
+            last = self.n_vertices - 1
+            message = f"{shown(vertex)} is no vertex (give a number from 0 to {last})"
+            raise UnknownVertex([InputFault(place, message)])
 
     def point(self, vertex: int) -> Point:
         """Return where a vertex lies in the site's frame; on a grid, the centre of its cell."""
+        self._refuse_unknown("vertex", vertex)
         if self.grid is not None:
             row, column = self.grid.cell(vertex)
             size = self.grid.cell_size
@@ -296,6 +325,7 @@ class Roadmap:
         x, y = self.positions[vertex].tolist()
         return self.frame.to_site((Fraction(repr(x)), Fraction(repr(y))))
 
+    @checks_arguments
     def without(self, closed: Collection[int], edges: Collection[tuple[int, int]] = ()) -> Roadmap:
         """Return the same vertices without some edges, and without those at closed vertices."""
         tails = np.repeat(np.arange(self.n_vertices), np.diff(self.indptr))
@@ -318,13 +348,24 @@ class Roadmap:
 
     def edge(self, tail: int, head: int) -> int | None:
         """Return the index of the edge from ``tail`` to ``head``, or None without one."""
+        self._refuse_unknown("tail", tail)
+        self._refuse_unknown("head", head)
         for index in range(int(self.indptr[tail]), int(self.indptr[tail + 1])):
             if self.heads[index] == head:
                 return index
         return None
 
+    @checks_arguments
     def edges(self, tails: NDArray[np.int32], heads: NDArray[np.int32]) -> NDArray[np.int32]:
         """Return the indices of the edges from ``tails`` to ``heads``, -1 without one; int32."""
+        for place, ends in (("tails", tails), ("heads", heads)):
+            is_list = ends.ndim == 1 and np.issubdtype(ends.dtype, np.integer)
+            if not is_list or len(ends) != len(tails):
+                message = f"{shown(ends)} are no vertices (give as many tails as heads)"
+                raise InputError.at(place, message)
+            if len(ends):  # the least and the largest one stand for all
+                self._refuse_unknown(place, ends.min())
+                self._refuse_unknown(place, ends.max())
         found = np.full(len(tails), -1, np.int32)
         first, last = self.indptr[tails], self.indptr[tails + 1]
         for offset in range(int((last - first).max(initial=0))):

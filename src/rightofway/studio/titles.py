@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import PurePosixPath
 from typing import Any
 
-from rightofway.planners import DEFAULT, IMPROVER
+from rightofway.planners import DEFAULT_PLANNER, IMPROVER
 from rightofway.studio.errors import Refused
 from rightofway.studio.runs import Run
 
@@ -62,7 +62,7 @@ def command_of(run: Run) -> str:
     source = file_of(run) or unnamed
     words.append(f"./{source}" if source.startswith("-") else source)
     if run.kind in {"plan", "improve"}:
-        default = DEFAULT if run.kind == "plan" else IMPROVER
+        default = DEFAULT_PLANNER if run.kind == "plan" else IMPROVER
         words += ["--planner", request.get("planner", default)]
         for name, value in request["options"].items():
             words += ["--option", f"{name}={value}"]

@@ -8,6 +8,7 @@ from itertools import groupby
 
 import numpy as np
 
+from rightofway.arguments import checks_arguments
 from rightofway.model import Robot, Scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.viz.palette import LIGHT, robot_colours
@@ -30,6 +31,7 @@ SMALLEST_RADIUS = 3
 """Of a home or a stop [pixels]."""
 
 
+@checks_arguments
 def scenario_html(scenario: Scenario) -> str:
     """Return HTML that shows a scenario: map, homes (discs), stops (rings) and robots.
 

@@ -7,6 +7,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
+from rightofway.arguments import checks_arguments, value_of
 from rightofway.errors import InputError
 from rightofway.io.foreign import lacam, lns2, planviz, schedule
 from rightofway.io.foreign.trajectories import ForeignPlan, plan_of_trajectories
@@ -72,6 +73,7 @@ def recognized(text: str) -> ForeignFormat | None:
     return next((each for each in FOREIGN_FORMATS.values() if each.recognizes(text)), None)
 
 
+@checks_arguments
 def is_foreign(path: Path | str) -> bool:
     """Return whether a file is a plan in a format of another program, perhaps one with faults.
 
@@ -112,6 +114,7 @@ def read_foreign(
         return plan_of_trajectories(found.read(text), path, map_file, scen)
 
 
+@checks_arguments
 def foreign_text(plan: Plan, name: str) -> str:
     """Return a plan as the text of a file for another program.
 
@@ -125,6 +128,6 @@ def foreign_text(plan: Plan, name: str) -> str:
     Raises
     ------
     InputError
-        If the roadmap is no grid.
+        If the name is unknown, or the roadmap is no grid.
     """
-    return FOREIGN_FORMATS[name].write(plan)
+    return value_of(FOREIGN_FORMATS, name, "name").write(plan)

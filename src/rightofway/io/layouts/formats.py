@@ -11,6 +11,7 @@ from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any, Literal
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Location, in_file, listed
 from rightofway.io.layouts import csv_pair, graphml, lif, nav2, open_rmf, opentcs, ros_map
 from rightofway.io.layouts.xml_tree import Element, parse_xml
@@ -112,6 +113,7 @@ def layout_formats() -> dict[str, LayoutFormat]:
     return found
 
 
+@checks_arguments
 def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
     """Return the layout of a file, in whatever format it is.
 
@@ -141,6 +143,7 @@ def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
             raise InputError.at("", "it is nested too deeply (is it the right file?)") from None
 
 
+@checks_arguments
 def is_layout(path: Path | str) -> bool:
     """Return whether a file is a layout, perhaps one with faults.
 

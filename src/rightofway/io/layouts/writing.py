@@ -11,6 +11,7 @@ from fractions import Fraction
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
+from rightofway.arguments import checks_arguments, value_of
 from rightofway.errors import InputError, listed
 from rightofway.io.text import json_line
 from rightofway.site.geometry import squared_distance
@@ -42,6 +43,7 @@ class LayoutWriter:
     says: frozenset[str]
 
 
+@checks_arguments
 def layout_text(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
     """Return a layout as the text of a file for another program.
 
@@ -60,9 +62,9 @@ def layout_text(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
     Raises
     ------
     InputError
-        If the layout has several levels, and the format knows one.
+        If the name is unknown, or the layout has several levels and the format knows one.
     """
-    writer = LAYOUT_WRITERS[name]
+    writer = value_of(LAYOUT_WRITERS, name, "name")
     if len(layout.levels) > 1 and "levels" not in writer.says:
         message = f"{len(layout.levels)} levels, and {name} knows one (write lif or open-rmf)"
         raise InputError.at("", message)

@@ -9,6 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Where, in_file, nearest, shown, under
 from rightofway.io.faults import Faults, checked
 from rightofway.io.formats import PLAN_FORMAT, checked_format
@@ -46,6 +47,7 @@ D = TypeVar("D", bound="BaseModel")
 T = TypeVar("T")
 
 
+@checks_arguments
 def plan_of(document: Any, source: str = "", pictures: Path | None = None) -> Plan:
     """Return the plan of a document.
 

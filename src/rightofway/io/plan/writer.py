@@ -6,6 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import write_whole
 from rightofway.io.formats import PLAN_FORMAT
@@ -16,6 +17,7 @@ from rightofway.model.given import checked_plan, checked_truths
 from rightofway.values import written
 
 
+@checks_arguments
 def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     """Return a plan as a document.
 
@@ -77,6 +79,7 @@ def write_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
     write_whole(path, plan_text(plan, seconds=seconds))
 
 
+@checks_arguments
 def plan_text(plan: Plan, *, seconds: bool = False) -> str:
     """Return the text of a plan file: the same plan gives the same bytes; see `dump_plan`.
 

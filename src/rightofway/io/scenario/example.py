@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.io.faults import checked
 from rightofway.io.formats import SCENARIO_FORMAT
@@ -39,6 +40,7 @@ WORK = 10
 """Work time of the example's robots [time unit]."""
 
 
+@checks_arguments
 def example_of_layout(path: Path | str, target: Path | str, radius: Fraction = Fraction(0)) -> str:
     """Return the text of a scenario that has a layout as its map.
 

@@ -12,6 +12,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Steps, Where, in_file, nearest, shown
 from rightofway.io.faults import Faults, checked
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
@@ -58,6 +59,7 @@ class Loaded:
     notes: tuple[str, ...] = ()
 
 
+@checks_arguments
 def scenario_of(document: dict[str, Any], base: Path | None = None, source: str = "") -> Scenario:
     """Return the scenario of a document.
 

@@ -6,6 +6,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.files import path_of, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
@@ -19,6 +20,7 @@ from rightofway.site.drawing import Picture
 from rightofway.values import written
 
 
+@checks_arguments
 def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     """Return a scenario as a document, its map inlined, its numbers exact.
 
@@ -74,6 +76,7 @@ def write_scenario(scenario: Scenario, path: Path | str) -> None:
         raise InputError.at("", message, str(path))
 
 
+@checks_arguments
 def scenario_text(scenario: Scenario) -> str:
     """Return a scenario as YAML, as `write_scenario` writes it.
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from fastapi import APIRouter
 
-from rightofway.planners import DEFAULT, IMPROVER, registered
+from rightofway.planners import DEFAULT_PLANNER, IMPROVER, registered
 from rightofway.studio.routes.models import (
     InStudio,
 )
@@ -20,7 +20,7 @@ router = APIRouter()
 def list_planners() -> dict[str, Any]:
     """List the planners and their options, those of other packages too."""
     return {
-        "default": DEFAULT,
+        "default": DEFAULT_PLANNER,
         "improver": IMPROVER,
         "planners": [
             {

@@ -11,7 +11,7 @@ from fastapi import APIRouter, Body
 from fastapi.responses import StreamingResponse
 from starlette.types import Receive, Scope, Send
 
-from rightofway.planners import DEFAULT, IMPROVER, find
+from rightofway.planners import DEFAULT_PLANNER, IMPROVER, find
 from rightofway.studio.events import Event
 from rightofway.studio.routes.models import (
     InStudio,
@@ -54,7 +54,7 @@ async def create_run(studio: InStudio, new: Annotated[NewRun, Body()]) -> dict[s
             run = Run(kind="simulate", based_on=new.based_on, request=new.model_dump(include=keys))
     run.name = new.name
     if isinstance(new, NewPlan | NewImprovement):
-        default = DEFAULT if isinstance(new, NewPlan) else IMPROVER
+        default = DEFAULT_PLANNER if isinstance(new, NewPlan) else IMPROVER
         find(new.planner or default).settle(new.options)
     arguments: dict[str, Any] = {}
     given_by = new.start if isinstance(new, NewPlan) else None

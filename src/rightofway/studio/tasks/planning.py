@@ -101,10 +101,10 @@ def _searched(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
 def choices(_emit: Emit, _blobs: Blobs) -> Result:
     """Return rules of laps, notations of delays, formats of other programs, and what they mean."""
     from rightofway.cyclic import RULES, TIMETABLE
-    from rightofway.execution import CAUSES, DEFAULT
+    from rightofway.execution import CAUSES, DEFAULT_DELAYS
 
     rules = {**RULES, TIMETABLE: "all rights of way are chosen in advance"}
     delays = [example for cause in CAUSES.values() for example in cause.examples]
     formats = {name: form.summary for name, form in FOREIGN_FORMATS.items()}
-    found = {"rules": rules, "delays": {"default": DEFAULT, "examples": dict(delays)}}
+    found = {"rules": rules, "delays": {"default": DEFAULT_DELAYS, "examples": dict(delays)}}
     return ({**found, "formats": formats},)

@@ -68,8 +68,7 @@ def laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: A
 
     The report is that of `rightofway laps --json`, with the one for people as ``text``.
     """
-    from rightofway.cyclic import excerpt
-    from rightofway.cyclic import plan_of as whole_laps
+    from rightofway.cyclic import excerpt, plan_of_laps
     from rightofway.model.steady_state import within
 
     scenario = loaded_of(document, folder).scenario
@@ -79,7 +78,7 @@ def laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: A
     text = laps_report(run, scenario.quantities)
     result: dict[str, Any] = {"report": {**laps_data(run), "text": text}, "has_payload": True}
     try:
-        whole = whole_laps(run)
+        whole = plan_of_laps(run)
     except GaveUp as reason:  # a robot that is home for ever blocks others: only laps are shown
         return ({**result, "status": str(reason)}, payload)
     whole = replace(whole, steady=within(steady, list(map(len, whole.tracks))))
@@ -150,11 +149,11 @@ def simulate(
     ``text``, the flowtime of each run in classes of equal width as ``spread``, runs from the best
     to the worst as ``ranks``, and the number of the run with the largest flowtime as ``worst``.
     """
-    from rightofway.execution import DEFAULT
+    from rightofway.execution import DEFAULT_DELAYS
     from rightofway.execution import simulate as execute
 
     given, report = plan_of(parse_json(blobs[0].decode())), Progress(emit).report
-    causes = list(delays) or [DEFAULT]
+    causes = list(delays) or [DEFAULT_DELAYS]
     outcome = execute(given, causes, runs, keep_runs=True, report=report, **settings)
     named = {"typical": outcome.typical, "worst": outcome.worst}
     played = named[run]() if isinstance(run, str) else run
@@ -179,10 +178,10 @@ def replayed(
     _emit: Emit, blobs: Blobs, *, run: int, delays: Sequence[str] = (), seed: int = 0, **policy: Any
 ) -> Result:
     """Return what the viewer plays of one run of a simulation."""
-    from rightofway.execution import DEFAULT, replay
+    from rightofway.execution import DEFAULT_DELAYS, replay
 
     plan = plan_of(parse_json(blobs[0].decode()))
-    trace = replay(plan, list(delays) or [DEFAULT], run, seed, **policy)
+    trace = replay(plan, list(delays) or [DEFAULT_DELAYS], run, seed, **policy)
     return (None, compact_json(payload_of(plan, actual=trace)).encode())
 
 

@@ -14,6 +14,7 @@ import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
@@ -31,6 +32,7 @@ MARKUP = str.maketrans({character: f"\\u{ord(character):04x}" for character in "
 """Escapes that mean the same in JSON, and nothing in HTML."""
 
 
+@checks_arguments
 def page_of(
     plan: Plan,
     *,
@@ -159,6 +161,7 @@ def write_page(
     write_whole(path, page)
 
 
+@checks_arguments
 def frame_of(
     plan: Plan,
     *,

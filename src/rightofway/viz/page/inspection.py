@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
+from rightofway.arguments import checks_arguments
 from rightofway.files import write_whole
 from rightofway.metrics import HEADINGS, Inspection, Site, sentences
 from rightofway.phrases import parts_of
@@ -18,6 +19,7 @@ Inspected = tuple[str, Site, Inspection]
 """The name of a level, empty where there is only one, the site, and what was found."""
 
 
+@checks_arguments
 def inspection_page(
     levels: Sequence[Inspected],
     *,
@@ -62,6 +64,7 @@ def inspection_page(
     return document_of("inspect.html", about, payload, "inspect_main")
 
 
+@checks_arguments
 def write_inspection(
     levels: Sequence[Inspected],
     path: str | os.PathLike[str],
@@ -89,6 +92,7 @@ def write_inspection(
     write_whole(path, page)
 
 
+@checks_arguments
 def site_data(site: Site, background: Background | None = None) -> SiteData:
     """Return a site as plain data for JSON: the map, and robots at their homes.
 

@@ -15,6 +15,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import checks_arguments
 from rightofway.check import Report
 from rightofway.errors import InputError, NoPlanExists, shown
 from rightofway.metrics import Metrics, compare, joined_waits, lost_time, measure
@@ -68,6 +69,7 @@ LOSSES = ("waits", "follows", "makes room")
 """Kinds of lost time; the page is given their places in this list."""
 
 
+@checks_arguments
 def payload_of(
     plan: Plan,
     *,

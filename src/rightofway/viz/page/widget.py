@@ -11,6 +11,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
+from rightofway.arguments import checks_arguments
 from rightofway.model import Plan
 from rightofway.viz.page.document import FRAME_HEIGHT, payload_text, style_sheet
 from rightofway.viz.page.scripts import classic_script, scripts_of
@@ -19,6 +20,7 @@ WIDGET_STYLE = f".page{{contain:layout;height:{FRAME_HEIGHT}px;min-height:0;over
 """A page in a notebook has a height of its own."""
 
 
+@checks_arguments
 def bundle_of(plan: Plan) -> dict[str, Any]:
     """Return a plan as a live part of a notebook, by media type; for ``_repr_mimebundle_``.
 

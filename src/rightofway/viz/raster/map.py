@@ -17,7 +17,7 @@ from rightofway.viz.motion import Activity, Moment
 from rightofway.viz.page.background import background_of, place_of, unreadable
 from rightofway.viz.palette import ink_on
 from rightofway.viz.raster.canvas import Ground, Pen, Point, Scene
-from rightofway.viz.raster.names import Label, Names
+from rightofway.viz.raster.names import Label, MapNames
 from rightofway.viz.raster.sizes import MOST_ROUTES, LaneSizes, Sizes
 
 ARROW_GAP = 56
@@ -201,7 +201,7 @@ def _stops(pen: Pen, scene: Scene, sizes: Sizes) -> None:
                 pen.polygon([(middle + right, y + down) for right, down in corners], colour)
 
 
-def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, names: Names, tick: float) -> list[Label]:
+def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, names: MapNames, tick: float) -> list[Label]:
     """Draw every robot where it is at an instant [ticks]; return the names that have room.
 
     A disc drives, a ring waits, a filling arc works, two arcs turn, a faint disc is done. A wide

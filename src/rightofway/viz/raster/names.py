@@ -44,7 +44,7 @@ SIDES = ((1, 0), (-1, 0), (0, -1), (0, 1), (0.75, -0.8), (-0.75, -0.8), (0.75, 0
 """Where a name may stand round a disc, best first: how far right and down its middle is."""
 
 
-class Names:
+class MapNames:
     """Places the names of one picture after another, so that they do not jump in a film."""
 
     def __init__(self, scene: Scene, sizes: Sizes, scale: float, bounds: Box) -> None:

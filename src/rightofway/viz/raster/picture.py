@@ -11,6 +11,7 @@ from fractions import Fraction
 
 from PIL import Image
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.model import Plan
@@ -21,7 +22,7 @@ from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.diagram import Diagram
 from rightofway.viz.raster.faults import FaultList
 from rightofway.viz.raster.map import draw_ground, draw_robots
-from rightofway.viz.raster.names import Box, Names
+from rightofway.viz.raster.names import Box, MapNames
 from rightofway.viz.raster.sizes import sizes_of
 
 MARGIN = 24
@@ -36,6 +37,7 @@ FRAMES_PER_TICK = 8
 """The most frames: more cannot be distinguished."""
 
 
+@checks_arguments
 def png_of(
     plan: Plan,
     tick: int | None = None,
@@ -87,7 +89,7 @@ def png_of(
     sizes = sizes_of(scene, scale)
     draw_ground(pen, scene, sizes, routes=True)
     bounds = _bounds(pen.origin, (width, map_height))
-    draw_robots(pen, scene, sizes, Names(scene, sizes, scale, bounds), tick or 0)
+    draw_robots(pen, scene, sizes, MapNames(scene, sizes, scale, bounds), tick or 0)
     if below:
         below.draw(Pen(image, origin=(0, map_height), scale=1, fineness=fineness), tick)
     faults.draw(Pen(image, origin=(0, map_height + diagram_height), scale=1, fineness=fineness))
@@ -205,7 +207,7 @@ def _pictures(scene: Scene, scale: float, ticks: Sequence[float]) -> Iterator[Im
     pen = Pen(ground, origin=origin, scale=scale, fineness=FILM_FINENESS)
     sizes = sizes_of(scene, scale)
     bounds = _bounds(origin, _map_size(scene, scale))
-    names = Names(scene, sizes, scale, bounds)
+    names = MapNames(scene, sizes, scale, bounds)
     draw_ground(pen, scene, sizes, routes=False)
 
     def picture(tick: float) -> Image.Image:

@@ -6,6 +6,7 @@ import io
 
 from PIL import Image
 
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.metrics import Site
 from rightofway.viz.palette import LIGHT, Theme, robot_colours
@@ -30,6 +31,7 @@ MOST_TRIPS = 12
 """Robots whose trips are drawn as lines, too."""
 
 
+@checks_arguments
 def preview_of(site: Site, *, theme: Theme = LIGHT) -> bytes:
     """Return a small picture of a site as PNG: cells or lanes, homes, stops and stations.
 

@@ -1,6 +1,6 @@
 """The paper's table, a row for a robot and a column for a tick; lists of events and collisions."""
 
-from rightofway.viz.table.listing import Column, Listing, parquet_of
+from rightofway.viz.table.listing import ListColumn, Listing, parquet_of
 from rightofway.viz.table.lists import (
     chosen_events,
     collision_list,
@@ -11,8 +11,8 @@ from rightofway.viz.table.lists import (
 )
 from rightofway.viz.table.timespace import (
     Cell,
+    CellRun,
     Row,
-    Run,
     TimeSpaceTable,
     chosen_robots,
     end_of,
@@ -23,10 +23,10 @@ from rightofway.viz.table.writing import as_csv, as_text, write_csv, write_xlsx
 
 __all__ = [
     "Cell",
-    "Column",
+    "CellRun",
+    "ListColumn",
     "Listing",
     "Row",
-    "Run",
     "TimeSpaceTable",
     "as_csv",
     "as_text",

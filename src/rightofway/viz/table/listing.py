@@ -20,7 +20,7 @@ Value = str | int | float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Column:
+class ListColumn:
     """A column of a list.
 
     Attributes
@@ -56,7 +56,7 @@ class Listing:
     """
 
     title: str
-    columns: tuple[Column, ...]
+    columns: tuple[ListColumn, ...]
     quantities: Quantities
 
     def __len__(self) -> int:
@@ -73,7 +73,7 @@ class Listing:
         """Yield the rows as numbers and text, times in the unit of their heading."""
         yield from zip(*(self._numbers(column) for column in self.columns), strict=True)
 
-    def _numbers(self, column: Column) -> Iterator[Value]:
+    def _numbers(self, column: ListColumn) -> Iterator[Value]:
         for value in column.values:
             if column.kind != "time" or not isinstance(value, int) or self.quantities.in_ticks:
                 yield value
@@ -104,7 +104,7 @@ class Listing:
             lines.append(f"… and {more} more rows (-o FILE.txt or -o FILE.csv writes all)")
         return "\n".join(lines)
 
-    def _cells(self, column: Column, heading: str, max_lines: int | None) -> list[str]:
+    def _cells(self, column: ListColumn, heading: str, max_lines: int | None) -> list[str]:
         """Return two lines of heading and the cells of a column, equally wide."""
         words, _, unit = heading.partition(" [")
         values = (self._written(value, column.kind) for value in column.values[:max_lines])

@@ -16,7 +16,7 @@ from rightofway.metrics import (
 )
 from rightofway.model import Decision, Plan, Tick
 from rightofway.quantities import Quantities
-from rightofway.viz.table.listing import Column, Listing
+from rightofway.viz.table.listing import ListColumn, Listing
 from rightofway.viz.table.timespace import chosen_robots
 
 MAX_TICKS = 1_000_000
@@ -75,24 +75,24 @@ def event_list(
         ()
         if quantities.in_ticks
         else (
-            Column(heading="enter [ticks]", values=columns["enter_tick"], for_people=False),
-            Column(heading="leave [ticks]", values=columns["leave_tick"], for_people=False),
-            Column(heading="waits [ticks]", values=columns["wait_ticks"], for_people=False),
+            ListColumn(heading="enter [ticks]", values=columns["enter_tick"], for_people=False),
+            ListColumn(heading="leave [ticks]", values=columns["leave_tick"], for_people=False),
+            ListColumn(heading="waits [ticks]", values=columns["wait_ticks"], for_people=False),
         )
     )
     waits = [ticks or None for ticks in columns["wait_ticks"]]
     return Listing(
         title="events",
         columns=(
-            Column(heading="robot", values=columns["robot"]),
-            Column(heading="visit", values=columns["visit"], kind="number", for_people=False),
-            Column(heading="place", values=columns["vertex"]),
-            Column(heading="purpose", values=columns["purpose"]),
-            Column(heading="enter", values=columns["enter_tick"], kind="time"),
-            Column(heading="leave", values=columns["leave_tick"], kind="time"),
-            Column(heading="waits", values=waits, kind="time"),
-            Column(heading="waits for", values=columns["waits_for"]),
-            Column(heading="to leave", values=columns["to_leave"]),
+            ListColumn(heading="robot", values=columns["robot"]),
+            ListColumn(heading="visit", values=columns["visit"], kind="number", for_people=False),
+            ListColumn(heading="place", values=columns["vertex"]),
+            ListColumn(heading="purpose", values=columns["purpose"]),
+            ListColumn(heading="enter", values=columns["enter_tick"], kind="time"),
+            ListColumn(heading="leave", values=columns["leave_tick"], kind="time"),
+            ListColumn(heading="waits", values=waits, kind="time"),
+            ListColumn(heading="waits for", values=columns["waits_for"]),
+            ListColumn(heading="to leave", values=columns["to_leave"]),
             *ticks,
         ),
         quantities=quantities,
@@ -117,12 +117,12 @@ def collision_list(
     return Listing(
         title=title,
         columns=(
-            Column(heading="robot i", values=[row.i for row in found]),
-            Column(heading="robot j", values=[row.j for row in found]),
-            Column(heading="from", values=[row.start for row in found], kind="time"),
-            Column(heading="until", values=until, kind="time"),
-            Column(heading="place", values=[" and ".join(row.places) for row in found]),
-            Column(heading="kind", values=[row.kind for row in found]),
+            ListColumn(heading="robot i", values=[row.i for row in found]),
+            ListColumn(heading="robot j", values=[row.j for row in found]),
+            ListColumn(heading="from", values=[row.start for row in found], kind="time"),
+            ListColumn(heading="until", values=until, kind="time"),
+            ListColumn(heading="place", values=[" and ".join(row.places) for row in found]),
+            ListColumn(heading="kind", values=[row.kind for row in found]),
         ),
         quantities=quantities,
     )
@@ -162,11 +162,11 @@ def collision_ticks(found: Sequence[NamedCollision], quantities: Quantities, end
     return Listing(
         title="collisions",
         columns=(
-            Column(heading="i", values=columns[1]),
-            Column(heading="j", values=columns[2]),
-            Column(heading="t", values=columns[0], kind="time"),
-            Column(heading="n", values=columns[3]),
-            Column(heading="kind", values=columns[4]),
+            ListColumn(heading="i", values=columns[1]),
+            ListColumn(heading="j", values=columns[2]),
+            ListColumn(heading="t", values=columns[0], kind="time"),
+            ListColumn(heading="n", values=columns[3]),
+            ListColumn(heading="kind", values=columns[4]),
         ),
         quantities=quantities,
     )
@@ -225,23 +225,23 @@ def decision_list(plan: Plan, quantities: Quantities | None = None) -> Listing:
     return Listing(
         title="decisions",
         columns=(
-            Column(heading="no.", values=range(1, len(decisions) + 1), kind="number"),
-            Column(heading="time", values=[each.tick for each in decisions], kind="time"),
-            Column(heading="place", values=list(map(places, decisions))),
-            Column(heading="i", values=[names[each.robots[0]] for each in decisions]),
-            Column(heading="j", values=[names[each.robots[1]] for each in decisions]),
-            Column(heading="waits", values=[names[each.waits] for each in decisions]),
-            Column(heading="in", values=[place(each.waits_at) for each in decisions]),
-            Column(heading="delay", values=[each.ticks for each in decisions], kind="time"),
-            Column(heading="level", values=[each.level for each in decisions]),
-            Column(heading="before", values=conflicts_before(plan), kind="number"),
-            Column(heading="if i", values=[each[0] for each in left_if], kind="number"),
-            Column(heading="if j", values=[each[1] for each in left_if], kind="number"),
-            Column(heading="left", values=list(map(conflicts_left, decisions)), kind="number"),
-            Column(
+            ListColumn(heading="no.", values=range(1, len(decisions) + 1), kind="number"),
+            ListColumn(heading="time", values=[each.tick for each in decisions], kind="time"),
+            ListColumn(heading="place", values=list(map(places, decisions))),
+            ListColumn(heading="i", values=[names[each.robots[0]] for each in decisions]),
+            ListColumn(heading="j", values=[names[each.robots[1]] for each in decisions]),
+            ListColumn(heading="waits", values=[names[each.waits] for each in decisions]),
+            ListColumn(heading="in", values=[place(each.waits_at) for each in decisions]),
+            ListColumn(heading="delay", values=[each.ticks for each in decisions], kind="time"),
+            ListColumn(heading="level", values=[each.level for each in decisions]),
+            ListColumn(heading="before", values=conflicts_before(plan), kind="number"),
+            ListColumn(heading="if i", values=[each[0] for each in left_if], kind="number"),
+            ListColumn(heading="if j", values=[each[1] for each in left_if], kind="number"),
+            ListColumn(heading="left", values=list(map(conflicts_left, decisions)), kind="number"),
+            ListColumn(
                 heading="sum if i", values=[each[0] for each in sums], kind="time", for_people=False
             ),
-            Column(
+            ListColumn(
                 heading="sum if j", values=[each[1] for each in sums], kind="time", for_people=False
             ),
         ),

@@ -23,7 +23,7 @@ from rightofway.model import Plan
 from rightofway.viz.motion import Activity, trips_of
 from rightofway.viz.palette import robot_colours
 from rightofway.viz.placement import edge_length, vertices_in_line
-from rightofway.viz.table.listing import Column, Listing
+from rightofway.viz.table.listing import ListColumn, Listing
 from rightofway.viz.table.lists import collision_list, decision_list, event_list
 from rightofway.viz.table.timespace import MAX_CELLS, table_of
 from rightofway.viz.table.workbook import (
@@ -162,10 +162,10 @@ def _robots(plan: Plan) -> Listing:
             "making room": [each.making_room for each in lost],
             "waiting": [each.waiting for each in lost],
         }
-    columns = (Column(heading=key, values=each, kind="time") for key, each in times.items())
+    columns = (ListColumn(heading=key, values=each, kind="time") for key, each in times.items())
     return Listing(
         title="robots",
-        columns=(Column(heading="robot", values=names), *columns),
+        columns=(ListColumn(heading="robot", values=names), *columns),
         quantities=plan.scenario.quantities,
     )
 

@@ -52,7 +52,7 @@ class Cell(NamedTuple):
     mark: Mark | None
 
 
-class Run(NamedTuple):
+class CellRun(NamedTuple):
     """Equal cells in a row, from `start` to before `end` [ticks]."""
 
     start: Tick
@@ -76,7 +76,7 @@ class Row:
 
     robot: str
     kind: RowKind
-    runs: tuple[Run, ...]
+    runs: tuple[CellRun, ...]
 
     def cells(self, first: int, last: int) -> list[Cell]:
         """Return the cells of these ticks, both included; fewer where the row ends before."""
@@ -383,7 +383,7 @@ def _marks(
 
 def _runs(
     roadmap: Roadmap, track: Track, window: tuple[int, int], spans_by_mark: Sequence[Spans]
-) -> Iterator[Run]:
+) -> Iterator[CellRun]:
     """Yield the runs of a track in a window; of several marks, the first of `MARKS` is shown."""
     if window[0] >= window[1]:
         return
@@ -400,4 +400,4 @@ def _runs(
     cells = roadmap.grid.cells if roadmap.grid is not None and roadmap.labels is None else None
     for vertex, mark, (start, end) in zip(vertices, marks, pairwise(cuts.tolist()), strict=True):
         place: Place = roadmap.name(vertex) if cells is None else int(cells[vertex])
-        yield Run(Tick(start), Tick(end), Cell(place, (*MARKS, None)[mark]))
+        yield CellRun(Tick(start), Tick(end), Cell(place, (*MARKS, None)[mark]))

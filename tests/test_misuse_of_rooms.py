@@ -1,0 +1,199 @@
+"""What the rooms export, called with what does not belong there."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from fractions import Fraction
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rightofway as rw
+from rightofway.arguments import ArgumentKind, checks_arguments, checks_its_arguments, kind_of
+
+ROOT = Path(__file__).parents[1]
+ROOMS = sorted(page.stem for page in (ROOT / "docs" / "api").glob("*.md") if page.stem != "index")
+"""The rooms that the documentation has a page of."""
+
+STEPS = {
+    "errors": {
+        "in_file",
+        "is_printable",
+        "kernel_limits",
+        "listed",
+        "location_of",
+        "nearest",
+        "path_text",
+        "printable",
+        "shown",
+        "under",
+    },
+    "model": {
+        "checked_time_limit",
+        "choose_clock",
+        "completions_of",
+        "cost_of",
+        "drives_along",
+        "flowtime_of",
+        "lap_of",
+        "least_dwell",
+        "route_along",
+        "route_of",
+        "route_through",
+        "serving_visits",
+        "stages_at_home",
+        "stays_of",
+        "turns_along",
+        "visits_of_laps",
+    },
+    "native": {
+        "bound",
+        "compiler",
+        "native_closures",
+        "native_rows",
+        "roads_of",
+        "rules_of",
+        "tracks_of",
+    },
+    "precedence": {
+        "critical_circuit_without",
+        "crossing",
+        "order_of",
+        "shared_segment",
+        "tight_arcs",
+    },
+    "quantities": {"decimal"},
+    "site": {"squared_distance", "straight_length"},
+}
+"""Steps of planners and of messages, taken for each robot or visit with what the package has made:
+they check nothing. This list may only grow shorter."""
+
+MOST_STEPS = 42
+
+DOOR = rw.load(ROOT / "examples" / "door.yaml")
+PLAN = rw.solve(DOOR, seed=1, time_limit=0.1)
+
+STRANGE: list[Any] = [
+    None,
+    -1,
+    True,
+    float("nan"),
+    -0.5,
+    10**30,
+    10**400,
+    "",
+    "a\0b",
+    "\ud800",
+    b"x",
+    [],
+    [None],
+    (None, None),
+    {"a": 1},
+    {"x"},
+    object(),
+    np.array([1.5]),
+    np.array([-1, 2**40]),
+    iter(()),
+    lambda *_: None,
+    Path("no/such/file"),
+]
+"""None, numbers out of range, text, lists, arrays, a mapping, a function, a path."""
+
+
+def functions() -> dict[str, Callable[..., Any]]:
+    """Return the functions of the rooms by room and name; those of `rightofway` are tried there."""
+    found = {}
+    for room in ROOMS:
+        module = import_module(f"rightofway.{room}")
+        for name in getattr(module, "__all__", ()):
+            value = getattr(module, name)
+            is_function = inspect.isroutine(inspect.unwrap(value))
+            if is_function and value is not getattr(rw, name, None):
+                found[f"{room}.{name}"] = value
+    return found
+
+
+FUNCTIONS = functions()
+CHECKED = sorted(name for name, call in FUNCTIONS.items() if checks_its_arguments(call))
+
+
+def test_every_function_of_a_room_checks_its_arguments_or_is_a_named_step() -> None:
+    steps = {f"{room}.{name}" for room, names in STEPS.items() for name in names}
+    assert set(FUNCTIONS) - set(CHECKED) == steps
+    assert len(steps) <= MOST_STEPS
+
+
+GOOD: dict[str, Any] = {
+    "scenario": DOOR,
+    "before": DOOR,
+    "after": DOOR,
+    "plan": PLAN,
+    "tracks": PLAN.tracks,
+    "plans": [PLAN, PLAN],
+    "path": Path("no/such/file"),
+    "seed": 1,
+}
+"""Arguments that fit, by their names."""
+
+
+@pytest.mark.parametrize("name", CHECKED)
+def test_what_does_not_belong_there_is_refused_with_a_reason(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    call = FUNCTIONS[name]
+    parameters = inspect.signature(call).parameters.values()
+    needed = [
+        parameter.name
+        for parameter in parameters
+        if parameter.default is parameter.empty
+        and parameter.kind not in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD)
+    ]
+    for strange in STRANGE:
+        for good in ({}, GOOD):
+            for changed in needed:
+                arguments = {key: good.get(key, strange) for key in needed} | {changed: strange}
+                try:
+                    call(**arguments)
+                except rw.RightOfWayError as refusal:
+                    message = str(refusal)
+                    assert message.strip(), strange
+                    assert "truth value" not in message
+
+
+@pytest.mark.parametrize(
+    ("annotation", "fits", "does_not"),
+    [
+        (int, [0, -5, np.int32(3)], [True, 1.0, "1", None, 10**30]),
+        (float, [1, 2.5, Fraction(1, 3)], [float("nan"), True, "1", 10**400]),
+        (str | None, ["a", None], [b"a", 1, ["a"]]),
+        (rw.Plan, [PLAN], [DOOR, None, "plan.json"]),
+        (list[int], [[1], (1, 2), np.array([1])], [[1, "a"], "ab", {1: 2}, {1}, iter([1]), 1]),
+        (tuple[str, str], [("a", "b")], [("a",), "ab", None]),
+        (dict[str, int], [{"a": 1}], [{"a": "b"}, [("a", 1)], None]),
+        (Callable[[int], int], [abs], [1, "abs"]),
+    ],
+)
+def test_an_annotation_admits_what_it_names_and_nothing_else(
+    annotation: Any, fits: list[Any], does_not: list[Any]
+) -> None:
+    kind: ArgumentKind = kind_of(annotation)
+    assert [value for value in fits if kind.fault(("it",), value)] == []
+    assert [value for value in does_not if not kind.fault(("it",), value)] == []
+
+
+def test_all_arguments_that_do_not_fit_are_named_with_their_items() -> None:
+    @checks_arguments
+    def travel(names: list[str], *, laps: int = 1) -> int:
+        return len(names) * laps
+
+    assert travel(["R1"], laps=2) == 2
+    with pytest.raises(rw.InputError) as refusal:
+        travel(["R1", 7], laps="two")  # type: ignore[list-item, arg-type]
+    assert str(refusal.value) == (
+        "names[1]: 7 does not fit (give text)\nlaps: 'two' does not fit (give a whole number)"
+    )
