@@ -1,0 +1,62 @@
+"""What the wheel and the sdist carry of others, and the licences that they name."""
+
+from __future__ import annotations
+
+import tomllib
+from importlib.metadata import distribution
+from pathlib import Path
+from typing import Any
+
+import nanobind
+import pytest
+
+from tests.builders.vendored import VENDOR, record
+
+ROOT = Path(__file__).parents[1]
+PROJECT: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+CARRIED: list[dict[str, Any]] = tomllib.loads(
+    (ROOT / "licences" / "carried.toml").read_text("utf-8")
+)["carried"]
+
+OURS = ["README.md"]
+"""Files in folders of others that are ours."""
+
+
+def files_of_others() -> set[Path]:
+    return {path for entry in CARRIED for pattern in entry["files"] for path in ROOT.glob(pattern)}
+
+
+def test_the_expression_names_the_licence_of_all_that_is_carried() -> None:
+    carried = {spdx for entry in CARRIED for spdx in entry["spdx"]}
+    assert set(PROJECT["license"].split(" AND ")) == {"MIT", *carried}
+
+
+@pytest.mark.parametrize("entry", CARRIED, ids=lambda entry: str(entry["name"]))
+def test_the_text_of_each_licence_is_in_the_metadata(entry: dict[str, Any]) -> None:
+    """`license-files` are copied into every wheel and sdist."""
+    kept = {path for pattern in PROJECT["license-files"] for path in ROOT.glob(pattern)}
+    assert ROOT / entry["text"] in kept
+    assert all(list(ROOT.glob(pattern)) for pattern in entry["files"])
+
+
+@pytest.mark.parametrize(
+    "folder", ["examples/maps", "tests/data/samples", str(VENDOR.relative_to(ROOT))]
+)
+def test_no_file_of_others_is_forgotten(folder: str) -> None:
+    """Maps, samples and vendored scripts are all in the table; a new one has to be listed."""
+    known = files_of_others() | {ROOT / entry["text"] for entry in CARRIED}
+    about = {VENDOR / "vendor.json", *(VENDOR / f"{Path(name).stem}.d.ts" for name in record())}
+    unknown = {path for path in (ROOT / folder).rglob("*") if path.is_file()} - known - about
+    assert {path for path in unknown if path.name not in OURS} == set()
+
+
+def test_the_texts_are_those_of_the_compiled_code() -> None:
+    """A new version of nanobind may bring another licence: then this fails."""
+    texts = {str(file) for file in distribution("nanobind").files or [] if "licenses" in str(file)}
+    [text] = texts
+    licence = distribution("nanobind").locate_file(text)
+    assert Path(str(licence)).read_text("utf-8") == (ROOT / "licences/nanobind.txt").read_text()
+    header = Path(nanobind.__file__).parent / "ext/robin_map/include/tsl/robin_map.h"
+    comment = [line.removeprefix(" *").strip() for line in header.read_text("utf-8").splitlines()]
+    ours = (ROOT / "licences/robin-map.txt").read_text("utf-8").splitlines()
+    assert comment[1 : 1 + len(ours)] == [line.strip() for line in ours]
