@@ -218,6 +218,22 @@ def test_a_roadmap_is_two_sheets_of_vertices_and_edges(tmp_path: Path) -> None:
     scenario = rightofway.load(path)
     assert scenario.roadmap.n_vertices == 3
     assert set(scenario.roadmap.lengths) == {5, 4}
+    for cell, value in {"D1": "parking", "D2": "yes", "D3": "no", "E1": "charging"}.items():
+        workbook["Vertices"][cell] = value
+    workbook["robots"]["B2"] = workbook["robots"]["D3"] = None
+    (rule,) = (row for row in workbook["rules"] if row[0].value == "homes")
+    rule[1].value = "parking"
+    workbook.save(path)
+    loaded = load_with_notes(path)
+    roadmap = loaded.scenario.roadmap
+    assert roadmap.name(loaded.scenario.robots[0].home) == "dock"
+    assert loaded.notes[-1] == "homes dealt out: R1 at dock"
+    write_scenario(loaded.scenario, tmp_path / "again.xlsx")
+    assert rightofway.load(tmp_path / "again.xlsx") == loaded.scenario
+    workbook["Vertices"]["D3"] = "maybe"
+    workbook.save(path)
+    assert faults_of(path) == ["Vertices!D3: 'maybe' is neither true nor false (write one of them)"]
+    workbook["Vertices"]["D3"] = None
     workbook["edges"]["B3"] = "dok"
     workbook.save(path)
     assert faults_of(path) == ["edges!B3: no vertex is named 'dok' (did you mean 'dock'?)"]

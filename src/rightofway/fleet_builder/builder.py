@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Literal, Self
 
+from rightofway.assign import HOMELESS, deal_homes
 from rightofway.errors import InputError, Where, shown
 from rightofway.files import path_of
 from rightofway.fleet_builder.lanes import DrawnLanes, lanes_of_graph
@@ -326,8 +327,6 @@ class FleetBuilder:
         if stops is not None:
             given = within(source, at, "stops", list_of(lambda stop: stop), stops)
             trip = [(("stops", k), *place_and_work(stop)) for k, stop in enumerate(given)]
-        from rightofway.io.scenario.homes import HOMELESS
-
         try:
             robot = Robot(
                 name=name,
@@ -407,8 +406,6 @@ class FleetBuilder:
             With every fault, as `Scenario`; where there is no map; or for a turn rate on a graph
             without positions.
         """
-        from rightofway.io.scenario.homes import housed
-
         rates = [self._rules.turn_rate, *(robot.turn_rate for robot in self._robots)]
         if not self._has_positions and any(rates):
             remedy = "give each node a pos, or x and y; or leave it out"
@@ -418,7 +415,7 @@ class FleetBuilder:
             cut = self._level(cuts_curves=True)
             roadmap = cut.roadmap
             rules = replace(rules, clearance=rules.clearance + 2 * cut.chord_error)
-        robots, _ = housed(self._robots, roadmap, rules)
+        robots, _ = deal_homes(self._robots, roadmap, rules)
         return Scenario(
             roadmap=roadmap,
             robots=tuple(robots),

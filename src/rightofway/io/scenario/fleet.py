@@ -1,24 +1,28 @@
-"""Robots of scenario documents: listed, in a table, on the rows of a `.scen` file, or housed."""
+"""Robots of scenario documents: listed, in a table, or on the rows of a `.scen` file.
+
+Robots are read once, with their places as written; on a map, places become vertices. A robot that
+has no home is `HOMELESS`: to find one is the work of `rightofway.assign`.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rightofway.assign import HOMELESS
 from rightofway.errors import InputError, InputFault, Location, Steps, in_file, shown, under
 from rightofway.io.faults import Faults, checked
 from rightofway.io.movingai import ScenRow, load_scen
-from rightofway.io.scenario.homes import HOMELESS, housed
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
 from rightofway.io.scenario.maps import file_beside
 from rightofway.io.tables import CellDocument, robots_of_csv
-from rightofway.model import Robot, Rules, Stop
+from rightofway.model import Robot, Stop
 from rightofway.model.robot import ROBOT_ATTRIBUTES
 from rightofway.site import VertexId
 from rightofway.site.places import as_place, kinds_of_places
@@ -177,14 +181,13 @@ def _place_of_laps(document: Document, place: Steps) -> Steps:
 def placed_robots(
     fleet: ListedFleet | FleetRows,
     on: LoadedMap | None,
-    rules: Rules,
     faults: Faults,
     *,
     deals: bool,
-) -> tuple[Sequence[Placed], Sequence[str]]:
-    """Return the robots at their homes, and notes on homes that were dealt out."""
+) -> Sequence[Placed]:
+    """Return the robots at their homes; where homes are dealt out, some are `HOMELESS`."""
     if isinstance(fleet, FleetRows):
-        return (_dealt(fleet, on, faults) if on else ()), ()
+        return _dealt(fleet, on, faults) if on else ()
     placed = list[Placed]()
     for robot in fleet.robots:
         if not deals and isinstance(robot.data, dict) and "home" not in robot.data:
@@ -193,7 +196,7 @@ def placed_robots(
         found = faults.attempt(robot.place, _placed, robot, on)
         if found and (deals or found.robot.home != HOMELESS):
             placed.append(found)
-    return _housed(placed, on, rules, faults) if deals and on and placed else (placed, ())
+    return placed
 
 
 def _placed(robot: ListedRobot, on: LoadedMap | None) -> Placed | None:
@@ -218,17 +221,6 @@ def _placed(robot: ListedRobot, on: LoadedMap | None) -> Placed | None:
         aliases["stops", 0, "at"] = (*place, "target")
     made = Robot(name=document.name, home=home, stops=stops, **robot.own)
     return Placed(robot=made, place=place, aliases=aliases)
-
-
-def _housed(
-    placed: Sequence[Placed], on: LoadedMap, rules: Rules, faults: Faults
-) -> tuple[Sequence[Placed], Sequence[str]]:
-    """Return the robots, those without a home at parking places, and a note of who starts where."""
-    found = faults.attempt("", housed, [it.robot for it in placed], on.roadmap, rules)
-    if found is None:
-        return (), ()
-    robots, notes = found
-    return [replace(it, robot=robot) for it, robot in zip(placed, robots, strict=True)], notes
 
 
 def _dealt(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[Placed]:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.arguments import checks_arguments
+from rightofway.assign import deal_homes
 from rightofway.errors import InputError, Steps, Where, in_file, nearest, shown
 from rightofway.io.faults import Faults, checked
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
@@ -93,7 +94,7 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
         drawn = checked(MapDocument, data)
         if drawn.cell_size == "adaptive":  # may take seconds: first what is quick to check
             wrong = Faults()
-            placed_robots(robots, None, rules, wrong, deals=deals)
+            placed_robots(robots, None, wrong, deals=deals)
             if wrong.found:
                 return None
         found = map_of(drawn, base, units, robots.traits)
@@ -118,16 +119,18 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     if loaded and loaded.keeps_clear and rules.walls == "strict":
         remedy = "robots keep clear of what a map in pixels shows; take it out"
         faults.note(("rules", "walls"), f"'strict' is for grids and floors ({remedy})")
-    placed, more = placed_robots(robots, loaded, rules, faults, deals=deals)
+    placed = placed_robots(robots, loaded, faults, deals=deals)
     closures = faults.part(document, "closures", _closures, loaded) or []
-    scenario = None
+    scenario, notes = None, list[str]()
+    if loaded and placed and deals:
+        placed = faults.attempt("", _at_homes, placed, loaded.roadmap, rules, notes) or ()
     if loaded and placed:
         others = {"rules": rules, "units": loaded.units, "closures": tuple(closures)}
         scenario = _assembled(loaded.roadmap, placed, others, faults)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
-    return Loaded(scenario=scenario, notes=(*_notes(loaded, scenario), *more))
+    return Loaded(scenario=scenario, notes=(*_notes(loaded, scenario), *notes))
 
 
 def _rules_of(data: Any) -> Rules:
@@ -169,6 +172,15 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
         found.append(closure)
     faults.stop()
     return found
+
+
+def _at_homes(
+    placed: Sequence[Placed], roadmap: Roadmap, rules: Rules, notes: list[str]
+) -> Sequence[Placed]:
+    """Return the robots, each with a home; add a note on the homes that were dealt out."""
+    robots, more = deal_homes([it.robot for it in placed], roadmap, rules)
+    notes += more
+    return [replace(it, robot=robot) for it, robot in zip(placed, robots, strict=True)]
 
 
 def _assembled(

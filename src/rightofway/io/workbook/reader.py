@@ -17,7 +17,10 @@ from rightofway.model.robot import RULE_ATTRIBUTES
 SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures")
 """Sheets that are read, by lower-case name."""
 
-VERTEX_KEYS = ("name", "x", "y", "barred", "surcharge")
+SPOTS = ("parking", "charging")
+"""Columns of vertices that are true for such a place."""
+
+VERTEX_KEYS = ("name", "x", "y", "barred", "surcharge", *SPOTS)
 
 MAX_CELLS = 1_000_000
 """Cells of a map, at most."""
@@ -26,6 +29,9 @@ TRUTHS = {it.key for it in RULE_ATTRIBUTES if it.kind == "truth"}
 """Rules that are true or false."""
 
 YES_NO = {"true": True, "yes": True, "false": False, "no": False}
+
+HOMES = "homes"
+"""The row of the rules sheet that belongs to the whole scenario."""
 
 UNIT_KEYS = {"length_unit": "length", "time_unit": "time"}
 """Rows of the rules sheet that are units, and their keys there."""
@@ -186,7 +192,7 @@ def _add_rules(
 
     rules = [field.alias or name for name, field in RulesDocument.model_fields.items()]
     of_map = [name for name in MapDocument.model_fields if name not in MAPS]
-    known = [*rules, *of_map, *UNIT_KEYS]
+    known = [*rules, *of_map, *UNIT_KEYS, HOMES]
     seen = set[str]()
     parts: dict[str, dict[str, Any]] = {"rules": {}, "units": {}, "map": {}}
     for row, values in sheet.rows():
@@ -204,11 +210,14 @@ def _add_rules(
             continue
         seen.add(key)
         part = "units" if key in UNIT_KEYS else "map" if key in of_map else "rules"
-        cells[part, UNIT_KEYS.get(key, key)] = sheet.cell(row, 2)
+        path: Steps = (key,) if key == HOMES else (part, UNIT_KEYS.get(key, key))
+        cells[path] = sheet.cell(row, 2)
         read = (
             faults.attempt(sheet.cell(row, 2), value_of, key, value) if value is not None else None
         )
-        if read is not None:
+        if read is not None and key == HOMES:
+            document[HOMES] = read
+        elif read is not None:
             is_word = isinstance(read, str) and key in TRUTHS
             parts[part][UNIT_KEYS.get(key, key)] = (
                 YES_NO.get(read.lower(), read) if is_word else read
@@ -226,7 +235,8 @@ def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[Steps, Where]) -> dict[s
     from rightofway.io.scenario.shape import EdgeDocument
 
     faults, positions, first_row = Faults(), dict[str, Any](), dict[str, int]()
-    for row, found, _ in faults.attempt("", _table, vertices, VERTEX_KEYS) or ():
+    spots: dict[str, list[str]] = {key: [] for key in SPOTS}
+    for row, found, columns in faults.attempt("", _table, vertices, VERTEX_KEYS) or ():
         name = str(found.get("name", ""))
         missing = [key for key in ("name", "x", "y") if key not in found]
         if missing:
@@ -239,6 +249,13 @@ def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[Steps, Where]) -> dict[s
         position = [found.get("x", 0), found.get("y", 0)]
         more = {key: value_of(key, found[key]) for key in ("barred", "surcharge") if key in found}
         positions[name] = {"at": position, **more} if more else position
+        for key, names in spots.items():
+            is_one = YES_NO.get(str(found.get(key, False)).lower())
+            if is_one is None:
+                message = f"{shown(found[key])} is neither true nor false (write one of them)"
+                faults.note(vertices.cell(row, columns[key]), message)
+            elif is_one:
+                names.append(name)
         cells["map", "roadmap", "vertices", name] = vertices.cell(row, 1)
     known = [field.alias or name for name, field in EdgeDocument.model_fields.items()]
     ways = list[dict[str, Any]]()
@@ -259,7 +276,8 @@ def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[Steps, Where]) -> dict[s
     drawn = ("map", "roadmap")
     cells |= {drawn[:1]: vertices.location, drawn: vertices.location}
     cells |= {(*drawn, "vertices"): vertices.location, (*drawn, "edges"): edges.location}
-    return {"vertices": positions, "edges": ways}
+    spots = {key: names for key, names in spots.items() if names}
+    return {"vertices": positions, "edges": ways, **spots}
 
 
 def _table(

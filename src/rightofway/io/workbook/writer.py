@@ -11,6 +11,7 @@ from typing import Any
 from rightofway.errors import InputError
 from rightofway.files import archive_of, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
+from rightofway.io.workbook.reader import SPOTS
 from rightofway.model.attributes import Attribute
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 
@@ -46,6 +47,7 @@ RULE_HINTS: tuple[Hint, ...] = (
     ("origin", "[x, y] of the map's lower left corner on the site", ""),
     ("length unit", "what lengths are measured in: mm, cm or m", "mm,cm,m"),
     ("time unit", "what times are measured in: ms, s, min or h", "ms,s,min,h"),
+    ("homes", "parking: robots without a home start from parking and charging places", "parking"),
 )
 
 HELP = (
@@ -60,6 +62,8 @@ HELP = (
     "are counted row by row), its [row, column] from 0, or the name of a vertex.",
     "Several stops: replace target and work by the columns stop 1, work 1, stop 2, work 2, …",
     "Instead of map, the sheets vertices (name, x, y) and edges (from, to, length, both_ways).",
+    "A vertex with true in its column parking or charging is such a place: where the rule homes is",
+    "parking, robots without a home start there.",
     "closures, if needed: a place in column at, or [A, B] in column edge; from, until, radius.",
     "rules: an empty value stands for the default. Other sheets are not read.",
 )
@@ -132,7 +136,7 @@ def _refuse_more(document: dict[str, Any]) -> None:
     """Refuse a document with parts that would be lost."""
     more = document.keys() - {"format", "map", "robots", "rules", "units", "closures"}
     roadmap = document["map"].get("roadmap", {})
-    more |= roadmap.keys() - {"vertices", "edges"}
+    more |= roadmap.keys() - {"vertices", "edges", *SPOTS}
     if more:
         message = f"a workbook has no place for {' and '.join(sorted(more))} (write .yaml or .json)"
         raise InputError.at("", message)
@@ -215,12 +219,14 @@ def _write_closures(sheet: Any, closures: Sequence[dict[str, Any]]) -> None:
 
 def _write_roadmap(workbook: Any, roadmap: dict[str, Any]) -> None:
     vertices, edges = workbook.create_sheet("vertices"), workbook.create_sheet("edges")
-    rows = [
-        [name, *it["at"], _cell(it["barred"])] if isinstance(it, dict) else [name, *it]
-        for name, it in roadmap["vertices"].items()
-    ]
-    is_barred = any(isinstance(it, dict) for it in roadmap["vertices"].values())
-    _write_table(vertices, ["name", "x", "y", *(["barred"] if is_barred else [])], rows)
+    rows = []
+    for name, it in roadmap["vertices"].items():
+        x, y = it["at"] if isinstance(it, dict) else it
+        more = {key: _cell(it[key]) for key in it if key != "at"} if isinstance(it, dict) else {}
+        spots = {key: "true" for key in SPOTS if name in roadmap.get(key, ())}
+        rows.append({"name": name, "x": x, "y": y, **more, **spots})
+    heads = list(dict.fromkeys(chain(("name", "x", "y"), *rows)))
+    _write_table(vertices, heads, [[row.get(key) for key in heads] for row in rows])
     keys = list(dict.fromkeys(["from", "to", "length", "both_ways", *chain(*roadmap["edges"])]))
     ways = [[_cell(edge.get(key)) for key in keys] for edge in roadmap["edges"]]
     _write_table(edges, keys, ways)

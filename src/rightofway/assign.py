@@ -1,4 +1,8 @@
-"""Homes dealt out: robots without a home start from the parking and charging places of a map."""
+"""Homes for robots that have none: the parking and charging places of a map.
+
+Files and builders hand over robots without a home. Whoever makes a scenario of them deals homes out
+here first; a free place with a way to the work and back is searched for each.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +15,8 @@ from rightofway.model import Robot, Rules, Tick
 from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId, squared_distance
 
+__all__ = ["HOMELESS", "deal_homes"]
+
 HOMELESS = VertexId(-1)
 """The home of a robot to which none is dealt out yet."""
 
@@ -21,7 +27,7 @@ FAR = 2**31 - 1
 """No way is longer [steps]."""
 
 
-def housed(
+def deal_homes(
     robots: Sequence[Robot], roadmap: Roadmap, rules: Rules
 ) -> tuple[list[Robot], tuple[str, ...]]:
     """Return the robots with homes for those that are `HOMELESS`, and a note of who starts where.
@@ -50,6 +56,8 @@ def housed(
     if homeless and not parking:
         message = "the map has no parking or charging place (give each robot a home)"
         raise InputError.at("homes", message)
+    if not homeless:
+        return list(robots), ()
     distances, steps = Distances(roadmap), _whole_lengths(roadmap)
     stops = {stop.at for robot in robots for stop in robot.stops}
     free = [place for place in parking if place not in stops]
