@@ -12,7 +12,6 @@ from fractions import Fraction
 
 from rightofway.errors import InputError, listed
 from rightofway.model import Robot, Rules, Tick
-from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId, squared_distance
 
 __all__ = ["HOMELESS", "deal_homes"]
@@ -58,6 +57,8 @@ def deal_homes(
         raise InputError.at("homes", message)
     if not homeless:
         return list(robots), ()
+    from rightofway.search import Distances  # here: it loads the native core
+
     distances, steps = Distances(roadmap), _whole_lengths(roadmap)
     stops = {stop.at for robot in robots for stop in robot.stops}
     free = [place for place in parking if place not in stops]

@@ -9,7 +9,7 @@ from fractions import Fraction
 from numbers import Integral, Rational, Real
 from typing import Any, Literal, TypeVar
 
-from rightofway.errors import InputError, InputFault, Where, shown, under
+from rightofway.errors import InputError, InputFault, Where, shown
 
 T = TypeVar("T")
 
@@ -105,9 +105,9 @@ def coerced(value: object, source: str, **readers: Callable[[object], object]) -
     faults = list[InputFault]()
     for name, read in readers.items():
         try:
-            object.__setattr__(value, name, at(name, read, getattr(value, name)))
-        except InputError as error:
-            faults += error.faults
+            object.__setattr__(value, name, read(getattr(value, name)))
+        except ValueError as error:
+            faults += _faults_at(name, error)
     if faults:
         raise InputError(faults, source)
 
@@ -214,13 +214,17 @@ def at(where: Where, read: Callable[[object], T], value: object) -> T:
     InputError
         At the place, if the reader refuses the value.
     """
-    with under(where):
-        try:
-            return read(value)
-        except InputError:
-            raise
-        except ValueError as error:
-            raise InputError.at("", str(error)) from None
+    try:
+        return read(value)
+    except ValueError as error:
+        raise InputError(_faults_at(where, error)) from None
+
+
+def _faults_at(where: Where, error: ValueError) -> list[InputFault]:
+    """Return the faults of a value that was refused, at its place."""
+    if isinstance(error, InputError):
+        return [fault.within(where) for fault in error.faults]
+    return [InputFault(where, str(error))]
 
 
 def function(value: object) -> Callable[..., Any]:

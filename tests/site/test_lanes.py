@@ -8,6 +8,7 @@ from itertools import pairwise
 from math import ceil
 from typing import Any
 
+import networkx as nx  # type: ignore[import-untyped]
 import pytest
 
 import rightofway
@@ -231,3 +232,26 @@ def test_a_lane_is_not_split_without_end() -> None:
     document = {"format": "rightofway-scenario/1", "map": drawn, "robots": robots}
     with pytest.raises(InputError, match="makes 1000000000000 pieces, more than 100000"):
         scenario_of(document)
+
+
+def test_a_lane_far_longer_than_its_drawing_is_not_split() -> None:
+    """A length of 21 474 m in a table would set places 0.15 mm apart on a lane of 3.25 m."""
+    at = {"A": (Fraction(0), Fraction(0)), "B": (Fraction(13, 4), Fraction(0))}
+    wrong = [Edge(tail="A", head="B", length=Fraction(21_474))]
+    with pytest.raises(InputError) as caught:
+        split_lanes(at, wrong, Fraction(1))
+    assert str(caught.value) == (
+        "the lane from 'A' to 'B' is 21474 long, but 3.25 in the drawing: a spacing of 1 sets"
+        " places 0.00015 apart (correct its length or its ends, draw its way as a curve, or give a"
+        " larger spacing)"
+    )
+    winding = [Edge(tail="A", head="B", length=Fraction(65, 2))]  # 10 times: just possible
+    assert len(split_lanes(at, winding, Fraction(1)).edges) == 33
+    assert len(split_lanes(at, wrong, Fraction(21_474)).edges) == 1  # whole lanes stay as they are
+
+
+def test_lanes_of_a_graph_without_positions_are_split_by_their_lengths_alone() -> None:
+    graph = nx.Graph()
+    graph.add_edge("A", "B", length=40)
+    roadmap = FleetBuilder(graph=graph, spacing=2).roadmap()
+    assert roadmap.n_vertices == 21

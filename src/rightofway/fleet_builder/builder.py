@@ -131,7 +131,6 @@ class FleetBuilder:
         self._roadmap: Roadmap | None = None
         self._level: Callable[..., LevelRoadmap] | None = None
         self._stations: dict[str, VertexId] = {}
-        self._has_positions = True
         self._rules = rules_of(rules)
         self._units = units_of(units)
         self._y_up = y == "up"
@@ -145,7 +144,7 @@ class FleetBuilder:
 
             self._roadmap = roadmap_of_grid(load_map(path_of(map_file, "map_file")), **frame)
         elif graph is not None:
-            self._drawn, self._has_positions = lanes_of_graph(graph)
+            self._drawn = lanes_of_graph(graph)
             self.roadmap()
         elif layout is not None:
             self._take_layout(layout, level, vehicle_type)
@@ -407,7 +406,7 @@ class FleetBuilder:
             without positions.
         """
         rates = [self._rules.turn_rate, *(robot.turn_rate for robot in self._robots)]
-        if not self._has_positions and any(rates):
+        if not self._drawn.is_drawn and any(rates):
             remedy = "give each node a pos, or x and y; or leave it out"
             raise InputError.at("turn_rate", f"needs positions, and the graph has none ({remedy})")
         roadmap, rules = self.roadmap(), self._rules

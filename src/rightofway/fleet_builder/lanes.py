@@ -38,6 +38,8 @@ class DrawnLanes:
         What vertices were given.
     zones
         Zones by the names of their vertices and edges.
+    is_drawn
+        Whether the positions are those of the site; else they are numbers in a row.
     """
 
     positions: dict[str, Point] = field(default_factory=dict)
@@ -45,6 +47,7 @@ class DrawnLanes:
     barred: dict[str, frozenset[str]] = field(default_factory=dict)
     surcharges: dict[str, Fraction] = field(default_factory=dict)
     zones: list[NamedZone] = field(default_factory=list)
+    is_drawn: bool = True
 
     def add_vertex(
         self, name: str, x: Number, y: Number, *, barred: Iterable[str], surcharge: Number
@@ -107,7 +110,7 @@ class DrawnLanes:
         ]
         split = SplitLanes(self.positions, edges, {})
         if spacing is not None:
-            split = split_lanes(self.positions, edges, spacing)
+            split = split_lanes(self.positions, edges, spacing, is_drawn=self.is_drawn)
         return roadmap_of_edges(
             {name: (float(x), float(y)) for name, (x, y) in split.positions.items()},
             split.edges,
@@ -122,13 +125,13 @@ class DrawnLanes:
         return squared_distance(self.positions[tail], self.positions[head])
 
 
-def lanes_of_graph(graph: Any) -> tuple[DrawnLanes, bool]:
-    """Return the lanes of a `networkx` graph, and whether all its nodes have positions."""
+def lanes_of_graph(graph: Any) -> DrawnLanes:
+    """Return the lanes of a `networkx` graph; drawn if all its nodes have positions."""
     if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
         raise InputError.at("graph", f"{shown(graph)} is no graph (give a networkx graph)")
     at = {node: _position(node, data) for node, data in graph.nodes(data=True)}
     is_drawn = all(at.values())
-    lanes = DrawnLanes()
+    lanes = DrawnLanes(is_drawn=is_drawn)
     for index, (node, position) in enumerate(at.items()):
         x, y = position if position and is_drawn else (index, 0)
         lanes.add_vertex(str(node), x, y, barred=(), surcharge=0)
@@ -142,7 +145,7 @@ def lanes_of_graph(graph: Any) -> tuple[DrawnLanes, bool]:
             barred=(),
             surcharge=0,
         )
-    return lanes, is_drawn
+    return lanes
 
 
 def _position(node: Any, data: dict[str, Any]) -> tuple[Any, Any] | None:

@@ -47,6 +47,14 @@ class Edge:
             self, source, length=number, max_speed=optional(number), barred=names, surcharge=number
         )
 
+    def piece(self, tail: str, head: str, length: Fraction, surcharge: Fraction) -> Edge:
+        """Return a piece of this edge; its values are exact already, and are not checked again."""
+        piece = object.__new__(Edge)  # a lane may have 100 000
+        values = (tail, head, length, self.max_speed, self.barred, surcharge)
+        for name, value in zip(Edge.__slots__, values, strict=True):
+            object.__setattr__(piece, name, value)
+        return piece
+
 
 @checks_arguments
 def roadmap_of_edges(
@@ -103,9 +111,15 @@ def roadmap_of_edges(
             )
             for edge in edges
         ]
+    # Fractions are slow to hash: pieces of a lane share theirs, and are told apart by identity.
+    numbers = [(id(it.length), id(it.max_speed), id(it.barred), id(it.surcharge)) for it in edges]
+    class_of_numbers = {
+        each: _edge_class(edges[index])
+        for each, index in {each: index for index, each in enumerate(numbers)}.items()
+    }
     # Floats first: fractions are slow to compare, and only equal floats need it.
     classes = sorted(
-        {_edge_class(edge) for edge in edges},
+        set(class_of_numbers.values()),
         key=lambda one: (
             float(one.length),
             one.length,
@@ -114,15 +128,17 @@ def roadmap_of_edges(
             one.surcharge,
         ),
     )
-    class_of = {each: index for index, each in enumerate(classes)}
-    ordered = sorted(edges, key=lambda edge: ids[edge.tail])  # stable: keeps the given order
+    rank = {each: index for index, each in enumerate(classes)}
+    rank_of_numbers = {each: rank[edge_class] for each, edge_class in class_of_numbers.items()}
+    order = sorted(range(len(edges)), key=lambda k: ids[edges[k].tail])  # stable: the given order
+    ordered = [edges[k] for k in order]
     degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))
     down = (1.0, -1.0 if y_up else 1.0)
     both_ends = {(edge.tail, edge.head) for edge in edges}
     return Roadmap(
         indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
         heads=np.array([ids[edge.head] for edge in ordered], np.int32),
-        class_of_edge=np.array([class_of[_edge_class(edge)] for edge in ordered], np.int32),
+        class_of_edge=np.array([rank_of_numbers[numbers[k]] for k in order], np.int32),
         edge_classes=tuple(classes),
         barred_vertices={VertexId(ids[name]): frozenset(kinds) for name, kinds in barred.items()},
         positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from math import ceil
+from math import ceil, sqrt
 from typing import NamedTuple
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, shown
+from rightofway.quantities import decimal
 from rightofway.site.edges import Edge
 from rightofway.site.geometry import COARSE, Point, squared_distance, straight_length
 
@@ -22,6 +22,11 @@ PIECE = re.compile("(.+)/[1-9][0-9]*")
 
 MAX_PIECES = 100_000
 """The most pieces that the lanes of a roadmap are split into: 50 km of lanes, each 0.5 m."""
+
+
+MOST_WINDING = 10
+"""How many times as long as its drawing a lane may be that is split. Half a circle is 1.6 times as
+long as the straight line; a way that winds more than this is taken for a slip in its length."""
 
 
 class SplitLanes(NamedTuple):
@@ -47,6 +52,8 @@ def split_lanes(
     edges: Sequence[Edge],
     spacing: Fraction | None,
     shapes: Mapping[tuple[str, str], Sequence[Point]] | None = None,
+    *,
+    is_drawn: bool = True,
 ) -> SplitLanes:
     """Split lanes that are longer than the spacing into equal pieces, and curves at their points.
 
@@ -63,11 +70,14 @@ def split_lanes(
         The longest piece [length unit], above 0; None to split curves only.
     shapes
         Points between the ends of curved edges, by tail and head [length unit].
+    is_drawn
+        Whether the positions say how long lanes are; those of a graph without positions do not.
 
     Raises
     ------
     InputError
-        If a vertex has the name of a new one already, or there would be too many.
+        If a vertex has the name of a new one already, or there would be too many; if a lane that is
+        split is more than `MOST_WINDING` times as long as its drawing.
 
     Examples
     --------
@@ -93,6 +103,8 @@ def split_lanes(
                 *curves.get((edge.tail, edge.head), ()),
                 positions[edge.head],
             ]
+            if is_drawn and spacing is not None and longest[lane] > spacing:
+                _refuse_winding(edge, points, longest[lane], spacing)
             lengths = lengths_along(points) if len(points) > STRAIGHT else [longest[lane]]
             inside, parts = _cuts(points, lengths, spacing)
             names = [f"{edge.tail}-{edge.head}/{k}" for k in range(1, len(inside) + 1)]
@@ -113,7 +125,7 @@ def split_lanes(
         found_lengths = _each(shares, max(edge.length, least).__mul__)
         surcharges = _each(shares, edge.surcharge.__mul__)
         split += [
-            replace(edge, tail=tail, head=head, length=length, surcharge=surcharge)
+            edge.piece(tail, head, length, surcharge)
             for (tail, head), length, surcharge in zip(
                 pairwise(way), found_lengths, surcharges, strict=True
             )
@@ -141,6 +153,22 @@ def refuse_many_pieces(lengths: Iterable[Fraction], spacing: Fraction | None) ->
         remedy = "give a larger spacing"
         message = f"a spacing of {spacing} makes {count} pieces, more than {MAX_PIECES} ({remedy})"
         raise InputError.at("", message)
+
+
+def _refuse_winding(
+    edge: Edge, points: Sequence[Point], length: Fraction, spacing: Fraction
+) -> None:
+    """Refuse to split a lane whose places would lie far nearer together than robots drive."""
+    drawn = sum(sqrt(squared_distance(*ends)) for ends in pairwise(points))
+    if length > MOST_WINDING * drawn:
+        gap = drawn / ceil(length / spacing)
+        raise InputError.at(
+            "",
+            f"the lane from {shown(edge.tail)} to {shown(edge.head)} is {decimal(length)} long, but"
+            f" {drawn:.4g} in the drawing: a spacing of {decimal(spacing)} sets places {gap:.2g}"
+            " apart (correct its length or its ends, draw its way as a curve, or give a larger"
+            " spacing)",
+        )
 
 
 def _each(parts: Sequence[Fraction], use: Callable[[Fraction], Fraction]) -> list[Fraction]:
