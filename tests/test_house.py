@@ -16,6 +16,7 @@ ROOMS = [
     "precedence",
     "lacam",
     "lns",
+    "cbs",
     "cyclic",
     "execution",
     "bind",

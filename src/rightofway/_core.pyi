@@ -794,6 +794,67 @@ class FleetSearch:
     def n_expanded(self) -> int:
         """States expanded by `improve`."""
 
+class ConflictBasedSearch:
+    """
+    Conflict-based search for a plan of least cost, with its proof.
+
+    Parameters
+    ----------
+    problem : Problem
+        What the fleet has to do.
+    cardinal : bool
+        Whether conflicts that cost both robots something are resolved first.
+    bypass : bool
+        Whether tracks of equal cost with fewer conflicts replace others without a split.
+    heuristic : bool
+        Whether the losses of pairs of robots raise the bounds of nodes.
+    """
+
+    def __init__(self, problem: Problem, cardinal: bool, bypass: bool, heuristic: bool) -> None: ...
+
+    def run(self, upper: int, enough: int, most_nodes: int, most_bytes: int, time_limit: float | None) -> tuple[int, int]:
+        """
+        Search on; the search can be continued.
+
+        Parameters
+        ----------
+        upper : int
+            The cost of a plan that is known, NEVER for none: nothing of this cost or more is looked for.
+            The same in each call. [ticks]
+        enough : int
+            Stop as soon as the bound is this or more. [ticks]
+        most_nodes : int
+            Stop after this number of nodes.
+        most_bytes : int
+            Stop where nodes and tracks take more memory, about. [bytes]
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+
+        Returns
+        -------
+        tuple of (int, int)
+            How it ended (0: a plan of least cost, 1: proven that none costs less than `upper`, 2: stopped),
+            and the proven bound, NEVER where no plan exists. [ticks]
+        """
+
+    def tracks(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Return the tracks of the plan found, of no robot before.
+
+        Returns
+        -------
+        tuple of (int32[R + 1], int32[N], int64[N])
+            Which visits each robot has, and where and when they begin. [ticks]
+        """
+
+    @property
+    def n_nodes(self) -> int:
+        """The number of nodes expanded."""
+
+    @property
+    def n_searches(self) -> int:
+        """The number of searches for the track of one robot."""
+
 class Order:
     """
     The order of the visits of a plan.

@@ -249,7 +249,7 @@ def _run(
         try:
             draft = spec.load()(task) if old is None else _going_on(spec, task, old)
         except GaveUp as error:
-            error.lower_bound = int(alone.sum())
+            error.lower_bound = max(int(alone.sum()), error.lower_bound or 0)
             raise
     keep()
     run = PlannerRun(

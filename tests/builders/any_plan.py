@@ -22,6 +22,7 @@ STRICT = [name for name in ALL if Feature.LEAVES_SWAPS not in SPECS[name].featur
 
 QUICK = {
     "auto": {"iterations": 10},
+    "cbs": {"nodes": 50},
     "lns": {"iterations": 10},
     "local-search": {"rounds": 3},
     "priority-search": {"rounds": 3, "restarts": 1},

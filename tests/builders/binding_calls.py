@@ -468,6 +468,16 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
         "spreads": rng.random() < 1 / 2, "seed": rng.randrange(99),
         "most_effort": rng.choice((None, 10, 1000, 10**5)), "time_limit": 0.2,
     },
+    "ConflictBasedSearch": lambda rng: {
+        "problem": _problem(rng), "cardinal": rng.random() < 1 / 2, "bypass": rng.random() < 1 / 2,
+        "heuristic": rng.random() < 1 / 2,
+    },
+    "ConflictBasedSearch.run": _timed(
+        upper=_core.NEVER, enough=_core.NEVER, most_nodes=50, most_bytes=2**24
+    ),
+    "ConflictBasedSearch.tracks": _always(),
+    "ConflictBasedSearch.n_nodes": _always(),
+    "ConflictBasedSearch.n_searches": _always(),
     "FleetSearch": lambda rng: {
         "problem": _problem(rng), "seed": rng.randrange(99), "n_threads": rng.randrange(1, 4),
         "alone": rng.choice((None, int64(14, 17, 7))),

@@ -9,7 +9,7 @@ from fractions import Fraction
 from math import ceil
 
 from rightofway.model import Robot, Rules, Scenario, Stop
-from rightofway.site import VertexId
+from rightofway.site import VertexId, roadmap_of_grid
 from tests.builders.closures import with_closures
 from tests.builders.sizes import crowded_roadmap, has_room, tiny, zoned
 from tests.oracles import joint_space, turning
@@ -67,14 +67,51 @@ def three(seed: int) -> Scenario:
     return tiny(seed, robots=3)
 
 
+def trips(seed: int) -> Scenario:
+    """Return two or three points of own speeds, with work, ways back and all booking rules."""
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    robots = draw.choice([2, 2, 3])
+    rows, columns = (2, 3) if robots == 3 else draw.choice([(2, 3), (1, 4), (3, 3), (2, 4)])
+    free = rows * columns - draw.choice([0, 0, 1])
+    blocked = draw.sample(range(rows * columns), rows * columns - free)
+    cells = ["@" if cell in blocked else "." for cell in range(rows * columns)]
+    lines = ["".join(cells[row * columns : (row + 1) * columns]) for row in range(rows)]
+    places = range(free)
+    homes, ends = draw.sample(places, robots), draw.sample(places, robots)
+    rules = Rules(
+        occupancy=draw.choice(["one", "both"]),
+        headway=Fraction(draw.choice([0, 0, 1])),
+        turn=Fraction(draw.choice([0, 1])),
+        ends="home" if draw.random() < 0.4 else "none",
+        rotations=draw.random() < 0.6,
+    )
+    fleet = tuple(
+        Robot(
+            name=f"R{k + 1}",
+            home=VertexId(home),
+            stops=(
+                *(
+                    (Stop(at=VertexId(draw.choice(places)), work=Fraction(1)),)
+                    * draw.choice([0, 1])
+                ),
+                Stop(at=VertexId(end), work=Fraction(draw.choice([0, 0, 1, 3]))),
+            ),
+            speed=draw.choice([Fraction(1), Fraction(1), Fraction(1, 2)]),
+        )
+        for k, (home, end) in enumerate(zip(homes, ends, strict=True))
+    )
+    return Scenario(roadmap=roadmap_of_grid(lines), robots=fleet, rules=rules)
+
+
 KINDS: dict[str, Callable[[int], Scenario]] = {
     "sizes": tiny,
     "three": three,
     "zones": zoned,
     "closures": closed,
     "turning": turning_fleet,
+    "trips": trips,
 }
-"""Tiny fleets by seed: one way trips without work, which is what the oracles know."""
+"""Tiny fleets by seed; those that turn are one way trips without work, as their oracle knows."""
 
 
 def least_flowtime(kind: str, scenario: Scenario) -> int | None:

@@ -1,9 +1,9 @@
 """The least flowtime of a few robots: a search over where all of them are.
 
-One way trips without work and headway. In each tick a robot stands, drives or is done for ever;
-what it books in that tick must not exclude what any other robot books, and must not be closed.
-Points may book one vertex only; two points do not exchange vertices, and fleets of three points
-that book one vertex are not searched: they could rotate.
+In each tick a robot stands, serves a stop, drives or is done for ever; what it books in that tick,
+and what it has left less than the headway ago, must not exclude what any other robot books, and
+must not be closed. Points may book one vertex only; two points do not exchange vertices, and three
+or more do not rotate where the rules forbid it.
 """
 
 from __future__ import annotations
@@ -27,6 +27,9 @@ class State(NamedTuple):
     head: int = -1
     left: int = 0  # ticks of the drive to the head
     is_done: bool = False
+    stage: int = 0  # the first stage that is not served
+    dwell: int = 0  # ticks left of serving the stage before
+    trail: tuple[tuple[tuple[Shape, ...], int], ...] = ()  # what was left, and for how long booked
 
 
 Booked = tuple[Shape, ...]
@@ -40,7 +43,8 @@ class _Fleet:
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
         self.books_ahead = scenario.rules.occupancy == "both"
-        assert self.books_ahead or len(scenario.robots) < 3, "three points may rotate"
+        self.headway = int(scenario.problem.headway)
+        self.stages = [itinerary.stages for itinerary in scenario.problem.itineraries]
         self.excludes = cache(partial(incompatible, scenario))
         self.clash = cache(self._clash)
         self.is_closed = cache(self._is_closed)
@@ -74,29 +78,49 @@ class _Fleet:
                     for i, one in enumerate(before)
                 )
             ]
-        return found
+        if self.scenario.rules.rotations:
+            return found
+        return [chosen for chosen in found if not _rotates(states, [one[0] for one in chosen])]
 
     def _actions(self, robot: int, state: State) -> Iterator[Action]:
         """Yield the next state, what is booked in the tick, and what the tick costs."""
-        roadmap = self.scenario.roadmap
+        trail = tuple((shapes, left - 1) for shapes, left in state.trail if left > 1)
+        behind = tuple(shape for shapes, _ in state.trail for shape in shapes)
+        for after, booked, ticks in self._moves(robot, state._replace(trail=trail)):
+            yield after, booked + behind, ticks
+
+    def _moves(self, robot: int, state: State) -> Iterator[Action]:
+        roadmap, stages = self.scenario.roadmap, self.stages[robot]
         inside = zones_around(roadmap, state.vertex)
         here: Booked = ((state.vertex,), *((-1 - zone,) for zone in inside))
         if state.is_done:
             yield state, here, 0
+        elif state.dwell:
+            yield state._replace(dwell=state.dwell - 1), here, 1
         elif state.left:
             left, edge = state.left - 1, (state.vertex, state.head)
             along, ahead = zones_with(roadmap, edge), zones_around(roadmap, state.head)
-            booked: Booked = (*here, edge, *((-1 - zone,) for zone in along | ahead))
+            behind: Booked = (*here, edge, *((-1 - zone,) for zone in along))
+            booked: Booked = (*behind, *((-1 - zone,) for zone in ahead))
             booked += ((state.head,),) if self.books_ahead else ()
-            yield state._replace(left=left) if left else State(state.head), booked, 1
+            if left:
+                yield state._replace(left=left), booked, 1
+                return
+            trail = (*state.trail, (behind, self.headway)) if self.headway else state.trail
+            yield State(state.head, stage=state.stage, trail=trail), booked, 1
         else:
-            if state.vertex == self.scenario.problem.itineraries[robot].last:
-                yield state._replace(is_done=True), here, 0
+            rest = stages[state.stage :]
+            if all(stage.vertex == state.vertex for stage in rest):
+                yield state._replace(is_done=True), here, sum(int(stage.work) for stage in rest)
+            if len(rest) > 1 and rest[0].vertex == state.vertex:
+                dwell = int(rest[0].work + rest[0].turn)
+                served = state._replace(stage=state.stage + 1, dwell=dwell)
+                yield from self._moves(robot, served)
             yield state, here, 1
             first, end = roadmap.indptr[state.vertex : state.vertex + 2].tolist()
             for head in roadmap.heads[first:end].tolist():
                 ticks = int(drive(self.scenario, robot, state.vertex, head))
-                yield from self._actions(robot, state._replace(head=head, left=ticks))
+                yield from self._moves(robot, state._replace(head=head, left=ticks))
 
 
 def least_flowtime(scenario: Scenario) -> int | None:
@@ -130,3 +154,19 @@ def _exchanges(one: State, one_after: State, other: State, other_after: State) -
     """Tell whether two robots exchange their vertices at the end of a tick."""
     moves = one.vertex != one_after.vertex
     return moves and one_after.vertex == other.vertex and other_after.vertex == one.vertex
+
+
+def _rotates(states: tuple[State, ...], after: list[State]) -> bool:
+    """Tell whether robots rotate at the end of a tick: each enters what the next one leaves."""
+    enters = {
+        one.vertex: then.vertex
+        for one, then in zip(states, after, strict=True)
+        if one.vertex != then.vertex
+    }
+    for first, vertex in enters.items():
+        reached = vertex
+        for _ in enters:
+            if reached == first:
+                return True
+            reached = enters.get(reached, -1)
+    return False

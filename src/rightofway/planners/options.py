@@ -262,3 +262,27 @@ class LnsOptions(PlannerOptions):
     """Options of ``lns``."""
 
     iterations: Iterations = 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CbsOptions(PlannerOptions):
+    """Options of ``cbs``."""
+
+    suboptimality: Annotated[
+        Fraction,
+        Least(1),
+        "Stop at a plan whose cost is proven to be at most this factor above the least cost.",
+    ] = Fraction(1)
+    nodes: Annotated[int, "Number of nodes to expand; 0: until time is up."] = 0
+    cardinal: Annotated[
+        Literal["first", "any"],
+        "Resolve conflicts first that cost both robots something; or the earliest conflict.",
+    ] = "first"
+    bypass: Annotated[
+        Literal["yes", "no"],
+        "Replace tracks by others of equal cost with fewer conflicts; or split every node.",
+    ] = "yes"
+    heuristic: Annotated[
+        Literal["pairs", "none"],
+        "Raise bounds by what pairs of robots lose, each pair solved for itself; or do not.",
+    ] = "pairs"

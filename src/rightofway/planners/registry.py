@@ -143,6 +143,13 @@ PLANNERS = (
         options.LnsOptions,
         features=ANY_FLEET | {Feature.IMPROVES},
     ),
+    PlannerSpec(
+        "cbs",
+        "rightofway.planners.cbs:cbs",
+        "Conflict-based search: the optimal plan of a small fleet, or one within a proven factor.",
+        options.CbsOptions,
+        features=ANY_FLEET,
+    ),
 )
 
 DEFAULT_PLANNER = "auto"

@@ -1,5 +1,6 @@
 """Shortest distances and searches for one robot, with and without others in the way."""
 
+from rightofway.search.cbs import ConflictBasedSearch
 from rightofway.search.congestion import Congestion
 from rightofway.search.distances import Distances, Path
 from rightofway.search.fleet import FleetSearch, least_completions
@@ -10,6 +11,7 @@ from rightofway.search.sipp import Booking, Bookings, earliest_track
 __all__ = [
     "Booking",
     "Bookings",
+    "ConflictBasedSearch",
     "Congestion",
     "Distances",
     "FleetSearch",

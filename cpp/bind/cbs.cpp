@@ -1,0 +1,163 @@
+#include "cbs/cbs.hpp"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "core/reject.hpp"
+#include "distances/shared_distances.hpp"
+
+namespace rightofway::bind {
+namespace {
+
+constexpr auto class_doc = R"(Conflict-based search for a plan of least cost, with its proof.
+
+Parameters
+----------
+problem : Problem
+    What the fleet has to do.
+cardinal : bool
+    Whether conflicts that cost both robots something are resolved first.
+bypass : bool
+    Whether tracks of equal cost with fewer conflicts replace others without a split.
+heuristic : bool
+    Whether the losses of pairs of robots raise the bounds of nodes.)";
+
+constexpr auto run_doc = R"(Search on; the search can be continued.
+
+Parameters
+----------
+upper : int
+    The cost of a plan that is known, NEVER for none: nothing of this cost or more is looked for.
+    The same in each call. [ticks]
+enough : int
+    Stop as soon as the bound is this or more. [ticks]
+most_nodes : int
+    Stop after this number of nodes.
+most_bytes : int
+    Stop where nodes and tracks take more memory, about. [bytes]
+time_limit : float or None
+    When to stop; at once for 0 or less. [s]
+
+Returns
+-------
+tuple of (int, int)
+    How it ended (0: a plan of least cost, 1: proven that none costs less than `upper`, 2: stopped),
+    and the proven bound, NEVER where no plan exists. [ticks])";
+
+constexpr auto tracks_doc = R"(Return the tracks of the plan found, of no robot before.
+
+Returns
+-------
+tuple of (int32[R + 1], int32[N], int64[N])
+    Which visits each robot has, and where and when they begin. [ticks])";
+
+class ConflictBasedSearch {
+  public:
+    ConflictBasedSearch(const Problem& problem, const CbsOptions& options)
+        : problem_(problem),
+          distances_(problem),
+          tracks_(problem, distances_),
+          losses_(tracks_, options),
+          tree_(tracks_, all(problem), options, options.heuristic ? &losses_ : nullptr) {}
+
+    SearchEnd run(Tick upper, Tick enough, std::int64_t most_nodes, std::size_t most_bytes,
+                  const Deadline& deadline) {
+        const StopCondition is_over = [&] {
+            return tracks_.bytes() + tree_.bytes() > most_bytes || deadline();
+        };
+        try {
+            if (!has_started_) {
+                const std::vector<SetId> sets(static_cast<std::size_t>(problem_.n_robots()),
+                                              ConstraintSets::empty);
+                if (!tree_.start(sets, is_over)) {
+                    return SearchEnd::proven_none;
+                }
+                has_started_ = true;
+            }
+            return tree_.run(upper, enough, most_nodes, is_over);
+        } catch (const Stopped&) {
+            return SearchEnd::stopped;
+        }
+    }
+
+    Tick bound() const { return tree_.bound(); }
+    std::int64_t n_nodes() const { return tree_.n_nodes(); }
+    std::int64_t n_searches() const { return tracks_.n_searches(); }
+
+    Tracks tracks() const {
+        Tracks tracks{{0}, {}, {}};
+        for (const ConstrainedTrack* track : tree_.tracks()) {
+            for (const Visit& visit : track->visits) {
+                tracks.vertex.push_back(visit.vertex);
+                tracks.enter.push_back(visit.enter);
+            }
+            tracks.first_visit.push_back(static_cast<VisitId>(tracks.vertex.size()));
+        }
+        return tracks;
+    }
+
+  private:
+    static std::vector<RobotId> all(const Problem& problem) {
+        std::vector<RobotId> robots;
+        for (RobotId robot = 0; robot < problem.n_robots(); ++robot) {
+            robots.push_back(robot);
+        }
+        return robots;
+    }
+
+    const Problem& problem_;
+    SharedDistances distances_;
+    ConstrainedTracks tracks_;
+    PairLosses losses_;
+    ConflictTree tree_;
+    bool has_started_ = false;
+};
+
+std::tuple<int, Tick> run(ConflictBasedSearch& self, Tick upper, Tick enough,
+                          std::int64_t most_nodes, std::int64_t most_bytes,
+                          std::optional<double> time_limit) {
+    require_range("upper", upper, 0, never);
+    require_range("enough", enough, 0, never);
+    require_range("most_nodes", most_nodes, 0, never);
+    require_range("most_bytes", most_bytes, 0, never);
+    const Deadline deadline(time_limit);
+    const nb::gil_scoped_release released;
+    const SearchEnd end =
+        self.run(upper, enough, most_nodes, static_cast<std::size_t>(most_bytes), deadline);
+    return {static_cast<int>(end), self.bound()};
+}
+
+}  // namespace
+
+void bind_cbs(nb::module_& module) {
+    nb::class_<ConflictBasedSearch>(module, "ConflictBasedSearch", class_doc)
+        .def(
+            "__init__",
+            [](ConflictBasedSearch* self, const Problem& problem, bool cardinal, bool bypass,
+               bool heuristic) {
+                new (self) ConflictBasedSearch(problem, {cardinal, bypass, heuristic});
+            },
+            nb::arg("problem"), nb::arg("cardinal"), nb::arg("bypass"), nb::arg("heuristic"),
+            nb::keep_alive<1, 2>())
+        .def("run", &run, nb::arg("upper"), nb::arg("enough"), nb::arg("most_nodes"),
+             nb::arg("most_bytes"), nb::arg("time_limit").none(), run_doc)
+        .def(
+            "tracks",
+            [](const ConflictBasedSearch& self) {
+                Tracks all = self.tracks();
+                return std::tuple(to_numpy(std::move(all.first_visit)),
+                                  to_numpy(std::move(all.vertex)), to_numpy(std::move(all.enter)));
+            },
+            tracks_doc)
+        .def_prop_ro("n_nodes", &ConflictBasedSearch::n_nodes, "The number of nodes expanded.")
+        .def_prop_ro("n_searches", &ConflictBasedSearch::n_searches,
+                     "The number of searches for the track of one robot.");
+}
+
+}  // namespace rightofway::bind

@@ -1,0 +1,44 @@
+// Constraints of conflict-based search: bookings of nobody, in sets of which each is kept once.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace rightofway {
+
+// The robot may not book the row at any tick of [start, end).
+struct Constraint {
+    std::int32_t row;
+    Tick start;
+    Tick end;
+
+    auto operator<=>(const Constraint&) const = default;
+};
+
+using SetId = std::int32_t;
+
+// Two nodes of a constraint tree that constrain a robot alike have one set, in whatever order they
+// got there, so that all that depends on a robot and its set is computed once.
+class ConstraintSets {
+  public:
+    static constexpr SetId empty = 0;
+
+    ConstraintSets() : sets_(1) {}
+
+    std::span<const Constraint> at(SetId set) const { return sets_[index(set)]; }
+
+    // The set with one more constraint.
+    SetId with(SetId set, const Constraint& added);
+
+  private:
+    std::vector<std::vector<Constraint>> sets_;  // each in order
+    std::unordered_multimap<std::uint64_t, SetId> known_;
+};
+
+}  // namespace rightofway

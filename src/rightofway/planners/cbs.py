@@ -1,0 +1,108 @@
+"""Conflict-based search: a plan of least flowtime, or one within a proven factor of it.
+
+A first plan comes from `lns`. The search then raises the proven bound, node by node, until it
+meets that plan, or finds a better one: of least cost by construction. Which constraints a
+conflict leads to, and why no plan is lost by them, is in ``cpp/cbs/track_conflicts.cpp`` and in
+decision 30.
+
+References
+----------
+Sharon, Stern, Felner & Sturtevant, *Conflict-based search for optimal multi-agent pathfinding*,
+Artificial Intelligence 219, 2015.
+
+Boyarski, Felner, Stern, Sharon, Tolpin, Betzalel & Shimony, *ICBS: Improved conflict-based search
+algorithm for multi-agent pathfinding*, IJCAI 2015.
+
+Li, Felner, Boyarski, Ma & Koenig, *Improved heuristics for multi-agent path finding with
+conflict-based search*, IJCAI 2019.
+
+Notes
+-----
+Optimal where it ends; deterministic where `nodes` ends it before the time limit does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from math import ceil
+
+from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.model import Proof, Tick, cost_of
+from rightofway.model.outcome import minimized
+from rightofway.planners.impossible import blocking_set
+from rightofway.planners.lns import improved
+from rightofway.planners.prioritized import fleet_search
+from rightofway.planners.task import Draft, Task
+from rightofway.search import ConflictBasedSearch
+
+SHARE = 0.25
+"""The part of the time for the first plan."""
+
+ITERATIONS_PER_ROBOT = 50
+"""How many neighbourhoods of the first plan are replanned for each robot."""
+
+
+def cbs(task: Task) -> Draft:
+    """Plan a fleet with least flowtime and surcharges; options: `CbsOptions`."""
+    scenario, factor = task.scenario, Fraction(task.options["suboptimality"])
+    first = _first_plan(task)
+    upper = None if first is None else cost_of(scenario, first.tracks)
+    search = ConflictBasedSearch(
+        scenario.problem,
+        cardinal=task.options["cardinal"] == "first",
+        bypass=task.options["bypass"] == "yes",
+        heuristic=task.options["heuristic"] == "pairs",
+    )
+    ended = "time ran out"
+    try:
+        search.run(
+            upper=upper,
+            enough=None if upper is None else ceil(upper / factor),
+            nodes=task.options["nodes"] or None,
+            time_limit=task.deadline.seconds_left(),
+        )
+    except KeyboardInterrupt:
+        if not task.keep_best or first is None:
+            raise
+        return replace(first, status=f"interrupted: {first.status}")
+    done = f"{search.n_nodes} nodes"
+    if search.tracks is not None:
+        task.has_plan()
+        found = search.tracks
+        task.better(lambda: found)
+        status, tracks = f"optimal: found in {done}", found
+    elif first is not None:
+        tracks = first.tracks
+        if search.is_proven:
+            status = f"optimal: {done} prove that nothing is better (first plan: {first.status})"
+        else:
+            status = f"{done} found nothing better (first plan: {first.status})"
+    elif search.is_proven:
+        robots = range(len(scenario.robots))
+        raise NoPlanExists([blocking_set(scenario, robots, seed=task.seed, deadline=task.deadline)])
+    else:
+        remedy = "give a longer time limit, or take another planner"
+        error = GaveUp(f"{ended} in the search for an optimal plan, after {done} ({remedy})")
+        error.lower_bound = search.bound
+        raise error
+    proof = Proof(
+        bound=Tick(search.bound or 0),
+        objective=minimized(scenario),
+        factor=factor if factor > 1 else None,
+    )
+    return Draft(tracks=tracks, status=status, proof=proof)
+
+
+def _first_plan(task: Task) -> Draft | None:
+    """Return the plan given or one by large neighbourhood search, None where it finds none."""
+    if task.start is not None:
+        return Draft(tracks=task.start, status="the plan given")
+    iterations = ITERATIONS_PER_ROBOT * len(task.scenario.robots)
+    hurried = replace(
+        task, options={"iterations": iterations}, deadline=task.deadline.sooner(SHARE)
+    )
+    try:
+        return improved(hurried, fleet_search(hurried))
+    except GaveUp:
+        return None

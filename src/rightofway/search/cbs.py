@@ -1,0 +1,100 @@
+"""Conflict-based search: a plan of least cost for a whole fleet, or a lower bound of that cost."""
+
+from __future__ import annotations
+
+from rightofway import _core
+from rightofway.model import NEVER, Problem, Tick, Track
+from rightofway.native import bound, tracks_of
+
+FOUND, PROVEN = 0, 1
+
+MOST_BYTES = 2 * 2**30
+"""How much memory nodes and tracks may take [bytes]."""
+
+UNLIMITED = 2**62
+
+
+class ConflictBasedSearch:
+    """A search for a plan of least flowtime and surcharges, kept in the native core.
+
+    Parameters
+    ----------
+    problem
+        What the fleet has to do; every robot can reach its places.
+    cardinal
+        Whether conflicts that cost both robots something are resolved first.
+    bypass
+        Whether tracks of equal cost with fewer conflicts replace others without a split.
+    heuristic
+        Whether the losses of pairs of robots raise the bounds of nodes.
+
+    Attributes
+    ----------
+    bound
+        No plan costs less [ticks]; None where it is proven that there is no plan.
+    tracks
+        A plan of least cost; None until there is one.
+    is_proven
+        Whether it is proven that `tracks` is a plan of least cost or, without them, that no plan
+        costs less than the plan that was known.
+
+    Notes
+    -----
+    Deterministic where nodes, not time or memory, end the search.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        *,
+        cardinal: bool = True,
+        bypass: bool = True,
+        heuristic: bool = True,
+    ) -> None:
+        self._core = _core.ConflictBasedSearch(bound(problem), cardinal, bypass, heuristic)
+        self.bound: Tick | None = Tick(0)
+        self.tracks: tuple[Track, ...] | None = None
+        self.is_proven = False
+
+    def run(
+        self,
+        *,
+        upper: int | None = None,
+        enough: int | None = None,
+        nodes: int | None = None,
+        time_limit: float | None = None,
+    ) -> None:
+        """Search until a plan of least cost is found or known to be so, or a limit is reached.
+
+        Parameters
+        ----------
+        upper
+            The cost of a plan that is known, the same in each call [ticks]; None for none.
+        enough
+            Stop as soon as the bound is this or more [ticks].
+        nodes
+            Stop after this number of nodes.
+        time_limit
+            When to stop [s].
+        """
+        end, least = self._core.run(
+            NEVER if upper is None else upper,
+            NEVER if enough is None else enough,
+            nodes or UNLIMITED,
+            MOST_BYTES,
+            time_limit,
+        )
+        self.bound = None if least == NEVER else Tick(least)
+        self.is_proven = end in {FOUND, PROVEN}
+        if end == FOUND:
+            self.tracks = tuple(tracks_of(*self._core.tracks()))
+
+    @property
+    def n_nodes(self) -> int:
+        """The number of nodes expanded."""
+        return self._core.n_nodes
+
+    @property
+    def n_searches(self) -> int:
+        """The number of searches for the track of one robot."""
+        return self._core.n_searches

@@ -1,0 +1,124 @@
+"""Conflict-based search against a search over all joint states, whatever makes it fast."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+from hypothesis import strategies as st
+
+from rightofway import OutcomeKind, check, solve
+from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.model import Plan, PlannerRun, Scenario
+from rightofway.search import ConflictBasedSearch, least_completions
+from tests.builders.laws import law, leave
+from tests.builders.tiny import KINDS, least_flowtime
+
+kinds, seeds = st.sampled_from(sorted(KINDS)), st.integers(0, 10**6)
+SWITCHES = ("cardinal", "bypass", "heuristic")
+switches = st.fixed_dictionaries({name: st.booleans() for name in SWITCHES})
+
+NODES = 300
+"""Fleets without a plan may have trees without end."""
+
+
+def _search(scenario: Scenario, **options: bool) -> ConflictBasedSearch:
+    alone = least_completions(scenario)
+    if alone is None or alone.min() < 0:
+        leave("a robot cannot reach its places")
+    return ConflictBasedSearch(scenario.problem, **options)
+
+
+def _answer(scenario: Scenario, options: dict[str, Any]) -> Plan | NoPlanExists | GaveUp:
+    try:
+        return solve(scenario, "cbs", time_limit=None, options=options)
+    except (NoPlanExists, GaveUp) as error:
+        return error
+
+
+@law(kinds, seeds, switches)
+def test_a_tree_finds_the_optimum_and_its_bound_is_never_above_it(
+    kind: str, seed: int, options: dict[str, bool]
+) -> None:
+    scenario = KINDS[kind](seed)
+    search = _search(scenario, **options)
+    least = least_flowtime(kind, scenario)
+    search.run(nodes=NODES)
+    if least is None:
+        assert search.tracks is None
+        return
+    assert search.bound is not None
+    assert search.bound <= least
+    if search.tracks is not None:
+        plan = Plan(scenario=scenario, tracks=search.tracks, run=PlannerRun(name="cbs"))
+        assert check(plan).ok
+        assert plan.flowtime == search.bound == least
+
+
+@law(kinds, seeds, st.integers(1, 30))
+def test_a_search_that_is_continued_ends_as_one_that_is_not(
+    kind: str, seed: int, nodes: int
+) -> None:
+    scenario = KINDS[kind](seed)
+    whole, in_parts = _search(scenario), _search(scenario)
+    whole.run(nodes=NODES)
+    bounds = []
+    while not in_parts.is_proven and in_parts.n_nodes < NODES:
+        in_parts.run(nodes=min(nodes, NODES - in_parts.n_nodes))
+        bounds.append(in_parts.bound or 0)
+    assert in_parts.bound is None or bounds == sorted(bounds)
+    if whole.is_proven and in_parts.is_proven:
+        assert whole.bound == in_parts.bound
+        assert (whole.tracks is None) == (in_parts.tracks is None)
+
+
+@law(kinds, seeds)
+def test_among_plans_below_a_known_one_none_is_missed(kind: str, seed: int) -> None:
+    scenario = KINDS[kind](seed)
+    least = least_flowtime(kind, scenario)
+    if least is None:
+        leave("no plan exists")
+    for above, known in product((0, 1), (True, False)):
+        search = _search(scenario, heuristic=known)
+        search.run(upper=least + above, nodes=NODES)
+        if search.is_proven:
+            assert search.bound == least
+            assert (search.tracks is not None) == (above == 1)
+
+
+@law(kinds, seeds, st.sampled_from([Fraction(21, 20), Fraction(6, 5), Fraction(2)]))
+def test_a_bounded_plan_keeps_its_factor(kind: str, seed: int, factor: Fraction) -> None:
+    scenario = KINDS[kind](seed)
+    least = least_flowtime(kind, scenario)
+    options = {"suboptimality": factor, "nodes": NODES}
+    answer = _answer(scenario, {"suboptimality": factor, "nodes": NODES})
+    if isinstance(answer, NoPlanExists):
+        assert least is None
+        return
+    if isinstance(answer, GaveUp):
+        assert least is None or (answer.lower_bound or 0) <= least
+        return
+    plan = answer
+    assert least is not None
+    outcome = plan.run.outcome
+    assert outcome is not None
+    assert outcome.bound is not None
+    assert outcome.bound <= least <= plan.flowtime
+    if outcome.kind is not OutcomeKind.BEST_FOUND:
+        assert plan.flowtime <= factor * least
+
+
+@law(seeds)
+def test_with_more_headway_the_optimum_is_no_smaller(seed: int) -> None:
+    scenario = KINDS["trips"](seed)
+    spaced = replace(scenario, rules=replace(scenario.rules, headway=scenario.rules.headway + 1))
+    optima = []
+    for fleet in (scenario, spaced):
+        search = _search(fleet)
+        search.run(nodes=NODES)
+        if search.tracks is None:
+            leave("no plan within the nodes")
+        optima.append(Fraction(search.bound or 0) * fleet.problem.clock.tick)
+    assert optima[0] <= optima[1]
