@@ -54,7 +54,7 @@ const ConstrainedTrack* ConstrainedTracks::best(RobotId robot, SetId set,
     if (end == SearchEnd::found) {
         ConstrainedTrack& own = tracks_.emplace_back();
         search_.track(own.visits);
-        own.cost = search_.cost();
+        own.cost = problem_.weight(robot) * search_.cost();
         book(robot, own);
         bytes_ += sizeof(own) + own.visits.size() * sizeof(Visit) +
                   own.bookings.size() * sizeof(RowBooking) + own.moves.size() * sizeof(Move);

@@ -36,7 +36,7 @@ struct ConstrainedTrack {
     std::vector<Visit> visits;
     std::vector<RowBooking> bookings;  // by row, then by start
     std::vector<Move> moves;           // by time; only where robots may follow each other at once
-    Tick cost = 0;                     // completion time and surcharges of the edges
+    Tick cost = 0;  // completion time and surcharges of the edges, by the robot's weight
 };
 
 // Thrown where the stop condition ends a search.

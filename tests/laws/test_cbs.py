@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from rightofway import OutcomeKind, check, solve
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Plan, PlannerRun, Scenario
+from rightofway.model import Plan, PlannerRun, Scenario, cost_of
 from rightofway.search import ConflictBasedSearch, least_completions
 from tests.builders.laws import law, leave
 from tests.builders.tiny import KINDS, least_flowtime
@@ -92,7 +92,6 @@ def test_among_plans_below_a_known_one_none_is_missed(kind: str, seed: int) -> N
 def test_a_bounded_plan_keeps_its_factor(kind: str, seed: int, factor: Fraction) -> None:
     scenario = KINDS[kind](seed)
     least = least_flowtime(kind, scenario)
-    options = {"suboptimality": factor, "nodes": NODES}
     answer = _answer(scenario, {"suboptimality": factor, "nodes": NODES})
     if isinstance(answer, NoPlanExists):
         assert least is None
@@ -108,6 +107,27 @@ def test_a_bounded_plan_keeps_its_factor(kind: str, seed: int, factor: Fraction)
     assert outcome.bound <= least <= plan.flowtime
     if outcome.kind is not OutcomeKind.BEST_FOUND:
         assert plan.flowtime <= factor * least
+
+
+@law(seeds)
+def test_robots_count_by_their_weights(seed: int) -> None:
+    fleet = KINDS["trips"](seed)
+    robots = tuple(
+        replace(robot, weight=Fraction(1 + (seed + 2 * k) % 5, 2))
+        for k, robot in enumerate(fleet.robots)
+    )
+    scenario = replace(fleet, robots=robots)
+    least = least_flowtime("trips", scenario)
+    answer = _answer(scenario, {"nodes": NODES})
+    if not isinstance(answer, Plan):
+        leave("no plan")
+    outcome = answer.run.outcome
+    assert outcome is not None
+    assert outcome.bound is not None
+    assert least is not None
+    assert outcome.bound <= least <= cost_of(scenario, answer.tracks)
+    if outcome.kind is OutcomeKind.OPTIMAL:
+        assert cost_of(scenario, answer.tracks) == least
 
 
 @law(seeds)

@@ -124,8 +124,9 @@ class _Fleet:
 
 
 def least_flowtime(scenario: Scenario) -> int | None:
-    """Return the least sum of completions [ticks], None where there is no plan."""
+    """Return the least sum of completions by weight [ticks], None where there is no plan."""
     fleet = _Fleet(scenario)
+    weights = [itinerary.weight for itinerary in scenario.problem.itineraries]
     moments = [begins(scenario, closure) for closure in scenario.closures]
     moments += [ends(scenario, closure) or 0 for closure in scenario.closures]
     horizon = max(moments, default=0)  # nothing is opened or closed later
@@ -143,7 +144,7 @@ def least_flowtime(scenario: Scenario) -> int | None:
             continue
         for chosen in fleet.together(states, tick):
             after = (min(tick + 1, horizon), tuple(each[0] for each in chosen))
-            total = cost + sum(each[2] for each in chosen)
+            total = cost + sum(w * each[2] for w, each in zip(weights, chosen, strict=True))
             if total < best.get(after, total + 1):
                 best[after] = total
                 heappush(heap, (total, *after))

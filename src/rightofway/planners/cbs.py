@@ -29,7 +29,7 @@ from math import ceil
 
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Proof, Tick, cost_of
-from rightofway.model.outcome import minimized
+from rightofway.model.outcome import Objective, minimized
 from rightofway.planners.impossible import blocking_set
 from rightofway.planners.lns import improved
 from rightofway.planners.prioritized import fleet_search
@@ -84,7 +84,8 @@ def cbs(task: Task) -> Draft:
     else:
         remedy = "give a longer time limit, or take another planner"
         error = GaveUp(f"{ended} in the search for an optimal plan, after {done} ({remedy})")
-        error.lower_bound = search.bound
+        if minimized(scenario) is Objective.FLOWTIME:  # the message has a bound of that
+            error.lower_bound = search.bound
         raise error
     proof = Proof(
         bound=Tick(search.bound or 0),
