@@ -13,7 +13,7 @@ from PIL import Image
 import rightofway
 from rightofway.errors import InputError
 from rightofway.io import dump_plan, dump_scenario, plan_of, scenario_of
-from rightofway.io.opening import load_with_notes
+from rightofway.io.readers import load_with_notes
 from rightofway.metrics import Site, inspect
 from rightofway.quantities import Units
 

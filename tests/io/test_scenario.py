@@ -9,7 +9,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, load, load_with_notes, scenario_of, write_scenario
-from rightofway.io.scenario.fleet import ListedFleet, written_robots
+from rightofway.io.scenario.fleet import ListedFleet, read_robots
 from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.model import Rules, Scenario, Stop
 from tests.builders.fleets import grid_fleet
@@ -348,7 +348,7 @@ def test_robots_are_read_before_the_map_with_places_as_written() -> None:
         {"name": "R1", "home": "N0", "target": [0, 2], "speed": "1/2", "size": [6, 8]},
         {"name": "R2", "home": "N1", "target": "N4", "laps": 0, "radius": 7, "type": "wide"},
     ]
-    fleet = written_robots(listed, None)
+    fleet = read_robots(listed, None)
     assert isinstance(fleet, ListedFleet)
     first, second = fleet.robots
     assert first.document is not None

@@ -15,8 +15,8 @@ from rightofway.arguments import checks_arguments
 from rightofway.bench.fleets import Cell, largest_part, random_grid, scenario_document
 from rightofway.errors import InputError, Steps, Where, in_file, under
 from rightofway.io import dump_scenario, load, scenario_of
-from rightofway.io.faults import Faults, checked
-from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT, checked_format
+from rightofway.io.faults import Faults, validate
+from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT, check_format
 from rightofway.io.text import parse_toml, read_text
 from rightofway.model import Rules, Scenario
 from rightofway.model.robot import RULE_ATTRIBUTES
@@ -142,8 +142,8 @@ def read_suite(path: Path | str) -> tuple[Case, ...]:
 
     path = Path(path)
     with in_file(str(path)):
-        data = checked_format(parse_toml(read_text(path)), SUITE_FORMAT)
-        found = list(_combinations(checked(SuiteDocument, data), path.parent))
+        data = check_format(parse_toml(read_text(path)), SUITE_FORMAT)
+        found = list(_combinations(validate(SuiteDocument, data), path.parent))
     cases: dict[str, Case] = {}
     for case in found:
         twin = cases.setdefault(case.key, case)

@@ -15,9 +15,9 @@ from rightofway.io.layouts import (
     read_layout,
 )
 from rightofway.io.movingai import load_map, load_scen, write_map, write_scen
-from rightofway.io.opening import load, load_either, load_plan, load_with_notes
 from rightofway.io.plan.reader import plan_of
 from rightofway.io.plan.writer import dump_plan, plan_text, write_plan
+from rightofway.io.readers import load, load_either, load_plan, load_with_notes
 from rightofway.io.scenario.example import example_of_layout
 from rightofway.io.scenario.reader import Loaded, scenario_of
 from rightofway.io.scenario.writer import dump_scenario, scenario_text, write_scenario

@@ -70,7 +70,7 @@ def _rank(fault: InputFault, ranks: dict[str, int]) -> tuple[int, int]:
     return ranks.get(str(key), len(ranks)), index if isinstance(index, int) else -1
 
 
-def checked(model: type[M], data: Any, context: Any = None) -> M:
+def validate(model: type[M], data: Any, context: Any = None) -> M:
     """Return data as a pydantic model, or raise all its faults in words for the user.
 
     Names and places in the data are looked up in the context.
@@ -81,16 +81,16 @@ def checked(model: type[M], data: Any, context: Any = None) -> M:
         return model.model_validate(data, context=context)
     except ValidationError as error:
         faults = error.errors()
-    raise InputError(each for fault in faults for each in _translated(fault, model))
+    raise InputError(each for fault in faults for each in _faults_of(fault, model))
 
 
-def _translated(details: ErrorDetails, model: type[BaseModel]) -> Iterator[InputFault]:
+def _faults_of(details: ErrorDetails, model: type[BaseModel]) -> Iterator[InputFault]:
     path = tuple(step for step in details["loc"] if step != "[key]")
     error = details.get("ctx", {}).get("error")
     if isinstance(error, InputError):  # raised by a validator of ours, perhaps at places inside
         yield from (fault.within(path) for fault in error.faults)
     else:
-        yield InputFault(path, _said(details, model))
+        yield InputFault(path, _message_of(details, model))
 
 
 _KINDS = {
@@ -103,7 +103,7 @@ _KINDS = {
 }
 
 
-def _said(details: ErrorDetails, model: type[BaseModel]) -> str:
+def _message_of(details: ErrorDetails, model: type[BaseModel]) -> str:
     kind, value = details["type"], details["input"]
     owner, field = _walk(model, details["loc"])
     remedy = field.description if field else f"keys {', '.join(_fields(owner))}"
@@ -170,6 +170,11 @@ def _fields(model: type[BaseModel]) -> dict[str, FieldInfo]:
     """Return the fields of a model by key, those first that must be there."""
     fields = sorted(model.model_fields.items(), key=lambda item: not item[1].is_required())
     return {field.alias or name: field for name, field in fields}
+
+
+def keys_of(model: type[BaseModel]) -> list[str]:
+    """Return the keys of a document, in the order in which it declares them."""
+    return [field.alias or name for name, field in model.model_fields.items()]
 
 
 def _model_in(annotation: Any) -> type[BaseModel] | None:

@@ -51,7 +51,7 @@ class Kind:
         return dict(self.schema)
 
 
-def described(**extra: Any) -> Callable[[Schema], None]:
+def finish_schema(**extra: Any) -> Callable[[Schema], None]:
     """Return how a document's schema is finished: with ``extra``, and no null as a default."""
 
     def finish(schema: Schema) -> None:
@@ -71,7 +71,7 @@ class Document(BaseModel):
         frozen=True,
         strict=True,
         arbitrary_types_allowed=True,
-        json_schema_extra=described(),
+        json_schema_extra=finish_schema(),
     )
 
     def given(self, *fields: str) -> dict[str, Any]:

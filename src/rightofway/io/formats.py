@@ -12,7 +12,7 @@ PLAN_FORMAT = "rightofway-plan/1"
 SUITE_FORMAT = "rightofway-suite/1"
 
 
-def checked_format(document: Any, known: str) -> dict[str, Any]:
+def check_format(document: Any, known: str) -> dict[str, Any]:
     """Return a document of a known format; InputError, and no other fault, for one that is not.
 
     A document whose key ``format`` is misspelt counts as one of the known format.

@@ -78,7 +78,7 @@ def locate(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
         if root is None or not has_no_line:
             yield fault
         else:
-            yield fault.at(_located(fault.location, root))
+            yield fault.at(_locate(fault.location, root))
 
 
 def _root(text: str) -> yaml.Node | None:
@@ -111,7 +111,7 @@ def _is_deep(events: Iterable[yaml.Event]) -> bool:
     return False
 
 
-def _located(location: Location, root: yaml.Node) -> Location:
+def _locate(location: Location, root: yaml.Node) -> Location:
     """Return a location with line and names, its path followed as far as there are values."""
     node, line, names = root, root.start_mark.line, list[str]()
     for step in location.path:

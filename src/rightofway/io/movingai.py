@@ -60,7 +60,7 @@ def load_map(path: Path | str) -> tuple[str, ...]:
         for number, line in enumerate(lines, start=1):
             key, _, value = line.strip().partition(" ")
             if key == "map":
-                return _checked_rows(lines[number:], header, number)
+                return _check_rows(lines[number:], header, number)
             _check_header(key, value.strip(), Location(line=number))
             header[key] = value.strip()
         message = "the header has no line 'map' (put it before the rows)"
@@ -77,7 +77,7 @@ def _check_header(key: str, value: str, where: Location) -> None:
         raise InputError.at(where, f"{key} {shown(value)} is no size (give a count of cells)")
 
 
-def _checked_rows(lines: list[str], header: dict[str, str], above: int) -> tuple[str, ...]:
+def _check_rows(lines: list[str], header: dict[str, str], above: int) -> tuple[str, ...]:
     """Return the rows below the header's lines, if they have the size that it says."""
     for key in ("height", "width"):
         if key not in header:

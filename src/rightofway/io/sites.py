@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, in_file
-from rightofway.io.faults import checked
+from rightofway.io.faults import validate
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.layouts import described, is_layout, read_layout
+from rightofway.io.layouts import describe_layout, is_layout, read_layout
 from rightofway.io.locations import document_of
-from rightofway.io.opening import load_with_notes
+from rightofway.io.readers import load_with_notes
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.text import read_text
@@ -94,7 +94,7 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
             if choice.vehicle_type is None and (name := _usual_type(level)):
                 keys["vehicle_type"] = name
         loaded = _with_fleet({"layout": str(path.resolve()), **keys}, Path(), Path(robots))
-        return Sites(what=described(found), notes=loaded.notes, sites=loaded.sites)
+        return Sites(what=describe_layout(found), notes=loaded.notes, sites=loaded.sites)
     if isinstance(found, Layout):
         return _of_layout(path, found, choice)
     return _of_cells(path, found, choice)
@@ -138,7 +138,7 @@ def _of_layout(path: Path, found: Layout, choice: Choice) -> Sites:
             },
         )
         sites.append((level.name if len(levels) > 1 else "", site))
-    return Sites(what=described(found), notes=tuple(notes), sites=tuple(sites))
+    return Sites(what=describe_layout(found), notes=tuple(notes), sites=tuple(sites))
 
 
 def _usual_type(level: Level) -> str | None:
@@ -150,11 +150,11 @@ def _usual_type(level: Level) -> str | None:
 def _of_cells(path: Path, found: Any, choice: Choice) -> Sites:
     from rightofway.io.scenario.shape import MapDocument
 
-    document = checked(MapDocument, {"layout": str(path.resolve()), **choice.keys()})
+    document = validate(MapDocument, {"layout": str(path.resolve()), **choice.keys()})
     loaded = map_of(document, Path(), Units())
     assert loaded, "only a floor needs speeds"
     site = Site(roadmap=loaded.roadmap, units=loaded.units)
-    return Sites(what=described(found), notes=loaded.notes, sites=(("", site),))
+    return Sites(what=describe_layout(found), notes=loaded.notes, sites=(("", site),))
 
 
 def _of_scenario(path: Path, robots: Path | str | None) -> Sites:

@@ -14,8 +14,8 @@ from rightofway.io.fields import (
     Kind,
     Name,
     Positive,
-    described,
     exactly_one_of,
+    finish_schema,
     optional,
 )
 from rightofway.io.scenario.shape import RulesDocument
@@ -84,7 +84,7 @@ class MapCasesDocument(Document):
     """Where fleets drive: exactly one of file (with scens), random, scenario."""
 
     model_config = ConfigDict(
-        json_schema_extra=described(
+        json_schema_extra=finish_schema(
             oneOf=[{"required": [kind]} for kind in MAPS],
             dependentRequired={"file": ["scens"], "scens": ["file"]},
             dependentSchemas={"counts": {"not": {"required": ["scenario"]}}},

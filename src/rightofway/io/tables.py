@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +36,17 @@ STOP = re.compile(r"(stop|work) ?([1-9][0-9]?)")
 
 PLACE_KEYS = {"home", "target", "at"}
 """Keys whose values are places."""
+
+SPOTS = ("parking", "charging")
+"""Columns of vertices that are true for such a place."""
+
+TRUTH_KEYS = {"both_ways", *SPOTS, *(it.key for it in RULE_ATTRIBUTES if it.kind == "truth")}
+"""Keys whose values are true or false."""
+
+YES_NO = {"true": True, "yes": True, "false": False, "no": False}
+
+AT_STOP = {"stop": "at", "work": "work"}
+"""The key of a stop for each heading."""
 
 WORD_KEYS = {"name", *(it.key for it in (*ROBOT_ATTRIBUTES, *RULE_ATTRIBUTES) if it.is_text)}
 """Keys whose values are text, also where they look like numbers."""
@@ -84,8 +95,17 @@ class CellDocument:
             raise InputError(self.faults)
 
 
-def robots_of_rows(rows: Iterable[Row], cell: CellOf, known: Iterable[str]) -> CellDocument:
-    """Return the robots of a table.
+def records_of(
+    rows: Iterable[Row],
+    cell: CellOf,
+    path: Steps,
+    known: Iterable[str],
+    *,
+    what: str,
+    words: Collection[str] = WORD_KEYS,
+    has_stops: bool = False,
+) -> CellDocument:
+    """Return the rows of a table as a list of mappings.
 
     Parameters
     ----------
@@ -93,76 +113,81 @@ def robots_of_rows(rows: Iterable[Row], cell: CellOf, known: Iterable[str]) -> C
         The rows that are not empty; the first holds the headings.
     cell
         Returns the place of a cell.
+    path
+        Where the list stands in the document.
     known
-        The keys of a robot.
+        The keys of a mapping.
+    what
+        What a mapping is, as in "no key of a robot".
+    words
+        Keys whose values are text, also where they look like numbers.
+    has_stops
+        Whether headings may be ``stop 1``, ``work 1`` and so on.
 
     Returns
     -------
     CellDocument
-        The list of robots. Faults are headings that are unknown or given twice, and values without
-        a heading.
+        The list. Faults are headings that are unknown or given twice, values without a heading, and
+        cells that cannot be read.
     """
-    reading, rows = _Reading(cell), iter(rows)
+    rows, known, faults = iter(rows), list(known), Faults()
+    columns, cells, records = dict[int, str](), dict[Steps, Where](), list[dict[str, Any]]()
     first, headings = next(rows, (1, {}))
-    reading.take_headings(first, headings, [key for key in known if key != "stops"])
+    for column, heading in headings.items():
+        key, place = heading_key(heading), cell(first, column)
+        is_stop = has_stops and STOP.fullmatch(key) is not None
+        if key in columns.values() and key not in NOTES:
+            faults.note(place, f"the column {key!r} is given twice (take one out)")
+            key = "note"
+        elif not (is_stop or key in known or key in NOTES):
+            near, listed = nearest(key, known), ", ".join(known)
+            more = ", stop 1, work 1, …" if has_stops else ""
+            hint = f"did you mean {near}?" if near else f"known: {listed}{more}"
+            faults.note(place, f"{shown(heading)} is no key of {what} ({hint})")
+            key = "note"
+        columns[column] = key
     for number, values in rows:
-        reading.take_robot(number, values)
-    if not reading.robots:
-        message = "there is no robot (write headings, then one robot a row)"
-        reading.faults.note(cell(first, 1), message)
-    return CellDocument(part=reading.robots, cells=reading.cells, faults=reading.faults.found)
-
-
-class _Reading:
-    """The robots read so far, where their keys stand, and what is wrong with the table."""
-
-    def __init__(self, cell: CellOf) -> None:
-        self.cell = cell
-        self.columns: dict[int, str] = {}
-        self.robots: list[dict[str, Any]] = []
-        self.cells: dict[Steps, Where] = {}
-        self.faults = Faults()
-
-    def take_headings(self, row: int, headings: Mapping[int, Any], known: Sequence[str]) -> None:
-        """Note the key of each column, and headings that are none."""
-        for column, heading in headings.items():
-            key, place = heading_key(heading), self.cell(row, column)
-            if key in self.columns.values() and key not in NOTES:
-                self.faults.note(place, f"the column {key!r} is given twice (take one out)")
-                key = "note"
-            elif not (key in known or STOP.fullmatch(key) or key in NOTES):
-                near, listed = nearest(key, known), ", ".join(known)
-                hint = f"did you mean {near}?" if near else f"known: {listed}, stop 1, work 1, …"
-                self.faults.note(place, f"{shown(heading)} is no key of a robot ({hint})")
-                key = "note"
-            self.columns[column] = key
-
-    def take_robot(self, row: int, values: Mapping[int, Any]) -> None:
-        """Add the robot of a row."""
-        place, robot = ("robots", len(self.robots)), dict[str, Any]()
-        stops: dict[int, dict[str, Any]] = {}
-        self.cells[place] = self.cell(row, 1)
-        for column in values.keys() - self.columns.keys():
-            self.faults.note(self.cell(row, column), "a value without a heading (take it out)")
-        for column, heading in self.columns.items():
-            if heading in NOTES or (column not in values and STOP.fullmatch(heading)):
+        here, record = (*path, len(records)), dict[str, Any]()
+        cells[here] = cell(number, 1)
+        for column in values.keys() - columns.keys():
+            faults.note(cell(number, column), "a value without a heading (take it out)")
+        for column, key in columns.items():
+            if key in NOTES:
                 continue
-            here, stop = self.cell(row, column), STOP.fullmatch(heading)
-            if stop:  # stops are counted as they are given, so that one may be left empty
-                target = stops.setdefault(int(stop[2]), {})
-                key = "at" if stop[1] == "stop" else "work"
-                index = sorted(stops).index(int(stop[2]))
-                self.cells.setdefault((*place, "stops", index), here)
-                self.cells[*place, "stops", index, key] = here
-            else:
-                target, key = robot, heading
-                self.cells[*place, key] = here
+            cells[*here, key] = cell(number, column)
             if column in values:
-                value = self.faults.attempt(here, value_of, key, values[column])
-                target |= {} if value is None else {key: value}
+                value = faults.attempt(cell(number, column), value_of, key, values[column], words)
+                record |= {} if value is None else {key: value}
+        records.append(record)
+    return CellDocument(part=records, cells=cells, faults=faults.found)
+
+
+def robots_of_rows(rows: Iterable[Row], cell: CellOf, known: Iterable[str]) -> CellDocument:
+    """Return the robots of a table; columns ``stop 1``, ``work 1``, … become stops.
+
+    Parameters
+    ----------
+    rows, cell, known
+        As for `records_of`; the keys are those of a robot.
+    """
+    keys = [key for key in known if key != "stops"]
+    table = records_of(rows, cell, ("robots",), keys, what="a robot", has_stops=True)
+    if not table.part:
+        fault = InputFault(cell(1, 1), "there is no robot (write headings, then one robot a row)")
+        return replace(table, faults=(*table.faults, fault))
+    for index, robot in enumerate(table.part):
+        stops: dict[int, dict[str, Any]] = {}
+        given = {key: match for key in robot if (match := STOP.fullmatch(key))}
+        for key, match in given.items():
+            stops.setdefault(int(match[2]), {})[AT_STOP[match[1]]] = robot.pop(key)
+        numbers = sorted(stops)  # stops are counted as they are given: one may be left empty
+        for key, match in given.items():
+            place = ("robots", index, "stops", numbers.index(int(match[2])))
+            table.cells.setdefault(place, table.cells["robots", index, key])
+            table.cells[*place, AT_STOP[match[1]]] = table.cells["robots", index, key]
         if stops:
-            robot["stops"] = [stops[number] for number in sorted(stops)]
-        self.robots.append(robot)
+            robot["stops"] = [stops[number] for number in numbers]
+    return table
 
 
 def heading_key(heading: Any) -> str:
@@ -171,7 +196,7 @@ def heading_key(heading: Any) -> str:
     return words if STOP.fullmatch(words) else "_".join(words.split())
 
 
-def value_of(key: str, value: Any) -> Any:
+def value_of(key: str, value: Any, words: Collection[str] = WORD_KEYS) -> Any:
     """Return the value of a cell as a document has it under a key.
 
     Parameters
@@ -180,15 +205,19 @@ def value_of(key: str, value: Any) -> Any:
         The key.
     value
         What the cell holds.
+    words
+        Keys whose values are text, also where they look like numbers.
     """
     if not isinstance(value, str):
-        return str(value) if key in WORD_KEYS and not isinstance(value, bool) else value
-    if key not in WORD_KEYS and value[0] in "[{":
+        return str(value) if key in words and not isinstance(value, bool) else value
+    if key in TRUTH_KEYS:
+        return YES_NO.get(value.lower(), value)
+    if key not in words and value[0] in "[{":
         try:
             return parse_yaml(value)
         except InputError as error:  # its line is one of the cell
             raise InputError.at("", error.faults[0].words) from None
-    if key in WORD_KEYS | PLACE_KEYS:
+    if key in words or key in PLACE_KEYS or key.startswith("stop "):
         return value
     if WHOLE.fullmatch(value):
         return int(value)

@@ -107,7 +107,7 @@ def read_text(path: Path) -> str:
         data = content_of(path)
     if not data or data.isspace():
         raise InputError.at("", "the file is empty (give it some content)", source)
-    return _decoded(data, source).replace("\r\n", "\n").replace("\r", "\n")
+    return _decode(data, source).replace("\r\n", "\n").replace("\r", "\n")
 
 
 def content_of(path: Path, most: int | None = None) -> bytes | bytearray:
@@ -221,7 +221,7 @@ def _why_unreadable(error: Exception, path: Path) -> str:
     return f"the file cannot be read: {reason} (check the path and its permissions)"
 
 
-def _decoded(data: bytes | bytearray, source: str) -> str:
+def _decode(data: bytes | bytearray, source: str) -> str:
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise InputError.at("", "the file is UTF-16 text (save it as UTF-8)", source)
     if b"\0" in data:

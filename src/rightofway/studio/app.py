@@ -12,7 +12,7 @@ from starlette.exceptions import HTTPException
 
 from rightofway import __version__
 from rightofway.errors import InputError
-from rightofway.io.faults import checked
+from rightofway.io.faults import validate
 from rightofway.studio.errors import StudioError
 from rightofway.studio.guard import Access, Guard, error_body
 from rightofway.studio.messages import as_error
@@ -104,7 +104,7 @@ def _not_fitting(request: Request, error: Exception) -> Response:
     model = _model_of(request, error.body)
     if model is not None and isinstance(error.body, dict):
         try:
-            checked(model, error.body)
+            validate(model, error.body)
         except InputError as found:
             return _answer(422, as_error(found))
     place = ".".join(str(part) for part in faults[0]["loc"])

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rightofway.io.layouts import described, is_layout, read_layout
+from rightofway.io.layouts import describe_layout, is_layout, read_layout
 
 SAMPLES = Path(__file__).parents[2] / "data" / "samples"
 
@@ -51,4 +51,4 @@ SIZES = {  # by glob
 def test_a_real_layout_opens(name: str) -> None:
     (path,) = SAMPLES.glob(name)
     assert is_layout(path)
-    assert described(read_layout(path)) == SIZES[name]
+    assert describe_layout(read_layout(path)) == SIZES[name]

@@ -13,9 +13,9 @@ schedule    multi_agent_path_planning (atb033), libMultiRobotPlanning: a YAML sc
 from rightofway.io.foreign.formats import (
     FOREIGN_FORMATS,
     foreign_text,
+    format_of_text,
     is_foreign,
     read_foreign,
-    recognized,
 )
 
-__all__ = ["FOREIGN_FORMATS", "foreign_text", "is_foreign", "read_foreign", "recognized"]
+__all__ = ["FOREIGN_FORMATS", "foreign_text", "format_of_text", "is_foreign", "read_foreign"]

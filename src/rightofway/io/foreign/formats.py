@@ -62,7 +62,7 @@ FOREIGN_FORMATS: dict[str, ForeignFormat] = {
 """The formats by name."""
 
 
-def recognized(text: str) -> ForeignFormat | None:
+def format_of_text(text: str) -> ForeignFormat | None:
     """Return the format of another program that a text is in, or None.
 
     Parameters
@@ -83,7 +83,7 @@ def is_foreign(path: Path | str) -> bool:
         The file; ``-`` is standard input.
     """
     try:
-        return recognized(read_text(Path(path))) is not None
+        return format_of_text(read_text(Path(path))) is not None
     except InputError:
         return False
 
@@ -107,7 +107,7 @@ def read_foreign(
     InputError
         With every fault, its line and remedy.
     """
-    found = recognized(text)
+    found = format_of_text(text)
     if found is None:
         return None
     with lines_of(text) if found.is_document else nullcontext():

@@ -169,10 +169,10 @@ def _scenario(found: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow])
     try:
         return read_scenario(document, None).scenario
     except InputError as error:
-        raise InputError(_renamed(fault, found) for fault in error.faults) from None
+        raise InputError(_name_agent(fault, found) for fault in error.faults) from None
 
 
-def _renamed(fault: InputFault, found: ForeignPlan) -> InputFault:
+def _name_agent(fault: InputFault, found: ForeignPlan) -> InputFault:
     """Return a fault of a robot at the line of its agent."""
     section, index, *rest = (*fault.path, "", "")
     if section != "robots" or not isinstance(index, int):

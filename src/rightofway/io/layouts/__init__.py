@@ -2,7 +2,7 @@
 
 from rightofway.io.layouts.formats import (
     LayoutFormat,
-    described,
+    describe_layout,
     is_layout,
     layout_formats,
     read_layout,
@@ -14,7 +14,7 @@ from rightofway.io.layouts.writing import LAYOUT_WRITERS, layout_text
 __all__ = [
     "LAYOUT_WRITERS",
     "LayoutFormat",
-    "described",
+    "describe_layout",
     "is_layout",
     "layout_formats",
     "layout_of_graph",

@@ -155,7 +155,7 @@ class Draft:
         if self.faults.found:  # lanes to vertices with a fault are no further faults
             elsewhere.update(end for level in self.levels for lane in level.lanes
                              for end in (lane.tail, lane.head))  # fmt: skip
-        levels = [self._finished(level, elsewhere) for level in self.levels if level.vertices]
+        levels = [self._finish(level, elsewhere) for level in self.levels if level.vertices]
         self.faults.stop()
         if not levels:
             raise InputError.at("", f"the {self.kind} has no vertex (give at least one)")
@@ -163,7 +163,7 @@ class Draft:
                  for what, count in self.repairs.items())  # fmt: skip
         return Layout(kind=self.kind, levels=tuple(levels), notes=tuple(notes))
 
-    def _finished(self, level: LevelDraft, elsewhere: set[str]) -> Level:
+    def _finish(self, level: LevelDraft, elsewhere: set[str]) -> Level:
         vertices, edges, links = level.vertices, list[LayoutEdge](), 0
         micro = {name: _in_micrometres(each.at) for name, each in vertices.items()}
         squares = [
@@ -193,14 +193,14 @@ class Draft:
             else:
                 edge = self._edge(lane, square, straight[square])
                 if lane.curve:
-                    edge = self._curved(edge, lane, vertices)
+                    edge = self._add_curve(edge, lane, vertices)
                 edges.append(edge)
         return Level(
             name=level.name,
             vertices=tuple(vertices.values()),
             edges=tuple(edges),
-            stations=tuple(self._served(level)),
-            zones=tuple(self._zones(level)),
+            stations=tuple(self._usable_stations(level)),
+            zones=tuple(self._usable_zones(level)),
             links=links,
             picture=level.picture,
         )
@@ -238,7 +238,7 @@ class Draft:
             shape=lane.shape,
         )
 
-    def _curved(
+    def _add_curve(
         self, edge: LayoutEdge, lane: Lane, vertices: dict[str, LayoutVertex]
     ) -> LayoutEdge:
         """Return an edge with its curve, if that leads from its tail to its head."""
@@ -262,7 +262,7 @@ class Draft:
             chord_error=lane.chord_error,
         )
 
-    def _served(self, level: LevelDraft) -> list[Station]:
+    def _usable_stations(self, level: LevelDraft) -> list[Station]:
         """Return the stations with a vertex of the level; a name that is taken is left out."""
         found: dict[str, Station] = {}
         for station in level.stations:
@@ -275,7 +275,7 @@ class Draft:
                 found[station.name] = replace(station, vertices=there)
         return list(found.values())
 
-    def _zones(self, level: LevelDraft) -> list[NamedZone]:
+    def _usable_zones(self, level: LevelDraft) -> list[NamedZone]:
         """Return the zones with vertices or lanes, each name once."""
         found: dict[str, NamedZone] = {}
         for zone in level.zones:

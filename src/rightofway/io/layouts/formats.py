@@ -131,7 +131,7 @@ def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
     with in_file(str(path)):
         _refuse_picture(path)
         text = read_text(path)
-        found = _opened(text)
+        found = _open(text)
         if found is None:
             message = f"this is no layout (known: {', '.join(layout_formats())})"
             raise InputError.at("", message)
@@ -157,7 +157,7 @@ def is_layout(path: Path | str) -> bool:
         return False
     try:
         text = read_text(path)
-        return OURS.search(text) is None and _opened(text) is not None
+        return OURS.search(text) is None and _open(text) is not None
     except InputError:
         return False
 
@@ -183,14 +183,14 @@ def refuse_layout(path: Path, text: str | None = None) -> None:
     if path.suffix.lower() in NO_LAYOUTS or OURS.search(text):
         return
     try:
-        if _opened(text) is None:
+        if _open(text) is None:
             return
     except InputError:
         if not text.lstrip().startswith("<"):
             return
         raise
     try:
-        what = described(read_layout(path))
+        what = describe_layout(read_layout(path))
     except InputError as error:
         first = error.faults[0].in_file("")
         what = f"a layout with a fault: {first}; mend it first"
@@ -200,7 +200,7 @@ def refuse_layout(path: Path, text: str | None = None) -> None:
     raise InputError.at("", f"this is {what} ({remedy}; {example})")
 
 
-def described(layout: Layout | Occupancy | CellMap) -> str:
+def describe_layout(layout: Layout | Occupancy | CellMap) -> str:
     """Return what a layout is and how large: ``a LIF layout with 5 vertices, 6 lanes``.
 
     Parameters
@@ -228,7 +228,7 @@ def described(layout: Layout | Occupancy | CellMap) -> str:
     return f"{article} {layout.kind} with {listed(parts)}"
 
 
-def _opened(text: str) -> tuple[LayoutFormat, Any] | None:
+def _open(text: str) -> tuple[LayoutFormat, Any] | None:
     """Return the format of a text and its content, or None for a text in no format."""
     if len(text) > MAX_CHARACTERS:
         message = f"the file is longer than {MAX_CHARACTERS} characters (give a part of it)"

@@ -138,7 +138,7 @@ def _own(item: Source, at: int) -> dict[str, Any]:
     }
 
 
-def _named(own: dict[str, Any], key: str, item: Source) -> str:
+def _name_in(own: dict[str, Any], key: str, item: Source) -> str:
     """Return a name among the parameters of a vertex or lane."""
     return item.child(key, own[key]).text()
 
@@ -169,7 +169,7 @@ def _add_vertex(
         vertex,
     )
     if own.get("mutex"):
-        groups.setdefault(_named(own, "mutex", vertex), ([], []))[0].append(name)
+        groups.setdefault(_name_in(own, "mutex", vertex), ([], []))[0].append(name)
     return name
 
 
@@ -186,12 +186,12 @@ def _add_lane(
     speed = lane.child("speed_limit", own.get("speed_limit", 0)).number()
     both = own.get("bidirectional") is True or own.get("is_bidirectional") is True
     own.setdefault("graph_idx", 0)
-    types = frozenset([f"graph {_named(own, 'graph_idx', lane)}"]) if has_graphs else None
+    types = frozenset([f"graph {_name_in(own, 'graph_idx', lane)}"]) if has_graphs else None
     max_speed = speed if speed > 0 else None
     for one, other in ((tail, head), (head, tail)) if both else ((tail, head),):
         level.connect(Lane(source=lane, tail=one, head=other, max_speed=max_speed, types=types))
         if own.get("mutex"):
-            groups.setdefault(_named(own, "mutex", lane), ([], []))[1].append((one, other))
+            groups.setdefault(_name_in(own, "mutex", lane), ([], []))[1].append((one, other))
 
 
 def _vertex(item: Source, names: list[str | None]) -> str | None:
@@ -217,9 +217,9 @@ def _transforms(root: Source, draft: Draft) -> dict[str, Transform]:
     draft.faults.stop()
     base, found = scales.get(reference), dict[str, Transform]()
     for name, level in levels.items():
-        laid = None if name == reference else _laid_over(levels[reference], level)
+        laid = None if name == reference else _overlay(levels[reference], level)
         if laid is not None and base is not None:
-            found[name] = _moved(laid, base)
+            found[name] = _transform_by(laid, base)
             continue
         scale = scales[name] or base
         if scale is None:
@@ -228,12 +228,12 @@ def _transforms(root: Source, draft: Draft) -> dict[str, Transform]:
             continue
         if name != reference:
             draft.repair("a level without two fiducials of the reference level keeps its frame")
-        found[name] = _moved((1 + 0j, 0j), scale)
+        found[name] = _transform_by((1 + 0j, 0j), scale)
     draft.faults.stop()
     return found
 
 
-def _moved(laid: tuple[complex, complex], scale: Fraction) -> Transform:
+def _transform_by(laid: tuple[complex, complex], scale: Fraction) -> Transform:
     """Return how a pixel of a level becomes a point in metres; y is negated."""
     turn, shift = laid
 
@@ -280,7 +280,7 @@ def _fiducials(level: Source) -> dict[str, complex]:
     return found
 
 
-def _laid_over(reference: Source, level: Source) -> tuple[complex, complex] | None:
+def _overlay(reference: Source, level: Source) -> tuple[complex, complex] | None:
     """Return turn-and-scale and shift that lay a level's fiducials over those of another.
 
     Of all pairs of common fiducials, the turn is the circular mean of the differences of bearings,

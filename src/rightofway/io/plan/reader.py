@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Where, in_file, nearest, shown, under
-from rightofway.io.faults import Faults, checked
-from rightofway.io.formats import PLAN_FORMAT, checked_format
+from rightofway.io.faults import Faults, validate
+from rightofway.io.formats import PLAN_FORMAT, check_format
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.reader import (
     read_scenario,
@@ -68,9 +68,9 @@ def plan_of(document: Any, source: str = "", pictures: Path | None = None) -> Pl
     from rightofway.io.plan.shape import PlanFrame
 
     with in_file(source):
-        document = checked_format(document, PLAN_FORMAT)
+        document = check_format(document, PLAN_FORMAT)
         faults = Faults()
-        frame = faults.attempt("", checked, PlanFrame, document)
+        frame = faults.attempt("", validate, PlanFrame, document)
         loaded = faults.part(document, "scenario", read_scenario, None, pictures)
         names = _Names.of(loaded.scenario) if loaded else None
         run = faults.part(document, "planner", _run, names)
@@ -127,7 +127,7 @@ def _each(
         raise InputError.at("", f"{shown(data)} is not a list (give one {item})")
     faults, found = Faults(), list[T | None]()
     for index, each in enumerate(data):
-        document = faults.attempt(index, checked, shape, each)
+        document = faults.attempt(index, validate, shape, each)
         if document is not None and names:
             found.append(faults.attempt(index, read, document, names))
     faults.stop()
@@ -164,7 +164,7 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
     """Return how the plan came about; without names, only look for faults of shape."""
     from rightofway.io.plan.shape import PlannerDocument
 
-    document = checked(PlannerDocument, data)
+    document = validate(PlannerDocument, data)
     if names is None:
         return None
     faults, decisions, reroutes = Faults(), list[Decision | None](), list[Reroute]()

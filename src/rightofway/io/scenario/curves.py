@@ -81,7 +81,9 @@ def lane_curve(tail: Point, controls: Sequence[Point], head: Point) -> LaneCurve
     )
 
 
-def spaced(curve: LaneCurve, tail: Point, head: Point, spacing: Fraction) -> tuple[Point, ...]:
+def points_along(
+    curve: LaneCurve, tail: Point, head: Point, spacing: Fraction
+) -> tuple[Point, ...]:
     """Return points on a curve, as far apart along it as equal pieces of at most a spacing are.
 
     Parameters

@@ -10,7 +10,7 @@ from typing import Any
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
-from rightofway.io.faults import checked
+from rightofway.io.faults import validate
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
@@ -81,13 +81,13 @@ def example_of_layout(path: Path | str, target: Path | str, radius: Fraction = F
         shape["cell_size"] = _cell_size(found, radius)
     from rightofway.io.scenario.shape import MapDocument
 
-    loaded = map_of(checked(MapDocument, shape), beside, Units(), FleetTraits(radius=radius))
+    loaded = map_of(validate(MapDocument, shape), beside, Units(), FleetTraits(radius=radius))
     assert loaded, "only a floor needs speeds"
     document = {
         "format": SCENARIO_FORMAT,
         "map": shape,
         **({"units": {"length": "m", "time": "s"}} if loaded.units.length else {}),
-        "robots": _dealt(loaded, level, radius),
+        "robots": _robots(loaded, level, radius),
     }
     return json_text(document) if target.suffix.lower() == ".json" else yaml_of(document)
 
@@ -106,7 +106,7 @@ def _cell_size(found: Occupancy, radius: Fraction) -> str:
     return fitting[0] if fitting else CELL_SIZES[0]
 
 
-def _dealt(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[dict[str, Any]]:
+def _robots(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[dict[str, Any]]:
     """Return robots with homes and targets in the largest part whose vertices reach each other."""
     roadmap = loaded.roadmap
     part = strong_parts(ways_of(roadmap))[0]
@@ -125,9 +125,9 @@ def _dealt(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[dic
     count = min(ROBOTS, len(part) // 2)
     in_zones = {vertex for zone in roadmap.zones for vertex in zone.vertices}
     free = [vertex for vertex in parking if vertex not in in_zones]
-    homes = _chosen(free, part, count, in_zones.union(stations))
+    homes = _choose(free, part, count, in_zones.union(stations))
     shift = SHIFT * len(part) // (2 * ROBOTS)  # targets lie across from homes
-    targets = _chosen(list(stations), part[shift:] + part[:shift], count, homes)
+    targets = _choose(list(stations), part[shift:] + part[:shift], count, homes)
     assert inside.issuperset((*homes, *targets))
     ends = list(zip(homes, targets, strict=True)) or [(0, 0)]
     size = {"radius": written(radius)} if radius else {}
@@ -143,7 +143,7 @@ def _dealt(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[dic
     ]
 
 
-def _chosen(wanted: list[int], part: list[int], count: int, taken: Iterable[int]) -> list[int]:
+def _choose(wanted: list[int], part: list[int], count: int, taken: Iterable[int]) -> list[int]:
     """Return vertices, the wanted ones first, then others spread over a part."""
     rest = [vertex for vertex in part if vertex not in {*wanted, *taken}] or part
     missing = max(count - len(wanted), 0)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from rightofway.assign import HOMELESS
 from rightofway.errors import InputError, InputFault, Location, Steps, in_file, shown, under
-from rightofway.io.faults import Faults, checked
+from rightofway.io.faults import Faults, keys_of, validate
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
 from rightofway.io.scenario.maps import file_beside
@@ -41,10 +41,11 @@ def robots_in_table(data: dict[str, Any], base: Path | None) -> CellDocument:
     from rightofway.io.scenario.shape import RobotDocument, RobotTableDocument
 
     with under("robots"):
-        name = checked(RobotTableDocument, data).table
+        name = validate(RobotTableDocument, data).table
         with under("table"):
-            known = [field.alias or key for key, field in RobotDocument.model_fields.items()]
-            return robots_of_csv(file_beside(base, name), known, ("robots", "table"))
+            return robots_of_csv(
+                file_beside(base, name), keys_of(RobotDocument), ("robots", "table")
+            )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -107,18 +108,18 @@ class ListedRobot:
         return {key: vertex for key, vertex in found.items() if on and vertex is not None}
 
 
-def listed_robot(index: int, data: Any) -> ListedRobot:
+def read_robot(index: int, data: Any) -> ListedRobot:
     """Return a robot of a list; of one with faults the attributes that have none."""
     from rightofway.io.scenario.shape import RobotAttributes, RobotDocument
 
     try:
-        document = checked(RobotDocument, data)
+        document = validate(RobotDocument, data)
     except InputError as error:
         faults, own = error.faults, dict[str, Any]()
         for it in ROBOT_ATTRIBUTES:
             if isinstance(data, dict) and it.key in data:
                 with suppress(InputError):
-                    own |= checked(RobotAttributes, {it.key: data[it.key]}).own(Robot)
+                    own |= validate(RobotAttributes, {it.key: data[it.key]}).own(Robot)
         return ListedRobot(index=index, data=data, document=None, own=own, faults=faults)
     return ListedRobot(index=index, data=data, document=document, own=document.own(Robot))
 
@@ -143,7 +144,7 @@ class ListedFleet:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Placed:
+class PlacedRobot:
     """A robot, its place in the document, and keys of it that stand elsewhere."""
 
     robot: Robot
@@ -151,17 +152,17 @@ class Placed:
     aliases: Mapping[Steps, Steps]
 
 
-def written_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
+def read_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
     """Return robots with their places as written, or the rows of a file that they stand on."""
     from rightofway.io.scenario.shape import FleetDocument
 
     if isinstance(data, list) and data:
-        return ListedFleet(robots=[listed_robot(index, each) for index, each in enumerate(data)])
+        return ListedFleet(robots=[read_robot(index, each) for index, each in enumerate(data)])
     if not isinstance(data, dict):
         remedy = "give a list of robots, {scen: a file} or {table: a file}"
         message = f"{shown(data)} is no fleet ({remedy})"
         raise InputError.at("", message)
-    document = checked(FleetDocument, data)
+    document = validate(FleetDocument, data)
     with under("scen"):
         file = file_beside(base, document.scen)
         rows = load_scen(file)
@@ -178,35 +179,35 @@ def _place_of_laps(document: Document, place: Steps) -> Steps:
     return (*place, "return") if document.given("ends") else ("rules", "laps")
 
 
-def placed_robots(
+def place_robots(
     fleet: ListedFleet | FleetRows,
     on: LoadedMap | None,
     faults: Faults,
     *,
     deals: bool,
-) -> Sequence[Placed]:
+) -> Sequence[PlacedRobot]:
     """Return the robots at their homes; where homes are dealt out, some are `HOMELESS`."""
     if isinstance(fleet, FleetRows):
-        return _dealt(fleet, on, faults) if on else ()
-    placed = list[Placed]()
+        return _place_rows(fleet, on, faults) if on else ()
+    placed = list[PlacedRobot]()
     for robot in fleet.robots:
         if not deals and isinstance(robot.data, dict) and "home" not in robot.data:
             message = f"is missing (give {HOME}, or homes: parking for all)"
             faults.note((*robot.place, "home"), message)
-        found = faults.attempt(robot.place, _placed, robot, on)
+        found = faults.attempt(robot.place, _place_robot, robot, on)
         if found and (deals or found.robot.home != HOMELESS):
             placed.append(found)
     return placed
 
 
-def _placed(robot: ListedRobot, on: LoadedMap | None) -> Placed | None:
+def _place_robot(robot: ListedRobot, on: LoadedMap | None) -> PlacedRobot | None:
     """Return a robot of a list at its places, or raise its faults; without a map, None."""
     from rightofway.io.scenario.shape import RobotDocument
 
     faults, document, place = Faults(), robot.document, robot.place
     faults.add(robot.faults)
     found = robot.find(on, faults)
-    faults.stop(it.alias or name for name, it in RobotDocument.model_fields.items())
+    faults.stop(keys_of(RobotDocument))
     if document is None or on is None:
         return None
     trip: list[tuple[Steps, Fraction | None]] = [(("target",), document.work)]
@@ -220,12 +221,12 @@ def _placed(robot: ListedRobot, on: LoadedMap | None) -> Placed | None:
     if document.target is not None:
         aliases["stops", 0, "at"] = (*place, "target")
     made = Robot(name=document.name, home=home, stops=stops, **robot.own)
-    return Placed(robot=made, place=place, aliases=aliases)
+    return PlacedRobot(robot=made, place=place, aliases=aliases)
 
 
-def _dealt(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[Placed]:
+def _place_rows(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[PlacedRobot]:
     """Return the robots on the rows of a file, or none after noting why."""
-    document, placed = robots.document, list[Placed]()
+    document, placed = robots.document, list[PlacedRobot]()
     ends = faults.attempt(("robots", "scen"), _starts_and_goals, robots, on) or []
     speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
     own = document.own(Robot)
@@ -239,7 +240,7 @@ def _dealt(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[Placed]:
     for number, ((home, goal), speed, work) in enumerate(dealt, start=1):
         stops = (Stop(at=goal, work=work),)
         robot = Robot(name=f"R{number}", home=home, stops=stops, speed=speed, **own)
-        placed.append(Placed(robot=robot, place=("robots", "scen"), aliases=aliases))
+        placed.append(PlacedRobot(robot=robot, place=("robots", "scen"), aliases=aliases))
     return placed
 
 

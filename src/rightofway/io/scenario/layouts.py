@@ -9,7 +9,12 @@ from typing import TYPE_CHECKING
 
 from rightofway.errors import InputError, under
 from rightofway.io.layouts import read_layout
-from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap, curve_note, joined_note
+from rightofway.io.scenario.loaded_map import (
+    FleetTraits,
+    LoadedMap,
+    note_on_curves,
+    note_on_squares,
+)
 from rightofway.quantities import Units
 from rightofway.site import roadmap_of_grid
 from rightofway.site.drawing import Drawing
@@ -24,7 +29,7 @@ CELL_SIZE = Fraction(1, 2)
 """Side of the cells that a map in finer pixels is cut into where none is given [m]."""
 
 
-def laid_out(
+def map_of_layout(
     document: MapDocument,
     file: Path,
     units: Units,
@@ -37,7 +42,7 @@ def laid_out(
     with under("layout"):
         found = read_layout(file)
     if isinstance(found, CellMap):
-        return _drawn_in_cells(document, found, file)
+        return _map_of_cells(document, found, file)
     units = Units(length=units.length or "m", time=units.time or "s")
     metres, seconds = units.metres, units.seconds
     assert metres, "a unit of length has a length"
@@ -56,7 +61,7 @@ def laid_out(
         )
         roadmap = made.roadmap
         stations = {name: roadmap.name(at) for name, at in roadmap.drawing.stations}
-        notes = (*found.notes, *made.notes, *curve_note(made.curves, made.chord_error, units))
+        notes = (*found.notes, *made.notes, *note_on_curves(made.curves, made.chord_error, units))
         return LoadedMap(
             roadmap=roadmap,
             units=units,
@@ -65,15 +70,15 @@ def laid_out(
             notes=notes,
         )
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
-    return _cut(document, found, units, metres, fleet.radius)
+    return _map_of_pixels(document, found, units, metres, fleet.radius)
 
 
-def _cut(
+def _map_of_pixels(
     document: MapDocument, found: Occupancy, units: Units, metres: Fraction, radius: Fraction
 ) -> LoadedMap:
     """Cut a map in pixels into cells."""
     if document.cell_size == "adaptive":
-        return _joined(document, found, units, metres, radius)
+        return _map_of_squares(document, found, units, metres, radius)
     size = (
         document.cell_size
         if isinstance(document.cell_size, Fraction)
@@ -111,7 +116,7 @@ def _usual_cell(found: Occupancy) -> Fraction:
     return max(CELL_SIZE, found.resolution)
 
 
-def _joined(
+def _map_of_squares(
     document: MapDocument, found: Occupancy, units: Units, metres: Fraction, radius: Fraction
 ) -> LoadedMap:
     """Cut a map in pixels into squares; the smallest are as wide as the largest robot."""
@@ -139,11 +144,11 @@ def _joined(
     )
     if found.picture is not None:
         roadmap = replace(roadmap, drawing=Drawing(picture=found.picture.scaled(1 / metres)))
-    note = joined_note("map", roadmap, int(free.sum()), units)
+    note = note_on_squares("map", roadmap, int(free.sum()), units)
     return LoadedMap(roadmap=roadmap, units=units, notes=(*found.notes, note))
 
 
-def _drawn_in_cells(document: MapDocument, found: CellMap, file: Path) -> LoadedMap:
+def _map_of_cells(document: MapDocument, found: CellMap, file: Path) -> LoadedMap:
     if document.cell_size == "adaptive":
         message = "a map in cells has cells already (give cell_size as a length)"
         raise InputError.at("cell_size", message)

@@ -83,7 +83,7 @@ def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
     raise AssertionError("an obstacle blocked the cell")
 
 
-def joined_note(what: str, roadmap: Roadmap, cells: int, units: Units) -> str:
+def note_on_squares(what: str, roadmap: Roadmap, cells: int, units: Units) -> str:
     """Return a sentence on the squares that the smallest cells of a map have been joined to."""
     assert roadmap.sides is not None, "the cells are squares"
     least, most = (
@@ -95,7 +95,7 @@ def joined_note(what: str, roadmap: Roadmap, cells: int, units: Units) -> str:
     return f"{what} cut into {len(roadmap.sides)} squares {span}, from {cells} free cells"
 
 
-def curve_note(curves: int, chord_error: Fraction, units: Units) -> Iterator[str]:
+def note_on_curves(curves: int, chord_error: Fraction, units: Units) -> Iterator[str]:
     """Yield a sentence on the curves that are cut into straight pieces, if there are any."""
     if curves:
         what = f"{curves} curves are" if curves > 1 else "1 curve is"

@@ -11,9 +11,14 @@ from typing import TYPE_CHECKING, Any
 from rightofway.errors import InputError, nearest, shown, under
 from rightofway.io.faults import Faults
 from rightofway.io.movingai import load_map
-from rightofway.io.scenario.curves import LaneCurve, lane_curve, spaced
-from rightofway.io.scenario.layouts import laid_out
-from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap, curve_note, joined_note
+from rightofway.io.scenario.curves import LaneCurve, lane_curve, points_along
+from rightofway.io.scenario.layouts import map_of_layout
+from rightofway.io.scenario.loaded_map import (
+    FleetTraits,
+    LoadedMap,
+    note_on_curves,
+    note_on_squares,
+)
 from rightofway.io.text import refuse_special
 from rightofway.quantities import Units, decimal
 from rightofway.site import (
@@ -62,14 +67,14 @@ def map_of(
     if document.layout is not None:
         with under("layout"):
             file = file_beside(base, document.layout)
-        return laid_out(document, file, units, fleet)
+        return map_of_layout(document, file, units, fleet)
     if document.roadmap is not None:
         with under("roadmap"):
-            return _drawn(document.roadmap, document, units, has_sizes=fleet.radius > 0)
+            return _map_of_roadmap(document.roadmap, document, units, has_sizes=fleet.radius > 0)
     if document.floor is not None:
         if document.cell_size == "adaptive":
-            return _joined_floor(document, fleet.speeds, fleet.radius, units)
-        return _clustered(document, fleet.speeds, keeps_names=units != Units())
+            return _map_of_squares(document, fleet.speeds, fleet.radius, units)
+        return _map_of_floor(document, fleet.speeds, keeps_names=units != Units())
     cell_size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
     frame = {
         "y_up": document.y_up,
@@ -85,16 +90,16 @@ def map_of(
         with under("grid"):
             file, lines = None, tuple(document.grid)
             roadmap = roadmap_of_grid(lines, cell_size=cell_size, **frame)
-    roadmap = replace(roadmap, obstacles=_named(document.obstacles))
+    roadmap = replace(roadmap, obstacles=_named_obstacles(document.obstacles))
     return LoadedMap(roadmap=roadmap, lines=lines, file=file)
 
 
-def _named(documents: Sequence[ObstacleDocument]) -> tuple[Obstacle, ...]:
+def _named_obstacles(documents: Sequence[ObstacleDocument]) -> tuple[Obstacle, ...]:
     """Return the obstacles that have a name, in the site's frame."""
-    return tuple(_placed(document) for document in documents if document.name)
+    return tuple(_obstacle_of(document) for document in documents if document.name)
 
 
-def _placed(
+def _obstacle_of(
     document: ObstacleDocument, left: Fraction = Fraction(0), low: Fraction = Fraction(0)
 ) -> Obstacle:
     """Return an obstacle relative to a point of the site."""
@@ -114,7 +119,7 @@ def file_beside(base: Path | None, name: str) -> Path:
     return base / name
 
 
-def _clustered(
+def _map_of_floor(
     document: MapDocument, speeds: Sequence[Fraction] | None, *, keeps_names: bool
 ) -> LoadedMap | None:
     """Cut a floor into cells, from its upper left corner on; where y grows upwards, the lower one.
@@ -144,11 +149,11 @@ def _clustered(
             yaw=document.yaw or Fraction(0),
         )
         if keeps_names:
-            roadmap = replace(roadmap, obstacles=_named(document.floor.obstacles))
+            roadmap = replace(roadmap, obstacles=_named_obstacles(document.floor.obstacles))
         return LoadedMap(roadmap=roadmap, lines=lines, floor=floor)
 
 
-def _joined_floor(
+def _map_of_squares(
     document: MapDocument, speeds: Sequence[Fraction] | None, radius: Fraction, units: Units
 ) -> LoadedMap | None:
     """Cut a floor into squares of a quadtree, from the corner that has the least x and y.
@@ -177,7 +182,7 @@ def _joined_floor(
         max_squares=document.floor.max_cells or MAX_CELLS,
     )
     return LoadedMap(
-        roadmap=roadmap, notes=(joined_note("floor", roadmap, int(free.sum()), units),)
+        roadmap=roadmap, notes=(note_on_squares("floor", roadmap, int(free.sum()), units),)
     )
 
 
@@ -190,11 +195,11 @@ def _floor(document: FloorDocument, on: MapDocument) -> Floor:
     return Floor(
         width=width,
         height=height,
-        obstacles=tuple(_placed(obstacle, left, low) for obstacle in document.obstacles),
+        obstacles=tuple(_obstacle_of(obstacle, left, low) for obstacle in document.obstacles),
     )
 
 
-def _drawn(
+def _map_of_roadmap(
     document: RoadmapDocument, on: MapDocument, units: Units, *, has_sizes: bool
 ) -> LoadedMap:
     """Make a roadmap of its vertices and edges, or report every edge that is wrong.
@@ -283,7 +288,7 @@ def _drawn(
         stations=document.stations,
         rounding=note if rounded else None,
         chord_error=error,
-        notes=tuple(curve_note(len({*map(frozenset, curves)}), error, units)) if is_cut else (),
+        notes=tuple(note_on_curves(len({*map(frozenset, curves)}), error, units)) if is_cut else (),
     )
 
 
@@ -298,7 +303,7 @@ def _shapes(
         return {ends: curve.points for ends, curve in curves.items()}
     refuse_many_pieces((curve.length for curve in curves.values()), on.spacing)
     return {
-        (tail, head): spaced(curve, positions[tail], positions[head], on.spacing)
+        (tail, head): points_along(curve, positions[tail], positions[head], on.spacing)
         for (tail, head), curve in curves.items()
     }
 

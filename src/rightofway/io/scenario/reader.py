@@ -15,15 +15,15 @@ from typing import Any
 from rightofway.arguments import checks_arguments
 from rightofway.assign import deal_homes
 from rightofway.errors import InputError, Steps, Where, in_file, nearest, shown
-from rightofway.io.faults import Faults, checked
-from rightofway.io.formats import SCENARIO_FORMAT, checked_format
+from rightofway.io.faults import Faults, validate
+from rightofway.io.formats import SCENARIO_FORMAT, check_format
 from rightofway.io.scenario.crossings import crossing_note
 from rightofway.io.scenario.fleet import (
     ListedFleet,
-    Placed,
-    placed_robots,
+    PlacedRobot,
+    place_robots,
+    read_robots,
     robots_in_table,
-    written_robots,
 )
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.maps import map_of
@@ -91,27 +91,27 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     from rightofway.io.scenario.shape import MapDocument, ScenarioFrame
 
     def loaded_map_of(data: Any) -> LoadedMap | None:
-        drawn = checked(MapDocument, data)
+        drawn = validate(MapDocument, data)
         if drawn.cell_size == "adaptive":  # may take seconds: first what is quick to check
             wrong = Faults()
-            placed_robots(robots, None, wrong, deals=deals)
+            place_robots(robots, None, wrong, deals=deals)
             if wrong.found:
                 return None
         found = map_of(drawn, base, units, robots.traits)
         found = found and with_picture(found, drawn.picture, pictures or base)
         return found if found is None or found.units.length else replace(found, units=units)
 
-    document = checked_format(document, SCENARIO_FORMAT)
+    document = check_format(document, SCENARIO_FORMAT)
     given = document.get("robots")
     if isinstance(given, dict) and "table" in given:
         table = robots_in_table(given, base)
         with table.locate():
             return read_scenario({**document, "robots": table.part}, base, pictures)
     faults = Faults()
-    faults.attempt("", checked, ScenarioFrame, document)
+    faults.attempt("", validate, ScenarioFrame, document)
     rules = faults.part(document, "rules", _rules_of) or Rules()
     units = faults.part(document, "units", _units_of) or Units()
-    robots = faults.part(document, "robots", written_robots, base) or ListedFleet()
+    robots = faults.part(document, "robots", read_robots, base) or ListedFleet()
     deals = document.get("homes") == "parking"
     loaded = faults.part(document, "map", loaded_map_of)
     if loaded:
@@ -119,14 +119,14 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     if loaded and loaded.keeps_clear and rules.walls == "strict":
         remedy = "robots keep clear of what a map in pixels shows; take it out"
         faults.note(("rules", "walls"), f"'strict' is for grids and floors ({remedy})")
-    placed = placed_robots(robots, loaded, faults, deals=deals)
+    placed = place_robots(robots, loaded, faults, deals=deals)
     closures = faults.part(document, "closures", _closures, loaded) or []
     scenario, notes = None, list[str]()
     if loaded and placed and deals:
-        placed = faults.attempt("", _at_homes, placed, loaded.roadmap, rules, notes) or ()
+        placed = faults.attempt("", _deal_homes, placed, loaded.roadmap, rules, notes) or ()
     if loaded and placed:
         others = {"rules": rules, "units": loaded.units, "closures": tuple(closures)}
-        scenario = _assembled(loaded.roadmap, placed, others, faults)
+        scenario = _assemble(loaded.roadmap, placed, others, faults)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
@@ -141,13 +141,13 @@ def _rules_of(data: Any) -> Rules:
     if isinstance(data, str):
         remedy = "give classic, or a mapping like {headway: 1}"
         raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
-    return Rules(**checked(RulesDocument, data).own(Rules))
+    return Rules(**validate(RulesDocument, data).own(Rules))
 
 
 def _units_of(data: Any) -> Units:
     from rightofway.io.scenario.shape import UnitsDocument
 
-    return Units(**checked(UnitsDocument, data).given("length", "time"))
+    return Units(**validate(UnitsDocument, data).given("length", "time"))
 
 
 def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
@@ -159,7 +159,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
         raise InputError.at("", f"{shown(data)} is no list of closures ({remedy})")
     faults, found = Faults(), list[Closure]()
     for index, each in enumerate(data):
-        document = faults.attempt(index, checked, ClosureDocument, each, on)
+        document = faults.attempt(index, validate, ClosureDocument, each, on)
         if document is None or on is None:
             continue
         closure = Closure(
@@ -174,17 +174,17 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
     return found
 
 
-def _at_homes(
-    placed: Sequence[Placed], roadmap: Roadmap, rules: Rules, notes: list[str]
-) -> Sequence[Placed]:
+def _deal_homes(
+    placed: Sequence[PlacedRobot], roadmap: Roadmap, rules: Rules, notes: list[str]
+) -> Sequence[PlacedRobot]:
     """Return the robots, each with a home; add a note on the homes that were dealt out."""
     robots, more = deal_homes([it.robot for it in placed], roadmap, rules)
     notes += more
     return [replace(it, robot=robot) for it, robot in zip(placed, robots, strict=True)]
 
 
-def _assembled(
-    roadmap: Roadmap, placed: Sequence[Placed], others: dict[str, Any], faults: Faults
+def _assemble(
+    roadmap: Roadmap, placed: Sequence[PlacedRobot], others: dict[str, Any], faults: Faults
 ) -> Scenario | None:
     """Return the scenario, or None after noting the faults that the model finds."""
     robots = tuple(each.robot for each in placed)

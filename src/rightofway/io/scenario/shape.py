@@ -25,8 +25,8 @@ from rightofway.io.fields import (
     Share,
     Size,
     Words,
-    described,
     exactly_one_of,
+    finish_schema,
     optional,
     with_attributes,
 )
@@ -205,7 +205,7 @@ class MapDocument(Document):
     """Where the fleet drives: exactly one of grid, file, floor, roadmap, layout."""
 
     model_config = ConfigDict(
-        json_schema_extra=described(
+        json_schema_extra=finish_schema(
             oneOf=[{"required": [kind]} for kind in MAPS],
             dependentSchemas={
                 "cell_size": {"not": {"required": ["roadmap"]}},
@@ -306,7 +306,7 @@ class RobotDocument(Document):
     """A robot and its trip: target and work, or stops."""
 
     model_config = ConfigDict(
-        json_schema_extra=described(
+        json_schema_extra=finish_schema(
             oneOf=[
                 {"required": ["target"]},
                 {"required": ["stops"], "not": {"required": ["work"]}},
@@ -370,7 +370,7 @@ class ClosureDocument(Document):
     """A vertex or an edge that nobody may use for a while."""
 
     model_config = ConfigDict(
-        json_schema_extra=described(oneOf=[{"required": ["at"]}, {"required": ["edge"]}])
+        json_schema_extra=finish_schema(oneOf=[{"required": ["at"]}, {"required": ["edge"]}])
     )
 
     at: Place = optional(f"the place that is closed: {PLACES}")

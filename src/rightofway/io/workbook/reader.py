@@ -2,33 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, Steps, Where, in_file, nearest, shown
-from rightofway.io.faults import Faults
+from rightofway.io.faults import Faults, keys_of
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.scenario.reader import Loaded, read_scenario
-from rightofway.io.tables import NOTES, CellDocument, heading_key, robots_of_rows, value_of
+from rightofway.io.tables import (
+    SPOTS,
+    WORD_KEYS,
+    CellDocument,
+    Row,
+    heading_key,
+    records_of,
+    robots_of_rows,
+    value_of,
+)
 from rightofway.io.workbook.sheets import Sheet, read_sheets, reference
-from rightofway.model.robot import RULE_ATTRIBUTES
 
 SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures")
 """Sheets that are read, by lower-case name."""
-
-SPOTS = ("parking", "charging")
-"""Columns of vertices that are true for such a place."""
 
 VERTEX_KEYS = ("name", "x", "y", "barred", "surcharge", *SPOTS)
 
 MAX_CELLS = 1_000_000
 """Cells of a map, at most."""
-
-TRUTHS = {it.key for it in RULE_ATTRIBUTES if it.kind == "truth"}
-"""Rules that are true or false."""
-
-YES_NO = {"true": True, "yes": True, "false": False, "no": False}
 
 HOMES = "homes"
 """The row of the rules sheet that belongs to the whole scenario."""
@@ -61,6 +61,8 @@ def load_workbook_scenario(path: Path | str) -> Loaded:
 
 def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[str]) -> CellDocument:
     """Return the scenario document of the sheets, and where each place of it stands."""
+    from rightofway.io.scenario.shape import ClosureDocument, RobotDocument
+
     document: dict[str, Any] = {"format": SCENARIO_FORMAT}
     cells: dict[Steps, Where] = {}
     offset = (1, 1)
@@ -73,23 +75,32 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[str]) -> 
             document["map"] = {"grid": lines}
             cells |= grid_cells
     elif "vertices" in sheets and "edges" in sheets:
-        drawn = faults.attempt("", _roadmap, sheets["vertices"], sheets["edges"], cells)
-        if drawn is not None:
-            document["map"] = {"roadmap": drawn}
+        drawn = _roadmap(sheets["vertices"], sheets["edges"])
+        document["map"] = {"roadmap": drawn.part}
+        cells |= drawn.cells
+        faults.add(drawn.faults)
     else:
         missing = "edges" if "vertices" in sheets else "map"
         faults.note("", f"the sheet {missing} is missing (add it; `rightofway new` writes one)")
     if "robots" in sheets:
-        robots = _robots(sheets["robots"], offset)
+        sheet = sheets["robots"]
+        robots = robots_of_rows(_rows(sheet, offset), sheet.cell, keys_of(RobotDocument))
         document["robots"] = robots.part
-        cells |= {("robots",): sheets["robots"].location, **robots.cells}
+        cells |= {("robots",): sheet.location, **robots.cells}
         faults.add(robots.faults)
     else:
         faults.note("", "the sheet robots is missing (add it; `rightofway new` writes one)")
     if "rules" in sheets:
         _add_rules(sheets["rules"], document, cells, faults)
         cells["rules",] = sheets["rules"].location
-    document |= _closures(sheets, offset, cells, faults)
+    if "closures" in sheets:
+        sheet, known = sheets["closures"], keys_of(ClosureDocument)
+        closures = records_of(
+            _rows(sheet, offset), sheet.cell, ("closures",), known, what="a closure"
+        )
+        document["closures"] = closures.part
+        cells |= closures.cells
+        faults.add(closures.faults)
     if not document.get("robots") or "map" not in document:
         faults.stop()
     return CellDocument(part=document, cells=cells, faults=faults.found)
@@ -140,40 +151,10 @@ def _grid(
     return lines, (top, left), cells
 
 
-def _robots(sheet: Sheet, offset: tuple[int, int]) -> CellDocument:
-    from rightofway.io.scenario.shape import RobotDocument
-
-    known = [field.alias or name for name, field in RobotDocument.model_fields.items()]
-    rows = (
-        (number, {column: _in_map(value, offset) for column, value in values.items()})
-        for number, values in sheet.rows()
-    )
-    return robots_of_rows(rows, sheet.cell, known)
-
-
-def _closures(
-    sheets: Mapping[str, Sheet], offset: tuple[int, int], cells: dict[Steps, Where], faults: Faults
-) -> dict[str, Any]:
-    """Return the part of a document with the closures in the rows of a sheet, if there is one."""
-    from rightofway.io.scenario.shape import ClosureDocument
-
-    if "closures" not in sheets:
-        return {}
-    sheet = sheets["closures"]
-    known = [field.alias or name for name, field in ClosureDocument.model_fields.items()]
-    closures = list[dict[str, Any]]()
-    for row, found, columns in faults.attempt("", _table, sheet, known) or ():
-        place = ("closures", len(closures))
-        cells[place] = sheet.cell(row, 1)
-        cells |= {(*place, key): sheet.cell(row, column) for key, column in columns.items()}
-        read = {
-            key: faults.attempt(
-                sheet.cell(row, columns[key]), value_of, key, _in_map(value, offset)
-            )
-            for key, value in found.items()
-        }
-        closures.append({key: value for key, value in read.items() if value is not None})
-    return {"closures": closures}
+def _rows(sheet: Sheet, offset: tuple[int, int]) -> Iterator[Row]:
+    """Yield the rows of a sheet whose places may be cells of the map."""
+    for number, values in sheet.rows():
+        yield number, {column: _in_map(value, offset) for column, value in values.items()}
 
 
 def _in_map(value: Any, offset: tuple[int, int]) -> Any:
@@ -190,7 +171,7 @@ def _add_rules(
     """Add the rows of the rules sheet: rules, units, and what belongs to the map."""
     from rightofway.io.scenario.shape import MAPS, MapDocument, RulesDocument
 
-    rules = [field.alias or name for name, field in RulesDocument.model_fields.items()]
+    rules = keys_of(RulesDocument)
     of_map = [name for name in MapDocument.model_fields if name not in MAPS]
     known = [*rules, *of_map, *UNIT_KEYS, HOMES]
     seen = set[str]()
@@ -218,10 +199,7 @@ def _add_rules(
         if read is not None and key == HOMES:
             document[HOMES] = read
         elif read is not None:
-            is_word = isinstance(read, str) and key in TRUTHS
-            parts[part][UNIT_KEYS.get(key, key)] = (
-                YES_NO.get(read.lower(), read) if is_word else read
-            )
+            parts[part][UNIT_KEYS.get(key, key)] = read
     if parts["rules"]:
         document["rules"] = parts["rules"]
     if parts["units"]:
@@ -230,73 +208,48 @@ def _add_rules(
         document["map"] |= parts["map"]
 
 
-def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[Steps, Where]) -> dict[str, Any]:
+def _roadmap(vertices: Sheet, edges: Sheet) -> CellDocument:
     """Return the roadmap of a sheet of vertices and a sheet of edges."""
     from rightofway.io.scenario.shape import EdgeDocument
 
-    faults, positions, first_row = Faults(), dict[str, Any](), dict[str, int]()
+    path, faults, first = ("map", "roadmap"), Faults(), dict[str, int]()
+    table = records_of(vertices.rows(), vertices.cell, (), VERTEX_KEYS, what="a vertex")
+    ways = records_of(
+        edges.rows(),
+        edges.cell,
+        (*path, "edges"),
+        keys_of(EdgeDocument),
+        what="an edge",
+        words={*WORD_KEYS, "from", "to"},
+    )
+    faults.add((*table.faults, *ways.faults))
+    cells: dict[Steps, Where] = {
+        **{path[:k]: vertices.location for k in (1, 2)},
+        (*path, "vertices"): vertices.location,
+        (*path, "edges"): edges.location,
+        **ways.cells,
+    }
+    positions = dict[str, Any]()
     spots: dict[str, list[str]] = {key: [] for key in SPOTS}
-    for row, found, columns in faults.attempt("", _table, vertices, VERTEX_KEYS) or ():
-        name = str(found.get("name", ""))
+    for index, found in enumerate(table.part):
+        name, row = found.get("name", ""), table.cells[index,]
         missing = [key for key in ("name", "x", "y") if key not in found]
         if missing:
-            message = f"has no {' and no '.join(missing)} (give name, x and y)"
-            faults.note(vertices.cell(row, 1), message)
-        if name in first_row:
+            faults.note(row, f"has no {' and no '.join(missing)} (give name, x and y)")
+        if name in first:
             message = f"{shown(name)} is in {{other}} already (take one out)"
-            faults.note(vertices.cell(row, 1), message, vertices.cell(first_row[name], 1))
-        first_row.setdefault(name, row)
+            faults.note(row, message, table.cells[first[name],])
+        first.setdefault(name, index)
         position = [found.get("x", 0), found.get("y", 0)]
-        more = {key: value_of(key, found[key]) for key in ("barred", "surcharge") if key in found}
+        more = {key: found[key] for key in ("barred", "surcharge") if key in found}
         positions[name] = {"at": position, **more} if more else position
         for key, names in spots.items():
-            is_one = YES_NO.get(str(found.get(key, False)).lower())
-            if is_one is None:
+            if not isinstance(found.get(key, False), bool):
                 message = f"{shown(found[key])} is neither true nor false (write one of them)"
-                faults.note(vertices.cell(row, columns[key]), message)
-            elif is_one:
+                faults.note(table.cells[index, key], message)
+            elif found.get(key):
                 names.append(name)
-        cells["map", "roadmap", "vertices", name] = vertices.cell(row, 1)
-    known = [field.alias or name for name, field in EdgeDocument.model_fields.items()]
-    ways = list[dict[str, Any]]()
-    for row, found, columns in faults.attempt("", _table, edges, known) or ():
-        place = ("map", "roadmap", "edges", len(ways))
-        cells[place] = edges.cell(row, 1)
-        cells |= {(*place, key): edges.cell(row, column) for key, column in columns.items()}
-        way = dict[str, Any]()
-        for key, value in found.items():
-            at = edges.cell(row, columns[key])
-            is_name = key in {"from", "to"}
-            way[key] = str(value) if is_name else faults.attempt(at, value_of, key, value)
-        both = way.get("both_ways")
-        if isinstance(both, str):
-            way["both_ways"] = YES_NO.get(both.lower(), both)
-        ways.append(way)
-    faults.stop()
-    drawn = ("map", "roadmap")
-    cells |= {drawn[:1]: vertices.location, drawn: vertices.location}
-    cells |= {(*drawn, "vertices"): vertices.location, (*drawn, "edges"): edges.location}
-    spots = {key: names for key, names in spots.items() if names}
-    return {"vertices": positions, "edges": ways, **spots}
-
-
-def _table(
-    sheet: Sheet, known: Collection[str]
-) -> list[tuple[int, dict[str, Any], dict[str, int]]]:
-    """Return the rows of a sheet: number, values by heading, and the column of each heading."""
-    faults, rows = Faults(), sheet.rows()
-    first, headings = next(rows, (1, {}))
-    columns: dict[str, int] = {}
-    for column, heading in headings.items():
-        key = heading_key(heading)
-        if key in known:
-            columns[key] = column
-        elif key not in NOTES:
-            near = nearest(key, known)
-            hint = f"did you mean {near}?" if near else f"known: {', '.join(known)}"
-            faults.note(sheet.cell(first, column), f"{shown(heading)} is unknown ({hint})")
-    faults.stop()
-    return [
-        (row, {key: values[at] for key, at in columns.items() if at in values}, columns)
-        for row, values in rows
-    ]
+        cells[*path, "vertices", name] = row
+    drawn = {"vertices": positions, "edges": ways.part}
+    drawn |= {key: names for key, names in spots.items() if names}
+    return CellDocument(part=drawn, cells=cells, faults=faults.found)

@@ -108,14 +108,14 @@ def read_sheets(path: Path, wanted: Collection[str], faults: Faults) -> dict[str
     """
     data = _content(path)
     sheets: dict[str, Sheet] = {}
-    with _opened(data, cached=False) as workbook:
+    with _open_workbook(data, cached=False) as workbook:
         for name in workbook.sheetnames:
             key = name.strip().lower()
             if key in wanted and hasattr(workbook[name], "iter_rows"):  # a chart sheet has no rows
                 if key in sheets:
                     faults.note(Location(cell=name), f"two sheets are called {key} (take one out)")
                     continue
-                merged = _merged(data, workbook[name])
+                merged = _merged_cells(data, workbook[name])
                 for cells in merged:
                     where = Location(cell=f"{name}!{cells}")
                     faults.note(where, "these cells are merged (unmerge them)")
@@ -149,7 +149,7 @@ def _too_long() -> InputError:
 
 
 @contextmanager
-def _opened(data: bytes, *, cached: bool) -> Iterator[Any]:
+def _open_workbook(data: bytes, *, cached: bool) -> Iterator[Any]:
     """Yield a workbook that streams its sheets, with formulas or with the values they had."""
     import openpyxl  # type: ignore[import-untyped]
 
@@ -181,7 +181,7 @@ def _no_sheet(names: list[str], wanted: Collection[str]) -> InputError:
     return InputError.at("", f"no sheet is called map or robots; there is {listed} ({remedy})")
 
 
-def _merged(data: bytes, worksheet: Any) -> list[str]:
+def _merged_cells(data: bytes, worksheet: Any) -> list[str]:
     """Return the ranges of merged cells; a streamed sheet does not tell them."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -237,7 +237,7 @@ def _keep_computed(
     A formula that only points to a cell of the map is kept as text: it is a place.
     """
     found = set()
-    with _opened(data, cached=True) as workbook:
+    with _open_workbook(data, cached=True) as workbook:
         for row in _rows(workbook[sheet.name]):
             for cell in row:
                 position = (getattr(cell, "row", 0), getattr(cell, "column", 0))

@@ -11,7 +11,7 @@ from typing import Any
 from rightofway.errors import InputError
 from rightofway.files import archive_of, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.workbook.reader import SPOTS
+from rightofway.io.tables import SPOTS
 from rightofway.model.attributes import Attribute
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 
@@ -198,7 +198,7 @@ def _write_rules(sheet: Any, given: dict[str, Any]) -> None:
 
     _write_table(sheet, ["rule", "value", "what it is"], [])
     more = [key for key in given if key not in {hint[0] for hint in RULE_HINTS}]
-    hints = (*RULE_HINTS, *((key, _described(MapDocument, key), "") for key in more))
+    hints = (*RULE_HINTS, *((key, _description(MapDocument, key), "") for key in more))
     for row, (key, text, choices) in enumerate(hints, 2):
         sheet.cell(row, 1, key)
         sheet.cell(row, 2, _cell(given.get(key))).number_format = "@"
@@ -214,7 +214,7 @@ def _write_closures(sheet: Any, closures: Sequence[dict[str, Any]]) -> None:
     keys = ["at", "edge", "from", "until", "radius"]
     _write_table(sheet, keys, [[_cell(one.get(key)) for key in keys] for one in closures])
     for letter, key in zip("ABCDE", keys, strict=True):
-        _add_hint(sheet, f"{letter}2:{letter}{ROWS}", key, _described(ClosureDocument, key), "")
+        _add_hint(sheet, f"{letter}2:{letter}{ROWS}", key, _description(ClosureDocument, key), "")
 
 
 def _write_roadmap(workbook: Any, roadmap: dict[str, Any]) -> None:
@@ -272,7 +272,7 @@ def _add_hint(
     rule.add(cells)
 
 
-def _described(model: Any, key: str) -> str:
+def _description(model: Any, key: str) -> str:
     """Return what a document says of a key."""
     fields = {field.alias or name: field for name, field in model.model_fields.items()}
     return fields[key].description or "" if key in fields else ""

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, under
-from rightofway.io.faults import checked
+from rightofway.io.faults import validate
 from rightofway.io.fields import positive
 from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
@@ -84,9 +84,9 @@ def _speed(given: Any) -> Fraction:
 
 def _roadmap(document: dict[str, Any], folder: str, speeds: list[Fraction]) -> Roadmap:
     with under("units"):
-        units = checked(UnitsDocument, document.get("units") or {}).given("length", "time")
+        units = validate(UnitsDocument, document.get("units") or {}).given("length", "time")
     with under("map"):
-        shape = checked(MapDocument, document.get("map"))
+        shape = validate(MapDocument, document.get("map"))
         found = map_of(shape, Path(folder), Units(**units), FleetTraits(speeds=speeds))
     assert found is not None, "speeds are given"
     return found.roadmap

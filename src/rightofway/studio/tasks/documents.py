@@ -21,9 +21,9 @@ from rightofway.io import (
     plan_text,
     read_layout,
 )
-from rightofway.io.layouts import described
+from rightofway.io.layouts import describe_layout
 from rightofway.io.locations import document_of, locate
-from rightofway.io.opening import WORKBOOKS
+from rightofway.io.readers import WORKBOOKS
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.scenario.writer import yaml_of
 from rightofway.io.sites import sites_of
@@ -45,7 +45,7 @@ def opened(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None) -
     if is_layout(file):
         document = parse_yaml(example_of_layout(file, file.with_suffix(".yaml")))
         layout = read_layout(file)
-        notes = [*getattr(layout, "notes", ()), f"a new scenario on {described(layout)}"]
+        notes = [*getattr(layout, "notes", ()), f"a new scenario on {describe_layout(layout)}"]
         return ({"kind": "layout", "document": {**plain(document), "robots": []}, "notes": notes},)
     if file.suffix.lower() in {".scen", *WORKBOOKS}:
         return (_of_loaded("scenario", load_with_notes(file, count)),)

@@ -12,7 +12,7 @@ from typing import Any
 
 from rightofway.errors import InputError, InputFault
 from rightofway.io import Loaded, dump_scenario
-from rightofway.io.faults import checked
+from rightofway.io.faults import validate
 from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.picture import with_picture
@@ -193,8 +193,8 @@ def drawn_map(document: dict[str, Any], folder: str) -> Site | None:
     if isinstance(drawn, dict):
         drawn = {key: value for key, value in drawn.items() if key != "picture"}
     try:
-        given = checked(UnitsDocument, document.get("units") or {}).given("length", "time")
-        shape = checked(MapDocument, drawn)
+        given = validate(UnitsDocument, document.get("units") or {}).given("length", "time")
+        shape = validate(MapDocument, drawn)
         loaded = map_of(shape, Path(folder), Units(**given), FleetTraits(speeds=[Fraction(1)]))
     except InputError:
         return None
@@ -202,7 +202,7 @@ def drawn_map(document: dict[str, Any], folder: str) -> Site | None:
         return None
     if picture is not None:
         with contextlib.suppress(InputError):
-            loaded = with_picture(loaded, checked(PictureDocument, picture), Path(folder))
+            loaded = with_picture(loaded, validate(PictureDocument, picture), Path(folder))
     units = loaded.units if loaded.units.length else Units(**given)
     return Site(roadmap=loaded.roadmap, units=units)
 

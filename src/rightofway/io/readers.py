@@ -8,7 +8,7 @@ from pathlib import Path
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Steps, Where, in_file, shown
 from rightofway.files import path_of
-from rightofway.io.foreign import read_foreign, recognized
+from rightofway.io.foreign import format_of_text, read_foreign
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import refuse_layout
 from rightofway.io.locations import document_of
@@ -168,7 +168,7 @@ def _classic(path: Path, count: int | None) -> Loaded:
 
 
 def _refuse_foreign(text: str) -> None:
-    if recognized(text):
+    if format_of_text(text):
         message = "is a plan of another program, not a scenario (check, show or improve it)"
         raise InputError.at("", message)
 
