@@ -14,10 +14,9 @@ import pytest
 
 from rightofway.errors import listed
 from rightofway.phrases import Phrase, counted, joined, parts_of
-from rightofway.viz.page.scripts import asset
+from rightofway.viz.page.translations import tables
 
 SOURCES = Path(__file__).parents[1] / "src" / "rightofway"
-ENTRY = re.compile(r'^  (?:"((?:[^"\\]|\\.)+)"|(\w+)):\s+"((?:[^"\\]|\\.)+)",$', re.MULTILINE)
 VALUE = re.compile(r"\{(\w+)\}")
 
 
@@ -41,8 +40,7 @@ def _templates() -> Iterator[str]:
 
 def german() -> dict[str, str]:
     """Return the German of each template."""
-    entries = ENTRY.findall(asset("texts/library_de.js"))
-    return {quoted or bare: text for quoted, bare, text in entries}
+    return dict(tables()["de"])
 
 
 def test_every_phrase_of_the_library_has_its_german() -> None:

@@ -7,9 +7,11 @@ table from English templates to templates of that language; the values are put i
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
+from string import Formatter
 from typing import Any, Self
 
-__all__ = ["Phrase", "counted", "joined", "parts_of"]
+__all__ = ["Phrase", "PhraseBook", "counted", "joined", "parts_of"]
 
 
 class Phrase(str):
@@ -20,7 +22,7 @@ class Phrase(str):
     template
         The text, with ``{name}`` where a value stands.
     **values
-        Names and numbers, as text; or phrases.
+        Names and numbers, as text; or phrases. Those that the template does not name are dropped.
 
     Examples
     --------
@@ -39,12 +41,20 @@ class Phrase(str):
     def __new__(cls, template: str, /, **values: str) -> Self:
         """Return the text, with its values in their places."""
         made = super().__new__(cls, template.format(**values))
-        made.template, made.values = template, values
+        made.template = template
+        made.values = {name: values[name] for name in names_in(template)}
         return made
 
     def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, str]]:
         """Return what a copy is made of."""
         return (self.template,), self.values
+
+
+@cache
+def names_in(template: str) -> tuple[str, ...]:
+    """Return the names of the values of a template, each once, in their order."""
+    found = (name for _, name, _, _ in Formatter().parse(template) if name is not None)
+    return tuple(dict.fromkeys(found))
 
 
 def parts_of(text: str) -> Any:
@@ -58,6 +68,47 @@ def parts_of(text: str) -> Any:
     if not isinstance(text, Phrase):
         return text
     return [text.template, {name: parts_of(value) for name, value in text.values.items()}]
+
+
+class PhraseBook:
+    """Phrases of which many are alike, as plain data for JSON: each text is there once.
+
+    Attributes
+    ----------
+    entries
+        Text, or a phrase: the index of its template, then of each value, in the order in which the
+        template names them.
+
+    Examples
+    --------
+    >>> book = PhraseBook()
+    >>> book.add(Phrase("station {name}", name="Dock")), book.add("Dock")
+    (2, 1)
+    >>> book.entries
+    ['station {name}', 'Dock', [0, 1]]
+    """
+
+    def __init__(self) -> None:
+        self.entries: list[str | list[int]] = []
+        self._index: dict[str | tuple[int, ...], int] = {}
+
+    def add(self, text: str) -> int:
+        """Return the index of a text or a phrase.
+
+        Parameters
+        ----------
+        text
+            Text for people.
+        """
+        if not isinstance(text, Phrase):
+            return self._add(str(text))
+        return self._add((self._add(text.template), *map(self.add, text.values.values())))
+
+    def _add(self, entry: str | tuple[int, ...]) -> int:
+        if entry not in self._index:
+            self._index[entry] = len(self.entries)
+            self.entries.append(entry if isinstance(entry, str) else list(entry))
+        return self._index[entry]
 
 
 def counted(number: int | str, one: str, many: str) -> Phrase:

@@ -13,7 +13,7 @@ from typing import Literal, get_args
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault, shown
-from rightofway.phrases import counted
+from rightofway.phrases import Phrase, counted
 
 __all__ = ["Quantities", "Units", "decimal"]
 
@@ -179,8 +179,10 @@ class Quantities:
     def moment(self, ticks: Value) -> str:
         """Return a point in time: ``6 min 23 s`` after the start, ``time 2``, ``tick 4``."""
         if self.in_ticks:
-            return f"tick {decimal(ticks)}"
-        return self.duration(ticks) if self.units.time else f"time {self.cell(ticks)}"
+            return Phrase("tick {tick}", tick=decimal(ticks))
+        if self.units.time:
+            return self.duration(ticks)
+        return Phrase("time {time}", time=self.cell(ticks))
 
     @checks_arguments
     def cell(self, ticks: Value) -> str:

@@ -21,12 +21,21 @@ from pydantic import BaseModel
 from typing_extensions import is_typeddict
 
 from rightofway.studio.routes import answers
-from rightofway.studio.routes.answers import ANSWERS, BODIES, EVENTS, Comparison, Payload, Problem
+from rightofway.studio.routes.answers import (
+    ANSWERS,
+    BODIES,
+    EVENTS,
+    Comparison,
+    Payload,
+    Phrase,
+    Problem,
+)
 from rightofway.studio.routes.models import Document
 
 HEAD = """\
 // Generated from studio/routes/answers.py: change it there, then run `just types-refresh`.
 
+import type { PhraseData } from "../../viz/page/assets/payload.d.ts";
 import type { ComparisonPayload, ScenarioDocument, SitePayload } from "./types.js";
 """
 
@@ -38,7 +47,12 @@ PLAIN = {
     NoneType: "null",
     Any: "unknown",
 }
-NAMED = {Document: "ScenarioDocument", Payload: "SitePayload", Comparison: "ComparisonPayload"}
+NAMED = {
+    Document: "ScenarioDocument",
+    Payload: "SitePayload",
+    Comparison: "ComparisonPayload",
+    Phrase: "PhraseData",
+}
 PLACES = {"number": "${number}"}
 """Parts of paths that are not any text."""
 

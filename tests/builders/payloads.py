@@ -22,10 +22,11 @@ from rightofway.solve import solve
 from rightofway.viz.motion import trips_of
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import payload_of
+from rightofway.viz.page.schema import Payload
 from rightofway.viz.placement import plane_of
 from tests.builders.plans import counter, counter_late, counter_steady, crowd, door, loop, yard
 
-__all__ = ["FOLDER", "MADE", "cross", "in_metres", "written"]
+__all__ = ["FOLDER", "MADE", "cross", "in_metres", "template_in", "written"]
 
 FOLDER = Path(__file__).parents[1] / "data" / "pages"
 
@@ -33,6 +34,15 @@ CROSS = {
     "vertices": {"A": [0, 0], "B": [8, 0], "C": [4, -4], "D": [4, 4]},
     "edges": [["A", "B"], ["C", "D"]],
 }
+
+
+def template_in(payload: Payload, index: int) -> str:
+    """Return the English template of a phrase of a payload."""
+    phrase = payload["phrases"][index]
+    assert isinstance(phrase, list)
+    template = payload["phrases"][phrase[0]]
+    assert isinstance(template, str)
+    return template
 
 
 def cross(**more: Any) -> Plan:

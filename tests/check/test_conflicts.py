@@ -214,7 +214,8 @@ def test_a_rotation_is_allowed_unless_the_rules_forbid_it() -> None:
     report = judged(*ROUND, grid=SQUARE, rotations=False)
     assert told(report) == [("rotation", (0, 1, 2, 3), (0, 1, 3, 2), 1)]
     assert report.faults[0].message == (
-        "R1, R2, R3, R4 move round N0, N1, N3, N2 at once (let one wait until its place is empty)"
+        "R1, R2, R3 and R4 move round N0, N1, N3 and N2 at once"
+        " (let one wait until its place is empty)"
     )
 
 

@@ -50,7 +50,7 @@ def test_the_panel_says_first_that_a_plan_must_not_be_run(faulty: StudioPage) ->
 @needs_browser
 def test_a_press_on_a_fault_goes_to_its_place_and_time(faulty: StudioPage) -> None:
     fault = alert(faulty).get_by_role("button")
-    said = "R1 and R2 drive through each other between N7 and N4"
+    said = "R1 and R2 exchange N7 and N4"
     assert fault.inner_text() == f"{said}, at time 7"
     fault.click()
     faulty.page.get_by_role("complementary").get_by_text(f"{said}.", exact=True).wait_for()

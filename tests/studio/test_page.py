@@ -70,7 +70,7 @@ def test_faults_of_a_file_stand_in_the_list_and_at_the_field(
 def test_a_wait_is_explained_and_the_right_of_way_flipped(studio: StudioPage) -> None:
     plan(studio)
     waits = studio.page.locator(".waits")
-    assert "R1 waits 1 time unit in N0 for R2 to leave N1, at time 0." in waits.inner_text()
+    assert "At time 0, R1 waits 1 time unit in N0 for R2 to leave N1." in waits.inner_text()
     studio.button("Let R1 go first").click()
     studio.page.locator(".change").get_by_text("was 19 time units").wait_for()
 

@@ -261,9 +261,9 @@ def test_the_decisions_behind_a_wait_add_up_to_it(client: httpx.Client) -> None:
     number = planned(client, document, planner="two-level")["number"]
     found = client.get(f"/runs/{number}/losses").json()["losses"]
     (loss,) = [loss for loss in found if loss["ticks"] == 7]
-    assert [each["decision"].partition(": ")[2] for each in loss["because"]] == [
-        "R1 waits 5 time units in N2, R2 goes first.",
-        "R1 waits 2 time units in N2, R3 goes first.",
+    assert [each["decision"].partition(". ")[2] for each in loss["because"]] == [
+        "R1 waits 5 time units in N2 and lets R2 go first.",
+        "R1 waits 2 time units in N2 and lets R3 go first.",
     ]
 
 

@@ -41,12 +41,13 @@ def test_the_details_of_a_faulty_plan_have_no_figures(faulty: Player) -> None:
 
 def test_faults_are_listed_first_and_lead_to_their_moment_and_place(faulty: Player) -> None:
     row = faulty.page.locator("#fault-list .row").first
-    assert row.inner_text() == "R1 and R2 are both in N1\nat time 1 · vertex conflict"
+    sentence = "R1 books N1 from time 1 to 2 and R2 from time 1 to 2"
+    assert row.inner_text() == f"{sentence}\nat time 1 · vertex conflict"
     row.click()
     assert faulty.tick == 1
     card = faulty.text("#card")
-    assert "R1 and R2 are both in N1" in card
-    assert "A place holds one robot" in card
+    assert "R1 books N1 from time 1 to 2 and R2 from time 1 to 2" in card
+    assert "Let one come when the other has left." in card
     faulty.page.wait_for_url("**&fault=1")
 
 

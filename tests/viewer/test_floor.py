@@ -131,7 +131,8 @@ def test_who_was_planned_anew_goes_another_way(show: Opener) -> None:
 def test_waiting_for_a_late_robot_is_told_and_marked(late: Player) -> None:
     """R2 waits from 0 to 9 instead of 5: the last 4 ticks are not in the plan."""
     late.page.click("#robot-list .row:has-text('R2')")
-    assert "waits 9 time units in N2 for R1 to leave N1, 4 more than planned" in late.text("#card")
+    sentence = "waits 9 time units in N2 for R1 to leave N1, 4 time units more than planned"
+    assert sentence in late.text("#card")
     late.press("Escape")
     orange = [*bytes.fromhex(LIGHT.wait[1:]), 255]
     below = late.diagram_y("N2") + 2

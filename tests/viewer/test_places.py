@@ -12,7 +12,7 @@ from tests.viewer.conftest import Opener
 
 def test_a_cell_of_a_measured_floor_is_called_by_where_it_is(show: Opener) -> None:
     viewer = show(in_metres(door()), "#decision=1")
-    assert "R1 and R2 would both have been in N1 (1.5,\u00a00.5)." in viewer.text("#card")
+    assert "R1 and R2 would both have been in N1 (1.5, 0.5)." in viewer.text("#card")
 
 
 def test_a_card_says_where_home_and_stops_are(show: Opener) -> None:

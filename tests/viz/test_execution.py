@@ -27,9 +27,12 @@ def test_what_happened_is_told_on_the_way_of_the_plan() -> None:
 
 
 def test_the_plan_itself_is_told_as_ever() -> None:
-    payload = payload_of(counter(), actual=counter_late())
-    del payload["floor"]
-    assert payload == payload_of(counter())
+    said = {"floor", "phrases", "translations"}  # of the execution there are more
+    payload, planned = payload_of(counter(), actual=counter_late()), payload_of(counter())
+    assert {key: payload[key] for key in payload.keys() - said} == {  # type: ignore[literal-required]
+        key: planned[key]  # type: ignore[literal-required]
+        for key in planned.keys() - said
+    }
 
 
 def test_standing_still_is_not_waiting() -> None:
@@ -42,7 +45,7 @@ def test_standing_still_is_not_waiting() -> None:
         [0, 1, 0, 2, 2, 1, 1, 0, 9, 9],
         [0, 1, 0, 2, 2, 1, 1, 16, 19, 3],
     ]
-    assert told()["losses"] == rows
+    assert [row[:-1] for row in told()["losses"]] == rows
 
 
 def test_stages_take_what_they_really_took() -> None:

@@ -13,6 +13,7 @@ from rightofway.errors import InputError
 from rightofway.model import SteadyState, Tick
 from rightofway.viz import page_of, payload_of
 from tests.builders.fleets import grid_fleet
+from tests.builders.payloads import template_in
 from tests.builders.plans import counter, counter_steady, door
 
 
@@ -115,4 +116,6 @@ def test_an_excerpt_of_laps_has_no_faults_and_a_plan_of_whole_laps_has() -> None
     plan, steady = excerpt(run_laps(scenario, "fixed-order", routes="shortest"))
     assert payload_of(plan, steady=steady)["faults"]["count"] == 0
     whole = replace(plan, run=replace(plan.run, status="whole laps"))
-    assert payload_of(whole, steady=steady)["faults"]["kinds"] == {"stop missed": 1}
+    payload = payload_of(whole, steady=steady)
+    [(kind, count)] = payload["faults"]["kinds"]
+    assert (template_in(payload, kind), count) == ("stop missed", 1)

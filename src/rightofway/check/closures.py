@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from rightofway.check.faults import Fault, FaultCollector, Names
 from rightofway.check.visits import Visits
 from rightofway.model import NEVER, Closure, Plan, Tick
+from rightofway.phrases import Phrase
 from rightofway.site import Roadmap, VertexId
 
 Place = tuple[int, int]
@@ -36,17 +37,23 @@ def judge_barred(visits: Visits, names: Names, collector: FaultCollector) -> Non
         )
         robot_type = names.scenario.robots[robot].type
         edge = roadmap.edge(tail, head)
-        why = f"is barred for type {robot_type}"
+        why = Phrase("is barred for type {type}", type=str(robot_type))
         if edge is None or robot_type not in roadmap.edge_class(edge).barred:
-            why = "is nearer to a wall than the robot's radius"
+            why = Phrase("is nearer to a wall than the robot's radius")
         collector.add(
             Fault(
                 kind="barred",
                 robots=(robot,),
                 vertices=(VertexId(tail), VertexId(head)),
                 tick=Tick(int(visits.leave[visit])),
-                message=f"{names.robot(robot)} drives from {names.vertex(tail)} to"
-                f" {names.vertex(head)}, which {why} (choose another way)",
+                reason=Phrase(
+                    "{robot} drives from {tail} to {head}, which {why}",
+                    robot=names.robot(robot),
+                    tail=names.vertex(tail),
+                    head=names.vertex(head),
+                    why=why,
+                ),
+                remedy=Phrase("choose another way"),
             )
         )
 
@@ -201,15 +208,24 @@ def _square_between(p: Vector, q: Vector, r: Vector, s: Vector) -> Fraction:
 
 
 def _fault(robot: int, place: Place, moment: int, end: int | None, names: Names) -> Fault:
-    one, other = place
-    where = f"the edge between {names.vertex(one)} and {names.vertex(other)}"
-    where = names.vertex(one) if one == other else where
-    until = "for ever" if end is None else f"until {names.until(end)}"
+    one, other = map(names.vertex, place)
+    where = one
+    if one != other:
+        where = Phrase("the edge between {tail} and {head}", tail=one, head=other)
+    until = Phrase("for ever")
+    if end is not None:
+        until = Phrase("until {end}", end=names.until(end))
     return Fault(
         kind="closed",
         robots=(robot,),
         vertices=tuple(VertexId(vertex) for vertex in dict.fromkeys(place)),
         tick=Tick(moment),
-        message=f"{names.robot(robot)} books {where} at {names.moment(moment)}, which is closed"
-        f" {until} (come after that, or leave before it begins)",
+        reason=Phrase(
+            "{robot} books {place} at {moment}, which is closed {until}",
+            robot=names.robot(robot),
+            place=where,
+            moment=names.moment(moment),
+            until=until,
+        ),
+        remedy=Phrase("come after that, or leave before it begins"),
     )

@@ -10,10 +10,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names
+from rightofway.check.faults import (
+    ONE_AFTER_THE_OTHER,
+    Fault,
+    FaultCollector,
+    FaultKind,
+    Names,
+    Verdict,
+)
 from rightofway.check.visits import Visits
 from rightofway.model import Plan, Tick
 from rightofway.model.sorting import order_by
+from rightofway.phrases import Phrase, joined
 from rightofway.site import VertexId
 
 Indices = NDArray[np.int64]
@@ -53,35 +61,51 @@ def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCol
     def name(booking: int) -> str:
         return names.robot(int(robot[booking]))
 
-    def interval(booking: int) -> str:
-        until = "for ever" if last[booking] else f"to {names.until(leave[booking])}"
-        return f"from {names.moment(start[booking])} {until}"
+    def interval(booking: int) -> Phrase:
+        begin = names.moment(start[booking])
+        if last[booking]:
+            return Phrase("from {begin} for ever", begin=begin)
+        return Phrase("from {begin} to {end}", begin=begin, end=names.until(leave[booking]))
 
-    def conflict(one: int, other: int) -> str:
-        return (
-            f"{name(one)} books {names.vertex(int(vertex[one]))} {interval(one)} and"
-            f" {name(other)} {interval(other)} (let one come when the other has left)"
+    def conflict(one: int, other: int) -> Verdict:
+        reason = Phrase(
+            "{one} books {vertex} {time} and {other} {other_time}",
+            one=name(one),
+            vertex=names.vertex(int(vertex[one])),
+            time=interval(one),
+            other=name(other),
+            other_time=interval(other),
         )
+        return reason, ONE_AFTER_THE_OTHER
 
-    def too_soon(one: int, other: int) -> str:
-        return (
-            f"{name(other)} comes to {names.vertex(int(vertex[one]))} at"
-            f" {names.moment(start[other])}, {names.duration(start[other] - leave[one])} after"
-            f" {name(one)} left, the headway is {names.duration(headway)}"
-            f" (come at {names.moment(leave[one] + headway)} or later)"
+    def too_soon(one: int, other: int) -> Verdict:
+        reason = Phrase(
+            "{other} comes to {vertex} at {moment}, {time} after {one} left, the headway is"
+            " {headway}",
+            other=name(other),
+            vertex=names.vertex(int(vertex[one])),
+            moment=names.moment(start[other]),
+            time=names.duration(start[other] - leave[one]),
+            one=name(one),
+            headway=names.duration(headway),
+        )
+        return reason, Phrase(
+            "come at {moment} or later", moment=names.moment(leave[one] + headway)
         )
 
     def report(
-        kind: FaultKind, one: Indices, other: Indices, message: Callable[[int, int], str]
+        kind: FaultKind, one: Indices, other: Indices, verdict: Callable[[int, int], Verdict]
     ) -> None:
         def fault(position: int) -> Fault:
             pair = int(one[position]), int(other[position])
+            reason, remedy = verdict(*pair)
             return Fault(
                 kind=kind,
                 robots=tuple(sorted(int(robot[booking]) for booking in pair)),
                 vertices=(VertexId(int(vertex[pair[0]])),),
                 tick=Tick(int(start[pair[1]])),
-                message=message(*pair),
+                reason=reason,
+                remedy=remedy,
             )
 
         ends = robot[one], robot[other]
@@ -127,14 +151,15 @@ def judge_swaps(visits: Visits, names: Names, collector: FaultCollector) -> None
         moves = int(one[position]), int(other[position])
         robots = tuple(int(visits.robot[move]) for move in moves)
         vertices = tuple(VertexId(int(visits.vertex[move])) for move in moves)
-        who = " and ".join(map(names.robot, robots))
-        where = " and ".join(map(names.vertex, vertices))
+        who = joined([names.robot(robot) for robot in robots])
+        where = joined([names.vertex(vertex) for vertex in vertices])
         return Fault(
             kind="swap conflict",
             robots=robots,
             vertices=vertices,
             tick=Tick(int(visits.leave[moves[0]])),
-            message=f"{who} exchange {where} (let one wait aside until the other is by)",
+            reason=Phrase("{robots} exchange {vertices}", robots=who, vertices=where),
+            remedy=Phrase("let one wait aside until the other is by"),
         )
 
     move, begin, after = _opposite(visits)
@@ -200,14 +225,15 @@ def judge_rotations(visits: Visits, names: Names, collector: FaultCollector) -> 
     for tick, head_of in heads.items():
         for circle in _circles(head_of):
             moving = [robots[tick, vertex] for vertex in circle]
-            who = ", ".join(map(names.robot, moving))
-            where = ", ".join(map(names.vertex, circle))
+            who = joined([names.robot(robot) for robot in moving])
+            where = joined([names.vertex(vertex) for vertex in circle])
             fault = Fault(
                 kind="rotation",
                 robots=tuple(sorted(moving)),
                 vertices=tuple(map(VertexId, circle)),
                 tick=tick,
-                message=f"{who} move round {where} at once (let one wait until its place is empty)",
+                reason=Phrase("{robots} move round {vertices} at once", robots=who, vertices=where),
+                remedy=Phrase("let one wait until its place is empty"),
             )
             collector.add(fault)
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
+from rightofway.phrases import Phrase
 from rightofway.quantities import Quantities
 from rightofway.site import VertexId
 
@@ -78,6 +79,13 @@ PLURALS: Mapping[FaultKind, str] = {
 """Of several faults of a kind; a kind that is no noun has none."""
 
 
+Verdict = tuple[Phrase, Phrase]
+"""What is wrong, and what would be right."""
+
+ONE_AFTER_THE_OTHER = Phrase("let one come when the other has left")
+"""What would be right where two robots are in one place."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fault:
     """One place where a plan breaks a rule.
@@ -94,8 +102,10 @@ class Fault:
         the edge of the first one, then those of the second one.
     tick
         When it begins [ticks].
-    message
-        The same for people, with what would be right in brackets.
+    reason
+        The same for people.
+    remedy
+        What would be right, for people.
     moment
         When it begins, for people.
     """
@@ -104,8 +114,14 @@ class Fault:
     robots: tuple[int, ...]
     vertices: tuple[VertexId, ...]
     tick: Tick
-    message: str
+    reason: str
+    remedy: str
     moment: str = ""
+
+    @property
+    def message(self) -> str:
+        """What is wrong, with what would be right in brackets."""
+        return f"{self.reason} ({self.remedy})"
 
     def __str__(self) -> str:
         return f"{self.moment or f'tick {self.tick}'}: {self.kind}: {self.message}"
@@ -207,7 +223,7 @@ class Names:
         """Return what people call a vertex, whether the roadmap has it or not."""
         if 0 <= vertex < self.scenario.roadmap.n_vertices:
             return self.places(vertex)
-        return f"vertex {vertex}"
+        return Phrase("vertex {number}", number=str(vertex))
 
     @cached_property
     def places(self) -> PlaceNames:

@@ -17,10 +17,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import Fault, FaultCollector, Names
+from rightofway.check.faults import ONE_AFTER_THE_OTHER, Fault, FaultCollector, Names
 from rightofway.check.visits import Visits
 from rightofway.model import Plan, Tick
 from rightofway.model.sorting import order_by
+from rightofway.phrases import Phrase, joined
 from rightofway.quantities import decimal
 from rightofway.site import Roadmap, VertexId
 
@@ -307,18 +308,21 @@ def _judge_bookings(
         pair = sorted((int(one[k]), int(other[k])), key=lambda entry: int(bookings.robot[entry]))
         robots = tuple(int(bookings.robot[entry]) for entry in pair)
         places = [_place(visits, bookings, entry, names) for entry in pair]
-        booked = " and ".join(
-            f"{names.robot(robot)} books {place}"
+        booked = [
+            Phrase("{robot} books {place}", robot=names.robot(robot), place=place)
             for robot, (place, _) in zip(robots, places, strict=True)
-        )
+        ]
         collector.add(
             Fault(
                 kind="space conflict",
                 robots=robots,
                 vertices=(*places[0][1], *places[1][1]),
                 tick=Tick(int(start[k])),
-                message=f"{booked}, which are too near to be booked at one time"
-                " (let one come when the other has left)",
+                reason=Phrase(
+                    "{bookings}, which are too near to be booked at one time",
+                    bookings=joined(booked),
+                ),
+                remedy=ONE_AFTER_THE_OTHER,
             )
         )
 
@@ -332,7 +336,8 @@ def _place(
     if times.shape[entry] < names.scenario.roadmap.n_vertices:
         return names.vertex(tail), (tail,)
     head = VertexId(int(visits.vertex[visit + 1]))
-    return f"the edge from {names.vertex(tail)} to {names.vertex(head)}", (tail, head)
+    ends = {"tail": names.vertex(tail), "head": names.vertex(head)}
+    return Phrase("the edge from {tail} to {head}", **ends), (tail, head)
 
 
 def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: FaultCollector) -> None:
@@ -361,26 +366,35 @@ def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: Fault
         needed = int(
             shapes.apart(motions.robot[one[k : k + 1]], motions.robot[other[k : k + 1]])[0]
         )
-        where = ", ".join(
-            f"{names.robot(robot)} {_whereabouts(at, names)}"
-            for robot, (_, at) in zip(robots, places, strict=True)
-        )
+        one_robot, other_robot = map(names.robot, robots)
+        where, other_where = (_whereabouts(at, names) for _, at in places)
         collector.add(
             Fault(
                 kind="too close",
                 robots=robots,
                 vertices=(*places[0][1], *places[1][1]),
                 tick=Tick(floor(when[k])),
-                message=f"{names.robot(robots[0])} and {names.robot(robots[1])} come within"
-                f" {quantities.length(shapes.length(square[k]))}"
-                f" ({decimal(shapes.length(Fraction(needed**2)))} needed) at"
-                f" {quantities.moment(when[k])}, {where} (let one wait until the other is by)",
+                reason=Phrase(
+                    "{one} and {other} come within {distance} ({needed} needed) at {moment}, {one}"
+                    " {place}, {other} {other_place}",
+                    one=one_robot,
+                    other=other_robot,
+                    distance=quantities.length(shapes.length(square[k])),
+                    needed=decimal(shapes.length(Fraction(needed**2))),
+                    moment=quantities.moment(when[k]),
+                    place=where,
+                    other_place=other_where,
+                ),
+                remedy=Phrase("let one wait until the other is by"),
             )
         )
 
 
-def _whereabouts(at: tuple[VertexId, ...], names: Names) -> str:
-    return f"{'between' if len(at) > 1 else 'at'} {' and '.join(map(names.vertex, at))}"
+def _whereabouts(at: tuple[VertexId, ...], names: Names) -> Phrase:
+    first, last = names.vertex(at[0]), names.vertex(at[-1])
+    if len(at) > 1:
+        return Phrase("between {tail} and {head}", tail=first, head=last)
+    return Phrase("at {vertex}", vertex=first)
 
 
 def _encounters(

@@ -10,10 +10,11 @@ from heapq import heappop, heappush
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names
+from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, Verdict
 from rightofway.check.turning import MICRO
 from rightofway.check.visits import Visits
 from rightofway.model import Itinerary, Plan, Stage, Tick
+from rightofway.phrases import Phrase, joined
 from rightofway.quantities import decimal
 from rightofway.site import VertexId
 
@@ -27,47 +28,67 @@ def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> Non
     def vertex(visit: int) -> str:
         return names.vertex(int(visits.vertex[visit]))
 
-    def unknown(visit: int) -> str:
-        n_vertices = names.scenario.roadmap.n_vertices
+    def unknown(visit: int) -> Verdict:
+        last = str(names.scenario.roadmap.n_vertices - 1)
         return (
-            f"{robot(visit)} enters {vertex(visit)}, which is not on the roadmap"
-            f" (its vertices are 0 to {n_vertices - 1})"
+            Phrase(
+                "{robot} enters {vertex}, which is not on the roadmap",
+                robot=robot(visit),
+                vertex=vertex(visit),
+            ),
+            Phrase("its vertices are 0 to {last}", last=last),
         )
 
-    def backwards(visit: int) -> str:
-        return (
-            f"{robot(visit)} enters {vertex(visit)} at {names.moment(visits.enter[visit])}, but"
-            f" {vertex(visit + 1)} after it at {names.moment(visits.leave[visit])}"
-            f" (later visits have later times)"
+    def backwards(visit: int) -> Verdict:
+        reason = Phrase(
+            "{robot} enters {vertex} at {moment}, but {next} after it at {earlier}",
+            robot=robot(visit),
+            vertex=vertex(visit),
+            moment=names.moment(visits.enter[visit]),
+            next=vertex(visit + 1),
+            earlier=names.moment(visits.leave[visit]),
         )
+        return reason, Phrase("later visits have later times")
 
-    def jump(visit: int) -> str:
-        tail, head = vertex(visit), vertex(visit + 1)
-        if tail == head:
-            return f"{robot(visit)} enters {tail} twice in a row (make it one visit)"
-        return f"{robot(visit)} goes from {tail} to {head}, no edge leads there (use edges)"
+    def jump(visit: int) -> Verdict:
+        ends = {"robot": robot(visit), "tail": vertex(visit), "head": vertex(visit + 1)}
+        if ends["tail"] == ends["head"]:
+            return Phrase("{robot} enters {tail} twice in a row", **ends), Phrase(
+                "make it one visit"
+            )
+        reason = Phrase("{robot} goes from {tail} to {head}, no edge leads there", **ends)
+        return reason, Phrase("use edges")
 
-    def too_fast(visit: int) -> str:
+    def too_fast(visit: int) -> Verdict:
         drive = visits.drive[visit]
-        return (
-            f"{robot(visit)} drives from {vertex(visit)} to {vertex(visit + 1)}"
-            f" in {names.duration(stay[visit])}, it needs {names.duration(drive)}"
-            f" (enter at {names.moment(visits.enter[visit] + drive)} or later)"
+        reason = Phrase(
+            "{robot} drives from {tail} to {head} in {time}, it needs {least}",
+            robot=robot(visit),
+            tail=vertex(visit),
+            head=vertex(visit + 1),
+            time=names.duration(stay[visit]),
+            least=names.duration(drive),
         )
+        moment = names.moment(visits.enter[visit] + drive)
+        return reason, Phrase("enter at {moment} or later", moment=moment)
 
-    def report(kind: FaultKind, broken: NDArray[np.bool_], message: Callable[[int], str]) -> None:
+    def report(
+        kind: FaultKind, broken: NDArray[np.bool_], verdict: Callable[[int], Verdict]
+    ) -> None:
         where = np.flatnonzero(broken)
         # An unknown vertex is wrong as soon as it is entered, a move at the instant it is made.
         times, ends = (visits.enter, 1) if kind == "unknown vertex" else (visits.leave, 2)
 
         def fault(position: int) -> Fault:
             visit = int(where[position])
+            reason, remedy = verdict(visit)
             return Fault(
                 kind=kind,
                 robots=(int(visits.robot[visit]),),
                 vertices=tuple(map(VertexId, visits.vertex[visit : visit + ends].tolist())),
                 tick=Tick(int(times[visit])),
-                message=message(visit),
+                reason=reason,
+                remedy=remedy,
             )
 
         collector.add_all(kind, times[where], (visits.robot[where],), fault)
@@ -91,18 +112,22 @@ def judge_turns(visits: Visits, names: Names, collector: FaultCollector) -> None
         robot, ends = int(visits.robot[visit]), visits.vertex[visit : visit + 2].tolist()
         at, to = map(names.vertex, ends)
         least = visits.turn[visit] + visits.drive[visit]
-        message = (
-            f"{names.robot(robot)} turns {decimal(Fraction(int(visits.angle[visit]), MICRO), 6)}"
-            f" degrees at {at} in {names.duration(stay[visit] - visits.drive[visit])}, it needs"
-            f" {names.duration(visits.turn[visit])} (enter {to} at"
-            f" {names.moment(visits.enter[visit] + least)} or later)"
+        reason = Phrase(
+            "{robot} turns {angle} degrees at {vertex} in {time}, it needs {least}",
+            robot=names.robot(robot),
+            angle=decimal(Fraction(int(visits.angle[visit]), MICRO), 6),
+            vertex=at,
+            time=names.duration(stay[visit] - visits.drive[visit]),
+            least=names.duration(visits.turn[visit]),
         )
+        moment = names.moment(visits.enter[visit] + least)
         return Fault(
             kind="turn cut short",
             robots=(robot,),
             vertices=(VertexId(ends[0]),),
             tick=Tick(int(visits.leave[visit])),
-            message=message,
+            reason=reason,
+            remedy=Phrase("enter {vertex} at {moment} or later", vertex=to, moment=moment),
         )
 
     collector.add_all("turn cut short", visits.leave[where], (visits.robot[where],), fault)
@@ -153,15 +178,25 @@ class _Trip:
         home, last = self.itinerary.home, self.itinerary.stages[-1].vertex
         name, vertex = self._name, self.names.vertex
         if self.vertices[0] != home or self.enter[0] != 0:
-            message = (
-                f"{name} starts at {vertex(self.vertices[0])} at"
-                f" {self.names.moment(self.enter[0])} (start at its home, {vertex(home)}, at"
-                f" {self.names.moment(0)})"
+            reason = Phrase(
+                "{robot} starts at {vertex} at {moment}",
+                robot=name,
+                vertex=vertex(self.vertices[0]),
+                moment=self.names.moment(self.enter[0]),
             )
-            yield self._fault("wrong home", self.vertices[0], self.enter[0], message)
+            remedy = Phrase(
+                "start at its home, {home}, at {moment}",
+                home=vertex(home),
+                moment=self.names.moment(0),
+            )
+            yield self._fault("wrong home", self.vertices[0], self.enter[0], (reason, remedy))
         if self.vertices[-1] != last:
-            message = f"{name} ends at {vertex(self.vertices[-1])} (end at {vertex(last)})"
-            yield self._fault("wrong end", self.vertices[-1], self.enter[-1], message)
+            end = vertex(self.vertices[-1])
+            verdict = (
+                Phrase("{robot} ends at {vertex}", robot=name, vertex=end),
+                Phrase("end at {vertex}", vertex=vertex(last)),
+            )
+            yield self._fault("wrong end", self.vertices[-1], self.enter[-1], verdict)
 
     def _work(self) -> Iterator[Fault]:
         stages = self.itinerary.stages
@@ -197,31 +232,43 @@ class _Trip:
         if too_short:
             minus_spare, visit = heappop(too_short)
             return self._cut_short(stage, -minus_spare, self.enter[visit])
-        message = (
-            f"{self._name} does not come to {self.names.vertex(stage.vertex)}"
-            f" at {self.names.moment(self.enter[visit])} or later (visit its stops in their order)"
+        reason = Phrase(
+            "{robot} does not come to {vertex} at {moment} or later",
+            robot=self._name,
+            vertex=self.names.vertex(stage.vertex),
+            moment=self.names.moment(self.enter[visit]),
         )
-        return self._fault("stop missed", stage.vertex, self.enter[visit], message)
+        verdict = (reason, Phrase("visit its stops in their order"))
+        return self._fault("stop missed", stage.vertex, self.enter[visit], verdict)
 
     def _cut_short(self, stage: Stage, spare: int, enter: int) -> Fault:
-        needs = {"working": stage.work, "turning": stage.turn}
-        duration = self.names.duration
-        need = " and ".join(f"{duration(ticks)} {what}" for what, ticks in needs.items() if ticks)
-        message = (
-            f"{self._name} has {duration(spare)} at {self.names.vertex(stage.vertex)}, it needs"
-            f" {need} (stay {duration(stage.work + stage.turn - spare)} longer)"
+        duration, needs = self.names.duration, []
+        if stage.work:
+            needs.append(Phrase("{time} working", time=duration(stage.work)))
+        if stage.turn:
+            needs.append(Phrase("{time} turning", time=duration(stage.turn)))
+        reason = Phrase(
+            "{robot} has {time} at {vertex}, it needs {need}",
+            robot=self._name,
+            time=duration(spare),
+            vertex=self.names.vertex(stage.vertex),
+            need=joined(needs),
         )
-        return self._fault("work cut short", stage.vertex, enter, message)
+        longer = duration(stage.work + stage.turn - spare)
+        verdict = (reason, Phrase("stay {time} longer", time=longer))
+        return self._fault("work cut short", stage.vertex, enter, verdict)
 
     @property
     def _name(self) -> str:
         return self.names.robot(self.robot)
 
-    def _fault(self, kind: FaultKind, vertex: int, tick: int, message: str) -> Fault:
+    def _fault(self, kind: FaultKind, vertex: int, tick: int, verdict: Verdict) -> Fault:
+        reason, remedy = verdict
         return Fault(
             kind=kind,
             robots=(self.robot,),
             vertices=(VertexId(vertex),),
             tick=Tick(tick),
-            message=message,
+            reason=reason,
+            remedy=remedy,
         )

@@ -8,9 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rightofway.check.faults import Fault, FaultCollector, Names
+from rightofway.check.faults import ONE_AFTER_THE_OTHER, Fault, FaultCollector, Names
 from rightofway.check.visits import Visits
 from rightofway.model import Plan, Tick
+from rightofway.phrases import Phrase
 from rightofway.site import VertexId
 from rightofway.site.zones import Zone
 
@@ -67,7 +68,13 @@ def _fault(zone: Zone, stay: _Stay, other: _Stay, names: Names) -> Fault:
         robots=(one.robot, two.robot),
         vertices=(VertexId(one.vertex), VertexId(two.vertex)),
         tick=Tick(stay.start),
-        message=f"{names.robot(one.robot)} at {names.vertex(one.vertex)} and"
-        f" {names.robot(two.robot)} at {names.vertex(two.vertex)} both book zone {zone.name}"
-        " (let one come when the other has left)",
+        reason=Phrase(
+            "{one} at {vertex} and {other} at {other_vertex} both book zone {zone}",
+            one=names.robot(one.robot),
+            vertex=names.vertex(one.vertex),
+            other=names.robot(two.robot),
+            other_vertex=names.vertex(two.vertex),
+            zone=zone.name,
+        ),
+        remedy=ONE_AFTER_THE_OTHER,
     )

@@ -6,6 +6,7 @@ from collections import Counter
 from functools import cached_property
 
 from rightofway.model.scenario import Scenario
+from rightofway.phrases import Phrase
 from rightofway.quantities import decimal
 from rightofway.site import Roadmap
 
@@ -77,7 +78,9 @@ class PlaceNames:
         return self.where(vertex)
 
     def _with_number(self, name: str, vertex: int) -> str:
-        return f"{name} ({self.scenario.roadmap.name(vertex)})" if self.numbered else name
+        if not self.numbered:
+            return name
+        return Phrase("{name} ({what})", name=name, what=self.scenario.roadmap.name(vertex))
 
     @cached_property
     def _stations(self) -> dict[int, str]:
@@ -92,10 +95,13 @@ class PlaceNames:
         robots = self.scenario.robots
         stops = [{int(stop.at) for stop in robot.stops} - {int(robot.home)} for robot in robots]
         count = Counter(at for each in stops for at in each)
-        found = {
-            at: f"the stop of {robot.name}"
+        found: dict[int, str] = {
+            at: Phrase("the stop of {robot}", robot=robot.name)
             for robot, each in zip(robots, stops, strict=True)
             for at in each
             if len(each) == count[at] == 1
         }
-        return found | {int(robot.home): f"the home of {robot.name}" for robot in robots}
+        homes = {
+            int(robot.home): Phrase("the home of {robot}", robot=robot.name) for robot in robots
+        }
+        return {**found, **homes}

@@ -13,7 +13,7 @@ on Computing 3, 1991 (the deletion filter).
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -23,6 +23,7 @@ from rightofway.model.closures import Closure
 from rightofway.model.deadline import Deadline
 from rightofway.model.place_names import PlaceNames
 from rightofway.model.resources import distance
+from rightofway.phrases import Phrase
 from rightofway.search import (
     Bookings,
     Distances,
@@ -31,7 +32,6 @@ from rightofway.search import (
     plan_by_lacam,
 )
 from rightofway.search.missing_ways import (
-    OTHER_PLACES,
     RoadmapParts,
     missing_ways,
     reached_vertices,
@@ -88,13 +88,14 @@ def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
     for vertex, names in holders.items():
         if len(names) > 1:
             place = PlaceNames(scenario)(vertex)
-            all_of_them, others = ("both", "one of them") if len(names) == 2 else ("all", "others")  # noqa: PLR2004
-            yield Blockage(
-                f"{listed(names)} would {all_of_them} have to stay at {place} for ever",
-                tuple(names),
-                (scenario.roadmap.name(vertex),),
-                f"let {others} end elsewhere",
-            )
+            who = {"robots": listed(names), "place": place}
+            if len(names) == 2:  # noqa: PLR2004
+                reason = Phrase("{robots} would both have to stay at {place} for ever", **who)
+                remedy = Phrase("let one of them end elsewhere")
+            else:
+                reason = Phrase("{robots} would all have to stay at {place} for ever", **who)
+                remedy = Phrase("let others end elsewhere")
+            yield Blockage(reason, tuple(names), (scenario.roadmap.name(vertex),), remedy)
 
 
 def _clashes(scenario: Scenario) -> Iterator[Blockage]:
@@ -111,24 +112,49 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
                 continue  # a shared end
             one, other = (scenario.robots[robot] for robot in pair)
             ends_of_pair = roadmap.name(here), roadmap.name(there)
-            at = PlaceNames(scenario).where(here), PlaceNames(scenario).where(there)
-            remedy = f"let one of them {when} elsewhere"
+            values = {
+                "one": one.name,
+                "here": PlaceNames(scenario).where(here),
+                "other": other.name,
+                "there": PlaceNames(scenario).where(there),
+            }
             zone = next((z for z in roadmap.zones if {here, there} <= {*z.vertices}), None)
             if zone is not None:
-                message = f"{one.name} at {at[0]} and {other.name} at {at[1]} would both {when} in"
-                message += f" zone {zone.name}"
-                yield Blockage(message, (one.name, other.name), ends_of_pair, remedy)
-                continue
-            needed = one.radius + other.radius
-            needed += clearance if needed else 0
-            yield Blockage(
-                f"{one.name} at {at[0]} and {other.name} at {at[1]} would {when}"
-                f" {length(distance(roadmap, here, there))} apart, but need"
-                f" {length(needed)}",
-                (one.name, other.name),
-                ends_of_pair,
-                remedy,
-            )
+                reason = _in_one_zone(values, zone.name, does_start=when == "start")
+            else:
+                needed = one.radius + other.radius
+                values["needed"] = length(needed + (clearance if needed else 0))
+                values["distance"] = length(distance(roadmap, here, there))
+                reason = _too_near(values, does_start=when == "start")
+            remedy = Phrase("let one of them end elsewhere")
+            if when == "start":
+                remedy = Phrase("let one of them start elsewhere")
+            yield Blockage(reason, (one.name, other.name), ends_of_pair, remedy)
+
+
+def _in_one_zone(values: Mapping[str, str], zone: str, *, does_start: bool) -> Phrase:
+    if does_start:
+        return Phrase(
+            "{one} at {here} and {other} at {there} would both start in zone {zone}",
+            **values,
+            zone=zone,
+        )
+    return Phrase(
+        "{one} at {here} and {other} at {there} would both end in zone {zone}", **values, zone=zone
+    )
+
+
+def _too_near(values: Mapping[str, str], *, does_start: bool) -> Phrase:
+    if does_start:
+        return Phrase(
+            "{one} at {here} and {other} at {there} would start {distance} apart, but need"
+            " {needed}",
+            **values,
+        )
+    return Phrase(
+        "{one} at {here} and {other} at {there} would end {distance} apart, but need {needed}",
+        **values,
+    )
 
 
 def refuse_closed_ways(
@@ -189,25 +215,29 @@ def _closed_in(
     closed = [_closed_text(scenario, closure) for closure in left[:MAX_REASONS]]
     itinerary = scenario.problem.itineraries[robot]
     places = dict.fromkeys([itinerary.home, *(stage.vertex for stage in itinerary.stages)])
-    which = "it" if len(left) == 1 else "one of them"
-    return Blockage(
-        f"{name} cannot make its trip, even alone: {listed(closed)}",
-        (name,),
-        tuple(map(scenario.roadmap.name, places)),
-        f"open {which} earlier, or {OTHER_PLACES}",
+    remedy = Phrase("open one of them earlier, or give the robot other places")
+    if len(left) == 1:
+        remedy = Phrase("open it earlier, or give the robot other places")
+    reason = Phrase(
+        "{robot} cannot make its trip, even alone: {closures}", robot=name, closures=listed(closed)
     )
+    return Blockage(reason, (name,), tuple(map(scenario.roadmap.name, places)), remedy)
 
 
-def _closed_text(scenario: Scenario, closure: Closure) -> str:
+def _closed_text(scenario: Scenario, closure: Closure) -> Phrase:
     """Return what is closed, and when."""
     name, quantities = PlaceNames(scenario), scenario.quantities
     ticks, tick = scenario.problem.clock.ticks, scenario.problem.clock.tick
     ends = closure.edge or ((closure.at,) if closure.at is not None else ())
-    what = " to ".join(map(name, ends))
-    begin = quantities.moment(int(closure.from_ // tick))
+    places = [name(end) for end in ends]
+    way = places[0]
+    if len(places) > 1:
+        way = Phrase("{first} to {last}", first=way, last=places[-1])
+    values = {"way": way, "begin": quantities.moment(int(closure.from_ // tick))}
     if closure.until is None:
-        return f"{what} is closed from {begin} on"
-    return f"{what} is closed from {begin} to {quantities.moment(ticks(closure.until))}"
+        return Phrase("{way} is closed from {begin} on", **values)
+    end = quantities.moment(ticks(closure.until))
+    return Phrase("{way} is closed from {begin} to {end}", **values, end=end)
 
 
 def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -> None:
@@ -317,18 +347,20 @@ def _is_blocked(
 
 def _described(scenario: Scenario, robots: Sequence[int]) -> Blockage:
     roadmap, names = scenario.roadmap, tuple(scenario.robots[robot].name for robot in robots)
-    blocked = f"{listed(names)} block each other"
+    blocked = Phrase("{robots} block each other", robots=listed(names))
     if len(names) < len(scenario.robots):
-        blocked += ", whatever the other robots do"
+        blocked = Phrase("{fact}, whatever the other robots do", fact=blocked)
     narrow = _narrow_places(scenario, robots)
     if narrow:
-        subject = "both" if len(names) == 2 else "all of them"  # noqa: PLR2004
-        passing = f"{subject} have to pass {listed(list(map(PlaceNames(scenario), narrow)))}"
+        passed = {"fact": blocked, "places": listed(list(map(PlaceNames(scenario), narrow)))}
+        reason = Phrase("{fact}: all of them have to pass {places}", **passed)
+        if len(names) == 2:  # noqa: PLR2004
+            reason = Phrase("{fact}: both have to pass {places}", **passed)
         places = tuple(map(roadmap.name, narrow))
-        return Blockage(f"{blocked}: {passing}", names, places, "give more room there")
+        return Blockage(reason, names, places, Phrase("give more room there"))
     itineraries = [scenario.problem.itineraries[robot] for robot in robots]
     ends = dict.fromkeys(roadmap.name(end) for one in itineraries for end in (one.home, one.last))
-    return Blockage(blocked, names, tuple(ends), "give more room, or other places")
+    return Blockage(blocked, names, tuple(ends), Phrase("give more room, or other places"))
 
 
 def _narrow_places(scenario: Scenario, robots: Sequence[int]) -> list[VertexId]:

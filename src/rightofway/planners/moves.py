@@ -31,6 +31,7 @@ from typing import NamedTuple
 
 from rightofway.errors import Blockage, GaveUp, NoPlanExists, listed
 from rightofway.model import NEVER, Proof, Tick, Track, flowtime_of, least_dwell
+from rightofway.phrases import Phrase
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.search import Distances, FleetSearch
 from rightofway.site import VertexId
@@ -246,11 +247,16 @@ def _path(came_from: dict[_State, tuple[_State, _Move] | None], state: _State) -
 
 def _blockage(task: Task) -> Blockage:
     names = tuple(robot.name for robot in task.scenario.robots)
-    who = listed(names) if len(names) <= MOST_NAMED else f"all {len(names)} robots"
-    what = "have no room to pass each other"
+    who = listed(names)
+    if len(names) > MOST_NAMED:
+        who = Phrase("all {number} robots", number=str(len(names)))
+    reason = Phrase("{robots} have no room to pass each other", robots=who)
     if task.scenario.problem.closures is not None:
-        what += " at the times that closures leave them"
-    return Blockage(f"{who} {what}", names, (), "give more room, or other places")
+        reason = Phrase(
+            "{robots} have no room to pass each other at the times that closures leave them",
+            robots=who,
+        )
+    return Blockage(reason, names, (), Phrase("give more room, or other places"))
 
 
 class _Floor:

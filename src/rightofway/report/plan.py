@@ -22,8 +22,8 @@ from rightofway.report.lines import COLUMNS, counted, further, row, short, wrapp
 from rightofway.report.sentences import (
     Words,
     decision_in_words,
+    explanation_of,
     proof_in_words,
-    reason_in_words,
     sentence_on,
 )
 
@@ -209,8 +209,9 @@ def decision_log(plan: Plan, quantities: Quantities) -> str:
     words = Words(plan=plan, quantities=quantities)
     lines: list[str] = []
     for decision in plan.run.decisions:
-        lines += wrapped(decision_in_words(words, decision))
-        lines += wrapped(reason_in_words(words, decision), "    ")
+        moment = quantities.moment(decision.tick)
+        lines += wrapped(f"At {moment}: {decision_in_words(words, decision)}")
+        lines += wrapped(explanation_of(words, decision), "    ")
     for reroute in plan.run.reroutes:
         lines += wrapped(f"{words.robot(reroute.robot)} is rerouted: {reroute.because}.")
     if lines:

@@ -1,27 +1,59 @@
-"""Sentences on a plan: where robots lose time and why, what the planner decided."""
+"""Sentences on a plan: where robots lose time and why, what the planner decided, what is wrong.
+
+All are phrases: reports, pages, notebooks and the studio show them, each in its language.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from math import ceil, floor
 
 from rightofway.metrics import measure, outcome_of
-from rightofway.model import Decision, Loss, OutcomeKind, Plan
+from rightofway.model import Closure, Decision, Loss, Objective, OutcomeKind, Plan, Scenario
 from rightofway.model.place_names import PlaceNames
+from rightofway.phrases import Phrase
 from rightofway.quantities import Quantities
 from rightofway.values import written
 
-UNEXPLAINED = ", though no place on its way becomes free just then"
-"""What a report says about a wait that no other robot is the cause of."""
+FAULT_NAMES: Mapping[str, Phrase] = {
+    str(name): name
+    for name in (
+        Phrase("unknown vertex"),
+        Phrase("wrong home"),
+        Phrase("backwards"),
+        Phrase("jump"),
+        Phrase("too fast"),
+        Phrase("turn cut short"),
+        Phrase("work cut short"),
+        Phrase("stop missed"),
+        Phrase("wrong end"),
+        Phrase("vertex conflict"),
+        Phrase("headway"),
+        Phrase("swap conflict"),
+        Phrase("rotation"),
+        Phrase("space conflict"),
+        Phrase("too close"),
+        Phrase("zone conflict"),
+        Phrase("closed"),
+        Phrase("barred"),
+        Phrase("no plan"),
+    )
+}
+"""What people call the kinds of faults, and a reason why there is no plan."""
 
-MAY_BE_CLOSED = ", because something on its way is closed, or to let a robot pass later"
-"""What a report says about a wait without a cause, where a place is closed for a while."""
+OBJECTIVES: Mapping[Objective, Phrase] = {
+    Objective.FLOWTIME: Phrase("flowtime"),
+    Objective.COST: Phrase("flowtime and surcharges"),
+    Objective.MAKESPAN: Phrase("makespan"),
+}
+"""What people call that which planners minimize."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Words:
-    """How a report on one plan writes times, robots and places."""
+    """How sentences on one plan write times, robots and places."""
 
     plan: Plan
     quantities: Quantities
@@ -34,18 +66,40 @@ class Words:
         """Return what a sentence calls a vertex."""
         return "" if vertex is None else self.places(vertex)
 
+    def way(self, vertices: Sequence[int]) -> str:
+        """Return a place, or the first and the last of several."""
+        first, last = self.place(vertices[0]), self.place(vertices[-1])
+        return first if first == last else Phrase("{first} to {last}", first=first, last=last)
+
+    def time(self, ticks: int) -> str:
+        """Return how long a number of ticks lasts."""
+        return self._time(ticks)
+
+    def moment(self, tick: int) -> str:
+        """Return a point in time."""
+        return self._moment(tick)
+
     @cached_property
     def places(self) -> PlaceNames:
         """What people call the vertices."""
         return PlaceNames(self.plan.scenario, numbered=True)
 
-    def time(self, ticks: int) -> str:
-        """Return how long a number of ticks lasts."""
-        return self.quantities.duration(ticks)
+    @cached_property
+    def closed(self) -> Sequence[tuple[tuple[int, ...], int]]:
+        """What is closed for a while: its vertices, and until when."""
+        scenario = self.plan.scenario
+        times = ((one, closed_ticks(one, scenario)) for one in scenario.closures)
+        return [(closed_vertices(one, scenario), end) for one, (_, end) in times if end is not None]
 
-    def at(self, tick: int) -> str:
-        """Return when something happens."""
-        return f"at {self.quantities.moment(tick)}"
+    # Large plans have far more losses than different times and places.
+
+    @cached_property
+    def _time(self) -> Callable[[int], str]:
+        return cache(self.quantities.duration)
+
+    @cached_property
+    def _moment(self) -> Callable[[int], str]:
+        return cache(self.quantities.moment)
 
 
 def proof_in_words(plan: Plan) -> str:
@@ -53,99 +107,285 @@ def proof_in_words(plan: Plan) -> str:
     outcome, metrics = outcome_of(plan), measure(plan)
     if outcome.kind is OutcomeKind.OPTIMAL:
         if metrics.flowtime == metrics.lower_bound:
-            return "optimal, no robot loses time"
-        return f"optimal, no plan has a smaller {outcome.objective}"
+            return Phrase("optimal, no robot loses time")
+        objective = OBJECTIVES[outcome.objective]
+        return Phrase("optimal, no plan has a smaller {objective}", objective=objective)
     if outcome.kind is OutcomeKind.BOUNDED and outcome.factor is not None:
-        return f"at most {written(outcome.factor)} times the least {outcome.objective}"
+        factor, objective = str(written(outcome.factor)), OBJECTIVES[outcome.objective]
+        return Phrase(
+            "at most {factor} times the least {objective}", factor=factor, objective=objective
+        )
     return ""
 
 
-def sentence_on(words: Words, group: Sequence[Loss]) -> str:
+def loss_in_words(words: Words, loss: Loss) -> Phrase:
+    """Return how a robot loses time; the sentence goes on from its name."""
+    names = {
+        "other": words.robot(loss.for_robot),
+        "here": words.place(loss.vertex),
+        "time": words.time(loss.ticks),
+    }
+    match loss.kind:
+        case "waits":
+            return _wait_in_words(words, loss, names)
+        case "follows":
+            if loss.until_vertex == loss.vertex:
+                return Phrase("follows {other} in {here}, loses {time}", **names)
+            there = words.place(loss.until_vertex)
+            return Phrase(
+                "follows {other} from {here} to {there}, loses {time}", **names, there=there
+            )
+        case "makes room":
+            if loss.for_robot is None:
+                return Phrase("leaves {here} and comes back, loses {time}", **names)
+            return Phrase(
+                "leaves {here} to make room for {other} and comes back, loses {time}", **names
+            )
+
+
+def executed_loss_in_words(words: Words, loss: Loss, unplanned: int) -> Phrase:
+    """Return how a robot loses time on the floor, and how much longer that was than planned."""
+    text = loss_in_words(words, loss)
+    if unplanned <= 0:
+        return text
+    return Phrase("{loss}, {time} more than planned", loss=text, time=words.time(unplanned))
+
+
+def _wait_in_words(words: Words, loss: Loss, names: Mapping[str, str]) -> Phrase:
+    """Return for whom a robot waits; for a wait for no robot, what may be closed then."""
+    if loss.for_robot is not None:
+        freed = words.place(loss.freed)
+        if loss.freed == loss.towards:
+            return Phrase(
+                "waits {time} in {here} for {other} to leave {freed}", **names, freed=freed
+            )
+        return Phrase(
+            "waits {time} in {here} for {other} to leave {freed}, further on its way",
+            **names,
+            freed=freed,
+        )
+    for vertices, end in words.closed:
+        is_ahead = loss.towards in vertices and (len(vertices) == 1 or loss.vertex in vertices)
+        if end > loss.tick and is_ahead:
+            names = {**names, "way": words.way(vertices), "end": words.moment(end)}
+            return Phrase("waits {time} in {here}: {way} is closed until {end}", **names)
+    if words.plan.scenario.closures:
+        return Phrase(
+            "waits {time} in {here}, because something on its way is closed, or to let a robot pass"
+            " later",
+            **names,
+        )
+    return Phrase(
+        "waits {time} in {here}, though no place on its way becomes free just then", **names
+    )
+
+
+def sentence_on(words: Words, group: Sequence[Loss]) -> Phrase:
     """Return where and why a robot loses time to another one; all losses are of that pair."""
-    first, times = group[0], len(group)
-    robot, other = words.robot(first.robot), words.robot(first.for_robot)
-    place, freed = words.place(first.vertex), words.place(first.freed)
-    total, begin = words.time(sum(loss.ticks for loss in group)), words.at(first.tick)
-    if first.kind == "follows":
-        way = _where(words, first, "from")
-        if times > 1:
-            return f"{robot} follows {other} {times} times and loses {total}, first {way} {begin}."
-        return f"{robot} follows {other} {way} and loses {total}, beginning {begin}."
-    if first.kind == "makes room":
-        reason = "" if first.for_robot is None else f" for {other}"
-        moment = words.quantities.moment
-        away = f"away from {place} from {moment(first.tick)} to {moment(first.end)}"
-        if times > 1:
-            return f"{robot} makes room{reason} {times} times and loses {total}, first {away}."
-        return f"{robot} makes room{reason} and loses {total}, {away}."
-    where = _where(words, first)
-    unexplained = MAY_BE_CLOSED if words.plan.scenario.closures else UNEXPLAINED
-    if times > 1:
-        reason = unexplained if first.for_robot is None else ""
-        awaited = "" if first.for_robot is None else f" for {other}"
-        how = f"waits {times} times{awaited}, {total} in all, first {where} {begin}"
-        return f"{robot} {how}{reason}."
+    first, number = group[0], len(group)
+    names = {
+        "robot": words.robot(first.robot),
+        "other": words.robot(first.for_robot),
+        "moment": words.moment(first.tick),
+        "loss": loss_in_words(words, first),
+        "time": words.time(sum(loss.ticks for loss in group)),
+        "number": str(number),
+    }
+    if number == 1:
+        return Phrase("At {moment}, {robot} {loss}.", **names)
     if first.for_robot is None:
-        reason = unexplained
-    elif first.freed == first.towards:
-        reason = f", for {other} to leave {freed}"
+        return Phrase(
+            "{robot} loses {time}, {number} times; first, at {moment}, it {loss}.", **names
+        )
+    return Phrase(
+        "{robot} loses {time} to {other}, {number} times; first, at {moment}, it {loss}.", **names
+    )
+
+
+def decision_in_short(words: Words, decision: Decision) -> tuple[Phrase, Phrase]:
+    """Return who waits for whom, and when, at what loss and why, each in a line."""
+    names = {"waits": words.robot(decision.waits), "first": words.robot(goes_first(decision))}
+    names["place"] = words.way(decision.vertices)
+    match decision.kind:
+        case "head-on":
+            head = Phrase("{waits} waits for {first}, head-on, {place}", **names)
+        case "following":
+            head = Phrase("{waits} follows {first}, {place}", **names)
+        case _:
+            head = Phrase("{waits} waits for {first}, {place}", **names)
+    cost: Phrase = Phrase("no time lost")
+    if decision.ticks:
+        cost = Phrase("loses {time}", time=words.time(decision.ticks))
+    moment, why = words.moment(decision.tick), _why(decision)
+    return head, Phrase("at {moment} · {cost} · {why}", moment=moment, cost=cost, why=why)
+
+
+def _why(decision: Decision) -> Phrase:
+    """Return why a robot goes first, in few words."""
+    if _is_tie(decision):
+        return Phrase("a tie: either choice costs the same")
+    match decision.level:
+        case "node":
+            return Phrase("fewer conflicts left")
+        case "settled":
+            return Phrase("the other one is settled")
+        case "priority":
+            return Phrase("by priority")
+        case "only":
+            return Phrase("the only way")
+    return Phrase("both done sooner in all")
+
+
+def decision_in_words(words: Words, decision: Decision) -> Phrase:
+    """Return how two robots would have met, and which of them waits where."""
+    one, other = map(words.robot, decision.robots)
+    names = {
+        "one": one,
+        "other": other,
+        "place": words.way(decision.vertices),
+        "waits": words.robot(decision.waits),
+        "first": words.robot(goes_first(decision)),
+        "here": words.place(decision.waits_at),
+        "time": words.time(decision.ticks),
+    }
+    match decision.kind:
+        case "head-on":
+            met = Phrase(
+                "{one} and {other} would have met head-on on the way from {place}.", **names
+            )
+        case "following":
+            met = Phrase(
+                "{one} and {other} go the same way from {place} and cannot overtake.", **names
+            )
+        case "crossing":
+            met = Phrase(
+                "{one} and {other} would have come too near to each other: {first} drives from"
+                " {place}.",
+                **names,
+            )
+        case _:
+            met = Phrase("{one} and {other} would both have been in {place}.", **names)
+    if decision.ticks:
+        how = Phrase("{waits} waits {time} in {here} and lets {first} go first.", **names)
     else:
-        reason = f", so that {other} can leave {freed} first"
-    return f"{robot} waits {total} {where} {begin}{reason}."
+        how = Phrase("{waits} gives way in {here}, at no loss, and lets {first} go first.", **names)
+    return Phrase("{first} {second}", first=met, second=how)
 
 
-def _where(words: Words, loss: Loss, preposition: str = "in") -> str:
-    """Return the place of a loss, or its first and its last place after a preposition."""
-    first, last = words.place(loss.vertex), words.place(loss.until_vertex)
-    return f"in {first}" if loss.until_vertex == loss.vertex else f"{preposition} {first} to {last}"
-
-
-def decision_in_words(words: Words, decision: Decision) -> str:
-    """Return which robot waits where, by a decision of the planner."""
-    vertices = decision.vertices
-    where = words.place(vertices[0])
-    if decision.kind != "vertex":
-        first, last = (words.places.where(vertices[end]) for end in (0, -1))
-        where = f"segment {first} to {last} ({len(vertices)} vertices)"
-    waits, first = words.robot(decision.waits), words.robot(_goes_first(decision))
-    how = f"{waits} waits {words.time(decision.ticks)} in {words.place(decision.waits_at)}"
-    if decision.kind == "following":
-        how = f"{how} and follows {first}" if decision.ticks else f"{waits} follows {first}"
-    else:
-        how = f"{how}, {first} goes first"
-    return f"At {words.quantities.moment(decision.tick)}, {where}: {how}."
-
-
-def _goes_first(decision: Decision) -> int:
+def goes_first(decision: Decision) -> int:
+    """Return the robot that goes first."""
     one, other = decision.robots
     return one if decision.waits == other else other
 
 
-def reason_in_words(words: Words, decision: Decision) -> str:
+def _is_tie(decision: Decision) -> bool:
+    sums = decision.completion_sums
+    return decision.level == "robot" and sums is not None and sums[0] == sums[1]
+
+
+def reason_in_words(words: Words, decision: Decision) -> Phrase:
     """Return why the planner decided so."""
-    i, j = map(words.robot, decision.robots)
-    if_i, if_j = decision.conflicts_left
-    left = f"conflicts left {if_i} if {i} waits, {if_j} if {j} does"
+    names = {
+        "waits": words.robot(decision.waits),
+        "first": words.robot(goes_first(decision)),
+    }
     match decision.level:
-        case "only":
-            return f"only choice: {words.robot(_goes_first(decision))} cannot wait here."
-        case "priority":
-            return f"priority: {words.robot(_goes_first(decision))} has the higher one."
-        case "settled":
-            return f"node level: the other choice meets robots that are settled already ({left})."
         case "node":
-            return f"node level: {left}."
-    sum_i, sum_j = decision.completion_sums or (None, None)
-    if sum_i is None or sum_j is None:
-        sums = f"Only with {j if sum_i is None else i} waiting do both get through."
-    elif sum_i == sum_j:
-        sums = (
-            f"A tie: either way they complete after {words.time(sum_i)} in sum, and"
-            f" {words.robot(decision.waits)} waits by rule."
+            return Phrase(
+                "Node level: {waits} waits because that leaves fewer conflicts in the whole"
+                " system.",
+                **names,
+            )
+        case "settled":
+            return Phrase(
+                "Node level: {first} cannot wait: it would then meet robots that are settled"
+                " already.",
+                **names,
+            )
+        case "priority":
+            return Phrase("{waits} waits because {first} has the higher priority.", **names)
+        case "only":
+            return Phrase(
+                "{first} cannot wait here: with the decisions taken before, no plan is possible"
+                " then.",
+                **names,
+            )
+        case "robot":
+            sums = _sums_in_words(decision, names["waits"])
+            return Phrase(
+                "Robot level: either choice leaves as many conflicts in the whole system{sums}",
+                sums=sums,
+            )
+
+
+def _sums_in_words(decision: Decision, waits: str) -> Phrase:
+    """Return how the completion times decide, where the conflicts left are equal."""
+    if _is_tie(decision):
+        return Phrase(
+            ", and the completion times add up to the same. Then {waits} waits by rule.",
+            waits=waits,
         )
-    else:
-        sums = (
-            f"They complete after {words.time(sum_i)} in sum if {i} waits, after"
-            f" {words.time(sum_j)} if {j} does."
+    if None in (decision.completion_sums or ()):
+        return Phrase(", and only with {waits} waiting do both get through.", waits=waits)
+    return Phrase(", so the smaller sum of completion times decides.")
+
+
+def figures_in_words(words: Words, decision: Decision) -> list[Phrase]:
+    """Return what both choices lead to, in a sentence for each figure that was compared."""
+    one, other = map(words.robot, decision.robots)
+    names, found = {"one": one, "other": other}, list[Phrase]()
+    if any(count is not None for count in decision.conflicts_left):
+        impossible = Phrase("impossible")
+        counts = [impossible if n is None else str(n) for n in decision.conflicts_left]
+        names["if_one"], names["if_other"] = counts
+        found.append(
+            Phrase("Conflicts left: {if_one} if {one} waits, {if_other} if {other} waits.", **names)
         )
-    return f"robot level: {left}. {sums}"
+    if decision.completion_sums:
+        no_way = Phrase("no way")
+        sums = [no_way if n is None else words.time(n) for n in decision.completion_sums]
+        names["if_one"], names["if_other"] = sums
+        found.append(
+            Phrase(
+                "Sum of completion times: {if_one} if {one} waits, {if_other} if {other} waits.",
+                **names,
+            )
+        )
+    return found
+
+
+def explanation_of(words: Words, decision: Decision) -> Phrase:
+    """Return why the planner decided so, with the figures that it compared."""
+    text = reason_in_words(words, decision)
+    for sentence in figures_in_words(words, decision):
+        text = Phrase("{first} {second}", first=text, second=sentence)
+    return text
+
+
+def closure_in_words(closure: Closure, scenario: Scenario) -> Phrase:
+    """Return what is closed, and when."""
+    moment, place = scenario.quantities.moment, PlaceNames(scenario, numbered=True)
+    vertices, (begin, end) = closed_vertices(closure, scenario), closed_ticks(closure, scenario)
+    values = {"begin": moment(begin)}
+    if len(vertices) > 1:
+        first, last = place(vertices[0]), place(vertices[-1])
+        values["way"] = Phrase("{first} to {last}", first=first, last=last)
+        if end is None:
+            return Phrase("{way} closed from {begin} on", **values)
+        return Phrase("{way} closed from {begin} until {end}", **values, end=moment(end))
+    if end is None:
+        return Phrase("closed from {begin} on", **values)
+    return Phrase("closed from {begin} until {end}", **values, end=moment(end))
+
+
+def closed_vertices(closure: Closure, scenario: Scenario) -> tuple[int, ...]:
+    """Return the vertices of a closure, along a lane in order."""
+    if closure.edge is None:
+        return () if closure.at is None else (int(closure.at),)
+    return tuple(map(int, scenario.roadmap.ways_along(closure.edge)[0]))
+
+
+def closed_ticks(closure: Closure, scenario: Scenario) -> tuple[int, int | None]:
+    """Return the ticks from which and until which a place is closed; None for ever."""
+    tick, until = scenario.problem.clock.tick, closure.until
+    return floor(closure.from_ / tick), None if until is None else ceil(until / tick)

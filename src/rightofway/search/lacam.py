@@ -20,6 +20,7 @@ from rightofway.errors import Blockage, NoPlanExists
 from rightofway.model import Problem, Track
 from rightofway.model.given import checked_index, checked_seed
 from rightofway.native import bound, tracks_of
+from rightofway.phrases import Phrase
 
 FOUND, PROVEN_NONE = 0, 1
 
@@ -82,6 +83,6 @@ def plan_by_lacam(
         time_limit,
     )
     if end == PROVEN_NONE:
-        reason = "no order of moves brings every robot through its trip"
-        raise NoPlanExists([Blockage(reason, (), (), "give more room")])
+        reason = Phrase("no order of moves brings every robot through its trip")
+        raise NoPlanExists([Blockage(reason, (), (), Phrase("give more room"))])
     return tracks_of(first_visit, vertices, enter) if end == FOUND else None

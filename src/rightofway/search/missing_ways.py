@@ -12,11 +12,9 @@ import numpy as np
 from rightofway.errors import MAX_REASONS, Blockage, listed
 from rightofway.model import Itinerary, Scenario, Tick
 from rightofway.model.place_names import PlaceNames
+from rightofway.phrases import Phrase
 from rightofway.search.distances import Distances
 from rightofway.site import Roadmap, VertexId
-
-OTHER_PLACES = "give the robot other places"
-"""A remedy that is always left."""
 
 
 def reaches_its_places(itinerary: Itinerary, distances: Distances) -> bool:
@@ -52,30 +50,38 @@ def missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blocka
         elsewhere = [vertex for vertex in stages if vertex not in home_part]
         if elsewhere:
             others = listed(list(map(place, elsewhere)))
-            reason = (
-                f"{name} has no way from {place(itinerary.home)} to {others}: the map is"
-                " in parts that no edge joins"
+            reason = Phrase(
+                "{robot} has no way from {tail} to {head}: the map is in parts that no edge joins",
+                robot=name,
+                tail=place(itinerary.home),
+                head=others,
             )
             vertices = tuple(map(name_of, (itinerary.home, *elsewhere)))
-            yield Blockage(reason, (name,), vertices, f"join them, or {OTHER_PLACES}")
+            remedy = Phrase("join them, or give the robot other places")
+            yield Blockage(reason, (name,), vertices, remedy)
             continue
         distances = distances or Distances(scenario.roadmap)
         for tail, head in _legs_without_a_way(itinerary, distances):
             if distances.to(head, _unbarred(itinerary))[tail] >= 0:
-                kind = scenario.robots[robot].type
-                reason = f"{name} has no way from {place(tail)} to {place(head)}: edges are barred"
-                reason += f" for robots of type {kind}"
-                remedy = f"open one, or {OTHER_PLACES}"
-                yield Blockage(reason, (name,), (name_of(tail), name_of(head)), remedy)
-                continue
-            opening = parts.opening(tail, head)
-            if opening:
+                kind = str(scenario.robots[robot].type)
+                why = Phrase("edges are barred for robots of type {type}", type=kind)
+                remedy = Phrase("open one, or give the robot other places")
+            elif opening := parts.opening(tail, head):
                 first, last = map(place, opening)
-                why, which = f"the edge from {first} to {last} is one way", "it"
+                why = Phrase("the edge from {first} to {last} is one way", first=first, last=last)
+                remedy = Phrase("let robots drive it both ways, or give the robot other places")
             else:
-                why, which = "one-way edges are the reason", "more of them"
-            reason = f"{name} has no way from {place(tail)} to {place(head)}: {why}"
-            remedy = f"let robots drive {which} both ways, or {OTHER_PLACES}"
+                why = Phrase("one-way edges are the reason")
+                remedy = Phrase(
+                    "let robots drive more of them both ways, or give the robot other places"
+                )
+            reason = Phrase(
+                "{robot} has no way from {tail} to {head}: {why}",
+                robot=name,
+                tail=place(tail),
+                head=place(head),
+                why=why,
+            )
             yield Blockage(reason, (name,), (name_of(tail), name_of(head)), remedy)
 
 

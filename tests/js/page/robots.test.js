@@ -70,7 +70,7 @@ test("a robot that stands still by itself needs longer for the same work", () =>
 });
 
 test("a wait for no robot names no second place", () => {
-  assert.deepEqual(new Loss([0, 0, null, 4, 4, 5, null, 1, 2, 1]).places, [4]);
-  assert.deepEqual(new Loss([0, 0, 1, 4, 4, 5, 6, 1, 2, 1]).places, [4, 6]);
-  assert.deepEqual(new Loss([FOLLOWS, 0, 1, 4, 7, 5, 6, 1, 2, 1]).places, [4, 7]);
+  assert.deepEqual(new Loss([0, 0, null, 4, 4, 5, null, 1, 2, 1, 0]).places, [4]);
+  assert.deepEqual(new Loss([0, 0, 1, 4, 4, 5, 6, 1, 2, 1, 0]).places, [4, 6]);
+  assert.deepEqual(new Loss([FOLLOWS, 0, 1, 4, 7, 5, 6, 1, 2, 1, 0]).places, [4, 7]);
 });

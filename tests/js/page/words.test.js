@@ -2,36 +2,19 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { setLanguage } from "../../../src/rightofway/viz/page/assets/language.js";
+import { Phrases, learn, said } from "../../../src/rightofway/viz/page/assets/library.js";
 import { Plan } from "../../../src/rightofway/viz/page/assets/plan.js";
 import { Words } from "../../../src/rightofway/viz/page/assets/words.js";
 import { Use } from "../../../src/rightofway/viz/page/assets/use.js";
 import { made, planOf } from "../made.js";
 
-/** @import { DecisionData } from "../../../src/rightofway/viz/page/assets/payload.d.ts" */
 /** @import { Theme } from "../../../src/rightofway/viz/page/assets/theme.js" */
 
 const MEASURED = made("measured");
 
 /** Cells of a measured floor, in metres and seconds: N0 is the home of R1, N1 has a station, N4 nothing. */
 const PLAN = new Plan({ ...MEASURED, map: { ...MEASURED.map, stations: [["Press", 1]] } });
-
-/**
- * R1 and R2 both want N4, and R2 waits for 3 s.
- *
- * @type {DecisionData}
- */
-const DECISION = {
-  tick: 1,
-  kind: "vertex",
-  vertices: [3],
-  robots: [0, 1],
-  waits: 1,
-  waitsAt: 3,
-  ticks: 3,
-  level: "robot",
-  conflictsLeft: [4, 4],
-  completionSums: [50, 47],
-};
 
 test("a cell of a measured floor has its number beside its name, as in tables", () => {
   const words = new Words(PLAN);
@@ -43,34 +26,34 @@ test("a cell of a measured floor has its number beside its name, as in tables", 
   assert.equal(words.short(3), "(1.5,\u00a01.5)");
 });
 
-test("a delay is no second point in time", () => {
-  assert.equal(new Words(PLAN).cost({ ...DECISION, ticks: 6 }), "loses 6 s");
-});
-
-test("of an only choice it is said what the other one leads to", () => {
-  assert.equal(
-    new Words(PLAN).reason({ ...DECISION, level: "only", waits: 0, completionSums: null }),
-    "R2 cannot wait here: with the decisions taken before, no plan is possible then.",
-  );
-});
-
-test("a decision is explained with the figures of both choices", () => {
-  const said = new Words(PLAN).explained(DECISION);
-  assert.match(said, /R2 waits 3 s in N4 /);
-  assert.equal(
-    said.slice(said.indexOf("Conflicts left")),
-    "Conflicts left: 4 if R1 waits, 4 if R2 waits. " +
-      "Sum of completion times: 50 s if R1 waits, 47 s if R2 waits.",
-  );
-});
-
 test("a closure is said with its lane and its times", () => {
   const plan = planOf("closed");
   assert.equal(plan.closures.length, 1);
-  assert.equal(
-    new Words(plan).closure(plan.closures[0]),
-    "C to D closed from time 8 until time 24",
+  assert.equal(said(plan.closures[0].text), "C to D closed from time 8 until time 24");
+});
+
+test("a phrase by index is said with its values, in the language that is spoken", () => {
+  const phrases = new Phrases([
+    "not said",
+    "R1",
+    "station {name}",
+    "Dock",
+    [2, 3],
+    "{waits} waits for {first}, {place}",
+    "R2",
+    [5, 1, 6, 4],
+  ]);
+  assert.equal(phrases.said(1), "R1");
+  assert.equal(phrases.said(7), "R1 waits for R2, station Dock");
+  learn({ de: { "station {name}": "Station {name}" } });
+  learn({ de: { "{waits} waits for {first}, {place}": "{waits} wartet auf {first}, {place}" } });
+  setLanguage("de", /** @type {HTMLElement} */ ({}));
+  assert.equal(phrases.said(7), "R1 wartet auf R2, Station Dock");
+  assert.deepEqual(
+    [7, 1].map((index) => phrases.languageOf(index)),
+    ["de", "en"],
   );
+  setLanguage("en", /** @type {HTMLElement} */ ({}));
 });
 
 test("homes and stops are called after their robots, stations keep their names", () => {

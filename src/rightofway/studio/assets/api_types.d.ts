@@ -1,5 +1,6 @@
 // Generated from studio/routes/answers.py: change it there, then run `just types-refresh`.
 
+import type { PhraseData } from "../../viz/page/assets/payload.d.ts";
 import type { ComparisonPayload, ScenarioDocument, SitePayload } from "./types.js";
 
 /** What a studio is. */
@@ -16,6 +17,7 @@ export interface Because {
   index: number;
   decision: string;
   reason: string;
+  phrase: PhraseData;
 }
 
 /** What happens to robots that go by the clock alone. */
@@ -223,8 +225,8 @@ export interface ExampleList {
 
 /** What was found, and what to do. */
 export interface FactAndRemedy {
-  fact: Array<string | Record<string, unknown>>;
-  remedy: Array<string | Record<string, unknown>>;
+  fact: PhraseData;
+  remedy: PhraseData;
 }
 
 /** One thing wrong with a document: where, as text, as keys and indices, and for people. */
@@ -392,6 +394,7 @@ export interface LossData {
   end: number;
   ticks: number;
   sentence: string;
+  phrase: PhraseData;
   because: Array<Because>;
 }
 
@@ -458,7 +461,7 @@ export interface Opened {
   path: string;
   folder: string;
   kind: "scenario" | "layout" | "plan";
-  notes?: Array<Array<string | Record<string, unknown>> | string>;
+  notes?: Array<PhraseData | string>;
   document?: ScenarioDocument;
   save_as?: string;
   revision?: string;
@@ -653,11 +656,11 @@ export interface Survey {
 export interface SurveyData {
   ok: boolean;
   faults: Array<Fault>;
-  notes: Array<Array<string | Record<string, unknown>> | string>;
+  notes: Array<PhraseData | string>;
   site: SitePayload | null;
   findings: Array<Finding>;
   sentences: Array<string>;
-  phrases: Array<Array<string | Record<string, unknown>>>;
+  phrases: Array<PhraseData>;
   scenario?: string | null;
 }
 
@@ -671,7 +674,7 @@ export interface Units {
 export interface Validation {
   ok: boolean;
   faults: Array<Fault>;
-  notes: Array<Array<string | Record<string, unknown>> | string>;
+  notes: Array<PhraseData | string>;
 }
 
 /** What DELETE answers, by the path with what follows it. */

@@ -17,6 +17,7 @@ import { Start } from "./start.js";
 import { Status } from "./status.js";
 import { Studio, TABS } from "./studio.js";
 import { words } from "./words.js";
+import { learn } from "../../viz/page/assets/library.js";
 /** @import { Props, Tab } from "./types.js" */
 
 /** @type {Record<string, number>} */
@@ -131,4 +132,5 @@ function listenToDrops(studio) {
   });
 }
 
+learn(await (await fetch("/viz/page/assets/texts/library.json")).json());
 render(html`<${App} />`, document.body);

@@ -5,7 +5,7 @@ import { nameOf } from "./findings.js";
 import { robotsOf } from "./robots/fleet.js";
 import { Change } from "./runs/change.js";
 import { doNotRun } from "./runs/faults.js";
-import { sentenceOn } from "./runs/waits.js";
+import { said } from "../../viz/page/assets/library.js";
 import { words } from "./words.js";
 import { present } from "./given.js";
 /** @import { Editor } from "./draw/editor.js" */
@@ -49,5 +49,5 @@ function PlanHint({ studio }) {
   const waits = losses.filter((loss) => loss.for);
   if (!waits.length) return losses.length ? words.watching : words.noWaitNext;
   const longest = waits.reduce((one, other) => (other.ticks > one.ticks ? other : one));
-  return html`${sentenceOn(stage, longest)} <button type="button" class="link" onClick=${() => studio.watchLoss(longest)}>${words.seeWhy}</button>`;
+  return html`${said(longest.phrase)} <button type="button" class="link" onClick=${() => studio.watchLoss(longest)}>${words.seeWhy}</button>`;
 }

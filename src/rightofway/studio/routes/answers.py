@@ -30,7 +30,7 @@ Payload = Annotated[dict[str, Any], "SitePayload"]
 Comparison = Annotated[dict[str, Any], "ComparisonPayload"]
 """What the viewer compares."""
 
-Phrase = list[str | dict[str, Any]]
+Phrase = Annotated[list[str | dict[str, Any]], "PhraseData"]
 """A sentence with places for values, and the values."""
 
 Exact = int | float | str
@@ -428,6 +428,7 @@ class Because(TypedDict):
     index: int
     decision: str
     reason: str
+    phrase: Phrase
 
 
 LossData = TypedDict(
@@ -443,6 +444,7 @@ LossData = TypedDict(
         "end": int,
         "ticks": int,
         "sentence": str,
+        "phrase": Phrase,
         "because": list[Because],
     },
 )

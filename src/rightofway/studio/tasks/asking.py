@@ -10,8 +10,9 @@ from rightofway.errors import InputError, InvalidPlan, nearest
 from rightofway.io import plan_text
 from rightofway.metrics import lost_time
 from rightofway.model import Loss, Plan, Tick
+from rightofway.phrases import Phrase, parts_of
 from rightofway.planners.flip import flipped
-from rightofway.report.sentences import Words, decision_in_words, reason_in_words, sentence_on
+from rightofway.report.sentences import Words, decision_in_words, explanation_of, sentence_on
 from rightofway.studio.messages import Blobs, Emit, zipped
 from rightofway.studio.tasks.documents import figures
 from rightofway.studio.tasks.views import read
@@ -39,8 +40,9 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
     because = [
         {
             "index": index,
-            "decision": decision_in_words(words, words.plan.run.decisions[index]),
-            "reason": reason_in_words(words, words.plan.run.decisions[index]),
+            "decision": (story := decision_in_words(words, words.plan.run.decisions[index])),
+            "reason": (reason := explanation_of(words, words.plan.run.decisions[index])),
+            "phrase": parts_of(Phrase("{first} {second}", first=story, second=reason)),
         }
         for index in _decisions_behind(words.plan, loss)
     ]
@@ -54,7 +56,8 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
         "tick": loss.tick,
         "end": loss.end,
         "ticks": loss.ticks,
-        "sentence": sentence_on(words, [loss]),
+        "sentence": (sentence := sentence_on(words, [loss])),
+        "phrase": parts_of(sentence),
         "because": because,
     }
 

@@ -13,6 +13,7 @@ from rightofway.viz.page.background import Background
 from rightofway.viz.page.document import document_of
 from rightofway.viz.page.map_data import map_data
 from rightofway.viz.page.schema import InspectionPayload, LevelData, SiteData
+from rightofway.viz.page.translations import translations_for
 from rightofway.viz.palette import robot_colours
 
 Inspected = tuple[str, Site, Inspection]
@@ -55,11 +56,15 @@ def inspection_page(
     """
     payload: InspectionPayload = {
         "title": title,
+        "translations": {},
         "what": parts_of(what),
         "notes": [parts_of(note) for note in notes],
         "headings": {severity: parts_of(heading) for severity, heading in HEADINGS.items()},
         "levels": [_level(*level, background) for level in levels],
     }
+    said = [(level["sentences"], level["findings"]) for level in payload["levels"]]
+    others = payload["what"], payload["notes"], payload["headings"]
+    payload["translations"] = translations_for(said, others)
     about = f"{title}: {what}" if what else title
     return document_of("inspect.html", about, payload, "inspect_main")
 

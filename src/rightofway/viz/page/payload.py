@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from math import ceil, floor
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,11 +29,25 @@ from rightofway.model import (
     SteadyState,
     Tick,
     Track,
+    stays_of,
 )
 from rightofway.model.closures import Closure
 from rightofway.model.given import checked_plan
 from rightofway.model.steady_state import refuse_unknown_robots
-from rightofway.report.sentences import proof_in_words
+from rightofway.phrases import PhraseBook, parts_of
+from rightofway.report.sentences import (
+    FAULT_NAMES,
+    Words,
+    closed_ticks,
+    closed_vertices,
+    closure_in_words,
+    decision_in_short,
+    decision_in_words,
+    executed_loss_in_words,
+    loss_in_words,
+    proof_in_words,
+    reason_in_words,
+)
 from rightofway.values import at, list_of, one_of, optional, text
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.page.background import Background
@@ -55,6 +68,7 @@ from rightofway.viz.page.schema import (
     SteadyData,
     TurnRow,
 )
+from rightofway.viz.page.translations import translations_for
 from rightofway.viz.palette import robot_colours
 from rightofway.viz.placement import edge_length, vertices_in_line
 from rightofway.viz.verdict import LISTED_FAULTS, compared_data, verdict_on
@@ -96,8 +110,11 @@ def payload_of(
     trips, steady = trips_of(plan), steady or plan.steady
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
     tick, lost = scenario.problem.clock.tick, lost_time(plan)
+    words, book = Words(plan=plan, quantities=scenario.quantities), PhraseBook()
     payload: Payload = {
         "title": title,
+        "phrases": book.entries,
+        "translations": {},
         "units": {"length": scenario.units.length, "time": scenario.units.time},
         "tick": (tick.numerator, tick.denominator),
         "end": max(end_of(trips), 1),
@@ -106,10 +123,12 @@ def payload_of(
         "map": map_data(scenario.roadmap, room=room_of(scenario), background=background),
         "line": _line(plan, [other for other, _ in others]),
         "robots": _robots(plan, trips, metrics, lost),
-        "losses": [_loss(loss) for one in lost for loss in one.losses],
-        "faults": _faults(plan, verdict_on(plan)),
+        "losses": [
+            _loss(loss, book.add(loss_in_words(words, loss))) for one in lost for loss in one.losses
+        ],
+        "faults": _faults(plan, verdict_on(plan), book),
         "planner": _planner(plan),
-        "decisions": [_decision(decision) for decision in run.decisions],
+        "decisions": [_decision(decision, words, book) for decision in run.decisions],
         "reroutes": [{"robot": one.robot, "because": one.because} for one in run.reroutes],
         "metrics": {
             "flowtime": metrics.flowtime,
@@ -127,10 +146,12 @@ def payload_of(
     if scenario.rules.clearance:
         payload["clearance"] = float(scenario.rules.clearance)
     if actual is not None:
-        payload["floor"] = _execution(plan, actual, trips)
+        payload["floor"] = _execution(plan, actual, trips, words, book)
     if no_plan is not None:
         payload["noPlan"] = True
-        payload["faults"] = _blockages(scenario, no_plan)
+        payload["faults"] = _blockages(scenario, no_plan, book)
+    said = book.entries, payload["planner"], payload.get("closures")
+    payload["translations"] = translations_for(*said)
     if others:
         _compare(plan, title, others, payload)
     return payload
@@ -146,13 +167,15 @@ def _compare(plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload
     colours = dict(zip(comparison.robots, robot_colours(len(comparison.robots)), strict=True))
     payload["others"] = []
     for other, name in others:
-        made = cast(OtherPlan, payload_of(other, title=name))
+        made: dict[str, Any] = {**payload_of(other, title=name)}
+        for language, table in made.pop("translations").items():
+            payload["translations"][language] |= table
         for robot in made["robots"]:
             robot["colour"] = colours[robot["name"]]
         if other.scenario.roadmap == plan.scenario.roadmap:
             made["line"] = payload["line"]
             del made["map"]
-        payload["others"].append(made)
+        payload["others"].append(cast(OtherPlan, made))
     payload["comparison"] = cast(ComparisonData, compared_data(comparison))
 
 
@@ -182,16 +205,19 @@ def _refuse_other_kinds(
         at(("others", index, 1), text, other[1])
 
 
-def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> FaultsData:
+def _blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> FaultsData:
     """Return why there is no plan, as faults with the robots and vertices that they concern."""
     robot_of = {robot.name: index for index, robot in enumerate(scenario.robots)}
+    name = book.add(FAULT_NAMES["no plan"])
     return {
         "count": len(no_plan.blockages),
+        "kinds": [(name, len(no_plan.blockages))],
         "listed": [
             {
                 "kind": "no plan",
-                "reason": blockage.reason,
-                "remedy": blockage.remedy,
+                "name": name,
+                "reason": book.add(blockage.reason),
+                "remedy": book.add(blockage.remedy),
                 "tick": 0,
                 "robots": [robot_of[name] for name in blockage.robots],
                 "vertices": [int(scenario.roadmap.vertex(name)) for name in blockage.vertices],
@@ -211,14 +237,13 @@ def closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
     scenario
         The scenario that has it.
     """
-    tick = scenario.problem.clock.tick
-    places = [closure.at] if closure.edge is None else scenario.roadmap.ways_along(closure.edge)[0]
-    until = closure.until
+    begin, end = closed_ticks(closure, scenario)
     return {
-        "vertices": [vertex for vertex in places if vertex is not None],
-        "from": floor(closure.from_ / tick),
-        "until": None if until is None else ceil(until / tick),
+        "vertices": list(closed_vertices(closure, scenario)),
+        "from": begin,
+        "until": end,
         "radius": None if closure.radius is None else float(closure.radius),
+        "text": parts_of(closure_in_words(closure, scenario)),
     }
 
 
@@ -226,7 +251,7 @@ def _planner(plan: Plan) -> PlannerData:
     run = plan.run
     found: PlannerData = {"name": run.name, "status": run.status}
     if proven := proof_in_words(plan):
-        found["proven"] = proven
+        found["proven"] = parts_of(proven)
     if run.improvement is not None:
         found |= {"saved": run.improvement.saved, "tries": run.improvement.tries}
     return found
@@ -279,8 +304,13 @@ def _robots(
     return robots
 
 
-def _decision(decision: Decision) -> DecisionData:
+def _decision(decision: Decision, words: Words, book: PhraseBook) -> DecisionData:
+    head, detail = decision_in_short(words, decision)
     return {
+        "head": book.add(head),
+        "detail": book.add(detail),
+        "story": book.add(decision_in_words(words, decision)),
+        "reason": book.add(reason_in_words(words, decision)),
         "tick": decision.tick,
         "kind": decision.kind,
         "vertices": list(decision.vertices),
@@ -338,13 +368,21 @@ def _until(group: SteadyState, track: Track) -> int:
     return int(track.enter[again - 1 + repeated])
 
 
-def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> FloorData:
+def _execution(
+    plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip], words: Words, book: PhraseBook
+) -> FloorData:
     if len(actual.tracks) != len(plan.tracks):
         counts = f"{len(actual.tracks)} for {len(plan.tracks)} robots"
         raise InputError.at(("actual", "tracks"), f"{counts} (give one for each)")
     still = actual.stoppages or ((),) * len(trips)
     stays = tuple(map(_executed_stays, actual.tracks, actual.dwell, actual.drive, still))
     driven = trips_of(replace(plan, tracks=actual.tracks, steady=()))
+    waits = [stay.waits for stay in stays_of(plan.scenario, plan.tracks)]
+
+    def unplanned(loss: Loss) -> int:
+        robot = loss.robot
+        return _unplanned(loss, plan.tracks[robot], actual.tracks[robot], waits[robot])
+
     robots = []
     for planned, taken, dwell, drive, stoppages, completion in zip(
         trips, driven, actual.dwell, actual.drive, still, actual.completion, strict=True
@@ -366,8 +404,20 @@ def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> Flo
     return {
         "end": max(1, *(stay.completion for stay in stays), *filter(None, actual.completion)),
         "robots": robots,
-        "losses": [_loss(loss) for loss in joined_waits(plan.scenario, actual.tracks, stays)],
+        "losses": [
+            _loss(loss, book.add(executed_loss_in_words(words, loss, unplanned(loss))))
+            for loss in joined_waits(plan.scenario, actual.tracks, stays)
+        ],
     }
+
+
+def _unplanned(loss: Loss, planned: Track, taken: Track, waits: NDArray[np.int64]) -> int:
+    """Return how much longer the waits of a loss were than planned, 0 on another way [ticks]."""
+    first = int(np.searchsorted(taken.enter, loss.tick, "right")) - 1
+    after = int(np.searchsorted(taken.enter, loss.end, "left"))
+    if not np.array_equal(taken.vertices[:after], planned.vertices[:after]):
+        return 0
+    return int(loss.ticks - waits[first:after].sum())
 
 
 def _executed_stays(
@@ -417,20 +467,23 @@ def _sparse(numbers: Iterable[int]) -> list[TurnRow]:
     return [(index, number) for index, number in enumerate(numbers) if number]
 
 
-def _loss(loss: Loss) -> LossRow:
+def _loss(loss: Loss, text: int) -> LossRow:
     places = (loss.vertex, loss.until_vertex, loss.towards, loss.freed)
     times = (loss.tick, loss.end, loss.ticks)
-    return (LOSSES.index(loss.kind), loss.robot, loss.for_robot, *places, *times)
+    return (LOSSES.index(loss.kind), loss.robot, loss.for_robot, *places, *times, text)
 
 
-def _faults(plan: Plan, report: Report) -> FaultsData:
+def _faults(plan: Plan, report: Report, book: PhraseBook) -> FaultsData:
     known = range(plan.scenario.roadmap.n_vertices)
     return {
         "count": report.total,
-        "kinds": {str(kind): count for kind, count in report.counts.items()},
+        "kinds": [(book.add(FAULT_NAMES[kind]), count) for kind, count in report.counts.items()],
         "listed": [
             {
                 "kind": fault.kind,
+                "name": book.add(FAULT_NAMES[fault.kind]),
+                "reason": book.add(fault.reason),
+                "remedy": book.add(fault.remedy),
                 "tick": fault.tick,
                 "robots": list(fault.robots),
                 "vertices": [vertex for vertex in fault.vertices if vertex in known],

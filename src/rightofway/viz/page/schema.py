@@ -17,15 +17,18 @@ TurnRow = TypeAliasType("TurnRow", tuple[int, int])
 """Visit, ticks."""
 
 LossRow = TypeAliasType(
-    "LossRow", tuple[int, int, int | None, int, int, int, int | None, int, int, int]
+    "LossRow", tuple[int, int, int | None, int, int, int, int | None, int, int, int, int]
 )
-"""Kind, robot, for robot, vertex, until vertex, towards, freed, tick, end, ticks; see `Loss`."""
+"""Kind, robot, for robot, vertex, until, towards, freed, tick, end, ticks, text; see `Loss`."""
 
 ObstacleRow = TypeAliasType("ObstacleRow", tuple[str, float, float, float, float])
 """Name, left, top, width, height."""
 
 PhraseData = TypeAliasType("PhraseData", "str | tuple[str, dict[str, PhraseData]]")
 """Text, or an English template and its values."""
+
+PhraseEntry = TypeAliasType("PhraseEntry", "str | list[int]")
+"""Text, or the index of a template and of its values; see `PhraseBook`."""
 
 
 class UnitsData(TypedDict):
@@ -131,7 +134,13 @@ class RobotData(TypedDict):
 
 ClosureData = TypedDict(
     "ClosureData",
-    {"vertices": list[int], "from": int, "until": int | None, "radius": float | None},
+    {
+        "vertices": list[int],
+        "from": int,
+        "until": int | None,
+        "radius": float | None,
+        "text": PhraseData,
+    },
 )
 
 
@@ -148,21 +157,22 @@ class SiteData(TypedDict):
 
 
 class FaultData(TypedDict):
-    """A place where the plan breaks a rule, or a reason why there is no plan."""
+    """A place where the plan breaks a rule, or a reason why there is no plan; texts by index."""
 
     kind: str
-    reason: NotRequired[str]
-    remedy: NotRequired[str]
+    name: int
+    reason: int
+    remedy: int
     tick: int
     robots: list[int]
     vertices: list[int]
 
 
 class FaultsData(TypedDict):
-    """How many faults there are, of each kind, and the first of them."""
+    """How many faults there are, of each kind by the index of its name, and the first of them."""
 
     count: int
-    kinds: NotRequired[dict[str, int]]
+    kinds: list[tuple[int, int]]
     listed: list[FaultData]
 
 
@@ -173,12 +183,16 @@ class PlannerData(TypedDict):
     status: str
     saved: NotRequired[int]
     tries: NotRequired[int | None]
-    proven: NotRequired[str]
+    proven: NotRequired[PhraseData]
 
 
 class DecisionData(TypedDict):
-    """Which of two robots got the right of way, and why; see `Decision`."""
+    """Which of two robots got the right of way, and why; see `Decision`. Texts are by index."""
 
+    head: int
+    detail: int
+    story: int
+    reason: int
     tick: int
     kind: Literal["vertex", "head-on", "following", "crossing"]
     vertices: list[int]
@@ -303,6 +317,7 @@ class PlanData(TypedDict):
     """A plan without its map; ``line`` has vertices with their distances along a line."""
 
     title: str
+    phrases: list[PhraseEntry]
     units: UnitsData
     tick: tuple[int, int]
     end: int
@@ -331,8 +346,9 @@ class OtherPlan(PlanData):
 
 
 class Payload(PlanData):
-    """What the page of a plan is given."""
+    """What the page of a plan is given; translations are by language, then by English template."""
 
+    translations: dict[str, dict[str, str]]
     map: MapData
     others: NotRequired[list[OtherPlan]]
     comparison: NotRequired[ComparisonData]
@@ -361,6 +377,7 @@ class InspectionPayload(TypedDict):
     """What the page of an inspection is given."""
 
     title: str
+    translations: dict[str, dict[str, str]]
     what: PhraseData
     notes: list[PhraseData]
     headings: dict[Literal["error", "warning", "note"], PhraseData]

@@ -167,7 +167,7 @@ function HeldUp({ studio }) {
       found.length
         ? html`<ul class="held-up">${found.map(
             (each) => html`<li><button type="button" class="watch" onClick=${() => watch(each)}>
-          <i class="dot" style=${`background: ${each.robot.colour}`}></i><span><b>${each.robot.name}</b> ${stage.words.loss(each.loss, each.robot)}</span></button></li>`,
+          <i class="dot" style=${`background: ${each.robot.colour}`}></i><span><b>${each.robot.name}</b> ${stage.plan.phrases.said(each.loss.text)}</span></button></li>`,
           )}</ul>`
         : html`<p class="hint">${words.nobodyHeldUp}</p>`
     }`;

@@ -2,7 +2,6 @@
 
 import { html } from "../vendor/htm-preact.js";
 import { texts } from "../../../viz/page/assets/language.js";
-import { languageOfFault } from "../../../viz/page/assets/words.js";
 import { words } from "../words.js";
 /** @import { Plan } from "../../../viz/page/assets/plan.js" */
 /** @import { RunData } from "../api_types.js" */
@@ -59,8 +58,8 @@ function Press({ studio, fault, index }) {
     clock.seek(fault.tick);
     choice.chooseFault(index);
   };
-  const when = fault.reason ? "" : `, ${texts.at(said.moment(fault.tick))}`;
+  const when = plan.noPlan ? "" : `, ${texts.at(said.moment(fault.tick))}`;
   const isChosen = choice.fault === plan.faults[index];
-  return html`<button type="button" class="watch wrong" lang=${languageOfFault(fault)} aria-pressed=${String(isChosen)} onClick=${look}>
-    ${said.fault(fault)}${when}</button>`;
+  return html`<button type="button" class="watch wrong" lang=${plan.phrases.languageOf(fault.reason)} aria-pressed=${String(isChosen)} onClick=${look}>
+    ${plan.phrases.said(fault.reason)}${when}</button>`;
 }

@@ -1,7 +1,7 @@
 /** Why robots wait: each wait in a sentence, the decisions behind it, and what if the other went first. */
 
 import { html } from "../vendor/htm-preact.js";
-import { texts } from "../../../viz/page/assets/language.js";
+import { said } from "../../../viz/page/assets/library.js";
 import { words } from "../words.js";
 /** @import { Robot } from "../../../viz/page/assets/robot.js" */
 /** @import { LossData } from "../api_types.js" */
@@ -22,8 +22,8 @@ export function Waits({ studio }) {
         found.length
           ? html`<ol class="waits">${found.slice(0, MOST).map(
               (loss) => html`<li>
-        <button type="button" class="watch" onClick=${() => studio.watchLoss(loss)}>${sentenceOn(stage, loss)}</button>
-        ${loss.because.map(({ index }) => html`<p><small>${stage.words.explained(stage.plan.decisions[index])}</small></p>`)}
+        <button type="button" class="watch" onClick=${() => studio.watchLoss(loss)}>${said(loss.phrase)}</button>
+        ${loss.because.map(({ phrase }) => html`<p><small>${said(phrase)}</small></p>`)}
         ${loss.for && !isOnlyChoice(stage, loss) && html`<button type="button" class="framed" onClick=${() => studio.flip(loss)}>${words.letGoFirst(loss.robot)}</button>`}
       </li>`,
             )}</ol>`
@@ -31,19 +31,6 @@ export function Waits({ studio }) {
       }
       ${found.length > MOST && html`<p class="hint">${words.moreWaits(found.length - MOST)}</p>`}
     </section>`;
-}
-
-/**
- * How a robot loses time, as the viewer says it; the server and the viewer list the same losses.
- * @param {Stage} stage
- * @param {LossData} loss
- * @returns {string}
- */
-export function sentenceOn(stage, { robot, tick, vertex, sentence }) {
-  const loss = lossOn(stage, { robot, tick, vertex });
-  if (!loss) return sentence;
-  const { plan, words: said } = stage;
-  return `${robot} ${said.loss(loss, plan.planned[loss.robot])}, ${texts.at(said.moment(tick))}.`;
 }
 
 /**

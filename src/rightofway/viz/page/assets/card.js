@@ -2,7 +2,7 @@ import { element, english, facts, goTo, link, swatch } from "./dom.js";
 import { FloorRobot } from "./floor.js";
 import { texts, withKey } from "./language.js";
 import { BROKEN, WAIT } from "./phases.js";
-import { joined, languageOfFault } from "./words.js";
+import { joined, upperFirst } from "./words.js";
 
 /** @import { Root } from "./root.js" */
 /** @import { Choice } from "./choice.js" */
@@ -230,7 +230,7 @@ export class Card {
   #losses(robot) {
     if (!robot.losses.length) return [];
     const lines = this.#lines(robot.losses, (loss) =>
-      this.#moment(loss.tick, this.words.loss(loss, robot), loss.places),
+      this.#moment(loss.tick, this.plan.phrases.said(loss.text), loss.places),
     );
     return [element("h3", {}, robot instanceof FloorRobot ? texts.waits : texts.losesTime), lines];
   }
@@ -262,6 +262,8 @@ export class Card {
 
   /** @param {FaultData} fault */
   #fault(fault) {
+    const { phrases } = this.plan;
+    const remedy = phrases.said(fault.remedy);
     const robots = fault.robots.map((index) => this.choice.robots[index]);
     const names = robots.map((robot) =>
       link(robot.name, () => this.choice.chooseRobot(robot.index)),
@@ -271,34 +273,28 @@ export class Card {
       this.#header(...robots.slice(0, 3).map(swatch), title),
       element(
         "p",
-        { className: "name wrong", lang: languageOfFault(fault) },
-        `${this.words.fault(fault)}.`,
+        { className: "name wrong", lang: phrases.languageOf(fault.reason) },
+        `${phrases.said(fault.reason)}.`,
       ),
-      element("p", { lang: languageOfFault(fault) }, this.words.remedy(fault)),
-      ...(fault.reason
+      ...(remedy
+        ? [element("p", { lang: phrases.languageOf(fault.remedy) }, upperFirst(`${remedy}.`))]
+        : []),
+      ...(this.plan.noPlan
         ? []
-        : [
-            element(
-              "ol",
-              {},
-              this.#moment(
-                fault.tick,
-                texts.theFault(texts.faultKinds[fault.kind]?.name ?? fault.kind),
-              ),
-            ),
-          ]),
+        : [element("ol", {}, this.#moment(fault.tick, texts.theFault(phrases.said(fault.name))))]),
     ];
   }
 
   /** @param {DecisionData} decision */
   #decision(decision) {
+    const { phrases } = this.plan;
     const pair = decision.robots.map((index) => this.choice.robots[index]);
     const names = pair.map((robot) => link(robot.name, () => this.choice.chooseRobot(robot.index)));
     const title = element("h2", {}, ...joined(names));
     return [
       this.#header(swatch(pair[0]), swatch(pair[1]), title),
-      element("p", { className: "name" }, this.words.decisionAtLength(decision)),
-      element("p", { className: "name" }, this.words.reason(decision)),
+      element("p", { className: "name" }, phrases.said(decision.story)),
+      element("p", { className: "name" }, phrases.said(decision.reason)),
       ...this.#choices(decision, pair),
     ];
   }

@@ -65,14 +65,10 @@ export class DecisionList {
    * @param {number} index
    */
   #decision(decision, index) {
-    const parts = [
-      texts.at(this.words.moment(decision.tick)),
-      this.words.cost(decision),
-      this.words.why(decision),
-    ];
+    const { phrases } = this.plan;
     return {
-      head: this.words.decision(decision),
-      detail: parts.join(" · "),
+      head: phrases.said(decision.head),
+      detail: phrases.said(decision.detail),
       isChosen: () => this.choice.decisionIndex === index,
       choose: () => {
         this.clock.pause();

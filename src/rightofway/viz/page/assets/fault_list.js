@@ -2,7 +2,7 @@ import { fillTwoLines } from "./decision_list.js";
 import { connectFind, matches } from "./find.js";
 import { texts } from "./language.js";
 import { VirtualList } from "./virtual_list.js";
-import { languageOfFault } from "./words.js";
+import { upperFirst } from "./words.js";
 
 /** @import { Root } from "./root.js" */
 /** @import { Choice } from "./choice.js" */
@@ -58,12 +58,16 @@ export class FaultList {
    * @param {number} index
    */
   #item(fault, index) {
+    const { phrases, noPlan } = this.plan;
+    const [name, reason, remedy] = [fault.name, fault.reason, fault.remedy].map((text) =>
+      phrases.said(text),
+    );
     return {
-      isEnglish: languageOfFault(fault) === "en",
-      head: this.words.fault(fault),
-      detail: fault.reason
-        ? this.words.remedy(fault)
-        : `${texts.at(this.words.moment(fault.tick))} · ${texts.faultKinds[fault.kind]?.name ?? fault.kind}`,
+      isEnglish: phrases.languageOf(fault.reason) === "en",
+      head: reason,
+      detail: noPlan
+        ? remedy && upperFirst(`${remedy}.`)
+        : `${texts.at(this.words.moment(fault.tick))} · ${name}`,
       choose: () => {
         this.clock.pause();
         this.clock.seek(fault.tick);

@@ -8,7 +8,7 @@ import { Robot, giveLosses } from "./robot.js";
 /**
  * The robots as they drove on the floor: the same visits at other ticks, and some of them never.
  *
- * @param {Payload} raw
+ * @param {Pick<Payload, "robots">} raw
  * @param {FloorData} floor
  * @param {Robot[]} planned
  */

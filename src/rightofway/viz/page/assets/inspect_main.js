@@ -9,7 +9,7 @@ import {
   withKey,
   writeMarkup,
 } from "./language.js";
-import { languageOf, said } from "./library.js";
+import { languageOf, learn, said } from "./library.js";
 import { MapView } from "./map_view.js";
 import { Root } from "./root.js";
 import { Site } from "./site.js";
@@ -325,4 +325,7 @@ function severitySign(severity) {
 setLanguage(askedLanguage());
 writeMarkup();
 offerLanguages(root.part("language", HTMLSelectElement));
-new InspectPage(JSON.parse(root.part("site").textContent));
+/** @type {InspectionPayload} */
+const payload = JSON.parse(root.part("site").textContent);
+learn(payload.translations);
+new InspectPage(payload);

@@ -1,14 +1,23 @@
 import { language } from "./language.js";
-import { GERMAN_OF } from "./texts/library_de.js";
 
-/** @import { PhraseData } from "./payload.d.ts" */
+/** @import { PhraseData, PhraseEntry } from "./payload.d.ts" */
 
 /**
- * For each language, its own of each English template, or a function of the values.
+ * For each language, its own of each English template; those that the page has learnt.
  *
- * @type {Record<string, Record<string, string | ((values: Record<string, string>) => string)>>}
+ * @type {Record<string, Record<string, string>>}
  */
-const LIBRARIES = { de: GERMAN_OF };
+const LIBRARIES = {};
+
+/**
+ * Learn templates of `texts/library.json`: a page of a file brings those that it says.
+ *
+ * @param {Record<string, Record<string, string>>} translations
+ */
+export function learn(translations) {
+  for (const [code, table] of Object.entries(translations))
+    LIBRARIES[code] = { ...LIBRARIES[code], ...table };
+}
 
 /**
  * A phrase of the library, as `phrases.py` hands it over: template and values, or plain English.
@@ -19,15 +28,61 @@ const LIBRARIES = { de: GERMAN_OF };
 export function said(phrase) {
   if (typeof phrase === "string") return phrase;
   const [english, values] = phrase;
+  const given = Object.entries(values).map(([name, value]) => [name, said(value)]);
+  return filled(english, Object.fromEntries(given));
+}
+
+const VALUE = /\{(\w+)\}/g; // a place for a value in a template
+
+/**
+ * The template of this language with its values in their places.
+ *
+ * @param {string} english
+ * @param {Record<string, string>} values
+ * @returns {string}
+ */
+function filled(english, values) {
   const own = LIBRARIES[language]?.[english] ?? english;
-  const given = Object.fromEntries(
-    Object.entries(values).map(([name, value]) => [name, said(value)]),
-  );
-  if (typeof own === "function") return own(given);
   return own.replace(
-    /\{(\w+)\}/g,
-    (/** @type {string} */ whole, /** @type {string} */ name) => given[name] ?? whole,
+    VALUE,
+    (/** @type {string} */ whole, /** @type {string} */ name) => values[name] ?? whole,
   );
+}
+
+/** The phrases of a plan, as `PhraseBook` of phrases.py hands them over: each text once, by index. */
+export class Phrases {
+  /** @param {readonly PhraseEntry[]} entries */
+  constructor(entries) {
+    this.entries = entries;
+  }
+
+  /**
+   * @param {number} index
+   * @returns {string}
+   */
+  said(index) {
+    const entry = this.entries[index];
+    if (typeof entry === "string") return entry;
+    const english = this.#template(entry);
+    const names = new Set(Array.from(english.matchAll(VALUE), ([, name]) => name));
+    const values = Array.from(names, (name, i) => [name, this.said(entry[i + 1])]);
+    return filled(english, Object.fromEntries(values));
+  }
+
+  /**
+   * The language in which a text is said: English where it has no translation.
+   *
+   * @param {number} index
+   */
+  languageOf(index) {
+    const entry = this.entries[index];
+    return languageOf(typeof entry === "string" ? entry : [this.#template(entry), {}]);
+  }
+
+  /** @param {readonly number[]} entry */
+  #template([template]) {
+    return String(this.entries[template]);
+  }
 }
 
 /**

@@ -1,6 +1,7 @@
 import { nearest } from "./arrays.js";
 import { all, element, swatch } from "./dom.js";
 import { texts } from "./language.js";
+import { said } from "./library.js";
 import { DRIVE } from "./phases.js";
 import { several } from "./words.js";
 
@@ -100,7 +101,7 @@ export class MapTip {
       ...(vertex < 0 ? [] : this.#aboutZones(vertex)),
       ...this.plan.closures
         .filter(({ vertices }) => vertices.includes(vertex))
-        .map((closure) => ({ text: this.words.closure(closure) })),
+        .map((closure) => ({ text: said(closure.text) })),
       ...(obstacle ? [{ text: obstacle.name, kind: "title" }] : []),
       { text: this.#position(x, y), kind: "position" },
     ];

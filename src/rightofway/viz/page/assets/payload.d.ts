@@ -40,6 +40,7 @@ export interface ClosureData {
   from: number;
   until: number | null;
   radius: number | null;
+  text: PhraseData;
 }
 
 /** What a plan costs in the ticks of a comparison, and its scenario's changes. */
@@ -73,8 +74,12 @@ export interface ComparisonData {
   robots: ComparedRobot[];
 }
 
-/** Which of two robots got the right of way, and why; see `Decision`. */
+/** Which of two robots got the right of way, and why; see `Decision`. Texts are by index. */
 export interface DecisionData {
+  head: number;
+  detail: number;
+  story: number;
+  reason: number;
   tick: number;
   kind: "vertex" | "head-on" | "following" | "crossing";
   vertices: number[];
@@ -98,20 +103,21 @@ export interface DrivenData {
   completion: number | null;
 }
 
-/** A place where the plan breaks a rule, or a reason why there is no plan. */
+/** A place where the plan breaks a rule, or a reason why there is no plan; texts by index. */
 export interface FaultData {
   kind: string;
-  reason?: string;
-  remedy?: string;
+  name: number;
+  reason: number;
+  remedy: number;
   tick: number;
   robots: number[];
   vertices: number[];
 }
 
-/** How many faults there are, of each kind, and the first of them. */
+/** How many faults there are, of each kind by the index of its name, and the first of them. */
 export interface FaultsData {
   count: number;
-  kinds?: Record<string, number>;
+  kinds: [number, number][];
   listed: FaultData[];
 }
 
@@ -168,6 +174,7 @@ export interface GridData {
 /** What the page of an inspection is given. */
 export interface InspectionPayload {
   title: string;
+  translations: Record<string, Record<string, string>>;
   what: PhraseData;
   notes: PhraseData[];
   headings: Record<string, PhraseData>;
@@ -188,7 +195,7 @@ export interface LevelData {
   findings: FindingData[];
 }
 
-export type LossRow = [number, number, number | null, number, number, number, number | null, number, number, number];
+export type LossRow = [number, number, number | null, number, number, number, number | null, number, number, number, number];
 
 export type MapData = GridData | NetworkData;
 
@@ -225,6 +232,7 @@ export type ObstacleRow = [string, number, number, number, number];
 /** A plan that another one is compared with; its map is that of the other one, or its own. */
 export interface OtherPlan {
   title: string;
+  phrases: PhraseEntry[];
   units: UnitsData;
   tick: [number, number];
   end: number;
@@ -247,9 +255,10 @@ export interface OtherPlan {
   map?: MapData;
 }
 
-/** What the page of a plan is given. */
+/** What the page of a plan is given; translations are by language, then by English template. */
 export interface Payload {
   title: string;
+  phrases: PhraseEntry[];
   units: UnitsData;
   tick: [number, number];
   end: number;
@@ -269,6 +278,7 @@ export interface Payload {
   clearance?: number;
   floor?: FloorData;
   noPlan?: true;
+  translations: Record<string, Record<string, string>>;
   map: MapData;
   others?: OtherPlan[];
   comparison?: ComparisonData;
@@ -276,13 +286,15 @@ export interface Payload {
 
 export type PhraseData = string | [string, Record<string, PhraseData>];
 
+export type PhraseEntry = string | number[];
+
 /** How the plan came about. */
 export interface PlannerData {
   name: string;
   status: string;
   saved?: number;
   tries?: number | null;
-  proven?: string;
+  proven?: PhraseData;
 }
 
 /** A robot that was rerouted. */

@@ -1,4 +1,5 @@
 import { onTheFloor } from "./floor.js";
+import { Phrases } from "./library.js";
 import { giveLosses } from "./robot.js";
 import { Site } from "./site.js";
 import { Steady } from "./steady.js";
@@ -8,9 +9,10 @@ import { Steady } from "./steady.js";
 
 /** All that the page knows of a plan, as payload.py wrote it. */
 export class Plan extends Site {
-  /** @param {Payload} raw */
+  /** @param {Omit<Payload, "translations">} raw */
   constructor(raw) {
     super(raw);
+    this.phrases = new Phrases(raw.phrases);
     this.end = Math.max(raw.end, raw.floor?.end ?? 0);
     this.headway = raw.headway;
     this.booksAhead = raw.booksAhead;

@@ -9,6 +9,7 @@ import { Diagram } from "./diagram.js";
 import { FaultList } from "./fault_list.js";
 import { listenToKeys } from "./keys.js";
 import { askedLanguage, offerLanguages, setLanguage, writeMarkup } from "./language.js";
+import { learn } from "./library.js";
 import { Loop } from "./loop.js";
 import { MapView } from "./map_view.js";
 import { ModeSwitch } from "./mode_switch.js";
@@ -41,6 +42,7 @@ import { Words } from "./words.js";
 export function createPlayer(element, payload) {
   const root = new Root(element);
   root.fill(MARKUP);
+  learn(payload.translations);
   setLanguage(askedLanguage(root.isPart), root.top);
   writeMarkup(element);
   offerLanguages(root.part("language", HTMLSelectElement));

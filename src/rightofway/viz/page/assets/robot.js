@@ -77,12 +77,12 @@ export class Robot {
 
 /** How a robot loses time: it waits once, or several times behind one robot, or leaves a place to others for a while. */
 export const FOLLOWS = 1;
-export const MAKES_ROOM = 2;
+const MAKES_ROOM = 2;
 
 /** One cause of lost time, as `Loss` of the model: the robot that loses, the robot that gains or null, where, when, and how much. */
 export class Loss {
   /** @param {LossRow} row */
-  constructor([kind, robot, forRobot, vertex, until, towards, freed, tick, end, ticks]) {
+  constructor([kind, robot, forRobot, vertex, until, towards, freed, tick, end, ticks, text]) {
     this.kind = kind;
     this.robot = robot;
     this.forRobot = forRobot;
@@ -93,6 +93,7 @@ export class Loss {
     this.tick = tick;
     this.end = end;
     this.ticks = ticks;
+    this.text = text; // in the phrases of the plan
   }
 
   /** The places that a sentence about it names. */

@@ -1,5 +1,6 @@
 import { element, english, facts, link } from "./dom.js";
 import { texts } from "./language.js";
+import { said } from "./library.js";
 import { DONE, WAIT } from "./phases.js";
 import { several, upperFirst } from "./words.js";
 
@@ -116,10 +117,10 @@ export class Summary {
     if (this.comparison)
       return this.#faulty.length ? [] : this.#comparedFigures(this.comparison.compared);
     if (faultCount)
-      return Object.entries(this.plan.faultKinds ?? {}).map(([kind, count]) => [
-        texts.faultKinds[kind]?.name ?? kind,
+      return this.plan.faultKinds.map(([name, count]) => [
+        this.plan.phrases.said(name),
         String(count),
-        this.words.remedy({ kind }),
+        "",
       ]);
     const figures = happened
       ? this.#floorFigures()
@@ -307,7 +308,7 @@ export class Summary {
       ...origin,
       [upperFirst(texts.flowtime), this.words.time(flowtime)],
       [upperFirst(texts.lowerBound), this.words.time(lowerBound)],
-      [texts.proven, planner.proven ? english(planner.proven) : ""],
+      [texts.proven, planner.proven ? said(planner.proven) : ""],
       [texts.gap, gap],
       [upperFirst(texts.makespan), this.words.time(makespan)],
       [

@@ -1,23 +1,10 @@
-import { lastOf } from "./arrays.js";
-import { FloorRobot } from "./floor.js";
-import { language, texts } from "./language.js";
+import { texts } from "./language.js";
 import { BROKEN } from "./phases.js";
-import { FOLLOWS, MAKES_ROOM } from "./robot.js";
 
-/** @import { DecisionData, FaultData } from "./payload.d.ts" */
+/** @import { DecisionData } from "./payload.d.ts" */
 /** @import { Site } from "./site.js" */
-/** @import { Loss, Robot } from "./robot.js" */
-/** @import { Closure } from "./site.js" */
+/** @import { Robot } from "./robot.js" */
 /** @import { Group } from "./steady.js" */
-
-/**
- * The language of what is said about a fault: a reason of the library is English.
- *
- * @param {FaultData} options
- */
-export function languageOfFault({ reason }) {
-  return reason ? "en" : language;
-}
 
 /**
  * "R1, R2 and R3"; the first few of many.
@@ -43,15 +30,6 @@ export function joined(parts) {
 }
 
 /**
- * Whether both choices of a decision cost the same.
- *
- * @param {DecisionData} options
- */
-function isTie({ level, completionSums }) {
-  return level === "robot" && completionSums !== null && completionSums[0] === completionSums[1];
-}
-
-/**
  * A length without the noise of floating point.
  *
  * @param {number} length
@@ -65,7 +43,7 @@ export function upperFirst(text) {
   return text[0].toUpperCase() + text.slice(1);
 }
 
-/** Durations as people write them, names, and sentences made of them. */
+/** Names, times and lengths as people write them, and what depends on the moment that is shown. */
 export class Words {
   /** @param {Site} plan */
   constructor(plan) {
@@ -177,17 +155,6 @@ export class Words {
   }
 
   /**
-   * How a robot loses time, and on the floor how much more than planned.
-   *
-   * @param {Loss} loss
-   * @param {Robot} robot
-   */
-  loss(loss, robot) {
-    const more = robot instanceof FloorRobot ? robot.unplanned(loss) : 0;
-    return more > 0 ? texts.loss.more(this.#loss(loss), this.time(more)) : this.#loss(loss);
-  }
-
-  /**
    * How far two robots are apart, and how far they have to be: "0.95 m apart, 0.9 m needed".
    *
    * @param {{ distance: number, room: number }} options
@@ -198,59 +165,12 @@ export class Words {
   }
 
   /**
-   * When a place is closed.
-   *
-   * @param {Closure} options
-   */
-  closure({ from, until, vertices }) {
-    const what =
-      vertices.length > 1
-        ? texts.closedWay(this.vertex(vertices[0]), this.vertex(lastOf(vertices)))
-        : texts.closed;
-    return until === Infinity
-      ? texts.closedFrom(what, this.moment(from))
-      : texts.closedFromUntil(what, this.moment(from), this.moment(until));
-  }
-
-  /**
    * Why a robot never gets on.
    *
    * @param {Robot | null} behind
    */
   stuck(behind) {
     return behind ? texts.stuckBehind(behind.name, behind.ending === BROKEN) : texts.never;
-  }
-
-  /** @param {Loss} options */
-  #loss({ kind, forRobot, vertex, until, towards, freed, tick, ticks }) {
-    const [here, lasts] = [this.vertex(vertex), this.duration(ticks)];
-    const other = forRobot === null ? "" : this.robot(forRobot);
-    if (kind === MAKES_ROOM) return texts.loss.makesRoom(here, other, lasts);
-    if (kind === FOLLOWS) return texts.loss.follows(other, here, this.vertex(until), lasts);
-    if (forRobot === null || freed === null) {
-      const closure = this.#closureAhead(vertex, towards, tick);
-      if (!closure) return texts.loss.waitsAlone(lasts, here);
-      const place = closure.vertices.map((each) => this.vertex(each)).join(" – ");
-      return texts.loss.waitsClosed(lasts, here, place, this.moment(closure.until));
-    }
-    return texts.loss.waits(lasts, here, other, this.vertex(freed), freed === towards);
-  }
-
-  /**
-   * What is closed after a tick of what a robot drives to next, for a while.
-   *
-   * @param {number} vertex
-   * @param {number} towards
-   * @param {number} tick
-   */
-  #closureAhead(vertex, towards, tick) {
-    return this.plan.closures.find(
-      ({ vertices, until }) =>
-        until > tick &&
-        until < Infinity &&
-        vertices.includes(towards) &&
-        (vertices.length === 1 || vertices.includes(vertex)),
-    );
   }
 
   /**
@@ -288,126 +208,6 @@ export class Words {
   }
 
   /**
-   * What is wrong, in a sentence.
-   *
-   * @param {FaultData} options
-   */
-  fault({ kind, robots, vertices, reason }) {
-    if (reason) return reason;
-    const names = robots.map((robot) => this.robot(robot));
-    const places = vertices.map((vertex) => this.vertex(vertex));
-    const [who, where] = [several(names), several(places) || texts.offTheMap];
-    const [from, to = texts.nowhere] = places;
-    return texts.faultKinds[kind]?.says(who, where, from, to) ?? texts.anyFault(who, kind, where);
-  }
-
-  /**
-   * What would be right, in a sentence.
-   *
-   * @param {Pick<FaultData, "kind" | "remedy">} options
-   */
-  remedy({ kind, remedy }) {
-    if (remedy) return `${upperFirst(remedy)}.`;
-    return texts.faultKinds[kind]?.remedy ?? "";
-  }
-
-  /**
-   * Where two robots would have met.
-   *
-   * @param {DecisionData} decision
-   */
-  place(decision) {
-    const names = decision.vertices.map((vertex) => this.vertex(vertex));
-    return names.length === 1 ? names[0] : texts.fromTo(names[0], lastOf(names));
-  }
-
-  /**
-   * The robot that goes first.
-   *
-   * @param {DecisionData} decision
-   */
-  first(decision) {
-    return decision.robots[0] === decision.waits ? decision.robots[1] : decision.robots[0];
-  }
-
-  /**
-   * Who waits for whom, in a line.
-   *
-   * @param {DecisionData} decision
-   */
-  decision(decision) {
-    const [waits, first] = [this.robot(decision.waits), this.robot(this.first(decision))];
-    const { headOn, follows, waits: meets } = texts.decision;
-    /** @type {Partial<Record<DecisionData["kind"], typeof meets>>} */
-    const known = { "head-on": headOn, following: follows };
-    const says = known[decision.kind] ?? meets;
-    return says(waits, first, this.place(decision));
-  }
-
-  /**
-   * What the robot that waits loses by a decision, in few words.
-   *
-   * @param {DecisionData} decision
-   */
-  cost(decision) {
-    return decision.ticks
-      ? texts.decision.cost(this.duration(decision.ticks))
-      : texts.decision.free;
-  }
-
-  /**
-   * Why a decision was taken, in few words.
-   *
-   * @param {DecisionData} decision
-   */
-  why(decision) {
-    return isTie(decision) ? texts.decision.tie : texts.decision.why[decision.level];
-  }
-
-  /**
-   * The same in whole sentences.
-   *
-   * @param {DecisionData} decision
-   */
-  decisionAtLength(decision) {
-    const { waitsIn, givesWay } = texts.decision;
-    const [waits, first] = [this.robot(decision.waits), this.robot(this.first(decision))];
-    const here = this.vertex(decision.waitsAt);
-    const how = decision.ticks
-      ? waitsIn(waits, this.duration(decision.ticks), here, first)
-      : givesWay(waits, here, first);
-    return `${this.#meeting(decision)} ${how}`;
-  }
-
-  /** @param {DecisionData} decision */
-  #meeting(decision) {
-    const { metHeadOn, sameWay, tooNear, bothIn } = texts.decision;
-    const [one, other] = decision.robots.map((robot) => this.robot(robot));
-    const place = this.place(decision);
-    switch (decision.kind) {
-      case "head-on":
-        return metHeadOn(one, other, place);
-      case "following":
-        return sameWay(one, other, place);
-      case "crossing":
-        return tooNear(one, other, this.robot(this.first(decision)), place);
-      default:
-        return bothIn(one, other, place);
-    }
-  }
-
-  /**
-   * Why that one waits.
-   *
-   * @param {DecisionData} decision
-   */
-  reason(decision) {
-    const { reason } = texts.decision;
-    const says = isTie(decision) ? reason.tie : (reason[decision.level] ?? reason.robot);
-    return says(this.robot(decision.waits), this.robot(this.first(decision)));
-  }
-
-  /**
    * What both choices lead to: a label, and a figure for each robot if it is the one that waits.
    *
    * @param {DecisionData} decision
@@ -425,18 +225,5 @@ export class Words {
       rows.push([texts.completionSums, ...sums]);
     }
     return rows;
-  }
-
-  /**
-   * A decision, why it was taken, and its figures: "Conflicts left: 2 if R1 waits, 5 if R2 waits."
-   *
-   * @param {DecisionData} decision
-   */
-  explained(decision) {
-    const [one, other] = decision.robots.map((robot) => this.robot(robot));
-    const figures = this.figures(decision).map(([label, ifOne, ifOther]) =>
-      texts.ifEitherWaits(String(label), one, ifOne, other, ifOther),
-    );
-    return [this.decisionAtLength(decision), this.reason(decision), ...figures].join(" ");
   }
 }

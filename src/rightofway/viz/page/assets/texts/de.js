@@ -6,7 +6,6 @@ import { counted } from "./plural.js";
 const faultsOf = (count) => `${count} Fehler`;
 /** @param {boolean} isHome */
 const arrivedIn = (isHome) => (isHome ? "zurück" : "fertig");
-const equalIn = "bei beiden Möglichkeiten bleiben im ganzen System gleich viele Konflikte";
 
 /**
  * The texts of the viewer in German.
@@ -205,24 +204,11 @@ export const GERMAN = {
   losesTime: "Verliert Zeit",
   theFault: (kind) => `der Fehler (${kind})`,
   ifItWaits: "Wenn er wartet",
-  ifEitherWaits: (label, one, ifOne, other, ifOther) =>
-    `${label}: ${ifOne}, wenn ${one} wartet, ${ifOther}, wenn ${other} wartet.`,
   conflictsLeft: "Übrige Konflikte",
   impossible: "unmöglich",
   completionSums: "Summe der Fertigzeiten",
   noWay: "kein Weg",
 
-  loss: {
-    makesRoom: (here, other, lost) =>
-      `verlässt ${here}${other ? `, um ${other} Platz zu machen,` : ""} und kommt zurück, verliert ${lost}`,
-    follows: (other, from, to, lost) => `folgt ${other} von ${from} bis ${to}, verliert ${lost}`,
-    waitsAlone: (lost, here) => `wartet ${lost} in ${here}, obwohl kein Roboter im Weg ist`,
-    waitsClosed: (lost, here, place, until) =>
-      `wartet ${lost} in ${here}: ${place} ist bis ${until} gesperrt`,
-    waits: (lost, here, other, freed, isNext) =>
-      `wartet ${lost} in ${here}, bis ${other} ${freed}${isNext ? "" : " weiter vorn auf dem Weg"} verlässt`,
-    more: (loss, time) => `${loss}, ${time} mehr als geplant`,
-  },
   stuckBehind: (name, isBroken) =>
     `nie: steckt hinter ${name} fest${isBroken ? ", der ausfällt" : ""}`,
   lateness: {
@@ -292,127 +278,7 @@ export const GERMAN = {
     "Dieser Plan hält keine Entscheidungen fest: eine Suche trifft keine. Die Karteikarte eines Roboters zeigt, wo er wartet. Das Studio zeigt, was folgt, wenn der andere Roboter zuerst fährt.",
   noneNeeded: "Nichts war zu entscheiden: kein Roboter verliert Zeit durch einen anderen.",
   rerouted: (name) => `${name} fährt einen anderen Weg`,
-  decision: {
-    headOn: (waits, first, place) => `${waits} wartet auf ${first}, Gegenverkehr, ${place}`,
-    follows: (waits, first, place) => `${waits} folgt ${first}, ${place}`,
-    waits: (waits, first, place) => `${waits} wartet auf ${first}, ${place}`,
-    metHeadOn: (one, other, place) =>
-      `${one} und ${other} kämen sich auf dem Weg von ${place} entgegen.`,
-    sameWay: (one, other, place) =>
-      `${one} und ${other} fahren denselben Weg von ${place} und können nicht überholen.`,
-    tooNear: (one, other, first, place) =>
-      `${one} und ${other} kämen sich zu nah: ${first} fährt von ${place}.`,
-    bothIn: (one, other, place) => `${one} und ${other} wären beide in ${place}.`,
-    waitsIn: (waits, time, here, first) =>
-      `${waits} wartet ${time} in ${here} und lässt ${first} zuerst fahren.`,
-    givesWay: (waits, here, first) =>
-      `${waits} gibt in ${here} ohne Zeitverlust nach und lässt ${first} zuerst fahren.`,
-    cost: (time) => `verliert ${time}`,
-    free: "kein Zeitverlust",
-    tie: "gleichwertig: beide Möglichkeiten kosten dasselbe",
-    why: {
-      node: "weniger Konflikte übrig",
-      robot: "beide zusammen früher fertig",
-      settled: "der andere steht fest",
-      priority: "nach Rang",
-      only: "die einzige Möglichkeit",
-    },
-    reason: {
-      node: (waits) => `${waits} wartet, weil so im ganzen System weniger Konflikte übrig bleiben.`,
-      settled: (waits, first) =>
-        `${first} kann nicht warten: Er träfe sonst auf Roboter, die schon festgelegt sind.`,
-      priority: (waits, first) => `${waits} wartet, weil ${first} den höheren Rang hat.`,
-      only: (waits, first) =>
-        `${first} kann hier nicht warten: Mit den früheren Entscheidungen ist dann kein Plan möglich.`,
-      tie: () =>
-        `Gleichwertig: ${equalIn}, und die Summe der Fertigzeiten ist gleich. Dann wartet der erste der beiden.`,
-      robot: () => `B${equalIn.slice(1)}; daher entscheidet die kleinere Summe der Fertigzeiten.`,
-    },
-  },
 
-  offTheMap: "einem Platz, der nicht auf der Karte ist",
-  nowhere: "nirgendwohin",
-  anyFault: (who, kind, where) => `${who}: ${kind}, ${where}`,
-  faultKinds: {
-    "vertex conflict": {
-      name: "Knotenkonflikt",
-      says: (who, where) => `${who} sind gleichzeitig in ${where}`,
-      remedy:
-        "Ein Knoten fasst einen Roboter: Der zweite darf erst kommen, wenn der erste weg ist.",
-    },
-    "too close": {
-      name: "zu nah",
-      says: (who, where) => `${who} kommen sich näher, als ihre Größe erlaubt, ${where}`,
-    },
-    "space conflict": {
-      name: "Platzkonflikt",
-      says: (who, where) => `${who} belegen Plätze, die zu nah beieinander liegen, ${where}`,
-    },
-    "zone conflict": {
-      name: "Zonenkonflikt",
-      says: (who, where) => `${who} sind gleichzeitig in einer Zone, ${where}`,
-    },
-    headway: {
-      name: "Zeitabstand",
-      says: (who, where) => `${who} kommen zu schnell nacheinander nach ${where}`,
-      remedy: "Der zweite Roboter muss später kommen: Die Regeln verlangen einen Zeitabstand.",
-    },
-    "swap conflict": {
-      name: "Platztausch",
-      says: (who, where) => `${who} fahren zwischen ${where} durcheinander hindurch`,
-      remedy:
-        "Zwei Roboter können ihre Plätze nicht tauschen: Einer muss ausweichen, bis der andere vorbei ist.",
-    },
-    rotation: {
-      name: "Ringtausch",
-      says: (who, where) => `${who} rücken im Kreis alle zugleich weiter, ${where}`,
-      remedy:
-        "Die Regeln verbieten Ringtausch: Einer muss warten, bis sein nächster Platz frei ist.",
-    },
-    jump: {
-      name: "Sprung",
-      says: (who, where, from, to) => `${who} springt von ${from} nach ${to}`,
-      remedy: "Keine Strecke verbindet diese beiden Knoten.",
-    },
-    "too fast": {
-      name: "zu schnell",
-      says: (who, where, from, to) => `${who} fährt schneller von ${from} nach ${to}, als er kann`,
-      remedy: "Die Fahrt muss so lange dauern, wie der Roboter braucht.",
-    },
-    "turn cut short": {
-      name: "Drehung zu kurz",
-      says: (who, where, from) => `${who} dreht in ${from} schneller, als er kann`,
-      remedy: "Er muss bleiben, bis er gedreht hat.",
-    },
-    "work cut short": {
-      name: "Arbeit zu kurz",
-      says: (who, where) => `${who} verlässt ${where}, bevor seine Arbeit dort fertig ist`,
-      remedy: "Er muss bleiben, bis Arbeit und Drehung fertig sind.",
-    },
-    "stop missed": {
-      name: "Ziel ausgelassen",
-      says: (who, where) => `${who} kommt nicht zu seinem Ziel ${where}`,
-      remedy: "Er muss seine Ziele in ihrer Reihenfolge anfahren.",
-    },
-    "wrong home": {
-      name: "falscher Start",
-      says: (who, where) => `${who} beginnt nicht an seinem Startplatz, sondern in ${where}`,
-      remedy: "Er muss zur Zeit 0 an seinem Startplatz beginnen.",
-    },
-    "wrong end": {
-      name: "falsches Ende",
-      says: (who, where) => `${who} endet nicht, wo seine Fahrt endet, sondern in ${where}`,
-      remedy: "Er muss dort enden, wo seine Fahrt endet.",
-    },
-    backwards: {
-      name: "rückwärts in der Zeit",
-      says: (who, where) => `${who} verlässt ${where}, bevor er dort ankommt`,
-    },
-    "no plan": {
-      name: "kein Plan",
-      says: (who, where) => `${who}: kein Plan, ${where}`,
-    },
-  },
   noFaultFits: "Kein Fehler passt dazu.",
   noFaults: "Der Plan hält alle Regeln ein.",
   findAmong: (count) => `Unter den ersten ${count} suchen`,
@@ -440,9 +306,6 @@ export const GERMAN = {
   parking: "Parkplatz",
   charging: "Ladestation",
   closed: "gesperrt",
-  closedWay: (from, to) => `${from} bis ${to} gesperrt`,
-  closedFrom: (what, from) => `${what} ab ${from}`,
-  closedFromUntil: (what, from, until) => `${what} von ${from} bis ${until}`,
 
   vertices: (count) => counted(count, "Knoten", "Knoten"),
   mapOf: (what) => `Karte mit ${what}`,

@@ -6,10 +6,8 @@ const robots = (count) => counted(count, "robot", "robots");
 const faults = (count) => counted(count, "fault", "faults");
 /** @param {boolean} isHome */
 const arrived = (isHome) => (isHome ? "home" : "done");
-const equal = "either choice leaves as many conflicts in the whole system";
 
 /** @typedef {typeof ENGLISH} Texts */
-/** @typedef {{ name: string, says: (who: string, where: string, from: string, to: string) => string, remedy?: string }} FaultText */
 
 /** The texts of the viewer in English; where a text has values, it is a function of them. */
 export const ENGLISH = {
@@ -247,32 +245,12 @@ export const ENGLISH = {
   /** @param {string} kind */
   theFault: (kind) => `the fault (${kind})`,
   ifItWaits: "If it waits",
-  /** @param {string} label @param {string} one @param {number | string} ifOne @param {string} other @param {number | string} ifOther */
-  ifEitherWaits: (label, one, ifOne, other, ifOther) =>
-    `${label}: ${ifOne} if ${one} waits, ${ifOther} if ${other} waits.`,
   conflictsLeft: "Conflicts left",
   impossible: "impossible",
   completionSums: "Sum of completion times",
   noWay: "no way",
 
-  /** How a robot loses time. */
-  loss: {
-    /** @param {string} here @param {string} other @param {string} lost */
-    makesRoom: (here, other, lost) =>
-      `leaves ${here}${other ? ` to make room for ${other}` : ""} and comes back, loses ${lost}`,
-    /** @param {string} other @param {string} from @param {string} to @param {string} lost */
-    follows: (other, from, to, lost) => `follows ${other} from ${from} to ${to}, loses ${lost}`,
-    /** @param {string} lost @param {string} here */
-    waitsAlone: (lost, here) => `waits ${lost} in ${here}, though no robot is in its way`,
-    /** @param {string} lost @param {string} here @param {string} place @param {string} until */
-    waitsClosed: (lost, here, place, until) =>
-      `waits ${lost} in ${here}: ${place} is closed until ${until}`,
-    /** @param {string} lost @param {string} here @param {string} other @param {string} freed @param {boolean} isNext */
-    waits: (lost, here, other, freed, isNext) =>
-      `waits ${lost} in ${here} for ${other} to leave ${freed}${isNext ? "" : ", further on its way"}`,
-    /** @param {string} loss @param {string} time */
-    more: (loss, time) => `${loss}, ${time} more than planned`,
-  },
+  /** How a robot is late. */
   /** @param {string} name @param {boolean} isBroken */
   stuckBehind: (name, isBroken) =>
     `never: stuck behind ${name}${isBroken ? ", which breaks down" : ""}`,
@@ -356,157 +334,7 @@ export const ENGLISH = {
   noneNeeded: "No decision was needed: no robot loses time to another.",
   /** @param {string} name */
   rerouted: (name) => `${name} was sent another way`,
-  decision: {
-    /** @param {string} waits @param {string} first @param {string} place */
-    headOn: (waits, first, place) => `${waits} waits for ${first}, head-on, ${place}`,
-    /** @param {string} waits @param {string} first @param {string} place */
-    follows: (waits, first, place) => `${waits} follows ${first}, ${place}`,
-    /** @param {string} waits @param {string} first @param {string} place */
-    waits: (waits, first, place) => `${waits} waits for ${first}, ${place}`,
-    /** @param {string} one @param {string} other @param {string} place */
-    metHeadOn: (one, other, place) =>
-      `${one} and ${other} would have met head-on on the way from ${place}.`,
-    /** @param {string} one @param {string} other @param {string} place */
-    sameWay: (one, other, place) =>
-      `${one} and ${other} go the same way from ${place} and cannot overtake.`,
-    /** @param {string} one @param {string} other @param {string} first @param {string} place */
-    tooNear: (one, other, first, place) =>
-      `${one} and ${other} would have come too near to each other: ${first} drives from ${place}.`,
-    /** @param {string} one @param {string} other @param {string} place */
-    bothIn: (one, other, place) => `${one} and ${other} would both have been in ${place}.`,
-    /** @param {string} waits @param {string} time @param {string} here @param {string} first */
-    waitsIn: (waits, time, here, first) =>
-      `${waits} waits ${time} in ${here} and lets ${first} go first.`,
-    /** @param {string} waits @param {string} here @param {string} first */
-    givesWay: (waits, here, first) =>
-      `${waits} gives way in ${here}, at no loss and lets ${first} go first.`,
-    /** @param {string} time */
-    cost: (time) => `loses ${time}`,
-    free: "no time lost",
-    tie: "a tie: either choice costs the same",
-    why: {
-      node: "fewer conflicts left",
-      robot: "both done sooner in all",
-      settled: "the other one is settled",
-      priority: "by priority",
-      only: "the only way",
-    },
-    reason: {
-      /** @param {string} waits */
-      node: (waits) => `${waits} waits because that leaves fewer conflicts in the whole system.`,
-      /** @param {string} waits @param {string} first */
-      settled: (waits, first) =>
-        `${first} cannot wait: it would then meet robots that are settled already.`,
-      /** @param {string} waits @param {string} first */
-      priority: (waits, first) => `${waits} waits because ${first} has the higher priority.`,
-      /** @param {string} waits @param {string} first */
-      only: (waits, first) =>
-        `${first} cannot wait here: with the decisions taken before, no plan is possible then.`,
-      tie: () =>
-        `A tie: ${equal}, and the completion times add up to the same. Then the first of the two waits.`,
-      robot: () => `E${equal.slice(1)}, so the smaller sum of completion times decides.`,
-    },
-  },
 
-  /** What is wrong with a plan, by kind of fault: its name, a sentence, what would be right. */
-  offTheMap: "a place that is not on the map",
-  nowhere: "nowhere",
-  /** @param {string} who @param {string} kind @param {string} where */
-  anyFault: (who, kind, where) => `${who}: ${kind}, ${where}`,
-  /** @type {Record<string, FaultText>} */
-  faultKinds: {
-    "vertex conflict": {
-      name: "vertex conflict",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} are both in ${where}`,
-      remedy: "A place holds one robot: let one come when the other has left.",
-    },
-    "too close": {
-      name: "too close",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} come nearer than their sizes allow, ${where}`,
-    },
-    "space conflict": {
-      name: "space conflict",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} book places that are too near to each other, ${where}`,
-    },
-    "zone conflict": {
-      name: "zone conflict",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} are both in one zone, ${where}`,
-    },
-    headway: {
-      name: "headway",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} come to ${where} too soon after each other`,
-      remedy: "Let the second robot come later: the rules ask for a headway.",
-    },
-    "swap conflict": {
-      name: "swap conflict",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} drive through each other between ${where}`,
-      remedy: "Two robots cannot exchange their places: let one wait aside until the other is by.",
-    },
-    rotation: {
-      name: "rotation",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} move round ${where} all at once`,
-      remedy: "The rules forbid rotations: let one wait until its place is empty.",
-    },
-    jump: {
-      name: "jump",
-      /** @param {string} who @param {string} where @param {string} from @param {string} to */
-      says: (who, where, from, to) => `${who} jumps from ${from} to ${to}`,
-      remedy: "No way joins these two places.",
-    },
-    "too fast": {
-      name: "too fast",
-      /** @param {string} who @param {string} where @param {string} from @param {string} to */
-      says: (who, where, from, to) => `${who} drives from ${from} to ${to} faster than it can`,
-      remedy: "Let the drive take as long as the robot needs.",
-    },
-    "turn cut short": {
-      name: "turn cut short",
-      /** @param {string} who @param {string} where @param {string} from */
-      says: (who, where, from) => `${who} turns at ${from} faster than it can`,
-      remedy: "Let it stay until it has turned.",
-    },
-    "work cut short": {
-      name: "work cut short",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} leaves ${where} before its work there is done`,
-      remedy: "Let it stay until its work and turning are done.",
-    },
-    "stop missed": {
-      name: "stop missed",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} does not come to its stop ${where}`,
-      remedy: "Let it visit its stops in their order.",
-    },
-    "wrong home": {
-      name: "wrong home",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} does not start at its home: it starts in ${where}`,
-      remedy: "Let it start at its home at time 0.",
-    },
-    "wrong end": {
-      name: "wrong end",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} does not end where its trip ends: it ends in ${where}`,
-      remedy: "Let it end where its trip ends.",
-    },
-    backwards: {
-      name: "backwards",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who} leaves ${where} before it comes there`,
-    },
-    "no plan": {
-      name: "no plan",
-      /** @param {string} who @param {string} where */
-      says: (who, where) => `${who}: no plan, ${where}`,
-    },
-  },
   noFaultFits: "No fault fits that.",
   noFaults: "The plan keeps every rule.",
   /** @param {number} count */
@@ -555,12 +383,6 @@ export const ENGLISH = {
   parking: "parking",
   charging: "charging",
   closed: "closed",
-  /** @param {string} from @param {string} to */
-  closedWay: (from, to) => `${from} to ${to} closed`,
-  /** @param {string} what @param {string} from */
-  closedFrom: (what, from) => `${what} from ${from} on`,
-  /** @param {string} what @param {string} from @param {string} until */
-  closedFromUntil: (what, from, until) => `${what} from ${from} until ${until}`,
 
   /** Around the map. */
 
