@@ -99,7 +99,7 @@ def test_a_home_on_the_way_of_another_robot_is_named_with_a_remedy() -> None:
         scenario=scenario,
         tracks=(
             Track.of([1, 2, 3, 2, 1], [0, 1, 2, 4, 5]),
-            Track.of([0, 1, 2, 3, 8, 3, 2, 1, 0], [0, 3, 4, 5, 6, 8, 9, 10, 11]),
+            Track.of([0, 1, 2, 3, 5, 3, 2, 1, 0], [0, 3, 4, 5, 6, 8, 9, 10, 11]),
         ),
         run=PlannerRun(name="by hand"),
     )
