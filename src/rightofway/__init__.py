@@ -8,61 +8,41 @@
     plan = rightofway.solve(scenario)
     print(rightofway.check(plan))
 
-Functions named ``load…`` read a file, functions named ``write_…`` write one. Readers, writers and
-pages are imported when they are first used. ``check`` and ``solve`` are imported here, because the
-functions must win over the modules of the same names.
+Functions named ``load…`` read a file, functions named ``write_…`` write one. Every room is imported
+when one of its names is first used, so that ``import rightofway`` takes no time.
 """
 
 from __future__ import annotations
 
+import sys as _sys
 from importlib import import_module as _import_module
+from types import ModuleType as _ModuleType
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
-from rightofway.check import Fault, Report, check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
 from rightofway.figures import PackageFigures as _PackageFigures
-from rightofway.fleet_builder import FleetBuilder, plan_of_paths
-from rightofway.model import (
-    Decision,
-    ExecutionTrace,
-    Loss,
-    LostTime,
-    Objective,
-    Outcome,
-    OutcomeKind,
-    Plan,
-    PlannerRun,
-    Reroute,
-    Robot,
-    RobotPlan,
-    Rules,
-    Scenario,
-    SteadyState,
-    Stop,
-    Track,
-    Wait,
-)
-from rightofway.model.figures import provide as _provide
-from rightofway.planners import (
-    AutoOptions,
-    LacamOptions,
-    LnsOptions,
-    LocalSearchOptions,
-    PlannerOptions,
-    PrioritizedOptions,
-    PriorityOptions,
-    PrioritySearchOptions,
-    RandomPriorityOptions,
-    TwoLevelOptions,
-)
-from rightofway.quantities import Quantities
-from rightofway.site import Roadmap
-from rightofway.site.layout import Layout
-from rightofway.solve import improve, solve
+from rightofway.provision import provided as _provided
 
 if _TYPE_CHECKING:
-    from rightofway.cyclic import CyclicResult, best_timetable, plan_of_laps, run_laps
-    from rightofway.execution import SimulationResult, simulate
+    from rightofway.check import (
+        Fault,
+        Report,
+        check,
+    )
+    from rightofway.cyclic import (
+        CyclicResult,
+        best_timetable,
+        plan_of_laps,
+        run_laps,
+    )
+    from rightofway.execution import (
+        SimulationResult,
+        simulate,
+    )
+    from rightofway.fleet_builder import (
+        FleetBuilder,
+        plan_of_paths,
+    )
     from rightofway.io import (
         layout_of_graph,
         load,
@@ -70,17 +50,92 @@ if _TYPE_CHECKING:
         write_plan,
         write_scenario,
     )
-    from rightofway.metrics import Metrics, lost_time, measure, waits
-    from rightofway.viz import Background, Film, write_gif, write_page, write_png
-    from rightofway.viz.palette import Theme
+    from rightofway.metrics import (
+        Metrics,
+        lost_time,
+        measure,
+        waits,
+    )
+    from rightofway.model import (
+        Decision,
+        ExecutionTrace,
+        Loss,
+        LostTime,
+        Objective,
+        Outcome,
+        OutcomeKind,
+        Plan,
+        PlannerRun,
+        Reroute,
+        Robot,
+        RobotPlan,
+        Rules,
+        Scenario,
+        SteadyState,
+        Stop,
+        Track,
+        Wait,
+    )
+    from rightofway.planners import (
+        AutoOptions,
+        LacamOptions,
+        LnsOptions,
+        LocalSearchOptions,
+        PlannerOptions,
+        PrioritizedOptions,
+        PriorityOptions,
+        PrioritySearchOptions,
+        RandomPriorityOptions,
+        TwoLevelOptions,
+    )
+    from rightofway.quantities import (
+        Quantities,
+    )
+    from rightofway.site import (
+        Roadmap,
+    )
+    from rightofway.site.layout import (
+        Layout,
+    )
+    from rightofway.solve import (
+        improve,
+        solve,
+    )
+    from rightofway.viz import (
+        Background,
+        Film,
+        write_gif,
+        write_page,
+        write_png,
+    )
+    from rightofway.viz.palette import (
+        Theme,
+    )
 
 __version__ = "0.1.0"
 
-_provide(_PackageFigures())
+_provided["figures"] = _PackageFigures()
 
 _ROOMS = {
-    "cyclic": ("CyclicResult", "best_timetable", "plan_of_laps", "run_laps"),
-    "execution": ("SimulationResult", "simulate"),
+    "check": (
+        "Fault",
+        "Report",
+        "check",
+    ),
+    "cyclic": (
+        "CyclicResult",
+        "best_timetable",
+        "plan_of_laps",
+        "run_laps",
+    ),
+    "execution": (
+        "SimulationResult",
+        "simulate",
+    ),
+    "fleet_builder": (
+        "FleetBuilder",
+        "plan_of_paths",
+    ),
     "io": (
         "layout_of_graph",
         "load",
@@ -88,8 +143,58 @@ _ROOMS = {
         "write_plan",
         "write_scenario",
     ),
-    "metrics": ("Metrics", "lost_time", "measure", "waits"),
-    "viz": ("Background", "Film", "write_gif", "write_page", "write_png"),
+    "metrics": (
+        "Metrics",
+        "lost_time",
+        "measure",
+        "waits",
+    ),
+    "model": (
+        "Decision",
+        "ExecutionTrace",
+        "Loss",
+        "LostTime",
+        "Objective",
+        "Outcome",
+        "OutcomeKind",
+        "Plan",
+        "PlannerRun",
+        "Reroute",
+        "Robot",
+        "RobotPlan",
+        "Rules",
+        "Scenario",
+        "SteadyState",
+        "Stop",
+        "Track",
+        "Wait",
+    ),
+    "planners": (
+        "AutoOptions",
+        "LacamOptions",
+        "LnsOptions",
+        "LocalSearchOptions",
+        "PlannerOptions",
+        "PrioritizedOptions",
+        "PriorityOptions",
+        "PrioritySearchOptions",
+        "RandomPriorityOptions",
+        "TwoLevelOptions",
+    ),
+    "quantities": ("Quantities",),
+    "site": ("Roadmap",),
+    "site.layout": ("Layout",),
+    "solve": (
+        "improve",
+        "solve",
+    ),
+    "viz": (
+        "Background",
+        "Film",
+        "write_gif",
+        "write_page",
+        "write_png",
+    ),
     "viz.palette": ("Theme",),
 }
 _LATER = {name: room for room, names in _ROOMS.items() for name in names}
@@ -162,12 +267,26 @@ __all__ = [
 ]
 
 
+class _Package(_ModuleType):
+    """The package; its functions ``check`` and ``solve`` win over the modules of their names."""
+
+    def __setattr__(self, name: str, value: object) -> None:
+        # Python sets a module as an attribute of its package when it is imported.
+        if not (name in _LATER and isinstance(value, _ModuleType)):
+            super().__setattr__(name, value)
+
+
+_sys.modules[__name__].__class__ = _Package
+
+
 def __getattr__(name: str) -> object:
-    if name not in _LATER:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value: object = getattr(_import_module(f"{__name__}.{_LATER[name]}"), name)
-    globals()[name] = value
-    return value
+    if name in _LATER:
+        value: object = getattr(_import_module(f"{__name__}.{_LATER[name]}"), name)
+        globals()[name] = value
+        return value
+    if name in _ROOMS:
+        return _import_module(f"{__name__}.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

@@ -8,7 +8,6 @@ from collections.abc import Callable
 from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
-from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from rightofway.errors import InputError, shown
 
@@ -31,6 +30,8 @@ def archive_of(save: Callable[[BytesIO], object]) -> bytes:
     """
     dated, undated = BytesIO(), BytesIO()
     save(dated)
+    from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
     with ZipFile(dated) as source, ZipFile(undated, "w") as target:
         for name in source.namelist():
             content = SAVED.sub(rb"\g<1>1980-01-01T00:00:00Z", source.read(name))

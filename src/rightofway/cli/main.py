@@ -16,33 +16,26 @@ from __future__ import annotations
 import os
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain
-from typing import NoReturn
+from functools import cache
+from importlib import import_module
+from typing import NoReturn, cast
 
 import click
 
 from rightofway import __version__
-from rightofway.cli.bench import bench
-from rightofway.cli.collisions import collisions
-from rightofway.cli.examples import examples, new
-from rightofway.cli.formats import convert, schema
-from rightofway.cli.inspect import inspect
-from rightofway.cli.laps import laps
-from rightofway.cli.paper import paper
-from rightofway.cli.planning import bound, improve, plan
-from rightofway.cli.simulate import simulate
-from rightofway.cli.studio import studio
-from rightofway.cli.tables import table
 from rightofway.cli.terminal import complain, quiet_option, speak_utf8
-from rightofway.cli.views import check, show
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 
 MANY = 1000
 """Characters of the longest sentence of help, which is not cut."""
 
 DONE, NO_PLAN, BAD_INPUT, GAVE_UP, DEFECT, INTERRUPTED, UNREAD = 0, 1, 2, 3, 70, 130, 141
+
+
+COMPLETE = "_RIGHTOFWAY_COMPLETE"
+"""The variable by which a shell asks for what can be filled in."""
 
 
 @dataclass
@@ -56,15 +49,47 @@ Start with:
   rightofway plan examples/door.yaml --page door.html
 """
 
-GROUPS: dict[str, tuple[click.Command, ...]] = {
-    "Begin": (new, examples, inspect, studio),
-    "Plan": (plan, improve, bound),
-    "Look at plans": (check, show, table, collisions),
-    "Repeated work and delays": (laps, simulate),
-    "Compare": (bench, paper),
-    "Formats": (convert, schema),
+GROUPS: dict[str, dict[str, str]] = {
+    "Begin": {
+        "new": "examples",
+        "examples": "examples",
+        "inspect": "inspect",
+        "studio": "studio",
+    },
+    "Plan": {"plan": "planning", "improve": "planning", "bound": "planning"},
+    "Look at plans": {
+        "check": "views",
+        "show": "views",
+        "table": "tables",
+        "collisions": "collisions",
+    },
+    "Repeated work and delays": {"laps": "laps", "simulate": "simulate"},
+    "Compare": {"bench": "bench", "paper": "paper"},
+    "Formats": {"convert": "formats", "schema": "formats"},
 }
-"""The commands, by what they are for, in the order of help."""
+"""The commands with their modules, by what they are for, in the order of help."""
+
+
+MODULES = {name: module for group in GROUPS.values() for name, module in group.items()}
+
+
+@cache
+def _command(name: str) -> click.Command:
+    command: click.Command = getattr(import_module(f"rightofway.cli.{MODULES[name]}"), name)
+    return cast("click.Command", quiet_option(command))
+
+
+class _Modules(Mapping[str, click.Command]):
+    """The commands by name; the module of one is imported when it is looked up."""
+
+    def __getitem__(self, name: str) -> click.Command:
+        return _command(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(MODULES)
+
+    def __len__(self) -> int:
+        return len(MODULES)
 
 
 class _Commands(click.Group):
@@ -77,8 +102,8 @@ class _Commands(click.Group):
             with formatter.section(title):
                 formatter.write_dl(
                     [
-                        (f"{command.name:{width}}", command.get_short_help_str(MANY))
-                        for command in group
+                        (f"{name:{width}}", self.commands[name].get_short_help_str(MANY))
+                        for name in group
                     ]
                 )
 
@@ -86,6 +111,7 @@ class _Commands(click.Group):
 @click.group(
     name="rightofway",
     cls=_Commands,
+    commands=_Modules(),
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
     epilog=START,
 )
@@ -101,10 +127,6 @@ def commands(context: click.Context, *, debug: bool) -> None:
     130 interrupted.
     """
     context.ensure_object(_Session).debug = debug
-
-
-for command in chain.from_iterable(GROUPS.values()):
-    commands.add_command(quiet_option(command))
 
 
 def main(args: Sequence[str] | None = None) -> NoReturn:
@@ -142,6 +164,8 @@ def run(args: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; what went wrong is said on standard error."""
     session = _Session()
     try:
+        if COMPLETE in os.environ:
+            import_module("rightofway.cli.completion")  # makes its script for Bash known to click
         ended = commands.main(args, prog_name="rightofway", standalone_mode=False, obj=session)
         return int(ended or DONE)
     except click.ClickException as error:

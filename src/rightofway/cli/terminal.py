@@ -11,16 +11,11 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from rightofway.errors import printable
-from rightofway.quantities import decimal
-
-if TYPE_CHECKING:
-    pass
-
 
 QUIET = "rightofway.quiet"
 """Where a command keeps whether the user wants no messages."""
@@ -96,6 +91,8 @@ def progress(
         return
     began = time.monotonic() if since is None else since
     latest, ended = [""], threading.Event()
+    from rightofway.quantities import decimal
+
     of = "" if limit is None else f" of {decimal(limit)}"
 
     def show(message: str) -> None:

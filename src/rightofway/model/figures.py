@@ -6,7 +6,9 @@ these answers when it is imported: see `rightofway.figures`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, cast
+
+from rightofway.provision import provided as _provided
 
 if TYPE_CHECKING:
     from rightofway.model.lost_time import LostTime
@@ -40,14 +42,6 @@ class Figures(Protocol):
         """Return the map and the robots of a scenario."""
 
 
-_provided: list[Figures] = []
-
-
-def provide(figures: Figures) -> None:
-    """Set what plans and scenarios answer from."""
-    _provided[:] = [figures]
-
-
 def provided() -> Figures:
-    """Return what was provided."""
-    return _provided[0]
+    """Return what the package provides."""
+    return cast("Figures", _provided["figures"])

@@ -136,17 +136,15 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     groups: dict[tuple[object, ...], list[Loss]] = {}
     for loss in chain.from_iterable(one.losses for one in lost):
         groups.setdefault((loss.kind, loss.robot, loss.for_robot), []).append(loss)
-    sentences: list[tuple[int, int, str]] = [
-        (sum(loss.ticks for loss in group), group[0].tick, sentence_on(words, group))
-        for group in groups.values()
-    ]
-    sentences.sort(key=lambda sentence: (-sentence[0], sentence[1]))
-    if sentences:
+    largest = sorted(
+        groups.values(), key=lambda group: (-sum(loss.ticks for loss in group), group[0].tick)
+    )
+    if largest:
         yield ""
-    for *_, sentence in sentences[:MAX_LINES]:
-        yield from wrapped(sentence)
-    if len(sentences) > MAX_LINES:
-        yield f"… and {len(sentences) - MAX_LINES} more (--json lists all)"
+    for group in largest[:MAX_LINES]:
+        yield from wrapped(sentence_on(words, group))
+    if len(largest) > MAX_LINES:
+        yield f"… and {len(largest) - MAX_LINES} more (--json lists all)"
     yield from _detours(words, lost)
     yield from _homes_in_the_way(words, chain.from_iterable(groups.values()))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 
 import numpy as np
@@ -71,6 +70,8 @@ class Distances:
         for _, edge_ticks in missing:
             self.ticks_of_edges(edge_ticks)
         assert self._kernel, "made once, before threads ask for it"
+        from concurrent.futures import ThreadPoolExecutor
+
         with ThreadPoolExecutor() as pool:
             list(pool.map(lambda key: self.to(*key), missing))
 

@@ -32,7 +32,7 @@ LINES = LayoutFormat(
 def test_other_packages_add_formats(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     point = EntryPoint("lines", f"{__name__}:LINES", formats.GROUP)
     monkeypatch.setattr(EntryPoint, "load", lambda _: LINES)
-    monkeypatch.setattr(formats, "entry_points", lambda group: [point] if group else [])
+    monkeypatch.setattr("importlib.metadata.entry_points", lambda group: [point] if group else [])
     layouts.layout_formats.cache_clear()
     path = tmp_path / "places"
     path.write_text("places: dock press", encoding="utf-8")

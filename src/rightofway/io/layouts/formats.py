@@ -7,7 +7,6 @@ from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any, Literal
 
@@ -107,6 +106,8 @@ def _own() -> dict[str, LayoutFormat]:
 @cache
 def layout_formats() -> dict[str, LayoutFormat]:
     """Return the formats of layouts by name: ours, and those of other packages."""
+    from importlib.metadata import entry_points  # here, because it imports much
+
     found = _own()
     for point in entry_points(group=GROUP):
         found.setdefault(point.name, point.load())

@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
-from xml.sax.saxutils import escape, quoteattr
 
 from rightofway.arguments import checks_arguments, value_of
 from rightofway.errors import InputError, listed
@@ -310,6 +309,8 @@ EDGE_KEYS = {"length": "double", "max_speed": "double"}
 
 
 def _graphml(layout: Layout) -> str:
+    from xml.sax.saxutils import quoteattr  # here, because it imports urllib
+
     level = layout.levels[0]
     lines = ['<?xml version="1.0" encoding="UTF-8"?>']
     lines.append('<graphml xmlns="http://graphml.graphdrawing.org/xmlns">')
@@ -333,6 +334,8 @@ def _graphml(layout: Layout) -> str:
 
 
 def _data(values: dict[str, Any]) -> str:
+    from xml.sax.saxutils import escape
+
     return "".join(
         f'<data key="{key}">{escape(json_line(value))}</data>'
         for key, value in values.items()
