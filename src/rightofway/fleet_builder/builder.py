@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, Self
 
 from rightofway.assign import HOMELESS, deal_homes
-from rightofway.errors import InputError, Where, shown
+from rightofway.errors import InputError, Where, in_file, shown, under
 from rightofway.files import path_of
 from rightofway.fleet_builder.lanes import DrawnLanes, lanes_of_graph
 from rightofway.fleet_builder.values import (
@@ -20,7 +20,6 @@ from rightofway.fleet_builder.values import (
     radius_of,
     rules_of,
     units_of,
-    within,
 )
 from rightofway.model import Robot, Scenario, Stop, TripEnd
 from rightofway.model.closures import Closure, closure_faults
@@ -138,7 +137,8 @@ class FleetBuilder:
         frame: dict[str, Any] = {"cell_size": cell_size, "y_up": self._y_up, "origin": corner}
         if grid is not None:
             rows = grid.strip("\n").split("\n") if isinstance(grid, str) else grid
-            self._roadmap = within("grid", roadmap_of_grid, rows, **frame)
+            with under("grid"):
+                self._roadmap = roadmap_of_grid(rows, **frame)
         elif map_file is not None:
             from rightofway.io import load_map
 
@@ -255,12 +255,13 @@ class FleetBuilder:
         """
         self._refuse_fixed_map(f"zone {shown(name)}")
         place = f"zone {shown(name)}"
-        within(place, at, "name", text, name)
-        named = within(place, at, "vertices", list_of(text), vertices)
-        listed = within(place, at, "edges", list_of(lambda ends: ends), edges)
-        pairs = tuple(ends_of((place, "edges", k), ends) for k, ends in enumerate(listed))
-        for k, ends in enumerate(pairs):
-            within(place, at, ("edges", k), list_of(text), ends)
+        with under(place):
+            at("name", text, name)
+            named = at("vertices", list_of(text), vertices)
+            listed = at("edges", list_of(lambda ends: ends), edges)
+            pairs = tuple(ends_of(("edges", k), ends) for k, ends in enumerate(listed))
+            for k, ends in enumerate(pairs):
+                at(("edges", k), list_of(text), ends)
         self._drawn.zones.append(NamedZone(name=name, vertices=named, edges=pairs))
         return self
 
@@ -324,7 +325,8 @@ class FleetBuilder:
             raise InputError.at("", f"{what} (give either target or stops)", source)
         trip: list[tuple[Where, Any, Number]] = [("target", target, work)]
         if stops is not None:
-            given = within(source, at, "stops", list_of(lambda stop: stop), stops)
+            with in_file(source):
+                given = at("stops", list_of(lambda stop: stop), stops)
             trip = [(("stops", k), *place_and_work(stop)) for k, stop in enumerate(given)]
         try:
             robot = Robot(
@@ -449,9 +451,8 @@ class FleetBuilder:
             and place not in (roadmap.labels or ())
         ):
             return self._stations[place]
-        found = within(key, as_place, place, roadmap)
-        vertex: VertexId = within(key, vertex_at, roadmap, found, units=self._units)
-        return vertex
+        with under(key):
+            return vertex_at(roadmap, as_place(place, roadmap), units=self._units)
 
     def _refuse_fixed_map(self, place: str) -> None:
         if self._roadmap is not None:

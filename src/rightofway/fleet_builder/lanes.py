@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from rightofway.errors import InputError, nearest, shown
-from rightofway.fleet_builder.values import point_of, surcharge_of, types_of, within
+from rightofway.errors import InputError, nearest, shown, under
+from rightofway.fleet_builder.values import point_of, surcharge_of, types_of
 from rightofway.site import (
     Edge,
     Point,
@@ -84,7 +84,8 @@ class DrawnLanes:
                 raise InputError.at(place, f"no vertex is named {shown(name)} ({hint})")
         given = None if length is None else exact_length(length, (place, "length"))
         if given is None:
-            within(place, straight_length, self._square(tail, head))
+            with under(place):
+                straight_length(self._square(tail, head))
         limit = None if max_speed is None else exact_length(max_speed, (place, "max_speed"))
         more = {
             "max_speed": limit,

@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence, Sized
 from fractions import Fraction
 from typing import Any
 
-from rightofway.errors import InputError, nearest, shown
-from rightofway.fleet_builder.values import within
+from rightofway.errors import InputError, nearest, shown, under
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.model.given import checked_scenario
 from rightofway.site.places import as_place, vertex_at
@@ -68,9 +67,9 @@ def _track(scenario: Scenario, name: str, path: Sequence[Any]) -> Track:
     """Return the visits of a path; a robot that stays makes one of them."""
     vertices, enter = list[int](), list[int]()
     for index, (place, tick) in enumerate(_timed(scenario, name, path)):
-        where = ("paths", name, index)
-        read = within(where, as_place, place, scenario.roadmap)
-        vertex = within(where, vertex_at, scenario.roadmap, read, units=scenario.units)
+        with under(("paths", name, index)):
+            roadmap = scenario.roadmap
+            vertex = vertex_at(roadmap, as_place(place, roadmap), units=scenario.units)
         if not vertices or vertices[-1] != vertex:
             vertices.append(vertex)
             enter.append(tick)

@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields, replace
 from fractions import Fraction
 from typing import Any
 
-from rightofway.errors import InputError, Where, shown, under
+from rightofway.errors import InputError, Where, shown
 from rightofway.model import Rules
 from rightofway.model.resources import circle_around
 from rightofway.quantities import Units
 from rightofway.site import Point
 from rightofway.site.places import is_cell
-from rightofway.values import Number, coordinate, length, names, number
-
-
-def within(place: Where, make: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
-    """Call a function; its faults are faults of the place."""
-    with under(place):
-        return make(*arguments, **named)
+from rightofway.values import Number, at, coordinate, length, names, number
 
 
 def rules_of(given: dict[str, Any]) -> Rules:
@@ -61,10 +55,7 @@ def types_of(place: Where, given: Iterable[str]) -> frozenset[str]:
 
 def surcharge_of(place: Where, given: Number) -> Fraction:
     """Return a surcharge, which is not negative [time unit]."""
-    try:
-        found = number(given)
-    except ValueError as error:
-        raise InputError.at(place, str(error)) from None
+    found = at(place, number, given)
     if found < 0:
         raise InputError.at(place, f"{shown(given)} is negative (give 0 or more)")
     return found
@@ -86,10 +77,7 @@ def ends_of(place: Where, given: Any) -> tuple[Any, Any]:
 
 def point_of(place: Where, x: Number, y: Number) -> Point:
     """Return a point, exactly [length unit]."""
-    try:
-        return coordinate(x), coordinate(y)
-    except ValueError as error:
-        raise InputError.at(place, str(error)) from None
+    return at(place, coordinate, x), at(place, coordinate, y)
 
 
 def radius_of(radius: Number | None, size: tuple[Number, Number] | None) -> Fraction:

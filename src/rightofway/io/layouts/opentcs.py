@@ -6,6 +6,7 @@ driven in that direction. Control points are in coordinates of the drawing, so t
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.errors import shown
@@ -52,18 +53,12 @@ def read(root: Element) -> Layout:
         if location.value.get("type") in chargers:
             charging.update(points)
     level.vertices = {
-        name: _charging(vertex) if name in charging else vertex
+        name: replace(vertex, is_charging=True) if name in charging else vertex
         for name, vertex in level.vertices.items()
     }
     for block in root.all("block"):
         draft.faults.attempt("", _add_block, level, block, paths, draft)
     return draft.layout()
-
-
-def _charging(vertex: LayoutVertex) -> LayoutVertex:
-    return LayoutVertex(
-        name=vertex.name, at=vertex.at, is_parking=vertex.is_parking, is_charging=True
-    )
 
 
 def _check_version(root: Element) -> None:
