@@ -219,3 +219,34 @@ def test_the_robots_of_a_rotation_wait_for_each_other_and_go_together() -> None:
     assert outcome.collisions == outcome.deadlocks == 0
     assert outcome.by_clock.vertex == 1
     assert outcome.lateness.robots[3].waiting == {1: 5.0}
+
+
+def late_before_a_closure(*rows: str, target: str, **closure: int | str) -> SimulationResult:
+    """Return a run in which R1 stands still for 6 time units, with replanning."""
+    fleet = rightofway.FleetBuilder(grid=list(rows), ends="none", turn=0)
+    fleet.add_robot("R1", home="N0", target=target).add_closure(from_=5, **closure)  # type: ignore[arg-type]
+    plan = rightofway.solve(fleet.scenario())
+    kept = rightofway.simulate(plan, "stop:R1@0+6", runs=1)
+    assert kept.stranded == (0 if "until" in closure else 1)
+    return rightofway.simulate(plan, "stop:R1@0+6", runs=1, replan=True)
+
+
+def test_a_robot_that_is_too_late_for_a_place_gets_another_way() -> None:
+    """It sees at tick 5 that N1 is closed, goes on at 6 and takes 6 edges instead of 4."""
+    outcome = late_before_a_closure(".....", ".....", target="N4", at="N1")
+    assert outcome.completion.tolist() == [[12]]
+    assert outcome.trace(0).tracks[0].vertices.tolist() == [0, 5, 6, 7, 8, 9, 4]
+    assert (outcome.replans, outcome.stranded, outcome.cut_off, outcome.caught) == (1, 0, 0, 0)
+
+
+def test_a_robot_that_no_way_is_left_for_is_cut_off() -> None:
+    outcome = late_before_a_closure(".....", target="N4", at="N1")
+    assert (outcome.stranded, outcome.cut_off, outcome.caught) == (0, 1, 0)
+    assert outcome.completion.tolist() == [[-1]]
+
+
+def test_a_robot_waits_for_a_closure_that_is_shorter_than_another_way() -> None:
+    """N1 is closed until 7: R1 enters it then, and three more edges follow; around takes until 12."""
+    outcome = late_before_a_closure(".....", ".....", target="N4", at="N1", until=7)
+    assert outcome.completion.tolist() == [[10]]
+    assert outcome.trace(0).tracks[0].vertices.tolist() == [0, 1, 2, 3, 4]

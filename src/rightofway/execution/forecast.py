@@ -2,7 +2,7 @@
 
 A stay or drive that is overdue by n ticks is expected to last n more ticks. A robot that waits for
 its right of way only is expected to move as soon as it gets it. Other durations are as planned, and
-longer by a delay that is known. A forecast knows `Progress` only.
+longer by a delay that is known. Closures bind what has not begun. A forecast knows `Progress` only.
 """
 
 from __future__ import annotations
@@ -11,11 +11,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.execution.progress import Activity, Progress, Times
 from rightofway.model import Route, Tick
 from rightofway.planners.task import planning_headway
-from rightofway.precedence import ActionDependencyGraph, graph_on
+from rightofway.precedence import ActionDependencyGraph, PrecedenceGraph, graph_on
 
 
 class Forecast:
@@ -30,7 +31,8 @@ class Forecast:
     graph
         The precedence graph with the expected durations.
     is_possible
-        Whether all visits can take place in their order, without a swap.
+        Whether all visits can take place in their order, without a swap and outside closures. If
+        not, the expected times are those without closures.
     """
 
     def __init__(self, adg: ActionDependencyGraph, progress: Progress) -> None:
@@ -38,12 +40,15 @@ class Forecast:
         self.now, self.broken = progress.now, progress.broken
         self.booked, self.entered = progress.booked, progress.entered
         self.books_ahead = adg.scenario.rules.books_ahead
-        self.graph = graph_on(
-            adg.scenario,
-            [self._route(robot) for robot in range(len(adg.routes))],
-            headway=planning_headway(adg.scenario),
-        )
-        self.is_possible = self.graph.give_all(self._rights())
+        begun = self._begun()
+        try:
+            self.graph = self._graph(begun)
+            self.is_possible = self.graph.give_all(self._rights())
+        except ValueError:  # closures leave a robot no times
+            self.is_possible = False
+        if not self.is_possible and adg.scenario.closures:
+            self.graph = self._graph(np.ones_like(begun))
+            self.graph.give_all(self._rights())
 
     def times(self) -> Times:
         """Return the expected enter of each visit [ticks]; int64[N]."""
@@ -61,6 +66,31 @@ class Forecast:
     def is_driving(self, robot: int) -> bool:
         """Tell whether a robot drives to a vertex that it has not booked."""
         return not self.books_ahead and self.progress.activity[robot] == Activity.DRIVES
+
+    @property
+    def may_turn_back(self) -> bool:
+        """Whether robots that drive to a vertex that they have not booked may turn back.
+
+        Where robots have broken down, or closures leave the fleet no times, that may be the way.
+        """
+        return bool(self.broken) or (bool(self.adg.scenario.closures) and not self.is_possible)
+
+    def _graph(self, begun: NDArray[np.bool_]) -> PrecedenceGraph:
+        """Return the graph of expected durations, in which closures do not bind what has begun."""
+        return graph_on(
+            self.adg.scenario,
+            [self._route(robot) for robot in range(len(self.adg.routes))],
+            headway=planning_headway(self.adg.scenario),
+            begun=begun,
+        )
+
+    def _begun(self) -> NDArray[np.bool_]:
+        """Return which stays at visits, and which drives into them, have begun; bool[N, 2]."""
+        begun = np.column_stack((self.booked, self.booked))
+        for robot in range(len(self.adg.routes)):
+            if self.has_set_off(robot):
+                begun[self.visit_of(robot) + 1, 1] = True
+        return begun
 
     def _rights(self) -> Iterator[tuple[int, int]]:
         """Yield the unused rights of way, in the order of planned times."""

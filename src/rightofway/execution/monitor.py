@@ -2,7 +2,8 @@
 
 Whenever a robot is later than last expected, the monitor makes a forecast: rights of way are
 switched, and where the whole fleet has fallen behind, the rest is replanned. It is replanned as
-well whenever a robot breaks down. Only what has happened by the instant decides.
+well whenever a robot breaks down, and when closures leave a late robot no way. Only what has
+happened by the instant decides.
 
 References
 ----------
@@ -167,10 +168,12 @@ class ExecutionMonitor:
                 forecast = self.forecast(now)
             flowtime = int(forecast.graph.flowtime())
             has_fallen_behind = (flowtime - self.last_tried) * SHARE >= planned
-            if self.policy.replan and has_fallen_behind and tries < MOST_PLANS:
+            is_shut_out = bool(adg.scenario.closures) and not forecast.is_possible
+            wants_plan = has_fallen_behind or is_shut_out
+            if self.policy.replan and wants_plan and tries < MOST_PLANS:
                 tries += 1
                 self.last_tried = flowtime
-                self._replan(forecast, flowtime)
+                self._replan(forecast, NEVER if is_shut_out else flowtime)
 
     def _replan(self, forecast: Forecast, limit: int) -> None:
         """Replan; accept a plan with an expected flowtime below ``limit`` [ticks]."""

@@ -9,6 +9,9 @@ first plan, and for robots with a size planning one after another, or an order o
 that cannot reach all its places is *cut off*: it serves reachable stages and ends at a vertex where
 it blocks no robot. Large neighbourhood search (LNS) improves the first plan.
 
+Closures of the scenario bind the rest, as far as they are not over. While a robot is caught in one,
+or will be before its commitment is done, no plan of the rest keeps the rules, and none is made.
+
 A robot with a size that drives keeps its tail and its edge booked until it has arrived: in the
 order of visits, its visit of the tail comes before all visits of the new plan.
 
@@ -25,9 +28,11 @@ from itertools import combinations, islice, pairwise
 
 import numpy as np
 
+from rightofway.check import check
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.execution.forecast import Forecast
 from rightofway.model import (
+    Closure,
     Itinerary,
     Plan,
     PlannerRun,
@@ -42,7 +47,7 @@ from rightofway.model import (
     turns_along,
 )
 from rightofway.planners import Deadline, Task
-from rightofway.planners.lacam import timetable_in_order, timetable_of
+from rightofway.planners.lacam import timetable_if_possible
 from rightofway.planners.moves import tracks_by_moves
 from rightofway.planners.prioritized import fleet_search
 from rightofway.precedence import ActionDependencyGraph
@@ -97,11 +102,13 @@ def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Co
         vertex = route.vertices[index]
         return Commitment(visit=index, vertex=vertex, busy=Tick(0), begun=tuple(stages))
     is_driving = forecast.is_driving(robot)
-    if is_driving and forecast.broken:
+    if is_driving and forecast.may_turn_back:
         # Towards a free vertex, the robot continues as if it had a booking; else it may turn back.
-        before = adg.comes_after(first + index + 1)
+        before, closures = adg.comes_after(first + index + 1), adg.scenario.problem.closures
+        closed = closures.at_vertex(robot, route.vertices[index + 1]) if closures else []
+        is_closed = any(end > forecast.now for _, end in closed)
         is_driving = False
-        index += all(forecast.entered[other + 1] for other in before)
+        index += not is_closed and all(forecast.entered[other + 1] for other in before)
     ends = forecast.graph.enter(first + index) + forecast.graph.routes[robot].dwell[index]
     begun = sum(at <= index for at in route.serves)
     return Commitment(
@@ -184,15 +191,20 @@ def replan(
     roadmap = scenario.roadmap
     if closed.vertices:
         roadmap = roadmap.without(closed.vertices, closed.edges)
-    rest = _rest(scenario, roadmap, commitments)
+    closures = _closures_after(scenario, roadmap, forecast.now)
+    if closures is None:
+        return None
+    rest = _rest(replace(scenario, closures=closures), roadmap, commitments)
     tracks = _going_on(forecast, commitments, closed, rest)
     if tracks is None:
         found = _another_way(rest, forecast.broken, commitments, seed, deadline)
         if found is None:
             return None
         commitments, cut_off, tracks = found
-        rest = _rest(scenario, roadmap, commitments)
+        rest = _rest(rest, roadmap, commitments)
     first = Plan(scenario=rest, tracks=tuple(tracks), run=PlannerRun(name="by right of way"))
+    if closures and not check(first).ok:  # a robot is caught, or will be
+        return None
     options = {"iterations": NEIGHBOURHOODS * len(stages)}
     plans = [first]
     try:
@@ -230,7 +242,7 @@ def _going_on(
         drives = pairwise(visited[-1])
         if not closed.vertices.isdisjoint(visited[-1][1:]) or not closed.edges.isdisjoint(drives):
             return None
-    return timetable_in_order(rest, visited, arrivals)
+    return timetable_if_possible(rest, visited, arrivals)
 
 
 def _another_way(
@@ -241,7 +253,8 @@ def _another_way(
     deadline: Deadline,
 ) -> tuple[list[Commitment], frozenset[int], list[Track]] | None:
     """Return commitments and stages, the smallest set of cut-off robots, and LaCAM's tracks."""
-    find = _together if rest.problem.resources is None else _by_turns
+    is_simple = rest.problem.resources is None and not rest.closures
+    find = _together if is_simple else _by_turns
     for cut_off, tried in islice(_choices(rest, broken, commitments), MOST_CHOICES):
         if deadline.seconds_left() == 0:
             return None
@@ -255,7 +268,11 @@ def _another_way(
             _with_end(one, one.left[:-1], int(own.vertices[-1])) if robot in cut_off else one
             for robot, (one, own) in enumerate(zip(tried, found, strict=True))
         ]
-        return ended, cut_off, timetable_of(_rest(rest, rest.roadmap, ended), found)
+        visited = [own.vertices.tolist() for own in found]
+        arrivals = [own.enter.tolist() for own in found]
+        tracks = timetable_if_possible(_rest(rest, rest.roadmap, ended), visited, arrivals)
+        if tracks is not None:
+            return ended, cut_off, tracks
     return None
 
 
@@ -275,19 +292,28 @@ def _together(
 
 def _by_turns(
     rest: Scenario, cut_off: frozenset[int], seed: int, deadline: Deadline
-) -> Sequence[Track]:
-    """Return the plan for robots one after another, or else of single moves."""
+) -> Sequence[Track] | None:
+    """Return the plan for robots one after another, or else of single moves, or by LaCAM."""
     problem = rest.problem
     task = Task(scenario=rest, seed=seed, deadline=deadline)
-    assert problem.resources is not None, "this is for robots with a size"
     tracks: Sequence[Track] = ()
-    if not any(problem.resources.clashes([one.last for one in problem.itineraries])):
+    ends = [one.last for one in problem.itineraries]
+    is_clear = (
+        len(set(ends)) == len(ends)
+        if problem.resources is None
+        else not any(problem.resources.clashes(ends))
+    )
+    if is_clear:
         search = fleet_search(task)
         turns = sorted(range(len(rest.robots)), key=search.alone().tolist().__getitem__)
         searches, limit = SEARCHES * len(turns), deadline.sooner(SHARE).seconds_left()
         if search.prioritize(turns, searches=searches, time_limit=limit):
             tracks = search.tracks()
-    return tracks or tracks_by_moves(task, ends_anywhere=cut_off, most_states=MOST_STATES)
+    if tracks:
+        return tracks
+    if problem.resources is None:  # its order of visits may keep the closures
+        return _together(rest, cut_off, seed, deadline)
+    return tracks_by_moves(task, ends_anywhere=cut_off, most_states=MOST_STATES)
 
 
 def _choices(
@@ -329,6 +355,26 @@ def _within_reach(distances: Distances, itinerary: Itinerary, one: Commitment) -
 
 def _with_end(one: Commitment, left: Stages, vertex: int) -> Commitment:
     return replace(one, left=(*left, Stage(vertex=VertexId(vertex), work=Tick(0), turn=Tick(0))))
+
+
+def _closures_after(scenario: Scenario, roadmap: Roadmap, now: Tick) -> tuple[Closure, ...] | None:
+    """Return the closures that are not over, from an instant on.
+
+    None where broken robots have taken the edges of a closed lane, and the radius of its closure
+    reaches farther: its place is no part of the roadmap that is left.
+    """
+    passed = scenario.problem.clock.time(now)
+    after = []
+    for closure in scenario.closures:
+        until = None if closure.until is None else closure.until - passed
+        if until is not None and until <= 0:
+            continue
+        if closure.edge is not None and not roadmap.ways_along(closure.edge):
+            if closure.radius is not None:
+                return None
+            continue
+        after.append(replace(closure, from_=max(closure.from_ - passed, Fraction(0)), until=until))
+    return tuple(after)
 
 
 def _rest(scenario: Scenario, roadmap: Roadmap, commitments: Sequence[Commitment]) -> Scenario:
@@ -406,7 +452,7 @@ def _spliced(
         since = np.full(len(enter), now)
         next_visit = slice(one.visit + 1, one.visit + 2)
         turns_back = old.vertices[next_visit] != route.vertices[next_visit]
-        if len(enter) and forecast.broken and forecast.has_set_off(robot) and turns_back:
+        if len(enter) and forecast.may_turn_back and forecast.has_set_off(robot) and turns_back:
             since[0] += route.drive[one.visit + 1]
         enter = np.append(np.minimum(forecast.progress.enter[booked], arrives), enter)
         tracks.append(Track(vertices=np.array(route.vertices, np.int32), enter=enter))

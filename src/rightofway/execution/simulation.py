@@ -23,7 +23,6 @@ from rightofway.execution.statistics import (
 )
 from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
 from rightofway.model.given import checked_number, checked_seed, checked_truths
-from rightofway.model.problem import refuse_closures
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 from rightofway.values import at, function
@@ -66,7 +65,8 @@ def simulate(
         Whether rights of way are switched during execution if this lowers the expected flowtime.
     replan
         Whether visits that have not begun are replanned during execution: if the fleet has fallen
-        behind and this lowers the expected flowtime, and after a breakdown.
+        behind and this lowers the expected flowtime, after a breakdown, and if a robot that is late
+        could not keep its route and its rights of way outside closures.
     time_limit
         After this time, no run and no replanning begins [s]; at least one run is made.
     keep_runs
@@ -102,10 +102,6 @@ def simulate(
     if isinstance(runs, Integral) and runs < 1:
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
     runs, seed = checked_number("runs", runs, 1, MOST_RUNS), checked_seed(seed)
-    if switch or replan:
-        what = "replanning during execution" if replan else "switching rights of way"
-        remedy = f"simulate without {'replanning' if replan else 'switching'}"
-        refuse_closures(plan.scenario.problem, what, remedy)
     deadline = Deadline.after(time_limit)
     causes, adg = _delayed(plan, delays)
     policy = ExecutionPolicy(switch=switch, replan=replan)

@@ -107,7 +107,12 @@ class ClosedPlaces:
     end: NDArray[np.int64]
 
     @classmethod
-    def of(cls, scenario: Scenario, routes: Sequence[Route]) -> ClosedPlaces | None:
+    def of(
+        cls,
+        scenario: Scenario,
+        routes: Sequence[Route],
+        begun: NDArray[np.bool_] | None = None,
+    ) -> ClosedPlaces | None:
         """Return when the places of routes are closed, or None where nothing ever is.
 
         Parameters
@@ -116,6 +121,9 @@ class ClosedPlaces:
             The problem.
         routes
             One for each robot.
+        begun
+            Stays and drives that have begun, so that it is too late for a closure, by list; bool,
+            shape (2 N,).
         """
         closures = scenario.problem.closures
         if closures is None:
@@ -127,6 +135,8 @@ class ClosedPlaces:
             for vertex, edge in zip(route.vertices, [None, *edges], strict=True):
                 lists.append(closures.at_vertex(robot, vertex))
                 lists.append([] if edge is None else closures.along_edge(robot, edge))
+        if begun is not None:
+            lists = [[] if late else closed for closed, late in zip(lists, begun, strict=True)]
         times = [time for closed in lists for time in closed]
         return cls(
             first=np.array([0, *accumulate(map(len, lists))], np.int32),

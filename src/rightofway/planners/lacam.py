@@ -149,6 +149,23 @@ def timetable_in_order(
 
     Parameters
     ----------
+    scenario, visited, arrivals
+        As for `timetable_if_possible`; the order is that of a plan, and nothing is closed.
+    """
+    tracks = timetable_if_possible(scenario, visited, arrivals)
+    assert tracks is not None, "what took place in some order can take place in it again"
+    return tracks
+
+
+def timetable_if_possible(
+    scenario: Scenario, visited: Sequence[list[VertexId]], arrivals: Sequence[list[int]]
+) -> list[Track] | None:
+    """Return the earliest tracks along some routes that keep an order of arrivals and closures.
+
+    None where closures leave no such tracks.
+
+    Parameters
+    ----------
     scenario
         The problem.
     visited
@@ -161,6 +178,8 @@ def timetable_in_order(
         route_through(scenario.roadmap, itinerary, vertices)
         for itinerary, vertices in zip(scenario.problem.itineraries, visited, strict=True)
     ]
-    graph = graph_on(scenario, routes, headway=planning_headway(scenario))
-    graph.keep_order(arrivals)
-    return graph.tracks()
+    try:
+        graph = graph_on(scenario, routes, headway=planning_headway(scenario))
+    except ValueError:
+        return None
+    return graph.tracks() if graph.keeps_order(arrivals) else None

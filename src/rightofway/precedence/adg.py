@@ -235,7 +235,9 @@ class ActionDependencyGraph:
         """
         if self.scenario.problem.resources is None:
             return order_of(self.vertex, when)
-        graph = graph_on(self.scenario, self.routes)
+        # An order has no clock: what has begun too late for a closure has its place in it, too.
+        begun = np.ones((len(self.vertex), 2), bool)
+        graph = graph_on(self.scenario, self.routes, begun=begun)
         if not graph.keeps_order(np.split(when, self.first_visit[1:-1])):
             raise ValueError("when: some visits cannot take place in this order")
         rights = graph.rights()

@@ -317,6 +317,7 @@ def graph_on(
     *,
     headway: Tick | None = None,
     forbid_swaps: bool = True,
+    begun: NDArray[np.bool_] | None = None,
 ) -> PrecedenceGraph:
     """Return the precedence graph of some routes, without a right of way.
 
@@ -330,6 +331,13 @@ def graph_on(
         A longer one than the scenario asks for [ticks].
     forbid_swaps
         Whether a swap counts as a conflict.
+    begun
+        Stays at visits and drives into them that closures bind no more; bool, shape (N, 2).
+
+    Raises
+    ------
+    ValueError
+        If closures leave the route of a robot no times.
     """
     one_for_each(scenario.robots, routes=routes)
     return PrecedenceGraph(
@@ -338,7 +346,7 @@ def graph_on(
         books_ahead=scenario.rules.books_ahead,
         forbid_swaps=forbid_swaps,
         rows=BookedRows.of(scenario, [route.vertices for route in routes]),
-        closed=ClosedPlaces.of(scenario, routes),
+        closed=ClosedPlaces.of(scenario, routes, None if begun is None else begun.ravel()),
     )
 
 
