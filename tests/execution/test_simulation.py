@@ -246,7 +246,7 @@ def test_a_robot_that_no_way_is_left_for_is_cut_off() -> None:
 
 
 def test_a_robot_waits_for_a_closure_that_is_shorter_than_another_way() -> None:
-    """N1 is closed until 7: R1 enters it then, and three more edges follow; around takes until 12."""
+    """N1 is closed until 7: R1 enters it then, and three edges follow; around takes until 12."""
     outcome = late_before_a_closure(".....", ".....", target="N4", at="N1", until=7)
     assert outcome.completion.tolist() == [[10]]
     assert outcome.trace(0).tracks[0].vertices.tolist() == [0, 1, 2, 3, 4]
