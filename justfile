@@ -61,6 +61,7 @@ nightly law_seconds="60":
         pytest -m law --law-seconds {{ law_seconds }}; \
         just judge 20000; \
         just delay 200000; \
+        just chaos 20000; \
         just kills 200; \
         just fuzz-files 20000; \
         just fuzz-bindings --count 20000; \
@@ -77,6 +78,10 @@ judge count *args:
 # Make delayed runs of plans of random fleets: ten million take a quarter of an hour
 delay count *args:
     python -m tests.campaigns.plans delay {{ count }} {{ args }}
+
+# Drive plans of random fleets through chaos COUNT times: lost messages, kills, resets, wrong fields
+chaos count *args:
+    python -m tests.campaigns.plans chaos {{ count }} {{ args }}
 
 # Break files of all formats that are read: a million take about an hour
 fuzz-files count *args:

@@ -1,4 +1,4 @@
-"""Campaigns: a number of plans judged, or of delayed runs, on random fleets and on all cores.
+"""Campaigns: plans judged, delayed runs, or chaos, so many on random fleets and on all cores.
 
 They hold the laws of ``tests/laws`` on more cases than a test can have. What is found is written
 to ``build/campaigns``, one plan file for each finding, and the exit code is 1.
@@ -25,8 +25,10 @@ import rightofway
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.io import plan_text, scenario_text
 from rightofway.model import Plan, Scenario
+from rightofway.precedence import ReleaseGraph
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import ALL, QUICK, STRICT, broken, by_both_judges, knows
+from tests.builders.chaos import KINDS, Fault, run_chaos
 from tests.builders.executions import any_delays, wrong_in
 
 FLEETS = 20
@@ -166,8 +168,39 @@ def _run(plan: Plan, delays: str, chance: int, into: Round) -> None:
             into.find(f"{delays}, seed {chance}, {how}: {wrong}", plan)
 
 
+def chaos(scenario: Scenario, chance: int, into: Round) -> None:
+    """Drive a plan on simulated robots through each kind of chaos."""
+    draw = random.Random(chance)  # noqa: S311
+    planner = draw.choice([name for name in STRICT if knows(name, scenario)])
+    with into.unless_it_fails(scenario):
+        try:
+            plan = into.plan(scenario, planner, chance)
+        except NoPlanExists:
+            return
+        if plan is None or scenario.closures:
+            return
+        if ReleaseGraph.of(scenario, plan.tracks).rotation():
+            into.counts["rotations, refused"] += 1
+            return
+        for kind, how in KINDS.items():
+            into.counts["judged"] += 1
+            try:
+                into.counts += run_chaos(plan, chance, how)
+            except Fault as fault:
+                into.counts["faults"] += 1
+                into.find(f"{kind}, seed {chance}: {fault}", plan)
+
+
 Case = Callable[[Scenario, int, Round], None]
-CAMPAIGNS: dict[str, Case] = {"judge": judge, "delay": delay}
+CAMPAIGNS: dict[str, Case] = {"judge": judge, "delay": delay, "chaos": chaos}
+
+
+COUNTS = {
+    "judge": ("disagreements",),
+    "delay": ("collisions", "deadlocks"),
+    "chaos": ("faults",),
+}
+"""What a campaign reports even where there is none."""
 
 
 def one_round(case: Case, session: int, number: int) -> tuple[int, Round]:
@@ -205,7 +238,7 @@ def main() -> int:
     parser.add_argument("--round", type=int, help="make only this round of the seed")
     given_ = parser.parse_args()
     began, found = time.perf_counter(), 0
-    names = ("disagreements",) if given_.campaign == "judge" else ("collisions", "deadlocks")
+    names = COUNTS[given_.campaign]
     total = Counter(dict.fromkeys(names, 0))
     play = partial(one_round, CAMPAIGNS[given_.campaign], given_.seed)
     rounds = range(10**9) if given_.round is None else [given_.round]

@@ -15,7 +15,7 @@ def said_by(*words: str) -> str:
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
-@pytest.mark.parametrize("campaign", ["judge", "delay"])
+@pytest.mark.parametrize("campaign", ["judge", "delay", "chaos"])
 def test_plans_are_judged_by_the_hundred(campaign: str) -> None:
     last = said_by("tests.campaigns.plans", campaign, "200").splitlines()[-1]
     judged = re.match(rf"{campaign}: (\d+) judged, 0 findings", last)

@@ -77,7 +77,8 @@ def incompatible(scenario: Scenario, i: int, one: Shape, j: int, other: Shape) -
         return True
     if set(one) & set(other):
         return False
-    return square_between(scenario.roadmap, one, other) < needed(scenario, i, j) ** 2
+    least = needed(scenario, i, j)
+    return least > 0 and square_between(scenario.roadmap, one, other) < least**2
 
 
 def drive(scenario: Scenario, robot: int, tail: int, head: int) -> Fraction:

@@ -1,0 +1,24 @@
+"""Fleet control: a plan released to real robots by right of way, with a journal."""
+
+from rightofway.control.fleet_control import FleetControl
+from rightofway.control.journal import Entry, Journal, JournalFailed, SqliteJournal
+from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive
+from rightofway.control.messages import InstantAction, Message, Order, OrderNode, RobotState
+from rightofway.control.simulated_robot import SimulatedRobot
+
+__all__ = [
+    "Entry",
+    "FleetControl",
+    "InstantAction",
+    "Journal",
+    "JournalFailed",
+    "Ledger",
+    "Message",
+    "Order",
+    "OrderNode",
+    "RobotLedger",
+    "RobotState",
+    "RouteToDrive",
+    "SimulatedRobot",
+    "SqliteJournal",
+]

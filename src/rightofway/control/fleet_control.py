@@ -1,0 +1,437 @@
+"""Fleet control: releases the routes of a plan to robots by right of way, and keeps a journal.
+
+States of robots come in, orders and instant actions go out; both may be lost, doubled or late. What
+a state proves is committed to the journal, then what is released because of it is committed, then
+it is sent. No clock is read: a timer only calls `remind`, which sends again what was not answered.
+
+Started again on its journal, a control goes on where it was: it sends again, word for word, what
+was not acknowledged. A robot that has it discards it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+from rightofway.control.journal import Entry, Journal
+from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive, plan_entry
+from rightofway.control.messages import InstantAction, Message, Order, OrderNode, RobotState
+from rightofway.errors import InputError
+from rightofway.precedence import Part, ReleaseGraph
+
+LOOK_AHEAD = 4
+"""Released parts that a robot has not reached yet, at most: re-planning keeps the rest free."""
+
+
+class FleetControl:
+    """The control of a fleet, without a network.
+
+    Parameters
+    ----------
+    journal
+        Empty, or of an earlier start; `begin` gives an empty one its plan.
+    look_ahead
+        How many parts are released beyond the vertex last arrived at, at most.
+    report
+        Receives sentences on faults and on jobs that failed.
+
+    Attributes
+    ----------
+    ledger
+        What the journal says.
+    """
+
+    def __init__(
+        self,
+        journal: Journal,
+        *,
+        look_ahead: int = LOOK_AHEAD,
+        report: Callable[[str], None] = lambda _: None,
+    ) -> None:
+        self._journal, self._look_ahead, self._report = journal, look_ahead, report
+        self.ledger = Ledger()
+        for entry in journal.entries():
+            self.ledger.apply(entry)
+
+    # --- what starts and changes the work --------------------------------------------------------
+
+    def begin(self, run: str, routes: Sequence[RouteToDrive], graph: ReleaseGraph) -> None:
+        """Give an empty journal its plan.
+
+        Parameters
+        ----------
+        run
+            A name that no other journal has; the ids of orders and actions begin with it.
+        routes, graph
+            The routes of all robots, and who waits for whom.
+
+        Raises
+        ------
+        InputError
+            If robots of the plan move round a circle at one instant.
+        """
+        _refuse_rotation(graph)
+        self._commit(plan_entry("plan", run, routes, graph, [0] * len(routes)))
+
+    def start(self) -> list[Message]:
+        """Return what is to be sent after a start: all that is unanswered, requests for states."""
+        self._commit({"kind": "started"})
+        number, run = self.ledger.starts, self.ledger.run
+        asks = [
+            InstantAction(robot=k, action_id=f"{run}-{k}-start{number}", kind="stateRequest")
+            for k in range(len(self.ledger.robots))
+        ]
+        return [*self._go_on(), *self.remind(), *asks]
+
+    def splice(self, routes: Sequence[RouteToDrive], graph: ReleaseGraph) -> list[Message]:
+        """Replace all that is not released by other routes and rights of way.
+
+        Parameters
+        ----------
+        routes
+            Routes that begin with all that is released, sent or not, acknowledged or not.
+        graph
+            Who waits for whom on them; parts that are released are no longer looked at.
+
+        Raises
+        ------
+        InputError
+            If a route changes what is released, a job is lost, or robots move round a circle.
+        """
+        committed = [self._committed(own) for own in self.ledger.robots]
+        _refuse_rotation(graph)
+        for robot, (own, new, end) in enumerate(
+            zip(self.ledger.robots, routes, committed, strict=True)
+        ):
+            kept = slice(end + 1)
+            if own.route.places[kept] != new.places[kept] or own.route.jobs[kept] != new.jobs[kept]:
+                message = "the route changes what is released (begin it with the released parts)"
+                raise InputError.at(f"routes[{robot}]", message)
+            if lost := sorted(_jobs(own.route) - own.finished - _jobs(new)):
+                raise InputError.at(f"routes[{robot}]", f"{lost[0]} is in no visit (keep each job)")
+        self._commit(plan_entry("splice", self.ledger.run, routes, graph, committed))
+        return self._go_on()
+
+    def cancel(self, robot: int) -> list[Message]:
+        """Take back what is released to a robot, as far as it can stop before.
+
+        Parameters
+        ----------
+        robot
+            A robot of the plan.
+        """
+        self._commit({"kind": "cancel wanted", "robot": robot})
+        return self._go_on()
+
+    def hold(self, robot: int, *, on: bool) -> list[Message]:
+        """Release nothing more to a robot until it is let go.
+
+        Parameters
+        ----------
+        robot
+            A robot of the plan.
+        on
+            Whether it is on hold from now on.
+        """
+        self._commit({"kind": "hold", "robot": robot, "on": on})
+        return self._go_on()
+
+    def clear(self, robot: int) -> list[Message]:
+        """Have a person confirm that a faulty robot is where the journal has it.
+
+        Parameters
+        ----------
+        robot
+            A robot of the plan.
+        """
+        self._commit({"kind": "cleared", "robot": robot})
+        return self._go_on()
+
+    def take_off(self, robot: int) -> list[Message]:
+        """Have a person confirm that a robot is off the floor: it holds nothing any more.
+
+        Parameters
+        ----------
+        robot
+            A robot of the plan.
+        """
+        self._commit({"kind": "taken off", "robot": robot})
+        return self._go_on()
+
+    # --- what comes in ---------------------------------------------------------------------------
+
+    def receive(self, robot: int, state: RobotState) -> list[Message]:
+        """Take in a state; return what is to be sent because of it.
+
+        Parameters
+        ----------
+        robot
+            The robot that sent it.
+        state
+            Its state.
+        """
+        self._commit(*self._facts(robot, state))
+        self._commit(*self._answers(robot, state))
+        return self._go_on()
+
+    def remind(self) -> list[Message]:
+        """Return again what robots have not answered; call it every few seconds."""
+        return [message for own in range(len(self.ledger.robots)) for message in self._open(own)]
+
+    def _open(self, robot: int) -> Iterator[Message]:
+        own = self.ledger.robots[robot]
+        if own.is_off:
+            return
+        if own.token is not None:
+            yield InstantAction(robot=robot, action_id=own.token, kind="stateRequest")
+        elif own.message is not None and not own.is_acknowledged:
+            yield own.message
+        elif own.cancel is not None and own.cancel.action_id is not None:
+            yield InstantAction(robot=robot, action_id=own.cancel.action_id, kind="cancelOrder")
+
+    # --- what a state proves (rule 7) ------------------------------------------------------------
+
+    def _facts(self, robot: int, state: RobotState) -> Iterator[Entry]:
+        """Yield what a state proves: finished jobs, an arrival, faults."""
+        own = self.ledger.robots[robot]
+        for action_id, status in state.actions.items():
+            job = own.jobs_of.get(action_id)
+            if job is None or job in own.finished:
+                continue
+            if status == "FINISHED":
+                yield {"kind": "finished", "robot": robot, "job": job}
+            elif status == "FAILED" and self._is_failure(own, action_id, job):
+                self._report(f"robot {robot}: {job} failed; it goes no further")
+                yield {"kind": "failed", "robot": robot, "job": job}
+        visit = self._proven(own, state)
+        if visit is not None and visit > own.arrived:
+            yield {"kind": "arrived", "robot": robot, "visit": visit}
+        fault = None if own.fault else self._fault(own, state)
+        if fault is not None:
+            self._report(f"robot {robot} is faulty: {fault}; a person has to look after it")
+            place = state.last_place or None
+            yield {"kind": "fault", "robot": robot, "fault": fault, "place": place}
+
+    @staticmethod
+    def _is_failure(own: RobotLedger, action_id: str, job: str) -> bool:
+        """Return whether the last action for a job failed by itself, not by our withdrawal."""
+        is_last = action_id.endswith(f"-{own.attempts[job]}")
+        return is_last and job not in own.failed and own.cancel is None
+
+    def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
+        """Return the visit at whose vertex a state proves that the robot has arrived."""
+        sent = own.orders.get(state.order_id)
+        if sent is None or state.last_sequence_id % 2:
+            return None
+        if not 0 <= state.update_id < len(sent.ends):
+            return None
+        end = sent.ends[state.update_id]
+        visit = sent.offset + state.last_sequence_id // 2
+        if not sent.offset <= visit <= min(end, own.released):
+            return None
+        if own.route.places[visit] != state.last_place:
+            return None
+        if not state.nodes:
+            # A state from before the update, after a withdrawal or a reset has no nodes either.
+            return visit if visit == end else None
+        ahead = [sent.offset + (number + 1) // 2 for number in (*state.nodes, *state.edges)]
+        visit = min(visit, min(ahead) - 1)
+        return visit if visit >= sent.offset else None
+
+    @staticmethod
+    def _fault(own: RobotLedger, state: RobotState) -> str | None:
+        """Return how a state contradicts all that was sent (rule 11)."""
+        if not state.order_id:
+            return None
+        sent = own.orders.get(state.order_id)
+        if sent is None:
+            return f"it has order {state.order_id!r}, which is not ours"
+        if state.update_id >= len(sent.ends):
+            return f"it has update {state.update_id} of an order with {len(sent.ends)}"
+        base = range(sent.offset, max(sent.ends) + 1)
+        beyond = [number for number in state.nodes if sent.offset + number // 2 not in base]
+        if beyond:
+            return f"it drives to node {beyond[0]}, which was not released"
+        places = own.route.places[sent.offset : max(sent.ends) + 1]
+        if state.order_id == own.order_id and state.last_place not in {*places, ""}:
+            return f"it is at {state.last_place!r}, off its way"
+        return None
+
+    # --- what follows for its orders (rules 6, 8, 9) ---------------------------------------------
+
+    def _answers(self, robot: int, state: RobotState) -> Iterator[Entry]:
+        """Yield acknowledgements, doubts and their ends, and steps of a withdrawal."""
+        own = self.ledger.robots[robot]
+        if own.message is None or own.is_off:
+            return
+        if state.order_id == own.order_id:
+            if own.token in state.actions:
+                yield {"kind": "certain", "robot": robot}
+            stands_at = own.held_at(state.last_place)
+            if not own.is_acknowledged and self._acknowledges(own, state):
+                yield {"kind": "acknowledged", "robot": robot}
+            elif self._has_stopped(own, state) and stands_at is not None:
+                order = self._new_order(robot, stands_at, stands_at, has_stopped=True)
+                yield {**order, "stands_at": stands_at}
+        elif not state.order_id or state.order_id in own.orders:
+            yield from self._settle_doubt(robot, state)
+
+    def _settle_doubt(self, robot: int, state: RobotState) -> Iterator[Entry]:
+        """Yield a new doubt, or a new order where the robot answers that it has lost its own."""
+        own = self.ledger.robots[robot]
+        if own.token is None:
+            token = f"{self.ledger.run}-{robot}-doubt{own.tokens}"
+            yield {"kind": "doubt", "robot": robot, "token": token}
+        elif own.token in state.actions and state.is_idle:
+            stands_at = own.held_at(state.last_place)
+            if stands_at is not None:
+                yield self._new_order(robot, stands_at, own.released)
+            elif own.fault is None:
+                fault = f"it stands at {state.last_place!r}, which it does not hold"
+                self._report(f"robot {robot} is faulty: {fault}; a person has to look after it")
+                place = state.last_place or None
+                yield {"kind": "fault", "robot": robot, "fault": fault, "place": place}
+
+    @staticmethod
+    def _acknowledges(own: RobotLedger, state: RobotState) -> bool:
+        """Return whether a state shows the last order or update, to its last node."""
+        assert own.message is not None
+        last = own.message.nodes[-1].sequence_id
+        is_known = last in state.nodes or last == state.last_sequence_id
+        return state.update_id == own.message.update_id and is_known
+
+    @staticmethod
+    def _has_stopped(own: RobotLedger, state: RobotState) -> bool:
+        """Return whether a robot has carried out our withdrawal, or had nothing to withdraw."""
+        if own.cancel is None or own.cancel.action_id is None or own.token is not None:
+            return False
+        status = state.actions.get(own.cancel.action_id)
+        return status in {"FINISHED", "FAILED"} and state.is_idle and own.is_acknowledged
+
+    def _new_order(self, robot: int, begin: int, end: int, *, has_stopped: bool = False) -> Entry:
+        """Return the entry of a new order over some parts."""
+        own = self.ledger.robots[robot]
+        order_id = f"{self.ledger.run}-{robot}-{len(own.orders)}"
+        parts = range(begin, end + 1)
+        nodes, actions = self._nodes(robot, parts, begin, keeps_ids=not has_stopped)
+        order = Order(robot=robot, order_id=order_id, update_id=0, nodes=tuple(nodes))
+        return _order_entry(order, begin, actions)
+
+    def _update(self, robot: int, end: int) -> Entry:
+        """Return the entry of an update to a last part; it begins with the last node of the base.
+
+        That node is sent again word for word; its actions are done once.
+        """
+        own = self.ledger.robots[robot]
+        assert own.message is not None
+        sent = own.orders[own.order_id]
+        parts = range(own.released + 1, end + 1)
+        nodes, actions = self._nodes(robot, parts, sent.offset, keeps_ids=False)
+        order = Order(
+            robot=robot,
+            order_id=own.order_id,
+            update_id=len(sent.ends),
+            nodes=(own.message.nodes[-1], *nodes),
+        )
+        return _order_entry(order, sent.offset, actions)
+
+    def _nodes(
+        self, robot: int, parts: range, offset: int, *, keeps_ids: bool
+    ) -> tuple[list[OrderNode], list[tuple[str, str, int]]]:
+        """Return the nodes of parts, and the id, job and number of their actions.
+
+        An action that a robot may have begun keeps its id, so that it is not done twice. After a
+        withdrawal it failed, and the next one has another id.
+        """
+        own, actions, nodes = self.ledger.robots[robot], [], []
+        for part in parts:
+            ids = list[str]()
+            for job in own.route.jobs[part]:
+                if job in own.finished:
+                    continue
+                last = own.attempts.get(job, 0)
+                attempt = max(last, 1) if keeps_ids else last + 1
+                ids.append(f"{self.ledger.run}-{robot}-{job}-{attempt}")
+                actions.append((ids[-1], job, attempt))
+            place, number = own.route.places[part], 2 * (part - offset)
+            nodes.append(OrderNode(place=place, sequence_id=number, actions=tuple(ids)))
+        return nodes, actions
+
+    # --- what may be released (rules 4 and 5) ----------------------------------------------------
+
+    def _go_on(self) -> list[Message]:
+        """Release what may be released; return what is to be sent."""
+        sends: list[Message] = []
+        for robot, own in enumerate(self.ledger.robots):
+            entry = self._next(robot, own)
+            if entry is not None:
+                self._commit(entry)
+                sends += self._open(robot)
+        return sends
+
+    def _next(self, robot: int, own: RobotLedger) -> Entry | None:
+        """Return the next step of a robot: its first order, a withdrawal, or an update."""
+        if own.is_off or own.token is not None:
+            return None
+        if own.message is None:
+            return self._new_order(robot, 0, 0)
+        if not own.is_acknowledged:
+            return None
+        if own.cancel is None:
+            end = own.released
+            while self._may_release(robot, own, end + 1):
+                end += 1
+            return self._update(robot, end) if end > own.released else None
+        if own.cancel.action_id is None:
+            action_id = f"{self.ledger.run}-{robot}-cancel{own.cancels}"
+            return {"kind": "cancel asked", "robot": robot, "action": action_id}
+        return None
+
+    def _may_release(self, robot: int, own: RobotLedger, part: int) -> bool:
+        """Return whether a part may be released after those before it (rule 4)."""
+        places = own.route.places
+        return (
+            part < len(places)
+            and not own.is_on_hold
+            and own.fault is None
+            and part - own.arrived <= self._look_ahead
+            and own.finished.issuperset(own.route.jobs[part - 1])
+            and places[part] not in places[own.arrived : part]
+            and not any(places[part] == other.strays_at for other in self.ledger.robots)
+            and self.ledger.graph.may_go(Part(robot, part), self.ledger.arrived)
+        )
+
+    def _committed(self, own: RobotLedger) -> int:
+        """Return the last part that a splice has to keep."""
+        return own.released
+
+    def _commit(self, *entries: Entry) -> None:
+        """Write entries to the disk, then take them in."""
+        if entries:
+            self._journal.commit(entries)
+            for entry in entries:
+                self.ledger.apply(entry)
+
+
+def _order_entry(order: Order, offset: int, actions: list[tuple[str, str, int]]) -> Entry:
+    """Return the entry of an order whose sequence id 0 is a part of the route."""
+    document = order.to_document()
+    return {
+        "kind": "order",
+        "robot": order.robot,
+        "order": document,
+        "offset": offset,
+        "actions": actions,
+    }
+
+
+def _jobs(route: RouteToDrive) -> set[str]:
+    return {job for jobs in route.jobs for job in jobs}
+
+
+def _refuse_rotation(graph: ReleaseGraph) -> None:
+    if cycle := graph.rotation():
+        robots = ", ".join(str(robot) for robot in sorted({part.robot for part in cycle}))
+        message = (
+            f"robots {robots} move round a circle at one instant, which orders cannot make safe"
+        )
+        raise InputError.at("plan", f"{message} (plan with rotations: false)")

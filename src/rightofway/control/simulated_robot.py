@@ -1,0 +1,179 @@
+"""A simulated robot: takes orders as the norm has it, drives node by node, and does its actions.
+
+It has no clock: each `step` is the next thing that it does. Its owner decides when.
+
+A withdrawal or a job is carried out once for its id, however often it comes: a robot that forgets
+its order still knows which actions it has finished. Of a robot that forgets even these before a
+state of them has arrived, nobody could know that the work is done.
+"""
+
+from __future__ import annotations
+
+from rightofway.control.messages import InstantAction, Order, OrderNode, RobotState
+
+
+class SimulatedRobot:
+    """A robot that stands at a place.
+
+    Parameters
+    ----------
+    place
+        The name of the vertex where it is switched on.
+
+    Attributes
+    ----------
+    place
+        The node that it has reached last.
+    is_driving
+        Whether it drives to the first node of `ahead`.
+    ahead
+        The rest of its base.
+    done
+        How often each action was finished, by its id.
+    rejected
+        How many orders it has refused.
+    """
+
+    def __init__(self, place: str) -> None:
+        self.place, self.is_driving = place, False
+        self.ahead: list[OrderNode] = []
+        self.done: dict[str, int] = {}
+        self.rejected = 0
+        self._order_id, self._update_id, self._sequence_id = "", 0, 0
+        self._actions: dict[str, str] = {}
+        self._waiting: list[str] = []  # at this node
+        self._is_cancelled = False
+        self._cancelling: str | None = None
+        self._withdrawals: dict[str, str] = {}  # what becomes of each
+
+    @property
+    def is_active(self) -> bool:
+        """Whether an order is under way."""
+        return bool(self.ahead or self._waiting or self.is_driving)
+
+    def state(self) -> RobotState:
+        """Return what the robot says of itself."""
+        numbers = tuple(node.sequence_id for node in self.ahead)
+        return RobotState(
+            order_id=self._order_id,
+            update_id=self._update_id,
+            last_place=self.place,
+            last_sequence_id=self._sequence_id,
+            nodes=numbers,
+            edges=tuple(number - 1 for number in numbers),
+            actions=dict(self._actions),
+            is_driving=self.is_driving,
+        )
+
+    def take_order(self, order: Order) -> bool:
+        """Take an order or update, or refuse it; return whether anything has changed.
+
+        Parameters
+        ----------
+        order
+            A new order, or an update of the one that it has.
+        """
+        first = order.nodes[0]
+        if order.order_id == self._order_id:
+            if order.update_id == self._update_id:
+                return False  # it has this one
+            last = self.ahead[-1].sequence_id if self.ahead else self._sequence_id
+            is_next = order.update_id > self._update_id and first.sequence_id == last
+            if self._is_cancelled or not is_next:
+                self.rejected += 1
+                return False
+            self.ahead += order.nodes[1:]
+        else:
+            if self.is_active or first.place != self.place:
+                self.rejected += 1
+                return False
+            self._order_id, self._is_cancelled = order.order_id, False
+            self._sequence_id, self.ahead = first.sequence_id, list(order.nodes[1:])
+            self._actions = {}
+            self._waiting = [action for action in first.actions if action not in self.done]
+        self._update_id = order.update_id
+        for node in order.nodes:
+            for action in node.actions:
+                status = "FINISHED" if action in self.done else "WAITING"
+                self._actions.setdefault(action, status)
+        return True
+
+    def take_action(self, action: InstantAction) -> bool:
+        """Carry out an instant action; return whether a state is due.
+
+        Parameters
+        ----------
+        action
+            A request for a state, or the withdrawal of the order.
+        """
+        if action.kind == "stateRequest":
+            self._actions[action.action_id] = "FINISHED"
+            return True
+        known = self._withdrawals.get(action.action_id)
+        if known is not None:
+            self._actions.setdefault(action.action_id, known)
+            return True
+        if not self.is_active:
+            self._withdrawals[action.action_id] = "FAILED"  # there is no order to cancel
+            self._actions[action.action_id] = "FAILED"
+        else:
+            self._withdrawals[action.action_id] = "FINISHED"
+            self._actions[action.action_id] = "RUNNING"
+            self._cancelling, self._is_cancelled = action.action_id, True
+            dropped = self.ahead[1:] if self.is_driving else self.ahead
+            self.ahead = self.ahead[:1] if self.is_driving else []
+            for node in dropped:
+                self._fail(node.actions)
+            self._finish_cancel()
+        return True
+
+    def step(self) -> bool:
+        """Do the next thing: arrive, work, or drive on; return whether there was one."""
+        if self.is_driving:
+            node = self.ahead.pop(0)
+            self.place, self._sequence_id, self.is_driving = node.place, node.sequence_id, False
+            if self._is_cancelled:
+                self._fail(node.actions)
+            else:
+                self._waiting = [action for action in node.actions if action not in self.done]
+            self._finish_cancel()
+        elif self._waiting:
+            action = self._waiting[0]
+            if self._actions[action] == "WAITING":
+                self._actions[action] = "RUNNING"
+            else:
+                self._actions[action] = "FINISHED"
+                self.done[action] = self.done.get(action, 0) + 1
+                self._waiting.pop(0)
+                self._finish_cancel()
+        elif self.ahead:
+            self.is_driving = True
+        else:
+            return False
+        return True
+
+    def forget(self) -> bool:
+        """Forget the order, as after a reset; not between two nodes, nor while it works."""
+        if self.is_driving or any(self._actions[action] == "RUNNING" for action in self._waiting):
+            return False
+        self._order_id, self._update_id, self._sequence_id = "", 0, 0
+        self.ahead, self._waiting, self._cancelling = [], [], None
+        self._is_cancelled = False
+        self._actions = {key: value for key, value in self._actions.items() if value == "FINISHED"}
+        return True
+
+    def _fail(self, actions: tuple[str, ...] | list[str]) -> None:
+        for action in actions:
+            if self._actions[action] == "WAITING":
+                self._actions[action] = "FAILED"
+
+    def _finish_cancel(self) -> None:
+        """End a withdrawal once the robot stands and has ended what it is at."""
+        if self._cancelling is None or self.is_driving:
+            return
+        running = [action for action in self._waiting if self._actions[action] == "RUNNING"]
+        self._fail([action for action in self._waiting if action not in running])
+        self._waiting = running
+        if not running:
+            self._actions[self._cancelling] = "FINISHED"
+            self._cancelling = None

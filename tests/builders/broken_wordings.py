@@ -1,0 +1,125 @@
+"""Wordings of the rule of release that are wrong, each as a control with one step changed.
+
+Chaos finds each of them: the runs would not be worth much otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rightofway.control import Entry, FleetControl, RobotLedger, RobotState
+from rightofway.control.ledger import SentOrder
+
+__all__ = ["WORDINGS"]
+
+
+class LeftWhenItDrives(FleetControl):
+    """A robot that drives has left its vertex."""
+
+    def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
+        visit = super()._proven(own, state)
+        if visit is not None and state.is_driving:
+            return min(visit + 1, own.released)
+        return visit
+
+
+class EmptyMeansArrived(FleetControl):
+    """A robot with no nodes left is at the end of its base."""
+
+    def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
+        visit = super()._proven(own, state)
+        return own.released if state.order_id and not state.nodes else visit
+
+
+class AnyOrderId(FleetControl):
+    """Sequence ids count in the current order, whatever order a state names."""
+
+    def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
+        sent = own.orders.get(own.order_id, SentOrder(0, [0]))
+        visit = sent.offset + state.last_sequence_id // 2
+        return visit if visit <= own.released else None
+
+
+class SentBeforeCommitted(FleetControl):
+    """A release is sent before it is in the journal: a kill between the two forgets it."""
+
+    def _commit(self, *entries: Entry) -> None:
+        if not any(entry["kind"] == "order" for entry in entries):
+            super()._commit(*entries)
+            return
+        for entry in entries:
+            self.ledger.apply(entry)
+        # A kill comes where the next thing is committed; until then the release is in memory only.
+        self._unwritten = [*getattr(self, "_unwritten", []), *entries]
+        if len(self._unwritten) > 1:
+            self._journal.commit(self._unwritten)
+            self._unwritten = []
+
+
+class SplicedBehindAcknowledged(FleetControl):
+    """A new plan keeps what robots have acknowledged, not all that is released."""
+
+    def _committed(self, own: RobotLedger) -> int:
+        if own.is_acknowledged or own.message is None:
+            return own.released
+        sent = own.orders[own.order_id]
+        return sent.ends[-2] if len(sent.ends) > 1 else own.released
+
+
+class SplicedBehindArrived(FleetControl):
+    """A new plan keeps what robots have reached, not all that is released."""
+
+    def _committed(self, own: RobotLedger) -> int:
+        return own.arrived
+
+
+class NextBeforeAcknowledged(FleetControl):
+    """The next update is sent before a state shows the last one."""
+
+    def _next(self, robot: int, own: RobotLedger) -> Entry | None:
+        if own.message is not None and own.cancel is None:
+            own.is_acknowledged = True
+        return super()._next(robot, own)
+
+
+class FreeWhenCancelled(FleetControl):
+    """A withdrawal is asked at any time, and frees the rest as soon as it is finished."""
+
+    def _next(self, robot: int, own: RobotLedger) -> Entry | None:
+        if own.cancel is not None and own.cancel.action_id is None and own.message is not None:
+            action_id = f"{self.ledger.run}-{robot}-cancel{own.cancels}"
+            return {"kind": "cancel asked", "robot": robot, "action": action_id}
+        return super()._next(robot, own)
+
+    def _answers(self, robot: int, state: RobotState) -> Iterator[Entry]:
+        own = self.ledger.robots[robot]
+        asked = own.cancel.action_id if own.cancel else None
+        if asked is not None and state.actions.get(asked) in {"FINISHED", "FAILED"}:
+            stands_at = own.held_at(state.last_place)
+            if stands_at is not None:
+                own.released, own.cancel = max(stands_at, own.arrived), None
+        yield from super()._answers(robot, state)
+
+
+class FactsInMemory(FleetControl):
+    """Arrivals and finished jobs are not in the journal."""
+
+    def _commit(self, *entries: Entry) -> None:
+        facts = [entry for entry in entries if entry["kind"] in {"arrived", "finished"}]
+        super()._commit(*(entry for entry in entries if entry not in facts))
+        for entry in facts:
+            self.ledger.apply(entry)
+
+
+WORDINGS = {
+    "left = drives away": (LeftWhenItDrives, "plain"),
+    "no nodes = arrived": (EmptyMeansArrived, "plain"),
+    "the order of a state is not looked at": (AnyOrderId, "cancels and resets"),
+    "send, then commit": (SentBeforeCommitted, "killed often"),
+    "splice behind what is acknowledged": (SplicedBehindAcknowledged, "killed often"),
+    "splice behind where robots are": (SplicedBehindArrived, "killed often"),
+    "next update before the acknowledgement": (NextBeforeAcknowledged, "plain"),
+    "a withdrawal frees at once": (FreeWhenCancelled, "cancels"),
+    "facts in memory": (FactsInMemory, "all"),
+}
+"""Each wording with the chaos that finds it."""

@@ -1,0 +1,588 @@
+"""Chaos by seed: a control, simulated robots, and a network that loses, doubles and delays.
+
+An observer looks at robots and journal after each event, with the definition of incompatible
+resources, and ends a run at the first fault. The control is killed at any instant, before or after
+a commit, and starts again on its journal, perhaps with another plan of the rest.
+"""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache, partial
+from itertools import pairwise
+from typing import Any
+
+import rightofway
+from rightofway.control import (
+    Entry,
+    FleetControl,
+    InstantAction,
+    Message,
+    Order,
+    RobotState,
+    RouteToDrive,
+    SimulatedRobot,
+)
+from rightofway.control.routes import routes_to_drive
+from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.model import Plan, Rules, Scenario
+from rightofway.precedence import Arrival, Part, ReleaseGraph
+from rightofway.site import Roadmap
+from tests.builders.fleets import random_fleet
+from tests.oracles.space import Shape, incompatible, zones_around, zones_with
+
+__all__ = ["KINDS", "Chaos", "Fault", "MemoryJournal", "chaotic_plan", "run_chaos"]
+
+
+class Fault(AssertionError):
+    """What the observer has found."""
+
+
+class Killed(Exception):
+    """The process of the control ends here."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Chaos:
+    """How much goes wrong.
+
+    Attributes
+    ----------
+    events
+        Events with faults; afterwards nothing is lost and nobody is killed.
+    lost, doubled
+        Shares of messages.
+    kills
+        Share of events at which the control is killed, and as many of commits.
+    resets
+        Share of events at which a robot forgets its order.
+    wrong
+        Share of states with one wrong field.
+    cancels
+        Share of events at which a robot's order is withdrawn.
+    splices
+        Share of starts with another plan of the rest.
+    look_ahead
+        Of the control.
+    """
+
+    events: int = 500
+    lost: float = 0.3
+    doubled: float = 0.2
+    kills: float = 0.01
+    resets: float = 0.0
+    wrong: float = 0.0
+    cancels: float = 0.0
+    splices: float = 0.5
+    look_ahead: int = 4
+
+
+KINDS = {
+    "plain": Chaos(kills=0.0),
+    "killed": Chaos(),
+    "killed often": Chaos(kills=0.08, splices=1.0),
+    "lost": Chaos(lost=0.5),
+    "ahead": Chaos(look_ahead=10**6),
+    "one ahead": Chaos(look_ahead=1),
+    "resets": Chaos(resets=0.02),
+    "cancels": Chaos(cancels=0.03),
+    "cancels and resets": Chaos(cancels=0.02, resets=0.02),
+    "wrong fields": Chaos(wrong=0.2),
+    "all": Chaos(kills=0.03, resets=0.01, wrong=0.1, cancels=0.02, splices=1.0),
+}
+"""Kinds of chaos by name."""
+
+CALM = 20_000
+"""Events without faults after which a run counts as stuck."""
+
+
+def chaotic_plan(seed: int) -> Plan:
+    """Return a plan of two to five robots on a random grid, of the first seed that has one."""
+    draw = random.Random(seed)  # noqa: S311
+    while True:
+        rules = Rules(rotations=False)
+        fleet = random_fleet(
+            draw.getrandbits(32), size=draw.choice([4, 5]), robots=draw.randint(2, 5), rules=rules
+        )
+        try:
+            return rightofway.solve(fleet, "prioritized")
+        except (NoPlanExists, GaveUp):
+            continue
+
+
+class MemoryJournal:
+    """A journal for simulated kills: what was committed is what is there."""
+
+    def __init__(self) -> None:
+        self.written: list[Entry] = []
+        self.kill: Callable[[], bool] = lambda: False
+
+    def entries(self) -> Iterable[Entry]:
+        """Return all entries."""
+        return list(self.written)
+
+    def commit(self, entries: Iterable[Entry]) -> None:
+        """Append entries; the process may end before or after."""
+        if self.kill():
+            raise Killed
+        self.written += entries
+        if self.kill():
+            raise Killed
+
+
+def run_chaos(
+    plan: Plan,
+    seed: int,
+    chaos: Chaos,
+    control: type[FleetControl] = FleetControl,
+) -> Counter[str]:
+    """Drive a plan through chaos; return what happened.
+
+    Raises
+    ------
+    Fault
+        At the first booking held twice, contradiction, job done twice or lost, or stuck run.
+    """
+    world = _World(plan, seed, chaos, control)
+    world.run()
+    return world.counts
+
+
+class _World:
+    def __init__(self, plan: Plan, seed: int, chaos: Chaos, control: type[FleetControl]) -> None:
+        self.plan, self.chaos, self.kind = plan, chaos, control
+        self.draw = random.Random(seed)  # noqa: S311
+        self.counts = Counter[str]()
+        self.scenario = plan.scenario
+        self.robots = [
+            SimulatedRobot(plan.scenario.roadmap.name(int(track.vertices[0])))
+            for track in plan.tracks
+        ]
+        self.orders: list[list[Order]] = [[] for _ in self.robots]  # in order per robot
+        self.states: list[tuple[int, RobotState]] = []  # in any order
+        self.actions: list[InstantAction] = []  # in any order
+        self.journal = MemoryJournal()
+        self.journal.kill = lambda: self._happens(self.chaos.kills / 4)
+        self.is_calm = False
+        self.observer = Observer(plan.scenario, self.robots)
+        self._begin()
+
+    # --- the process of the control ---------------------------------------------------------------
+
+    def _begin(self) -> None:
+        while True:
+            try:
+                control = self._new_control()
+                if not self.journal.written:
+                    graph = ReleaseGraph.of(self.scenario, self.plan.tracks)
+                    control.begin("run", routes_to_drive(self.plan), graph)
+                self.control = control
+                if len(self.journal.written) > 1 and self._chance(self.chaos.splices):
+                    self._splice(control)
+                self.send(control.start())
+            except Killed:
+                self.counts["kills"] += 1
+            else:
+                return
+
+    def _new_control(self) -> FleetControl:
+        return self.kind(self.journal, look_ahead=self.chaos.look_ahead)
+
+    def call(self, step: Callable[[], list[Message]]) -> None:
+        """Have the control do something; where it is killed, it starts again."""
+        try:
+            self.send(step())
+        except Killed:
+            self.counts["kills"] += 1
+            self._begin()
+
+    def send(self, messages: Sequence[Message]) -> None:
+        """Give messages to the network; the process may end between two of them."""
+        for message in messages:
+            if self._happens(self.chaos.kills / 4):
+                raise Killed
+            self.counts["messages"] += 1
+            self.observer.see_message(message)
+            for _ in range(self._copies()):
+                if isinstance(message, Order):
+                    self.orders[message.robot].append(message)
+                else:
+                    self.actions.append(message)
+
+    def _splice(self, control: FleetControl) -> None:
+        """Give the control another plan of all that it has not released, if one is found."""
+        found = another_plan(self.scenario, control, self.draw)
+        if found is None:
+            return
+        self.counts["splices"] += 1
+        self.send(control.splice(*found))
+
+    # --- events -----------------------------------------------------------------------------------
+
+    def run(self) -> None:
+        for _ in range(self.chaos.events):
+            self._event()
+            self.observer.look(self.control)
+        self.is_calm = True
+        for k in range(CALM):
+            if self._is_done():
+                self.observer.look_at_the_end(self.control)
+                return
+            if k % 200 == 0:
+                self._ask_a_person()
+            self._event()
+            self.observer.look(self.control)
+        raise Fault(f"stuck: {self._stand()}")
+
+    def _stand(self) -> list[str]:
+        """Return where each robot stands, and why it does not go on."""
+        ledger = self.control.ledger
+        return [
+            f"{own.arrived}/{own.released}/{len(own.route.places) - 1} ack={own.is_acknowledged} "
+            f"token={own.token} cancel={own.cancel} fault={own.fault} failed={own.failed} "
+            f"job={own.route.jobs[own.released]} finished={own.finished} "
+            f"missing={ledger.graph.missing(Part(robot, own.released + 1), ledger.arrived)}"
+            for robot, own in enumerate(ledger.robots)
+        ]
+
+    def _is_done(self) -> bool:
+        return all(
+            own.arrived == len(own.route.places) - 1
+            and own.finished.issuperset(job for jobs in own.route.jobs for job in jobs)
+            for own in self.control.ledger.robots
+        )
+
+    def _event(self) -> None:
+        chaos, robot = self.chaos, self.draw.randrange(len(self.robots))
+        if self._happens(chaos.kills):
+            self.counts["kills"] += 1
+            self._begin()
+        elif self._happens(chaos.resets):
+            self.counts["resets"] += self.robots[robot].forget()
+        elif self._happens(chaos.cancels):
+            self.counts["cancels"] += 1
+            self.call(partial(self.control.cancel, robot))
+        kinds: list[Callable[[int], None]] = [
+            self._step,
+            self._take_order,
+            self._take_action,
+            self._take_state,
+            self._tell,
+        ]
+        if self._chance(1 / 30):
+            self.call(self.control.remind)
+        else:
+            self.draw.choices(kinds, (6, 6, 4, 10, 3))[0](robot)
+
+    def _step(self, robot: int) -> None:
+        if self.robots[robot].step():
+            self._tell(robot)
+
+    def _take_order(self, robot: int) -> None:
+        if self.orders[robot]:
+            self.robots[robot].take_order(self.orders[robot].pop(0))
+            self._tell(robot)
+
+    def _take_action(self, _: int) -> None:
+        if self.actions:
+            action = self.actions.pop(self.draw.randrange(len(self.actions)))
+            if self.robots[action.robot].take_action(action):
+                self._tell(action.robot)
+
+    def _take_state(self, _: int) -> None:
+        """Give a state to the control: mostly one of the latest, sometimes one of long ago."""
+        if self.states:
+            back = min(int(self.draw.expovariate(0.3)), len(self.states) - 1)
+            other, state = self.states.pop(back)
+            self.call(partial(self.control.receive, other, state))
+
+    def _tell(self, robot: int) -> None:
+        """Send the state of a robot."""
+        state = self.robots[robot].state()
+        for _ in range(self._copies()):
+            sent = state
+            if self._happens(self.chaos.wrong):
+                self.counts["wrong fields"] += 1
+                sent = self._with_wrong_field(robot, state)
+            place = (
+                len(self.states) if self._chance(0.6) else self.draw.randint(0, len(self.states))
+            )
+            self.states.insert(place, (robot, sent))
+
+    def _with_wrong_field(self, robot: int, state: RobotState) -> RobotState:
+        own, draw = self.control.ledger.robots[robot], self.draw
+        orders, number = [*own.orders, "", "another"], state.last_sequence_id
+        change: dict[str, Any] = draw.choice(
+            [
+                {"order_id": draw.choice(orders)},
+                {"update_id": max(0, state.update_id + draw.choice([-2, -1, 1]))},
+                {"last_place": draw.choice([*own.route.places, ""])},
+                {"last_sequence_id": max(0, number + draw.choice([-2, 1, 2, 4]))},
+                {"nodes": (), "edges": ()},
+                {"nodes": state.nodes[1:]},
+                {"edges": state.edges[1:]},
+                {"is_driving": not state.is_driving},
+            ]
+        )
+        return replace(state, **change)
+
+    def _ask_a_person(self) -> None:
+        """Have a person look after faulty robots."""
+        for robot, own in enumerate(self.control.ledger.robots):
+            if own.fault is not None:
+                self.counts["cleared"] += 1
+                self.call(partial(self.control.clear, robot))
+
+    def _copies(self) -> int:
+        if self._happens(self.chaos.lost):
+            return 0
+        return 2 if self._happens(self.chaos.doubled) else 1
+
+    def _happens(self, share: float) -> bool:
+        return not self.is_calm and self._chance(share)
+
+    def _chance(self, share: float) -> bool:
+        return self.draw.random() < share
+
+
+class Observer:
+    """Looks at robots and journal from outside."""
+
+    def __init__(self, scenario: Scenario, robots: Sequence[SimulatedRobot]) -> None:
+        self.scenario, self.robots = scenario, robots
+        self._excludes = _excludes(scenario)
+        self._contents: dict[tuple[str, int], Order] = {}
+        self._arrived = [0 for _ in robots]
+        self._vertex = {scenario.roadmap.name(k): k for k in range(scenario.roadmap.n_vertices)}
+        self._shapes = cache(self._shapes_along)
+        self._seen: list[tuple[object, ...]] = []
+
+    def see_message(self, message: Message) -> None:
+        """Hold an order against what was sent with its ids before (I4)."""
+        if isinstance(message, Order):
+            key = (message.order_id, message.update_id)
+            if self._contents.setdefault(key, message) != message:
+                raise Fault(f"{key} has two contents: {self._contents[key]} and {message}")
+
+    def look(self, control: FleetControl) -> None:
+        """Compare what robots hold, truly and by the journal (I1, I2, I5), and their jobs."""
+        bases, booked = [], []
+        for robot, (own, real) in enumerate(zip(control.ledger.robots, self.robots, strict=True)):
+            base = (real.place, *(node.place for node in real.ahead))
+            held = own.route.places[own.arrived : own.released + 1]
+            if not self._arrived[robot] <= own.arrived <= own.released:
+                raise Fault(f"robot {robot} has arrived at {own.arrived} of {own.released}")
+            self._arrived[robot] = own.arrived
+            if not _is_within(base, held):
+                raise Fault(f"robot {robot} has base {base}, but the journal says {held}")
+            bases.append(base)
+            booked.append(held)
+        self._compare(bases, "drive")
+        self._compare(booked, "are booked")
+
+    def _compare(self, ways: Sequence[tuple[str, ...]], verb: str) -> None:
+        key = tuple(ways)
+        if key in self._seen:
+            return
+        self._seen = [*self._seen[-8:], key]
+        shapes = [self._shapes(way) for way in ways]
+        for j in range(len(ways)):
+            for i in range(j):
+                for one in shapes[i]:
+                    for other in shapes[j]:
+                        if self._excludes(i, one, j, other):
+                            raise Fault(f"robots {i} and {j} {verb} at once: {one} and {other}")
+
+    def _shapes_along(self, places: tuple[str, ...]) -> frozenset[Shape]:
+        """Return vertices, edges and zones of a way."""
+        vertices = [self._vertex[place] for place in places]
+        edges = list(pairwise(vertices))
+        roadmap = self.scenario.roadmap
+        zones = {zone for vertex in vertices for zone in zones_around(roadmap, vertex)}
+        zones |= {zone for edge in edges for zone in zones_with(roadmap, edge)}
+        return frozenset([*((v,) for v in vertices), *edges, *((-1 - zone,) for zone in zones)])
+
+    def look_at_jobs(self, control: FleetControl) -> None:
+        """Count how often each job was done."""
+        for robot, (own, real) in enumerate(zip(control.ledger.robots, self.robots, strict=True)):
+            done = Counter(
+                job for action, job in own.jobs_of.items() for _ in range(real.done.get(action, 0))
+            )
+            for job, count in done.items():
+                if count > 1:
+                    raise Fault(f"robot {robot} has done {job} {count} times")
+
+    def look_at_the_end(self, control: FleetControl) -> None:
+        """Tell whether each job was done exactly once, and each robot is at its end."""
+        self.look_at_jobs(control)
+        for robot, (own, real) in enumerate(zip(control.ledger.robots, self.robots, strict=True)):
+            done = {job for action, job in own.jobs_of.items() if real.done.get(action)}
+            wanted = {job for jobs in own.route.jobs for job in jobs}
+            if not wanted <= done:
+                raise Fault(f"robot {robot} has not done {sorted(wanted - done)}")
+            if real.place != own.route.places[-1]:
+                raise Fault(f"robot {robot} ends at {real.place}")
+
+
+@lru_cache(maxsize=4)
+def _excludes(scenario: Scenario) -> Callable[[int, Shape, int, Shape], bool]:
+    return cache(partial(incompatible, scenario))
+
+
+def _is_within(base: tuple[str, ...], held: tuple[str, ...]) -> bool:
+    return any(held[k : k + len(base)] == base for k in range(len(held) - len(base) + 1))
+
+
+# --- another plan of the rest ---------------------------------------------------------------------
+
+
+def another_plan(
+    scenario: Scenario, control: FleetControl, draw: random.Random
+) -> tuple[list[RouteToDrive], ReleaseGraph] | None:
+    """Return other routes and rights of way behind what is committed; None if none was found.
+
+    Robots get random ways to their next places. Then one after another moves on a part at random,
+    wherever nobody is in its way, until all are at their ends: that is the order of the new plan.
+    """
+    ledger = control.ledger
+    ends = [control._committed(own) for own in ledger.robots]
+    detour = partial(_detour, scenario, draw)
+    for attempt in range(6):
+        routes = [
+            own.route if attempt % 2 or draw.random() < 0.5 else detour(own.route, end)
+            for own, end in zip(ledger.robots, ends, strict=True)
+        ]
+        order = _played(scenario, routes, [own.arrived for own in ledger.robots], ends, draw)
+        if order is not None:
+            graph = graph_of_order(scenario, routes, ends, order)
+            try:
+                if graph.rotation():
+                    continue
+            except InputError:
+                continue
+            return routes, graph
+    return None
+
+
+def _vertices(scenario: Scenario, route: RouteToDrive) -> list[int]:
+    return [int(scenario.roadmap.vertex(place)) for place in route.places]
+
+
+def _detour(scenario: Scenario, draw: random.Random, route: RouteToDrive, end: int) -> RouteToDrive:
+    """Return the route with random ways between the places of its later jobs, and its end."""
+    roadmap, vertices = scenario.roadmap, _vertices(scenario, route)
+    last = len(vertices) - 1
+    goals = [k for k in range(end + 1, last + 1) if route.jobs[k] or k == last]
+    path, jobs = vertices[: end + 1], list(route.jobs[: end + 1])
+    for goal in goals:
+        way = _random_way(roadmap, path[-1], vertices[goal], draw)
+        if way is None or (len(way) == 1 and route.jobs[goal]):
+            return route
+        path += way[1:]
+        jobs += [()] * (len(way) - 1)
+        if way[1:]:
+            jobs[-1] = route.jobs[goal]
+    return RouteToDrive(places=tuple(map(roadmap.name, path)), jobs=tuple(jobs))
+
+
+def _random_way(roadmap: Roadmap, start: int, goal: int, draw: random.Random) -> list[int] | None:
+    """Return a way through a random spanning tree from its start."""
+    came: dict[int, int] = {start: start}
+    front = [start]
+    while front:
+        vertex = front.pop(draw.randrange(len(front)))
+        heads = roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist()
+        for head in heads:
+            if head not in came:
+                came[head] = vertex
+                front.append(head)
+    if goal not in came:
+        return None
+    way = [goal]
+    while way[-1] != start:
+        way.append(came[way[-1]])
+    return way[::-1]
+
+
+def _part(scenario: Scenario, vertices: Sequence[int], k: int) -> list[Shape]:
+    shapes: list[Shape] = [(vertices[k],)]
+    roadmap = scenario.roadmap
+    zones = set(zones_around(roadmap, vertices[k]))
+    if k:
+        edge = (vertices[k - 1], vertices[k])
+        shapes.append(edge)
+        zones |= zones_with(roadmap, edge)
+    return [*shapes, *((-1 - zone,) for zone in zones)]
+
+
+def _played(
+    scenario: Scenario,
+    routes: Sequence[RouteToDrive],
+    arrived: Sequence[int],
+    ends: Sequence[int],
+    draw: random.Random,
+) -> list[Part] | None:
+    """Return an order in which all parts behind what is committed can be driven; None if stuck."""
+    excludes = _excludes(scenario)
+    ways = [_vertices(scenario, route) for route in routes]
+    at, order = list(arrived), list[Part]()
+    held = [
+        {shape for k in range(at[r], end + 1) for shape in _part(scenario, ways[r], k)}
+        for r, end in enumerate(ends)
+    ]
+    movable = [r for r in range(len(routes)) if at[r] < len(ways[r]) - 1]
+    while movable:
+        draw.shuffle(movable)
+        for robot in movable:
+            k = at[robot] + 1
+            part = _part(scenario, ways[robot], k)
+            is_free = k <= ends[robot] or not any(
+                excludes(robot, mine, other, theirs)
+                for other in range(len(routes))
+                if other != robot
+                for mine in part
+                for theirs in held[other]
+            )
+            if is_free:
+                break
+        else:
+            return None
+        at[robot] = k
+        if k > ends[robot]:
+            order.append(Part(robot, k))
+        held[robot] = {
+            shape
+            for p in range(k, max(ends[robot], k) + 1)
+            for shape in _part(scenario, ways[robot], p)
+            if p > k or len(shape) == 1
+        }
+        if k == len(ways[robot]) - 1:
+            movable.remove(robot)
+    return order
+
+
+def graph_of_order(
+    scenario: Scenario, routes: Sequence[RouteToDrive], ends: Sequence[int], order: Sequence[Part]
+) -> ReleaseGraph:
+    """Return who waits for whom where the parts behind the committed ones go in an order."""
+    excludes = _excludes(scenario)
+    ways = [_vertices(scenario, route) for route in routes]
+    before = [Part(r, k) for r, end in enumerate(ends) for k in range(end + 1)]
+    waits: dict[Part, list[Arrival]] = {}
+    for part in order:
+        latest: dict[int, int] = {}
+        for mine in _part(scenario, ways[part.robot], part.number):
+            for other in before:
+                if other.robot == part.robot:
+                    continue
+                for theirs in _part(scenario, ways[other.robot], other.number):
+                    if excludes(part.robot, mine, other.robot, theirs):
+                        is_edge = len(theirs) == 2
+                        left = other.number + (not is_edge)
+                        latest[other.robot] = max(latest.get(other.robot, 0), left)
+        waits[part] = [Arrival(*arrival) for arrival in sorted(latest.items())]
+        before.append(part)
+    return ReleaseGraph([len(way) for way in ways], waits)

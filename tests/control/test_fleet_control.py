@@ -1,0 +1,142 @@
+"""Fleet control step by step, on the paper's door: R1 waits in N0 until R2 has left N1."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from rightofway.control import FleetControl, JournalFailed, Order, RobotState
+from rightofway.control.routes import routes_to_drive
+from rightofway.errors import InputError
+from rightofway.precedence import Arrival, Part, ReleaseGraph
+from tests.builders.chaos import MemoryJournal
+from tests.builders.plans import door
+
+
+def begun(journal: MemoryJournal | None = None) -> FleetControl:
+    """Return a control of the door, started, whose robots have their first orders."""
+    plan = door()
+    control = FleetControl(journal or MemoryJournal())
+    graph = ReleaseGraph.of(plan.scenario, plan.tracks)
+    control.begin("run", routes_to_drive(plan), graph)
+    control.start()
+    return control
+
+
+def state(order: str, update: int, place: str, number: int, nodes: tuple[int, ...]) -> RobotState:
+    """Return a state of a robot that has nodes ahead."""
+    edges = tuple(node - 1 for node in nodes)
+    return RobotState(
+        order_id=order,
+        update_id=update,
+        last_place=place,
+        last_sequence_id=number,
+        nodes=nodes,
+        edges=edges,
+    )
+
+
+def orders(messages: object) -> list[tuple[int, int, list[str]]]:
+    """Return robot, update and places of the orders among messages."""
+    return [
+        (one.robot, one.update_id, [node.place for node in one.nodes])
+        for one in messages  # type: ignore[attr-defined]
+        if isinstance(one, Order)
+    ]
+
+
+def test_the_first_order_is_the_vertex_where_the_robot_stands() -> None:
+    control = begun()
+    assert orders(control.remind()) == [(0, 0, ["N0"]), (1, 0, ["N2"])]
+
+
+def test_a_robot_gets_as_many_parts_as_are_free_and_no_vertex_twice() -> None:
+    """R2 drives N2 N1 N4 N7 N8, works there, and comes back: its base ends at its stop."""
+    control = begun()
+    sent = control.receive(1, state("run-1-0", 0, "N2", 0, ()))
+    assert orders(sent) == [(1, 1, ["N2", "N1", "N4", "N7", "N8"])]
+    assert orders(control.receive(0, state("run-0-0", 0, "N0", 0, ()))) == []  # waits for R2
+
+
+def test_a_robot_waits_for_the_arrival_behind_the_vertex_not_for_its_leaving() -> None:
+    control = begun()
+    control.receive(0, state("run-0-0", 0, "N0", 0, ()))
+    control.receive(1, state("run-1-0", 0, "N2", 0, ()))
+    driving = replace(state("run-1-0", 1, "N1", 2, (4, 6, 8)), is_driving=True)
+    assert orders(control.receive(1, driving)) == []
+    beyond = state("run-1-0", 1, "N4", 4, (6, 8))
+    assert orders(control.receive(1, beyond)) == [(0, 1, ["N0", "N1"])]
+
+
+def test_a_robot_on_hold_gets_nothing_more_until_it_is_let_go() -> None:
+    control = begun()
+    control.hold(1, on=True)
+    assert orders(control.receive(1, state("run-1-0", 0, "N2", 0, ()))) == []
+    assert orders(control.hold(1, on=False)) == [(1, 1, ["N2", "N1", "N4", "N7", "N8"])]
+
+
+def test_a_robot_with_an_order_of_others_is_faulty_until_a_person_has_looked() -> None:
+    told: list[str] = []
+    plan = door()
+    control = FleetControl(MemoryJournal(), report=told.append)
+    graph = ReleaseGraph.of(plan.scenario, plan.tracks)
+    control.begin("run", routes_to_drive(plan), graph)
+    control.start()
+    for _ in range(3):
+        control.receive(1, state("another", 0, "N2", 0, ()))
+    assert len(told) == 1
+    assert "robot 1 is faulty" in told[0]
+    assert orders(control.receive(1, state("run-1-0", 0, "N2", 0, ()))) == []
+    assert orders(control.clear(1)) == [(1, 1, ["N2", "N1", "N4", "N7", "N8"])]
+
+
+def test_a_robot_taken_off_the_floor_is_in_nobodys_way() -> None:
+    control = begun()
+    control.receive(0, state("run-0-0", 0, "N0", 0, ()))
+    sent = control.take_off(1)
+    assert [order[:2] for order in orders(sent)] == [(0, 1)]
+
+
+def test_where_the_journal_cannot_be_written_nothing_is_sent() -> None:
+    journal = MemoryJournal()
+    control = begun(journal)
+
+    def fail() -> bool:
+        raise JournalFailed("the disk is full")
+
+    journal.kill = fail
+    with pytest.raises(JournalFailed):
+        control.receive(1, state("run-1-0", 0, "N2", 0, ()))
+    assert control.ledger.robots[1].released == 0
+    journal.kill = lambda: False
+    sent = control.receive(1, state("run-1-0", 0, "N2", 0, ()))
+    assert orders(sent) == [(1, 1, ["N2", "N1", "N4", "N7", "N8"])]
+
+
+def test_a_splice_keeps_what_is_released() -> None:
+    control = begun()
+    control.receive(1, state("run-1-0", 0, "N2", 0, ()))
+    routes = routes_to_drive(door())
+    other = replace(
+        routes[1], places=("N2", "N1", *routes[1].places[2:4], "N6", *routes[1].places[5:])
+    )
+    graph = control.ledger.graph
+    with pytest.raises(InputError, match=r"routes\[1\]: the route changes what is released"):
+        control.splice([routes[0], other], graph)
+
+
+def test_a_splice_loses_no_job() -> None:
+    control = begun()
+    routes = routes_to_drive(door())
+    idle = replace(routes[0], jobs=((),) * len(routes[0].jobs))
+    with pytest.raises(InputError, match=r"routes\[0\]: job0 is in no visit"):
+        control.splice([idle, routes[1]], control.ledger.graph)
+
+
+def test_a_rotation_is_refused_with_the_way_out() -> None:
+    routes = routes_to_drive(door())
+    circle = {Part(0, 1): [Arrival(1, 1)], Part(1, 1): [Arrival(0, 1)]}
+    graph = ReleaseGraph([len(route.places) for route in routes], circle)
+    with pytest.raises(InputError, match=r"robots 0, 1 move round .* rotations: false"):
+        FleetControl(MemoryJournal()).begin("run", routes, graph)
