@@ -161,7 +161,7 @@ def _text(value: dict[str, Any], whole: dict[str, Any]) -> str:
 
 def result_columns() -> Iterable[str]:
     """Return the columns of the results of a benchmark."""
-    return table(("column", "what"), ((f"`{each.name}`", each.what) for each in COLUMNS))
+    return table(("column", "what"), ((f"`{each.name}`", each.meaning) for each in COLUMNS))
 
 
 def delay_causes() -> Iterable[str]:

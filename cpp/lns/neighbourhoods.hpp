@@ -23,8 +23,8 @@ enum class NeighbourhoodKind : std::int32_t {
 };
 inline constexpr std::size_t n_neighbourhood_kinds = 5;
 
-// Which of several ways to try next: those drawn more often that have brought more of late for the
-// effort they took.
+// Adaptive weights of ALNS: a neighbourhood is drawn with a probability that grows with its recent
+// gain for the effort.
 //
 // Ropke & Pisinger, "An adaptive large neighborhood search heuristic for the pickup and delivery
 // problem with time windows", Transportation Science 2006 (weights).

@@ -29,7 +29,7 @@ FAR = 2**31 - 1
 def deal_homes(
     robots: Sequence[Robot], roadmap: Roadmap, rules: Rules
 ) -> tuple[list[Robot], tuple[str, ...]]:
-    """Return the robots with homes for those that are `HOMELESS`, and a note of who starts where.
+    """Return the robots, each with a home, and a note on the homes given to `HOMELESS` ones.
 
     In the order of the robots, each gets the free place that has the shortest way to its first
     stop, and a way back from its last one unless it stays there. Of equals the place of least

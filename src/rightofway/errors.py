@@ -455,7 +455,7 @@ def listed(names: Sequence[str]) -> str:
 
 
 def printable(text: str) -> str:
-    r"""Return text with escapes for what a terminal would obey, and for what is no character.
+    r"""Return text with escapes for control characters and for lone surrogates.
 
     Examples
     --------

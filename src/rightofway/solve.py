@@ -177,7 +177,7 @@ def improve(
 
 
 def _refuse_start(spec: PlannerSpec, plan: Plan, place: str) -> None:
-    """Refuse to start from what is no plan, or a planner that cannot start from one."""
+    """Refuse a start that is not a plan, and planners that cannot improve one."""
     checked_plan(plan, place)
     if Feature.IMPROVES not in spec.features:
         message = f"{spec.name} cannot start from a plan (choose {able(Feature.IMPROVES)})"

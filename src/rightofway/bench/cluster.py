@@ -96,8 +96,10 @@ def _rows(distributed: Any, client: Any, cases: Iterator[Case]) -> Iterator[Row]
         except Exception as error:
             if future.status != "error":
                 raise
-            what = shorten(f"{type(error).__name__}: {error}", LONGEST, placeholder=" …")
-            message = f"a worker cannot run cases: {what} (install this rightofway on all workers)"
+            reason = shorten(f"{type(error).__name__}: {error}", LONGEST, placeholder=" …")
+            message = (
+                f"a worker cannot run cases: {reason} (install this rightofway on all workers)"
+            )
             raise InputError.at("", message) from None
         yield row
         done.update([submit(case) for case in islice(cases, room())])

@@ -83,11 +83,11 @@ def scenario_document(
     }
 
 
-def _shuffled(places: Sequence[Cell], what: str, seed: int) -> list[Cell]:
-    draw = _generator(what, seed)
+def _shuffled(places: Sequence[Cell], purpose: str, seed: int) -> list[Cell]:
+    draw = _generator(purpose, seed)
     return sorted(places, key=lambda _: draw.random())
 
 
-def _generator(what: str, seed: int) -> random.Random:
+def _generator(purpose: str, seed: int) -> random.Random:
     """Return a generator of its own for each thing drawn, so that none depends on another."""
-    return random.Random(f"{what} {seed}")  # noqa: S311 (no secret depends on it)
+    return random.Random(f"{purpose} {seed}")  # noqa: S311 (no secret depends on it)

@@ -135,7 +135,7 @@ def _death(code: int, words: str) -> tuple[str, str]:
     """Return status and message of a case whose process died without an outcome."""
     if code >= 0:
         return "defect", f"its process ended with code {code}. {words}"
-    name = next((each.name for each in signal.Signals if each == -code), f"signal {-code}")
+    name = next((known.name for known in signal.Signals if known == -code), f"signal {-code}")
     hint = ", perhaps for its memory" if -code == signal.SIGKILL else ""
     return "killed", f"its process was ended by {name}{hint}. {words}"
 

@@ -118,8 +118,8 @@ FIGURES = ("solved", "flowtime / bound", "first plan [s]", "memory [MB]")
 
 def _planners(rows: Sequence[Row]) -> Table:
     table: Table = [["planner", *FIGURES, "not solved"]]
-    for name, each in by_planner(rows).items():
-        group = Group.of(each)
+    for name, planner_rows in by_planner(rows).items():
+        group = Group.of(planner_rows)
         ends = [f"{n} {status}" for status, n in group.statuses.items() if status != "solved"]
         table.append([name, *_figures(group), ", ".join(ends)])
     return table
@@ -132,18 +132,18 @@ def _details(rows: Sequence[Row]) -> Table:
         *(
             [*place, str(robots), planner, *_figures(group)]
             for place, part in grouped(rows, "map", "fleet").items()
-            for planner, each in by_planner(part, names).items()
-            for robots, group in by_robots(each).items()
+            for planner, planner_rows in by_planner(part, names).items()
+            for robots, group in by_robots(planner_rows).items()
         ),
     ]
 
 
 def _figures(group: Group) -> Iterator[str]:
-    def spread(found: Quartiles | None, form: str) -> str:
-        if found is None:
+    def spread(values: Quartiles | None, form: str) -> str:
+        if values is None:
             return ""
-        quartiles = (found.first_quartile, found.median, found.third_quartile)
-        low, median, high = (f"{each:{form}}" for each in quartiles)
+        quartiles = (values.first_quartile, values.median, values.third_quartile)
+        low, median, high = (f"{quartile:{form}}" for quartile in quartiles)
         return median if low == high else f"{median} ({low} to {high})"
 
     yield f"{group.solved} of {group.cases}"
@@ -175,10 +175,12 @@ def markdown_table(table: Table) -> str:
 
 def _machines(rows: Iterable[Row]) -> Iterator[str]:
     keys = ("version", "commit", "cpu", "cores", "compiler", "python")
-    for (version, commit, cpu, cores, compiler, python), each in grouped(rows, *keys).items():
-        what = f"rightofway {version}" + (f" (commit {commit})" if commit else "")
-        cases = f"{len(each)} case{'s' * (len(each) != 1)}"
-        yield f"{cases} by {what} on {cpu}, {cores} cores, {compiler}, Python {python}."
+    for (version, commit, cpu, cores, compiler, python), machine_rows in grouped(
+        rows, *keys
+    ).items():
+        versions = f"rightofway {version}" + (f" (commit {commit})" if commit else "")
+        cases = f"{len(machine_rows)} case{'s' * (len(machine_rows) != 1)}"
+        yield f"{cases} by {versions} on {cpu}, {cores} cores, {compiler}, Python {python}."
 
 
 def _picture(rows: Sequence[Row], draw: Callable[[Sequence[Row], Any], None], form: str) -> bytes:
@@ -196,11 +198,15 @@ def _cactus(rows: Sequence[Row], figure: Any) -> None:
     """Draw how many cases each planner has solved after how many seconds."""
     figure.set_size_inches(7, 4.2)
     axes, planners = figure.add_subplot(), by_planner(rows)
-    for index, (name, each) in enumerate(planners.items()):
+    for index, (name, planner_rows) in enumerate(planners.items()):
         # Laps have no first plan: they are known at the end.
-        known = (row["first_plan_seconds"] or row["wall_seconds"] for row in each if row["solved"])
+        known = (
+            row["first_plan_seconds"] or row["wall_seconds"]
+            for row in planner_rows
+            if row["solved"]
+        )
         seconds = sorted(max(second, LEAST_SECONDS) for second in known)
-        end = max([*seconds, *(row["limit"] for row in each)])
+        end = max([*seconds, *(row["limit"] for row in planner_rows)])
         counts = [*range(1, len(seconds) + 1), len(seconds)]
         colour = COLOURS[index % len(COLOURS)]
         axes.step([*seconds, end], counts, where="post", label=name, color=colour, linewidth=1.6)
@@ -231,10 +237,10 @@ def _ratios(rows: Sequence[Row], figure: Any) -> None:
         axes.remove()
     for axes, (title, part) in zip(grid.flat, parts.items(), strict=False):
         axes.set_title(", ".join(filter(None, title)), fontsize="medium")
-        found = by_planner(part, names)
+        by_name = by_planner(part, names)
         for index, name in enumerate(planners):
             beside = 1.02 ** (index - (len(planners) - 1) / 2)  # spreads do not cover others
-            _draw_planner(axes, by_robots(found.get(name, [])), name, index, beside)
+            _draw_planner(axes, by_robots(by_name.get(name, [])), name, index, beside)
         counts = sorted({row["robots"] for row in part})
         axes.set(xscale="log", xlim=(counts[0] / 1.3, counts[-1] * 1.3))
         axes.set_xticks(counts, [str(count) for count in counts])

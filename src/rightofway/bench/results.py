@@ -33,7 +33,7 @@ class Column:
 
     name: str
     kind: Kind
-    what: str
+    meaning: str
 
 
 COLUMNS = (

@@ -143,9 +143,9 @@ def read_suite(path: Path | str) -> tuple[Case, ...]:
     path = Path(path)
     with in_file(str(path)):
         data = check_format(parse_toml(read_text(path)), SUITE_FORMAT)
-        found = list(_combinations(validate(SuiteDocument, data), path.parent))
+        combined = list(_combinations(validate(SuiteDocument, data), path.parent))
     cases: dict[str, Case] = {}
-    for case in found:
+    for case in combined:
         twin = cases.setdefault(case.key, case)
         if twin is not case:
             message = f"two cases are the same: {case}; and {twin} (take one of them out)"
@@ -158,22 +158,22 @@ def _combinations(document: SuiteDocument, base: Path) -> Iterator[Case]:
 
     faults = Faults()
     maps = [
-        faults.attempt(("maps", index), _maps, each, document.counts, base)
-        for index, each in enumerate(document.maps)
+        faults.attempt(("maps", index), _maps, group, document.counts, base)
+        for index, group in enumerate(document.maps)
     ]
     planners = [
-        faults.attempt(("planners", index), _planner, each)
-        for index, each in enumerate(document.planners)
+        faults.attempt(("planners", index), _planner, group)
+        for index, group in enumerate(document.planners)
     ]
     fleets = [
-        faults.attempt(("fleets", index), _fleet, each)
-        for index, each in enumerate(document.fleets or [SuiteFleetDocument(name="default")])
+        faults.attempt(("fleets", index), _fleet, group)
+        for index, group in enumerate(document.fleets or [SuiteFleetDocument(name="default")])
     ]
-    _note_twins(faults, "maps", [each[0].name if each else None for each in maps])
-    _note_twins(faults, "fleets", [each[0] if each else None for each in fleets])
+    _note_twins(faults, "maps", [group[0].name if group else None for group in maps])
+    _note_twins(faults, "fleets", [group[0] if group else None for group in fleets])
     faults.stop(("maps", "planners", "fleets"))
     limits = document.limits or [Fraction(10)]
-    for spec in (spec for each in maps for spec in each or ()):
+    for spec in (spec for group in maps for spec in group or ()):
         dealt: Iterable[_Fleet] = [("", None)] if "scenario" in spec.data else filter(None, fleets)
         for fleet, count in product(dealt, spec.counts):
             ends = {"ends": spec.ends[:count]} if spec.ends else {}
@@ -264,9 +264,9 @@ def _fleet(document: SuiteFleetDocument) -> _Fleet:
     """Return the name and the data of a fleet."""
     given = document.own(Rules)
     rules = {
-        it.key: written(own) if isinstance(own := given[it.name], Fraction) else own
-        for it in sorted(RULE_ATTRIBUTES, key=lambda it: it.key)
-        if it.name in given
+        attribute.key: written(own) if isinstance(own := given[attribute.name], Fraction) else own
+        for attribute in sorted(RULE_ATTRIBUTES, key=lambda attribute: attribute.key)
+        if attribute.name in given
     }
     speeds = tuple(document.speeds or (Fraction(1),))
     _try_out(speeds, rules)

@@ -87,10 +87,10 @@ def planner_names(rows: Iterable[Row]) -> dict[str, str]:
         common[planner] = common.get(planner, set(options.split())) & set(options.split())
     has_limits = len({limit for _, _, limit in variants}) > 1
     names = {}
-    for (planner, options, limit), each in variants.items():
+    for (planner, options, limit), variant in variants.items():
         own = [option for option in options.split() if option not in common[planner]]
         name = " ".join([planner, *own, *[f"({limit:g} s)"] * has_limits])
-        names.update({row["key"]: name for row in each})
+        names.update({row["key"]: name for row in variant})
     return names
 
 
@@ -115,4 +115,4 @@ def by_planner(rows: Sequence[Row], names: Mapping[str, str] | None = None) -> d
 def by_robots(rows: Iterable[Row]) -> dict[int, Group]:
     """Return the groups of equal numbers of robots, the smallest first."""
     groups = grouped(rows, "robots")
-    return {robots: Group.of(each) for (robots,), each in sorted(groups.items())}
+    return {robots: Group.of(group) for (robots,), group in sorted(groups.items())}

@@ -88,9 +88,9 @@ def judge_closures(plan: Plan, visits: Visits, names: Names, collector: FaultCol
             place, own = divmod(int(codes[index]), len(sizes))
             is_shut[index] = shut.holds(divmod(place, n), sizes[own])
         for k in at_once[is_shut[kind[at_once]]].tolist():
-            one, other = booked.places[k].tolist()
+            first, second = booked.places[k].tolist()
             moment = max(int(booked.start[k]), begin)
-            collector.add(_fault(int(booked.robot[k]), (one, other), moment, end, names))
+            collector.add(_fault(int(booked.robot[k]), (first, second), moment, end, names))
 
 
 class _Booked(NamedTuple):
@@ -136,13 +136,13 @@ class _Shut:
             assert self.closure.at is not None, "the scenario has refused this"
             yield [self.closure.at]
             return
-        one, other = self.closure.edge
+        closed_tail, closed_head = self.closure.edge
         indptr, heads = self.roadmap.indptr, self.roadmap.heads
         if any(
             head in heads[indptr[tail] : indptr[tail + 1]]
-            for tail, head in ((one, other), (other, one))
+            for tail, head in ((closed_tail, closed_head), (closed_head, closed_tail))
         ):
-            yield [one, other]
+            yield [closed_tail, closed_head]
         for lane in self.roadmap.lanes:
             if {lane.vertices[0], lane.vertices[-1]} == self.ends:
                 yield list(lane.vertices)
@@ -152,13 +152,13 @@ class _Shut:
         """The closure's own places: the vertex; or the pieces of the lane, and what joins them."""
         if self.closure.at is not None:
             return {(self.closure.at, self.closure.at)}
-        joints = {(vertex, vertex) for way in self.ways for vertex in way[1:-1]}
-        lanes = (ends for way in self.ways for ends in pairwise(way))
+        joints = {(vertex, vertex) for path in self.ways for vertex in path[1:-1]}
+        lanes = (ends for path in self.ways for ends in pairwise(path))
         return joints | {(min(ends), max(ends)) for ends in lanes}
 
     def own_codes(self, n: int) -> list[int]:
         """Return the closure's own places as one number each, of n vertices."""
-        return [one * n + other for one, other in self._inside]
+        return [tail * n + head for tail, head in self._inside]
 
     def holds(self, place: Place, reach: Fraction) -> bool:
         """Return whether a robot of a radius, clearance included, may not book a place."""
@@ -169,12 +169,12 @@ class _Shut:
         if not self.ends.isdisjoint(place):
             return False
         limit = (self.closure.radius + reach) ** 2
-        one, other = (self._at(vertex) for vertex in place)
+        start, other = (self._at(vertex) for vertex in place)
         lines = (
-            ends for way in self.ways for ends in (pairwise(way) if len(way) > 1 else [way * 2])
+            ends for path in self.ways for ends in (pairwise(path) if len(path) > 1 else [path * 2])
         )
         return any(
-            _square_between(one, other, self._at(begin), self._at(end)) < limit
+            _square_between(start, other, self._at(begin), self._at(end)) < limit
             for begin, end in lines
         )
 
@@ -208,10 +208,10 @@ def _square_between(p: Vector, q: Vector, r: Vector, s: Vector) -> Fraction:
 
 
 def _fault(robot: int, place: Place, moment: int, end: int | None, names: Names) -> Fault:
-    one, other = map(names.vertex, place)
-    where = one
-    if one != other:
-        where = Phrase("the edge between {tail} and {head}", tail=one, head=other)
+    first, second = map(names.vertex, place)
+    where = first
+    if first != second:
+        where = Phrase("the edge between {tail} and {head}", tail=first, head=second)
     until = Phrase("for ever")
     if end is not None:
         until = Phrase("until {end}", end=names.until(end))

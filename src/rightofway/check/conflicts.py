@@ -41,9 +41,9 @@ def _pairs(first: Indices, after: Indices) -> Iterator[tuple[Indices, Indices]]:
     while begin < len(counts):
         before = totals[begin] - counts[begin]
         end = max(int(np.searchsorted(totals, before + CHUNK)), begin + 1)
-        here = counts[begin:end]
-        i = np.repeat(np.arange(begin, end), here)
-        rank = np.arange(len(i)) - np.repeat(totals[begin:end] - here - before, here)
+        group_sizes = counts[begin:end]
+        i = np.repeat(np.arange(begin, end), group_sizes)
+        rank = np.arange(len(i)) - np.repeat(totals[begin:end] - group_sizes - before, group_sizes)
         yield i, first[i] + rank
         begin = end
 
@@ -67,37 +67,37 @@ def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCol
             return Phrase("from {begin} for ever", begin=begin)
         return Phrase("from {begin} to {end}", begin=begin, end=names.until(leave[booking]))
 
-    def conflict(one: int, other: int) -> Verdict:
+    def conflict(first: int, second: int) -> Verdict:
         reason = Phrase(
             "{one} books {vertex} {time} and {other} {other_time}",
-            one=name(one),
-            vertex=names.vertex(int(vertex[one])),
-            time=interval(one),
-            other=name(other),
-            other_time=interval(other),
+            one=name(first),
+            vertex=names.vertex(int(vertex[first])),
+            time=interval(first),
+            other=name(second),
+            other_time=interval(second),
         )
         return reason, ONE_AFTER_THE_OTHER
 
-    def too_soon(one: int, other: int) -> Verdict:
+    def too_soon(first: int, second: int) -> Verdict:
         reason = Phrase(
             "{other} comes to {vertex} at {moment}, {time} after {one} left, the headway is"
             " {headway}",
-            other=name(other),
-            vertex=names.vertex(int(vertex[one])),
-            moment=names.moment(start[other]),
-            time=names.duration(start[other] - leave[one]),
-            one=name(one),
+            other=name(second),
+            vertex=names.vertex(int(vertex[first])),
+            moment=names.moment(start[second]),
+            time=names.duration(start[second] - leave[first]),
+            one=name(first),
             headway=names.duration(headway),
         )
         return reason, Phrase(
-            "come at {moment} or later", moment=names.moment(leave[one] + headway)
+            "come at {moment} or later", moment=names.moment(leave[first] + headway)
         )
 
     def report(
-        kind: FaultKind, one: Indices, other: Indices, verdict: Callable[[int, int], Verdict]
+        kind: FaultKind, first: Indices, second: Indices, verdict: Callable[[int, int], Verdict]
     ) -> None:
         def fault(position: int) -> Fault:
-            pair = int(one[position]), int(other[position])
+            pair = int(first[position]), int(second[position])
             reason, remedy = verdict(*pair)
             return Fault(
                 kind=kind,
@@ -108,17 +108,17 @@ def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCol
                 remedy=remedy,
             )
 
-        ends = robot[one], robot[other]
+        ends = robot[first], robot[second]
         robots = np.minimum(*ends), np.maximum(*ends)
-        collector.add_all(kind, start[other], robots, fault)
+        collector.add_all(kind, start[second], robots, fault)
 
     after = _begun(vertex, start, leave + headway)
-    for one, other in _pairs(np.arange(len(start)) + 1, after):
-        strangers = robot[one] != robot[other]
-        at_once = start[other] < leave[one]
+    for first, second in _pairs(np.arange(len(start)) + 1, after):
+        strangers = robot[first] != robot[second]
+        at_once = start[second] < leave[first]
         conflicts, too_soons = strangers & at_once, strangers & ~at_once
-        report("vertex conflict", one[conflicts], other[conflicts], conflict)
-        report("headway", one[too_soons], other[too_soons], too_soon)
+        report("vertex conflict", first[conflicts], second[conflicts], conflict)
+        report("headway", first[too_soons], second[too_soons], too_soon)
 
 
 def _crowded(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Indices:
@@ -147,29 +147,31 @@ def _begun(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Indices:
 def judge_swaps(visits: Visits, names: Names, collector: FaultCollector) -> None:
     """Find pairs of robots that exchange two vertices."""
 
-    def fault(one: Indices, other: Indices, position: int) -> Fault:
-        moves = int(one[position]), int(other[position])
+    def fault(first: Indices, second: Indices, position: int) -> Fault:
+        moves = int(first[position]), int(second[position])
         robots = tuple(int(visits.robot[move]) for move in moves)
         vertices = tuple(VertexId(int(visits.vertex[move])) for move in moves)
-        who = joined([names.robot(robot) for robot in robots])
+        robot_names = joined([names.robot(robot) for robot in robots])
         where = joined([names.vertex(vertex) for vertex in vertices])
         return Fault(
             kind="swap conflict",
             robots=robots,
             vertices=vertices,
             tick=Tick(int(visits.leave[moves[0]])),
-            reason=Phrase("{robots} exchange {vertices}", robots=who, vertices=where),
+            reason=Phrase("{robots} exchange {vertices}", robots=robot_names, vertices=where),
             remedy=Phrase("let one wait aside until the other is by"),
         )
 
     move, begin, after = _opposite(visits)
     for i, j in _pairs(begin, after):
         # Moves are numbered robot by robot, so that the smaller one has the smaller robot.
-        one, other = np.minimum(move[i], move[j]), np.maximum(move[i], move[j])
-        strangers = visits.robot[one] != visits.robot[other]
-        one, other = one[strangers], other[strangers]
-        robots = visits.robot[one], visits.robot[other]
-        collector.add_all("swap conflict", visits.leave[one], robots, partial(fault, one, other))
+        first, second = np.minimum(move[i], move[j]), np.maximum(move[i], move[j])
+        strangers = visits.robot[first] != visits.robot[second]
+        first, second = first[strangers], second[strangers]
+        robots = visits.robot[first], visits.robot[second]
+        collector.add_all(
+            "swap conflict", visits.leave[first], robots, partial(fault, first, second)
+        )
 
 
 def _moves(visits: Visits) -> Indices:
@@ -225,14 +227,16 @@ def judge_rotations(visits: Visits, names: Names, collector: FaultCollector) -> 
     for tick, head_of in heads.items():
         for circle in _circles(head_of):
             moving = [robots[tick, vertex] for vertex in circle]
-            who = joined([names.robot(robot) for robot in moving])
+            robot_names = joined([names.robot(robot) for robot in moving])
             where = joined([names.vertex(vertex) for vertex in circle])
             fault = Fault(
                 kind="rotation",
                 robots=tuple(sorted(moving)),
                 vertices=tuple(map(VertexId, circle)),
                 tick=tick,
-                reason=Phrase("{robots} move round {vertices} at once", robots=who, vertices=where),
+                reason=Phrase(
+                    "{robots} move round {vertices} at once", robots=robot_names, vertices=where
+                ),
                 remedy=Phrase("let one wait until its place is empty"),
             )
             collector.add(fault)

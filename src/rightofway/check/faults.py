@@ -76,7 +76,7 @@ PLURALS: Mapping[FaultKind, str] = {
     "space conflict": "space conflicts",
     "zone conflict": "zone conflicts",
 }
-"""Of several faults of a kind; a kind that is no noun has none."""
+"""Of several faults of a kind; a kind that is not a noun has none."""
 
 
 Verdict = tuple[Phrase, Phrase]

@@ -103,22 +103,22 @@ class _Shapes:
         self._clearance = int(clearance * self._scale)
         is_used = np.zeros(len(self.one), bool)
         is_used[visits.vertex[visits.known]] = is_used[n:] = True
-        one, other = self._nearby(np.flatnonzero(is_used))
-        self.near = self._lists(one, other)
-        ends = self.one[one], self.other[one]
-        meet = [end == far[other] for end in ends for far in (self.one, self.other)]
+        first, second = self._nearby(np.flatnonzero(is_used))
+        self.near = self._lists(first, second)
+        ends = self.one[first], self.other[first]
+        meet = [end == far[second] for end in ends for far in (self.one, self.other)]
         without = ~np.logical_or.reduce(meet)
-        self.near_without_common_vertex = self._lists(one[without], other[without])
+        self.near_without_common_vertex = self._lists(first[without], second[without])
 
-    def _lists(self, one: Indices, other: Indices) -> _Near:
+    def _lists(self, first: Indices, second: Indices) -> _Near:
         """Return pairs of shapes, sorted by the first, as a list for each shape."""
-        return _Near(np.searchsorted(one, np.arange(len(self.one) + 1)), other)
+        return _Near(np.searchsorted(first, np.arange(len(self.one) + 1)), second)
 
     def apart(self, i: Indices, j: Indices) -> Exact:
         """Return the least distance of robots, 0 where none of the two has a size."""
         both = self._radius[i] + self._radius[j]
-        found: Exact = np.where(both == 0, 0, both + self._clearance)
-        return found
+        distance: Exact = np.where(both == 0, 0, both + self._clearance)
+        return distance
 
     def length(self, square: Fraction) -> float:
         """Return the length [length unit] of which the square in whole multiples is given."""
@@ -136,37 +136,37 @@ class _Shapes:
         while begin < len(counts):
             before = ends[begin] - counts[begin]
             stop = max(int(np.searchsorted(ends, before + CHUNK)), begin + 1)
-            one, place = _spread(near.first[times.shape[begin:stop]], counts[begin:stop])
-            one += begin
-            there = near.shapes[place] * len(moments)
-            first = np.searchsorted(keys, there + start[one])
-            after = np.searchsorted(keys, there + end[one])
+            left_shape, place = _spread(near.first[times.shape[begin:stop]], counts[begin:stop])
+            left_shape += begin
+            near_times = near.shapes[place] * len(moments)
+            first = np.searchsorted(keys, near_times + start[left_shape])
+            after = np.searchsorted(keys, near_times + end[left_shape])
             which, place = _spread(first, np.maximum(after - first, 0))
-            left, right = one[which], place
+            left, right = left_shape[which], place
             is_first = (start[left] < start[right]) | (left < right)
             wanted = is_first & (times.robot[left] != times.robot[right])
             yield left[wanted], right[wanted]
             begin = stop
 
-    def exclude(self, one: Indices, other: Indices, limit: Exact) -> NDArray[np.bool_]:
+    def exclude(self, first: Indices, second: Indices, limit: Exact) -> NDArray[np.bool_]:
         """Return whether two shapes without a common vertex come nearer than a distance."""
-        a, b, c, d = self.one[one], self.other[one], self.one[other], self.other[other]
+        a, b, c, d = self.one[first], self.other[first], self.one[second], self.other[second]
         apart = (a != c) & (a != d) & (b != c) & (b != d) & (limit > 0)
-        found = np.zeros(len(one), bool)
+        excluded = np.zeros(len(first), bool)
         a, b, c, d, square = a[apart], b[apart], c[apart], d[apart], limit[apart] ** 2
         near = self._within(a, c, d, square) | self._within(b, c, d, square)
         near |= self._within(c, a, b, square) | self._within(d, a, b, square)
         near |= (self._turn(a, b, c) * self._turn(a, b, d) < 0) & (
             self._turn(c, d, a) * self._turn(c, d, b) < 0
         )
-        found[apart] = near
-        return found
+        excluded[apart] = near
+        return excluded
 
     def _turn(self, p: Indices, q: Indices, r: Indices) -> Exact:
         """Return a number above 0 where p, q, r turn one way, below 0 the other way."""
         x, y = self.x, self.y
-        found: Exact = (x[q] - x[p]) * (y[r] - y[p]) - (y[q] - y[p]) * (x[r] - x[p])
-        return found
+        turns: Exact = (x[q] - x[p]) * (y[r] - y[p]) - (y[q] - y[p]) * (x[r] - x[p])
+        return turns
 
     def _within(self, p: Indices, a: Indices, b: Indices, square: Exact) -> NDArray[np.bool_]:
         """Return whether a point is nearer to a straight line than the root of a number."""
@@ -209,9 +209,9 @@ class _Shapes:
         )
         pairs = np.sort(owner[i[corner]] * len(used) + owner[j[corner]])
         pairs = pairs[np.append(True, np.diff(pairs) != 0)]
-        one, other = np.divmod(pairs, len(used))
-        near = _distances(p[one], q[one], p[other], q[other]) <= reach
-        return used[one[near]], used[other[near]]
+        first, second = np.divmod(pairs, len(used))
+        near = _distances(p[first], q[first], p[second], q[second]) <= reach
+        return used[first[near]], used[second[near]]
 
 
 def _coordinates(roadmap: Roadmap) -> list[tuple[list[Fraction], Indices]]:
@@ -249,25 +249,25 @@ def _distances(
     def to_line(
         p: NDArray[np.float64], u: NDArray[np.float64], v: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        way = v - u
-        square = np.maximum((way**2).sum(axis=1), np.finfo(float).tiny)
-        share = np.clip(((p - u) * way).sum(axis=1) / square, 0, 1)
-        gap: NDArray[np.float64] = np.hypot(*(p - u - share[:, None] * way).T)
+        direction = v - u
+        square = np.maximum((direction**2).sum(axis=1), np.finfo(float).tiny)
+        share = np.clip(((p - u) * direction).sum(axis=1) / square, 0, 1)
+        gap: NDArray[np.float64] = np.hypot(*(p - u - share[:, None] * direction).T)
         return gap
 
     ends = (to_line(a, c, d), to_line(b, c, d), to_line(c, a, b), to_line(d, a, b))
     crossing = (cross(b - a, c - a) * cross(b - a, d - a) < 0) & (
         cross(d - c, a - c) * cross(d - c, b - c) < 0
     )
-    found: NDArray[np.float64] = np.where(crossing, 0.0, np.minimum.reduce(ends))
-    return found
+    distances: NDArray[np.float64] = np.where(crossing, 0.0, np.minimum.reduce(ends))
+    return distances
 
 
-def _first_of_each(times: _Times, one: Indices, other: Indices, worth: Exact) -> Iterator[int]:
+def _first_of_each(times: _Times, first: Indices, second: Indices, worth: Exact) -> Iterator[int]:
     """Yield of each meeting of two robots the pair of least worth; its parts overlap in time."""
-    i, j = times.robot[one], times.robot[other]
-    start = np.maximum(times.start[one], times.start[other])
-    end = np.minimum(times.end[one], times.end[other])
+    i, j = times.robot[first], times.robot[second]
+    start = np.maximum(times.start[first], times.start[second])
+    end = np.minimum(times.end[first], times.end[second])
     order = order_by(np.minimum(i, j), np.maximum(i, j), start)
     best, until, robots = -1, None, None
     for k in order.tolist():
@@ -287,25 +287,25 @@ def _judge_bookings(
     plan: Plan, visits: Visits, shapes: _Shapes, names: Names, collector: FaultCollector
 ) -> None:
     headway = plan.scenario.problem.headway
-    here, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
+    stays, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
     approach = np.roll(visits.drive, 1)  # the last visit before a first has no drive
     begun = visits.leave - visits.drive
     bookings = _Times(
-        shape=np.concatenate((visits.vertex[here], shapes.of_drive[drives])),
-        robot=np.concatenate((visits.robot[here], visits.robot[drives])),
-        visit=np.concatenate((here, drives)),
-        start=np.concatenate(((visits.enter - approach)[here], begun[drives])),
-        end=np.concatenate(((visits.leave + headway)[here], (visits.leave + headway)[drives])),
+        shape=np.concatenate((visits.vertex[stays], shapes.of_drive[drives])),
+        robot=np.concatenate((visits.robot[stays], visits.robot[drives])),
+        visit=np.concatenate((stays, drives)),
+        start=np.concatenate(((visits.enter - approach)[stays], begun[drives])),
+        end=np.concatenate(((visits.leave + headway)[stays], (visits.leave + headway)[drives])),
     ).in_order()
-    found: list[tuple[Indices, Indices]] = []
-    for one, other in shapes.together(bookings, shapes.near_without_common_vertex):
-        limit = shapes.apart(bookings.robot[one], bookings.robot[other])
-        excluded = shapes.exclude(bookings.shape[one], bookings.shape[other], limit)
-        found.append((one[excluded], other[excluded]))
-    one, other = (np.concatenate(each) for each in zip(*found, strict=True))
-    start = np.maximum(bookings.start[one], bookings.start[other])
-    for k in _first_of_each(bookings, one, other, start):
-        pair = sorted((int(one[k]), int(other[k])), key=lambda entry: int(bookings.robot[entry]))
+    pairs: list[tuple[Indices, Indices]] = []
+    for first, second in shapes.together(bookings, shapes.near_without_common_vertex):
+        limit = shapes.apart(bookings.robot[first], bookings.robot[second])
+        excluded = shapes.exclude(bookings.shape[first], bookings.shape[second], limit)
+        pairs.append((first[excluded], second[excluded]))
+    first, second = (np.concatenate(part) for part in zip(*pairs, strict=True))
+    start = np.maximum(bookings.start[first], bookings.start[second])
+    for k in _first_of_each(bookings, first, second, start):
+        pair = sorted((int(first[k]), int(second[k])), key=lambda entry: int(bookings.robot[entry]))
         robots = tuple(int(bookings.robot[entry]) for entry in pair)
         places = [_place(visits, bookings, entry, names) for entry in pair]
         booked = [
@@ -345,26 +345,26 @@ def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: Fault
     begun = np.where(
         visits.edge >= 0, np.maximum(visits.leave - visits.drive, visits.enter), visits.leave
     )
-    here, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
+    stays, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
     motions = _Times(
-        shape=np.concatenate((visits.vertex[here], shapes.of_drive[drives])),
-        robot=np.concatenate((visits.robot[here], visits.robot[drives])),
-        visit=np.concatenate((here, drives)),
-        start=np.concatenate((visits.enter[here], begun[drives])),
-        end=np.concatenate((begun[here], visits.leave[drives])),
+        shape=np.concatenate((visits.vertex[stays], shapes.of_drive[drives])),
+        robot=np.concatenate((visits.robot[stays], visits.robot[drives])),
+        visit=np.concatenate((stays, drives)),
+        start=np.concatenate((visits.enter[stays], begun[drives])),
+        end=np.concatenate((begun[stays], visits.leave[drives])),
     ).in_order()
     parts = [
         _encounters(visits, shapes, motions, *pair)
         for pair in shapes.together(motions, shapes.near)
     ]
-    one, other, square, when = (np.concatenate(each) for each in zip(*parts, strict=True))
+    first, second, square, when = (np.concatenate(part) for part in zip(*parts, strict=True))
     quantities = names.quantities
-    for k in _first_of_each(motions, one, other, square):
-        pair = sorted((int(one[k]), int(other[k])), key=lambda entry: int(motions.robot[entry]))
+    for k in _first_of_each(motions, first, second, square):
+        pair = sorted((int(first[k]), int(second[k])), key=lambda entry: int(motions.robot[entry]))
         robots = tuple(int(motions.robot[entry]) for entry in pair)
         places = [_place(visits, motions, entry, names) for entry in pair]
         needed = int(
-            shapes.apart(motions.robot[one[k : k + 1]], motions.robot[other[k : k + 1]])[0]
+            shapes.apart(motions.robot[first[k : k + 1]], motions.robot[second[k : k + 1]])[0]
         )
         one_robot, other_robot = map(names.robot, robots)
         where, other_where = (_whereabouts(at, names) for _, at in places)
@@ -398,7 +398,7 @@ def _whereabouts(at: tuple[VertexId, ...], names: Names) -> Phrase:
 
 
 def _encounters(
-    visits: Visits, shapes: _Shapes, motions: _Times, one: Indices, other: Indices
+    visits: Visits, shapes: _Shapes, motions: _Times, first: Indices, second: Indices
 ) -> tuple[Indices, Indices, Exact, Exact]:
     """Return the pairs of motions that come too near: the least squared distance, and when.
 
@@ -406,13 +406,13 @@ def _encounters(
     durations of both. It is least at the ends of their common time, or where its square has its
     least value.
     """
-    limit = shapes.apart(motions.robot[one], motions.robot[other])
+    limit = shapes.apart(motions.robot[first], motions.robot[second])
     sized = np.array(limit > 0, bool)
-    one, other, limit = one[sized], other[sized], limit[sized]
-    x1, y1, u1, v1, whole1 = _line(visits, shapes, motions, one)
-    x2, y2, u2, v2, whole2 = _line(visits, shapes, motions, other)
-    start = np.maximum(motions.start[one], motions.start[other]).astype(object)
-    end = np.minimum(motions.end[one], motions.end[other]).astype(object)
+    first, second, limit = first[sized], second[sized], limit[sized]
+    x1, y1, u1, v1, whole1 = _line(visits, shapes, motions, first)
+    x2, y2, u2, v2, whole2 = _line(visits, shapes, motions, second)
+    start = np.maximum(motions.start[first], motions.start[second]).astype(object)
+    end = np.minimum(motions.end[first], motions.end[second]).astype(object)
     u, v = u1 * whole2 - u2 * whole1, v1 * whole2 - v2 * whole1
     x = x1 * whole2 - x2 * whole1 + u * start
     y = y1 * whole2 - y2 * whole1 + v * start
@@ -433,7 +433,7 @@ def _encounters(
         squares[k] = Fraction(top[row], bottom[row])
         after = Fraction(toward[row], speed[row]) if between[row] else Fraction(0)
         moments[k] = start[row] + (after if at_start[row] or between[row] else last[row])
-    return one[near], other[near], squares, moments
+    return first[near], second[near], squares, moments
 
 
 def _line(

@@ -205,12 +205,12 @@ class _Trip:
         hopeless = set()  # or every lap would search the rest of the track again
         visit = 0
         for stage in stages:
-            found = None if stage in hopeless else self._serve(stage, visit)
-            if found is None:
+            visit_served = None if stage in hopeless else self._serve(stage, visit)
+            if visit_served is None:
                 hopeless.add(stage)
                 yield self._unserved(stage, visit)
             else:
-                visit = found
+                visit = visit_served
 
     def _serve(self, stage: Stage, visit: int) -> int | None:
         """Return the first visit, from this one on, that is long enough; take its time."""

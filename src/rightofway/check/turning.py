@@ -73,7 +73,7 @@ def _angles(roadmap: Roadmap, corners: Iterable[NDArray[np.int64]]) -> Iterator[
         (x, y), (at_x, at_y), (to_x, to_y) = (_place(roadmap, vertex) for vertex in corner.tolist())
         drives = (at_x - x, at_y - y, to_x - at_x, to_y - at_y)
         if drives not in known:
-            known[drives] = _angle(*(Fraction(way) for way in drives))
+            known[drives] = _angle(*(Fraction(drive) for drive in drives))
         yield known[drives]
 
 

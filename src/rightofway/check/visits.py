@@ -81,16 +81,16 @@ def _edges(
     roadmap: Roadmap, tails: NDArray[np.int64], heads: NDArray[np.int64]
 ) -> NDArray[np.int64]:
     """Return the edge from each tail to its head, -1 where there is none."""
-    found = np.full(len(tails), -1)
+    edges = np.full(len(tails), -1)
     pending = np.flatnonzero((tails >= 0) & (tails < roadmap.n_vertices))
     edge = roadmap.indptr[tails[pending]].astype(np.int64)
     while len(pending):
         inside = edge < roadmap.indptr[tails[pending] + 1]
         pending, edge = pending[inside], edge[inside]
         hit = roadmap.heads[edge] == heads[pending]
-        found[pending[hit]] = edge[hit]
+        edges[pending[hit]] = edge[hit]
         pending, edge = pending[~hit], edge[~hit] + 1
-    return found
+    return edges
 
 
 def _drives(

@@ -62,18 +62,18 @@ def _stays(plan: Plan, visits: Visits, zone: Zone) -> Iterator[_Stay]:
 
 
 def _fault(zone: Zone, stay: _Stay, other: _Stay, names: Names) -> Fault:
-    one, two = sorted((stay, other), key=lambda each: each.robot)
+    first, second = sorted((stay, other), key=lambda booking: booking.robot)
     return Fault(
         kind="zone conflict",
-        robots=(one.robot, two.robot),
-        vertices=(VertexId(one.vertex), VertexId(two.vertex)),
+        robots=(first.robot, second.robot),
+        vertices=(VertexId(first.vertex), VertexId(second.vertex)),
         tick=Tick(stay.start),
         reason=Phrase(
             "{one} at {vertex} and {other} at {other_vertex} both book zone {zone}",
-            one=names.robot(one.robot),
-            vertex=names.vertex(one.vertex),
-            other=names.robot(two.robot),
-            other_vertex=names.vertex(two.vertex),
+            one=names.robot(first.robot),
+            vertex=names.vertex(first.vertex),
+            other=names.robot(second.robot),
+            other_vertex=names.vertex(second.vertex),
             zone=zone.name,
         ),
         remedy=ONE_AFTER_THE_OTHER,

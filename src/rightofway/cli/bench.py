@@ -84,7 +84,7 @@ def _run(cases: Sequence[Case], results: Results, *, jobs: int | None, dask: str
         say(f"{done} of {len(cases)} cases are there already")
         commit = machine()["commit"]
         earlier = [results.rows[case.key]["commit"] for case in cases if case.key not in left]
-        others = sum(each != commit for each in earlier)
+        others = sum(known != commit for known in earlier)
         if others:
             say(f"{others} of them by another commit (give another -o to run them again)")
     if not left:
@@ -109,7 +109,7 @@ def _ending(row: Row) -> str:
 def _summarize(rows: Sequence[Row], output: str, *, as_json: bool) -> None:
     from rightofway.bench import Group, by_planner
 
-    groups = {name: Group.of(each) for name, each in by_planner(rows).items()}
+    groups = {name: Group.of(planner_rows) for name, planner_rows in by_planner(rows).items()}
     if as_json:
         planners = [{"planner": name, **asdict(group)} for name, group in groups.items()]
         put_json({"results": output, "cases": len(rows), "planners": planners})

@@ -68,12 +68,12 @@ def collisions(
     from rightofway.solve import solve
     from rightofway.viz.table import collision_list, collision_ticks, decision_list
 
-    found = read_either(source, count)
-    if isinstance(found, Scenario) and planner:
+    opened = read_either(source, count)
+    if isinstance(opened, Scenario) and planner:
         with progress() as report:
-            found = solve(found, planner, report=report)
-    plan = None if isinstance(found, Scenario) else found
-    scenario = found if isinstance(found, Scenario) else found.scenario
+            opened = solve(opened, planner, report=report)
+    plan = None if isinstance(opened, Scenario) else opened
+    scenario = opened if isinstance(opened, Scenario) else opened.scenario
     tracks = free_running_tracks(scenario) if plan is None else free_running(plan)
     quantities = quantities_of(scenario, in_ticks=in_ticks)
     listed = named_collisions(scenario, tracks)
@@ -102,11 +102,11 @@ def collisions(
 
 
 def _texts(lists: Sequence[Listing]) -> list[str]:
-    return [each.as_text() for each in lists if len(each)]
+    return [listing.as_text() for listing in lists if len(listing)]
 
 
 def _counted(listed: Sequence[NamedCollision]) -> str:
-    kinds = [each.kind for each in listed]
+    kinds = [collision.kind for collision in listed]
     collisions, swaps, near = map(kinds.count, ("collision", "swap", "too near"))
     words = f"{collisions} collision{'s' * (collisions != 1)} and {swaps} swap{'s' * (swaps != 1)}"
     return f"{words}, {near} near miss{'es' * (near != 1)}" if near else words
@@ -119,33 +119,33 @@ def _collision_data(
     from rightofway.metrics import named_collisions
     from rightofway.viz.table import conflicts_before
 
-    data = {**clock_data(quantities), "collisions": [_pair_data(each) for each in listed]}
+    data = {**clock_data(quantities), "collisions": [_pair_data(collision) for collision in listed]}
     if plan is not None:
         names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
         data["decisions"] = [
             {
-                "tick": each.tick,
-                "kind": each.kind,
-                "vertices": list(map(place, each.vertices)),
-                "robots": [names[robot] for robot in each.robots],
-                "waits": names[each.waits],
-                "level": each.level,
+                "tick": collision.tick,
+                "kind": collision.kind,
+                "vertices": list(map(place, collision.vertices)),
+                "robots": [names[robot] for robot in collision.robots],
+                "waits": names[collision.waits],
+                "level": collision.level,
                 "conflicts_before": before,
-                "conflicts_left": each.conflicts_left,
-                "completion_sums": each.completion_sums,
+                "conflicts_left": collision.conflicts_left,
+                "completion_sums": collision.completion_sums,
             }
-            for each, before in zip(plan.run.decisions, conflicts_before(plan), strict=True)
+            for collision, before in zip(plan.run.decisions, conflicts_before(plan), strict=True)
         ]
         left = named_collisions(plan.scenario, plan.tracks)
-        data["left"] = [_pair_data(each) for each in left]
+        data["left"] = [_pair_data(collision) for collision in left]
     return data
 
 
-def _pair_data(each: NamedCollision) -> dict[str, Any]:
+def _pair_data(collision: NamedCollision) -> dict[str, Any]:
     return {
-        "robots": [each.i, each.j],
-        "vertices": each.places,
-        "start": each.start,
-        "end": each.until,
-        "kind": each.kind,
+        "robots": [collision.i, collision.j],
+        "vertices": collision.places,
+        "start": collision.start,
+        "end": collision.until,
+        "kind": collision.kind,
     }

@@ -32,10 +32,10 @@ def files(*suffixes: str) -> Completer:
         _context: click.Context, _parameter: click.Parameter, incomplete: str
     ) -> list[CompletionItem[str]]:
         folder, slash, stem = incomplete.rpartition("/")
-        found = sorted(Path(folder + slash or ".").glob(f"{_literal(stem)}*"))
+        paths = sorted(Path(folder + slash or ".").glob(f"{_literal(stem)}*"))
         return [
             CompletionItem(f"{folder}{slash}{path.name}" + "/" * path.is_dir())
-            for path in found
+            for path in paths
             if path.is_dir() or path.suffix.lower() in suffixes
             if stem.startswith(".") or not path.name.startswith(".")
         ]

@@ -78,17 +78,17 @@ def examples(name: str | None, output: str | None, parent: str | None) -> None:
             raise click.UsageError("-o writes one example (give its name)")
         _list()
     else:
-        found = _example(name)
+        example = _example(name)
         if output in {None, "-"}:
-            click.echo(found.read_text(encoding="utf-8"), nl=False)
+            click.echo(example.read_text(encoding="utf-8"), nl=False)
         else:
-            _write(found, Path(output or ""))
+            _write(example, Path(output or ""))
 
 
 def _example(name: str) -> Path:
     stem = name.removesuffix(".yaml").removesuffix(".toml").removeprefix("examples/")
     known = example_names()
-    within = [each for each in known if each.endswith(f"/{stem}")]
+    within = [candidate for candidate in known if candidate.endswith(f"/{stem}")]
     if stem not in known and len(within) == 1:
         stem = within[0]
     if stem not in known:

@@ -42,11 +42,11 @@ def _list_formats(formatter: click.HelpFormatter) -> None:
     from rightofway.io import FOREIGN_FORMATS, LAYOUT_WRITERS, SITE_PLAN_FORMATS
 
     with formatter.section("Formats of plans for programs on the site (metres, seconds)"):
-        formatter.write_dl([(name, each.summary) for name, each in SITE_PLAN_FORMATS.items()])
+        formatter.write_dl([(name, writer.summary) for name, writer in SITE_PLAN_FORMATS.items()])
     with formatter.section("Formats of plans of other programs"):
-        formatter.write_dl([(name, each.summary) for name, each in FOREIGN_FORMATS.items()])
+        formatter.write_dl([(name, writer.summary) for name, writer in FOREIGN_FORMATS.items()])
     with formatter.section("Formats of layouts of other programs"):
-        formatter.write_dl([(name, each.summary) for name, each in LAYOUT_WRITERS.items()])
+        formatter.write_dl([(name, writer.summary) for name, writer in LAYOUT_WRITERS.items()])
 
 
 def _names() -> Iterable[str]:
@@ -121,13 +121,13 @@ def convert(
     if radius is not None:
         raise click.UsageError(f"--radius is for layouts, and {source} is none")
     _refuse_layout_format(source, name)
-    found = read_either(source, count)
-    if isinstance(found, Plan):
-        _write_plan(found, path, name)
+    opened = read_either(source, count)
+    if isinstance(opened, Plan):
+        _write_plan(opened, path, name)
     elif name:
         raise click.UsageError(f"--to is for plans, and {source} is a scenario (plan it first)")
     else:
-        _write_scenario(found, path)
+        _write_scenario(opened, path)
 
 
 def _check_format(name: str | None) -> None:
@@ -141,7 +141,7 @@ def _check_format(name: str | None) -> None:
 
 def _layout_ending(path: str) -> str | None:
     """Return the ending of a file that only a layout of another program has."""
-    return next((each for each in ENDINGS if path.lower().endswith(each)), None)
+    return next((ending for ending in ENDINGS if path.lower().endswith(ending)), None)
 
 
 def _check_ending(path: str) -> None:
@@ -178,9 +178,9 @@ def _write_layout(source: str, path: str, name: str | None, radius: Fraction | N
         raise click.UsageError(f"--radius is for a scenario, and --to {name} writes none")
     layout = read_layout(source)
     if name not in LAYOUT_WRITERS or not isinstance(layout, Layout):
-        what = "a layout" if isinstance(layout, Layout) else "a map in cells or pixels"
+        kind = "a layout" if isinstance(layout, Layout) else "a map in cells or pixels"
         remedy = "give a name that ends in .yaml for a scenario"
-        raise click.UsageError(f"{source} is {what}, which is not written as {name} ({remedy})")
+        raise click.UsageError(f"{source} is {kind}, which is not written as {name} ({remedy})")
     try:
         text, losses = layout_text(layout, name)
     except InputError as error:
@@ -214,7 +214,7 @@ def _write_plan(plan: Plan, path: str, name: str | None) -> None:
             say(f"{path}: {note}")
     elif name is not None:
         put_text(foreign_text(plan, name), path)
-        stages = [each.stages for each in plan.scenario.problem.itineraries]
+        stages = [itinerary.stages for itinerary in plan.scenario.problem.itineraries]
         if any(len(own) > 1 or own[0].work for own in stages):
             say(f"{path}: work, turning and ways back are left out, only cells and steps are kept")
         if plan.scenario.problem.clock.tick != 1:

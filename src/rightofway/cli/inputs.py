@@ -54,10 +54,10 @@ def _keep_file(context: click.Context, parameter: click.Parameter, given: str | 
 
 def foreign_options(command: Any) -> Any:
     """Add the files that a plan of another program may need; `read_plan` finds them."""
-    for name, what in (("scen", "starts and goals (.scen)"), ("map", "map (.map)")):
+    for name, content in (("scen", "starts and goals (.scen)"), ("map", "map (.map)")):
         command = click.option(
             f"--{name}", metavar="FILE", expose_value=False, callback=_keep_file,
-            help=f"The {what} of a plan of another program.",
+            help=f"The {content} of a plan of another program.",
         )(command)  # fmt: skip
     return command
 
@@ -90,8 +90,8 @@ def read_either(path: str, count: int | None = None, own: Collection[str] = ()) 
     from rightofway.io import Loaded, load_either
 
     point_to_examples(path)
-    found = load_either(path, count=count, **({} if path in own else _files()))
-    return _noted(found, path) if isinstance(found, Loaded) else found
+    opened = load_either(path, count=count, **({} if path in own else _files()))
+    return _noted(opened, path) if isinstance(opened, Loaded) else opened
 
 
 def _noted(loaded: Loaded, path: str) -> Scenario:

@@ -90,14 +90,14 @@ def inspect(
     point_to_examples(source)
     refuse_outputs(source, output, as_json=as_json)
     choice = Choice(level=level, vehicle_type=vehicle_type, cell_size=cell_size)
-    found = read_sites(source, choice, fleet)
-    results = [(name, site, inspected(site)) for name, site in found.sites]
-    data = _data(source, found, results)
+    sites = read_sites(source, choice, fleet)
+    results = [(name, site, inspected(site)) for name, site in sites.sites]
+    data = _data(source, sites, results)
     if page is not None:
         from rightofway.viz import write_inspection
 
         title = file_title(source)
-        write_inspection(results, page, title=title, what=found.what, notes=found.notes)
+        write_inspection(results, page, title=title, what=sites.what, notes=sites.notes)
         say(f"wrote {page}")
     if as_json or (output or "").lower().endswith(".json"):
         if as_json:
@@ -105,8 +105,8 @@ def inspect(
         if output not in (None, "-"):
             put_text(f"{json_text(data)}\n", output)
         return
-    lines = wrapped(f"{source}: {found.what}")
-    for note in found.notes:
+    lines = wrapped(f"{source}: {sites.what}")
+    for note in sites.notes:
         lines += wrapped(note, "  ")
     for name, site, result in results:
         lines += ["", *([f"Level {name}"] if name else []), *_report(site, result, limit)]
@@ -136,32 +136,37 @@ def _report(site: Site, result: Inspection, limit: int) -> list[str]:
         return [*lines, "Nothing was found that will hurt."]
     shown: Counter[tuple[str, str]] = Counter()
     severity = ""
-    for each in result.findings:
-        if each.severity != severity:
-            severity = each.severity
-            number = sum(one.severity == severity for one in result.findings)
+    for finding in result.findings:
+        if finding.severity != severity:
+            severity = finding.severity
+            number = sum(each_finding.severity == severity for each_finding in result.findings)
             lines += ["", f"{HEADINGS[severity]}: {number}"]
-        shown[severity, each.kind] += 1
-        if shown[severity, each.kind] <= limit:
-            lines += wrapped(str(each), "  ")
-        elif shown[severity, each.kind] == limit + 1:
-            more = sum((one.severity, one.kind) == (severity, each.kind) for one in result.findings)
-            lines += wrapped(f"and {more - limit} more: {each.kind} (see --limit)", "  ")
+        shown[severity, finding.kind] += 1
+        if shown[severity, finding.kind] <= limit:
+            lines += wrapped(str(finding), "  ")
+        elif shown[severity, finding.kind] == limit + 1:
+            more = sum(
+                (each_finding.severity, each_finding.kind) == (severity, finding.kind)
+                for each_finding in result.findings
+            )
+            lines += wrapped(f"and {more - limit} more: {finding.kind} (see --limit)", "  ")
     return lines
 
 
-def _data(source: str, found: Sites, results: list[tuple[str, Site, Inspection]]) -> dict[str, Any]:
+def _data(source: str, sites: Sites, results: list[tuple[str, Site, Inspection]]) -> dict[str, Any]:
     """Return the report for programs."""
     return {
         "file": source,
-        "what": found.what,
-        "notes": list(found.notes),
+        "what": sites.what,
+        "notes": list(sites.notes),
         "levels": [
             {
                 "level": name or None,
                 "units": asdict(site.units),
                 **{key: value for key, value in asdict(result).items() if key != "findings"},
-                "findings": [{**asdict(each), "sentence": str(each)} for each in result.findings],
+                "findings": [
+                    {**asdict(finding), "sentence": str(finding)} for finding in result.findings
+                ],
             }
             for name, site, result in results
         ],

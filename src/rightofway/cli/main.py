@@ -190,5 +190,5 @@ def run(args: Sequence[str] | None = None) -> int:
 def _confess(error: Exception, *, debug: bool) -> None:
     if debug:
         complain("".join(traceback.format_exception(error)).rstrip("\n"))
-    what = " ".join([f"{type(error).__name__}:", *str(error).split()])
-    complain(f"unexpected {what} (please report it; `rightofway --debug …` says more)")
+    words = " ".join([f"{type(error).__name__}:", *str(error).split()])
+    complain(f"unexpected {words} (please report it; `rightofway --debug …` says more)")

@@ -141,9 +141,9 @@ def quantities_of(scenario: Scenario, *, in_ticks: bool) -> Quantities:
     return replace(scenario.quantities, in_ticks=in_ticks)
 
 
-def as_json_option(what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def as_json_option(content: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return the option that prints a result for programs."""
-    return click.option("--json", "as_json", is_flag=True, help=f"Print the {what} as JSON.")
+    return click.option("--json", "as_json", is_flag=True, help=f"Print the {content} as JSON.")
 
 
 class ListingCommand(click.Command):

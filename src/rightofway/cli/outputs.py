@@ -51,12 +51,12 @@ INSTEAD = {
 """What to do for an ending that -o does not take where the result is a plan."""
 
 
-def plan_output_option(what: str) -> Decorator:
+def plan_output_option(content: str) -> Decorator:
     """Return the option -o of a command whose result is a plan."""
     endings = ", ".join(PLAN_WRITERS)
     return click.option(
         "-o", "--output", metavar="FILE", callback=writable(*PLAN_WRITERS, instead=INSTEAD),
-        help=f"Write {what} to this file ({endings}); - for standard output.",
+        help=f"Write {content} to this file ({endings}); - for standard output.",
     )  # fmt: skip
 
 
@@ -68,12 +68,12 @@ class _PageOption(click.Option):
         parser.add_option(self, ["--show"], self.name, nargs=1)
 
 
-def page_option(what: str) -> Decorator:
+def page_option(content: str) -> Decorator:
     """Return the option --page of a command; ``what`` is what the page plays."""
     return click.option(
         "--page", cls=_PageOption, metavar="FILE",
         callback=writable(*PAGE_SUFFIXES, stdout=False),
-        help=f"Write a page that plays {what} (.html).",
+        help=f"Write a page that plays {content} (.html).",
     )  # fmt: skip
 
 
@@ -94,12 +94,12 @@ def put_text(text: str, path: str) -> None:
         say(f"wrote {path}")
 
 
-def write(found: Plan, output: str | None) -> None:
+def write(plan: Plan, output: str | None) -> None:
     """Write a plan to a file, to standard output, or nowhere."""
     from rightofway.io import plan_text
 
     if output == "-":
-        click.echo(plan_text(found), nl=False)
+        click.echo(plan_text(plan), nl=False)
     elif output:
-        PLAN_WRITERS.get(Path(output).suffix.lower(), _write_json)(found, output)
+        PLAN_WRITERS.get(Path(output).suffix.lower(), _write_json)(plan, output)
         say(f"wrote {output}")

@@ -68,24 +68,24 @@ def paper(tables: tuple[int, ...], *, log: bool, as_json: bool) -> int:
     """
     path = examples_folder() / "paper" / "tables.json"
     entries = json.loads(path.read_text(encoding="utf-8"))["tables"]
-    found = [_table(entry) for entry in entries if not tables or entry["table"] in tables]
-    verdicts = [row.verdict for table in found for row in table.rows if row.verdict]
+    compared = [_table(entry) for entry in entries if not tables or entry["table"] in tables]
+    verdicts = [row.verdict for table in compared for row in table.rows if row.verdict]
     equal = verdicts.count("equal")
     if as_json:
-        put_json({"tables": [_data(table) for table in found],
+        put_json({"tables": [_data(table) for table in compared],
                   "rows": len(verdicts), "equal": equal})  # fmt: skip
     else:
-        for table in found:
+        for table in compared:
             _print(table, log=log)
-        put_report(_total(found, equal) if verdicts else UNRECORDED)
+        put_report(_total(compared, equal) if verdicts else UNRECORDED)
     return 0 if equal == len(verdicts) else 1
 
 
-def _total(found: Sequence[_Table], equal: int) -> str:
+def _total(tables: Sequence[_Table], equal: int) -> str:
     """Return how many published rows are equal, and in how many tables there are any."""
-    known = [table for table in found if any(row.verdict for row in table.rows)]
+    known = [table for table in tables if any(row.verdict for row in table.rows)]
     rows = sum(bool(row.verdict) for table in known for row in table.rows)
-    of = "" if len(known) == len(found) else f", in {len(known)} of {len(found)} tables"
+    of = "" if len(known) == len(tables) else f", in {len(known)} of {len(tables)} tables"
     return f"{equal} of {rows} published rows equal{of}"
 
 
@@ -95,11 +95,11 @@ def _table(entry: dict[str, Any]) -> _Table:
     from rightofway.viz.table import table_of
 
     plan = solve(load(examples_folder() / "paper" / f"{entry['name']}.yaml"), "paper")
-    first, found = entry.get("first_tick", 0), table_of(plan)
+    first, table = entry.get("first_tick", 0), table_of(plan)
     rows = []
-    for row in found.rows:
+    for row in table.rows:
         published = entry.get(row.kind, {}).get(row.robot)
-        last = found.last_tick if published is None else first + len(published) - 1
+        last = table.last_tick if published is None else first + len(published) - 1
         ours = [cell.place for cell in row.cells(first, last)]
         rows.append(_Row(robot=row.robot, kind=row.kind, published=published, ours=ours))
     return _Table(

@@ -237,7 +237,7 @@ def _run(
         left = min(left, max(time_limit - (time.monotonic() - began), time_limit / 2))
     blocked = no_plan_shown(problem, page, file_title(source), as_json=as_json)
     with blocked, progress(time_limit, began) as report:
-        found = search(
+        plan = search(
             problem,
             planner,
             left,
@@ -247,24 +247,24 @@ def _run(
             keep_best=True,
             seconds_per_visit=SECONDS_PER_VISIT,
         )
-    write(found, output)
+    write(plan, output)
     if page:
         from rightofway.viz import write_page
 
-        write_page(found, page, title=file_title(source))
+        write_page(plan, page, title=file_title(source))
         say(f"wrote {page} (open it in a browser)")
     if output != "-":
-        quantities = quantities_of(found.scenario, in_ticks=in_ticks)
-        _report(found, quantities, log=log, table=table, as_json=as_json)
+        quantities = quantities_of(plan.scenario, in_ticks=in_ticks)
+        _report(plan, quantities, log=log, table=table, as_json=as_json)
     may_hold_swaps = (
-        Feature.LEAVES_SWAPS in find(planner).features or found.run.options.get("swaps") == "leave"
+        Feature.LEAVES_SWAPS in find(planner).features or plan.run.options.get("swaps") == "leave"
     )
     if not may_hold_swaps:
         return 0
     from rightofway.check import check
 
     # Only swaps that the published method leaves are faults; other plans are checked already.
-    judged = check(found)
+    judged = check(plan)
     if judged.ok:
         return 0
     complain(f"the plan still has {judged.summary} (--planner two-level has none)")
@@ -290,17 +290,17 @@ def no_plan_shown(problem: Any, page: str | None, title: str, *, as_json: bool) 
         raise
 
 
-def _report(found: Plan, quantities: Quantities, *, log: bool, table: bool, as_json: bool) -> None:
+def _report(plan: Plan, quantities: Quantities, *, log: bool, table: bool, as_json: bool) -> None:
     from rightofway.report.plan import decision_log, summary
     from rightofway.report.plan_data import summary_data
 
     if as_json:
-        put_json(summary_data(found))
+        put_json(summary_data(plan))
         return
-    put_report(summary(found, quantities))
+    put_report(summary(plan, quantities))
     if log:
-        put_report("\n" + decision_log(found, quantities))
+        put_report("\n" + decision_log(plan, quantities))
     if table:
         from rightofway.viz.table import as_text, table_of
 
-        put_report("\n" + as_text(table_of(found), width()))
+        put_report("\n" + as_text(table_of(plan), width()))

@@ -37,7 +37,7 @@ def _list_delays(formatter: click.HelpFormatter) -> None:
     from rightofway.execution import CAUSES
 
     with formatter.section("Delays (times in time units; numbers may be fractions like 1/3)"):
-        formatter.write_dl([one for cause in CAUSES.values() for one in cause.examples])
+        formatter.write_dl([example for cause in CAUSES.values() for example in cause.examples])
         formatter.write_paragraph()
         formatter.write_text("Several delays: with commas between, or a YAML or JSON list.")
 
@@ -101,14 +101,14 @@ def simulate(
     texts: list[str] = []
     for text in delays or [DEFAULT_DELAYS]:
         texts += load_delays(text) if text.lower().endswith(DELAY_FILES) else [text]
-    found = read_plan(plan)
+    opened = read_plan(plan)
     with progress() as reported:
-        outcome = execute(found, texts, runs, seed, switch=switch, replan=replan, report=reported)
-    data = {**measures(found.scenario), **outcome.as_dict()}
+        outcome = execute(opened, texts, runs, seed, switch=switch, replan=replan, report=reported)
+    data = {**measures(opened.scenario), **outcome.as_dict()}
     if as_json or output == "-":
         put_json(data)
     else:
-        put_report(report(outcome, quantities_of(found.scenario, in_ticks=in_ticks)))
+        put_report(report(outcome, quantities_of(opened.scenario, in_ticks=in_ticks)))
     if output not in {None, "-"}:
         put_text(json_text(data) + "\n", str(output))
     if page:

@@ -138,35 +138,35 @@ def table(
         raise click.UsageError("--json and -o - both go to standard output")
     if events and given["step"]:
         raise click.UsageError("--step is for the table, --events lists visits: choose one")
-    found = read_plan(plan)
+    opened = read_plan(plan)
     if everything:
-        _write_all(found, output or "", given)
+        _write_all(opened, output or "", given)
         return
     if events:
-        _events(found, _shown(found, **given), output, as_json=as_json)
+        _events(opened, _shown(opened, **given), output, as_json=as_json)
         return
     if decision is None:
-        _put_table(_time_space_table(found, _shown(found, **given)), output, as_json=as_json)
+        _put_table(_time_space_table(opened, _shown(opened, **given)), output, as_json=as_json)
         return
-    made, words, completions = _groups(found, decision, given)
-    _put_table(made, output, as_json=as_json, words=words, more={"completions": completions})
+    groups, words, completions = _groups(opened, decision, given)
+    _put_table(groups, output, as_json=as_json, words=words, more={"completions": completions})
 
 
-def _write_all(found: Plan, path: str, given: dict[str, Any]) -> None:
+def _write_all(plan: Plan, path: str, given: dict[str, Any]) -> None:
     from rightofway.viz.table.result import write_result
 
     if any(given.values()):
         message = "--all writes everything (leave out --from, --to, --step, --robots and --ticks)"
         raise click.UsageError(message)
-    write_result(found, path)
+    write_result(plan, path)
     say(f"wrote {path}")
 
 
-def _time_space_table(found: Plan, shown: _Shown) -> TimeSpaceTable:
+def _time_space_table(plan: Plan, shown: _Shown) -> TimeSpaceTable:
     from rightofway.viz.table import table_of
 
     return table_of(
-        found,
+        plan,
         first_tick=shown.first_tick,
         last_tick=shown.last_tick,
         robots=shown.robots,
@@ -176,7 +176,7 @@ def _time_space_table(found: Plan, shown: _Shown) -> TimeSpaceTable:
 
 
 def _put_table(
-    made: TimeSpaceTable,
+    table: TimeSpaceTable,
     output: str | None,
     *,
     as_json: bool,
@@ -188,17 +188,17 @@ def _put_table(
 
     suffix = Path(output or "").suffix.lower()
     if output == "-":
-        click.echo(as_csv(made), nl=False)
+        click.echo(as_csv(table), nl=False)
     elif output and suffix == ".xlsx":
-        write_xlsx(made, output)
+        write_xlsx(table, output)
     elif output:
-        _write(output, as_csv(made) if suffix == ".csv" else f"{as_text(made, width(), None)}\n")
+        _write(output, as_csv(table) if suffix == ".csv" else f"{as_text(table, width(), None)}\n")
     if output and output != "-":
         say(f"wrote {output}")
     if as_json:
-        put_json({**_table_data(made), **(more or {})})
+        put_json({**_table_data(table), **(more or {})})
     elif not output:
-        click.echo("\n\n".join([*words[:1], as_text(made, width()), *words[1:]]))
+        click.echo("\n\n".join([*words[:1], as_text(table, width()), *words[1:]]))
 
 
 def _write(path: str, content: str | bytes) -> None:
@@ -207,12 +207,12 @@ def _write(path: str, content: str | bytes) -> None:
     write_whole(path, content)
 
 
-def _table_data(found: TimeSpaceTable) -> dict[str, Any]:
+def _table_data(table: TimeSpaceTable) -> dict[str, Any]:
     """Return the table for programs: for each row its runs of equal cells."""
     return {
-        "first_tick": found.first_tick,
-        "last_tick": found.last_tick,
-        **clock_data(found.quantities),
+        "first_tick": table.first_tick,
+        "last_tick": table.last_tick,
+        **clock_data(table.quantities),
         "rows": [
             {
                 "robot": row.robot,
@@ -222,7 +222,7 @@ def _table_data(found: TimeSpaceTable) -> dict[str, Any]:
                     for start, end, cell in row.runs
                 ],
             }
-            for row in found.rows
+            for row in table.rows
         ],
     }
 
@@ -236,23 +236,23 @@ def clock_data(quantities: Quantities) -> dict[str, Any]:
     }
 
 
-def _events(found: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> None:
+def _events(plan: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> None:
     from rightofway.metrics import event_columns
     from rightofway.viz.table import chosen_events, event_list, parquet_of
 
     chosen = chosen_events(
-        found, first_tick=shown.first_tick, last_tick=shown.last_tick, robots=shown.robots
+        plan, first_tick=shown.first_tick, last_tick=shown.last_tick, robots=shown.robots
     )
-    made = event_list(found, chosen, shown.quantities)
+    listing = event_list(plan, chosen, shown.quantities)
     if output and Path(output).suffix.lower() == ".parquet":
-        _write(output, parquet_of(event_columns(found, chosen)))
+        _write(output, parquet_of(event_columns(plan, chosen)))
         say(f"wrote {output}")
     elif output:
-        put_lists([made], output)
+        put_lists([listing], output)
     elif not as_json:
-        click.echo(made.as_text())
+        click.echo(listing.as_text())
     if as_json:
-        columns = event_columns(found, chosen)
+        columns = event_columns(plan, chosen)
         exact = {"enter": "enter_tick", "leave": "leave_tick", "waits": "wait_ticks"}
         keys = [key for key in columns if key not in exact.values()]
         values = zip(*(columns[exact.get(key, key)] for key in keys), strict=True)
@@ -273,29 +273,29 @@ def put_lists(lists: Sequence[Listing], output: str) -> None:
         case ".csv":
             _write(output, lists[0].as_csv())
         case _:
-            _write(output, "\n\n".join(each.as_text(None) for each in lists) + "\n")
+            _write(output, "\n\n".join(listing.as_text(None) for listing in lists) + "\n")
     say(f"wrote {output}")
 
 
 def _groups(
-    found: Plan, number: int, given: dict[str, Any]
+    plan: Plan, number: int, given: dict[str, Any]
 ) -> tuple[TimeSpaceTable, list[str], Sequence[tuple[int, int] | None]]:
     """Return the table of both movement groups of a decision, words, and their W(i) and W(j)."""
     from rightofway.planners.two_level import movement_groups
     from rightofway.viz.table import chosen_robots, table_of_groups
 
-    decisions = found.run.decisions
+    decisions = plan.run.decisions
     if number > len(decisions):
         last = f"the last one is {len(decisions)}" if decisions else "the plan has no decisions"
         remedy = "rightofway collisions PLAN lists them"
         raise InputError.at("--decision", f"{number} is not there, {last} ({remedy})")
     decision = decisions[number - 1]
-    groups = movement_groups(found, decision)
-    shown = _shown(found, **given)
+    groups = movement_groups(plan, decision)
+    shown = _shown(plan, **given)
     names = shown.robots
-    made = table_of_groups(
-        found,
-        decision.robots if names is None else chosen_robots(found.scenario, names),
+    group_table = table_of_groups(
+        plan,
+        decision.robots if names is None else chosen_robots(plan.scenario, names),
         [None if group is None else group.tracks for group in groups],
         first_tick=shown.first_tick,
         last_tick=shown.last_tick,
@@ -303,26 +303,26 @@ def _groups(
         step=shown.step,
     )
     completions = [None if group is None else group.completions for group in groups]
-    words = _group_words(found, decision, completions, shown.quantities)
-    return made, [f"Decision {number}: {words[0]}", "\n".join(words[1:])], completions
+    words = _group_words(plan, decision, completions, shown.quantities)
+    return group_table, [f"Decision {number}: {words[0]}", "\n".join(words[1:])], completions
 
 
 def _group_words(
-    found: Plan,
+    plan: Plan,
     decision: Decision,
     completions: Sequence[tuple[int, int] | None],
     quantities: Quantities,
 ) -> list[str]:
-    i, j = (found.scenario.robots[robot].name for robot in decision.robots)
-    place = PlaceNames(found.scenario, numbered=True)(decision.vertices[0])
+    i, j = (plan.scenario.robots[robot].name for robot in decision.robots)
+    place = PlaceNames(plan.scenario, numbered=True)(decision.vertices[0])
     lines = [f"{i} and {j} meet at {place} at {quantities.moment(decision.tick)}."]
     for number, pair in enumerate(completions, 1):
         if pair is None:
             lines.append(f"List {number}: no way was found.")
             continue
-        one, other = map(quantities.cell, pair)
+        first, other = map(quantities.cell, pair)
         total = quantities.duration(sum(pair))
-        lines.append(f"List {number}: W({i}) + W({j}) = {one} + {other} = {total}")
-    waits = found.scenario.robots[decision.waits].name
+        lines.append(f"List {number}: W({i}) + W({j}) = {first} + {other} = {total}")
+    waits = plan.scenario.robots[decision.waits].name
     lines.append(f"{waits} waits ({decision.level} level).")
     return lines

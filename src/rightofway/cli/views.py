@@ -71,18 +71,18 @@ def check(*, plans: tuple[str, ...], limit: int, in_ticks: bool, as_json: bool) 
     code, reports, own = 0, [], own_among(plans)
     for path in plans:
         try:
-            found = read_plan(path, own)
+            opened = read_plan(path, own)
         except InputError as error:  # the other plans are checked all the same
             complain(str(error))
             code = 2
             continue
-        quantities = quantities_of(found.scenario, in_ticks=in_ticks)
-        report = judge(found, limit=limit, quantities=quantities)
+        quantities = quantities_of(opened.scenario, in_ticks=in_ticks)
+        report = judge(opened, limit=limit, quantities=quantities)
         code = code or int(not report.ok)
         if as_json:
-            reports.append({"plan": path, **_report_data(found, report)})
+            reports.append({"plan": path, **_report_data(opened, report)})
         elif report.ok:
-            robots, visits = len(found.tracks), sum(map(len, found.tracks))
+            robots, visits = len(opened.tracks), sum(map(len, opened.tracks))
             put_report(f"{path}: no fault in {robots} robots and {visits} visits")
         else:
             put_report(f"{path}: {report}")
@@ -91,15 +91,15 @@ def check(*, plans: tuple[str, ...], limit: int, in_ticks: bool, as_json: bool) 
     return code
 
 
-def _report_data(found: Plan, report: Report) -> dict[str, Any]:
+def _report_data(plan: Plan, report: Report) -> dict[str, Any]:
     return {
         "ok": report.ok,
         "counts": dict(report.counts),
         "faults": [
             {
                 "kind": fault.kind,
-                "robots": [found.scenario.robots[robot].name for robot in fault.robots],
-                "vertices": [found.scenario.roadmap.name(vertex) for vertex in fault.vertices],
+                "robots": [plan.scenario.robots[robot].name for robot in fault.robots],
+                "vertices": [plan.scenario.roadmap.name(vertex) for vertex in fault.vertices],
                 "tick": fault.tick,
                 "message": fault.message,
             }
@@ -168,32 +168,32 @@ def show(
         raise click.UsageError(f"{message} (give at most {MAX_COMPARED})")
     _check_background(background, background_scale, [page, output])
     own = own_among([plan, *others])
-    found = read_either(plan, count, own)
-    if isinstance(found, Scenario):
+    opened = read_either(plan, count, own)
+    if isinstance(opened, Scenario):
         with progress(LIMIT) as report:
-            found = solve(found, time_limit=LIMIT, report=report)
-        say(f"{plan}: {planning(found, found.scenario.quantities)}")
+            opened = solve(opened, time_limit=LIMIT, report=report)
+        say(f"{plan}: {planning(opened, opened.scenario.quantities)}")
     first, *titles = _titles([plan, *others])
     extras: dict[str, Any] = {
         "title": first,
-        "background": _background(background, background_scale, found),
-        "others": list(zip((read_plan(each, own) for each in others), titles, strict=True)),
+        "background": _background(background, background_scale, opened),
+        "others": list(zip((read_plan(path, own) for path in others), titles, strict=True)),
     }
     if page:
-        _write(found, page, extras)
+        _write(opened, page, extras)
     if output == "-":
         from rightofway.viz import page_of
 
-        click.echo(page_of(found, **extras), nl=False)
+        click.echo(page_of(opened, **extras), nl=False)
     elif is_picture:
         from rightofway.viz import write_png
 
         if at is not None:
-            tick = floor(at / found.scenario.problem.clock.tick)
-        write_png(found, output or "", tick, diagram=diagram)
+            tick = floor(at / opened.scenario.problem.clock.tick)
+        write_png(opened, output or "", tick, diagram=diagram)
         say(f"wrote {output}")
     elif output:
-        _write(found, output, extras)
+        _write(opened, output, extras)
 
 
 def _titles(paths: list[str]) -> list[str]:
@@ -219,7 +219,9 @@ def _check_background(picture: str | None, scale: float | None, outputs: list[st
         if scale is not None:
             raise click.UsageError("--background-scale needs --background PICTURE")
         return
-    if not any(it and (it == "-" or it.lower().endswith(PAGE_SUFFIXES)) for it in outputs):
+    if not any(
+        output and (output == "-" or output.lower().endswith(PAGE_SUFFIXES)) for output in outputs
+    ):
         raise click.UsageError("--background is for pages (give --page FILE)")
     if scale is not None and picture.lower().endswith(LAYOUTS_WITH_PICTURES):
         raise click.UsageError(f"--background-scale is for pictures; {picture} says its own scale")
@@ -239,23 +241,23 @@ def _background(path: str | None, scale: float | None, plan: Plan) -> Background
 
     layout = read_layout(path)
     owners = layout.levels if isinstance(layout, Layout) else (layout,)
-    found = [
-        each.picture for each in owners if isinstance(each, Level | Occupancy) and each.picture
+    pictures = [
+        owner.picture for owner in owners if isinstance(owner, Level | Occupancy) and owner.picture
     ]
-    if len(found) != 1:
-        message = f"names {len(found)} pictures (give a ROS map, or a building of one level)"
+    if len(pictures) != 1:
+        message = f"names {len(pictures)} pictures (give a ROS map, or a building of one level)"
         raise InputError.at("", message, path)
-    return Background.of(found[0].scaled(1 / (plan.scenario.units.metres or Fraction(1))))
+    return Background.of(pictures[0].scaled(1 / (plan.scenario.units.metres or Fraction(1))))
 
 
-def _write(found: Plan, path: str, extras: dict[str, Any]) -> None:
+def _write(plan: Plan, path: str, extras: dict[str, Any]) -> None:
     """Write a film or a page."""
     from rightofway.viz import write_gif, write_page
 
     if path.lower().endswith(".gif"):
-        film = write_gif(found, path)
-        apart = found.scenario.quantities.duration(film.ticks_per_frame)
+        film = write_gif(plan, path)
+        apart = plan.scenario.quantities.duration(film.ticks_per_frame)
         say(f"{film.frames} frames, {apart} apart")
     else:
-        write_page(found, path, **extras)
+        write_page(plan, path, **extras)
     say(f"wrote {path}")

@@ -124,19 +124,19 @@ def _pieces(graph: TimedEventGraph, circuit: Sequence[int]) -> Iterator[Piece]:
     robots, arcs = graph.timetable.robots, graph.arcs
     for arc in circuit:
         tail, head = int(arcs.tail[arc]), int(arcs.head[arc])
-        here, there = (VertexId(int(graph.vertex[visit])) for visit in (tail, head))
+        start, goal = (VertexId(int(graph.vertex[visit])) for visit in (tail, head))
         robot = robots[graph.robot[head]]
         if arcs.first[arc] >= 0:
             ticks = Tick(int(arcs.length[arc]))
             left = VertexId(int(graph.vertex[arcs.first[arc]]))
-            places = (there,) if left == there else (there, left)
+            places = (goal,) if left == goal else (goal, left)
             yield Piece(kind="right of way", robot=robot, places=places, ticks=ticks)
             continue
         if graph.dwell[tail]:
             ticks = Tick(int(graph.dwell[tail]))
-            yield Piece(kind="work", robot=robot, places=(here,), ticks=ticks)
+            yield Piece(kind="work", robot=robot, places=(start,), ticks=ticks)
         ticks = Tick(int(graph.drive[head]))
-        yield Piece(kind="way", robot=robot, places=(here, there), ticks=ticks)
+        yield Piece(kind="way", robot=robot, places=(start, goal), ticks=ticks)
 
 
 def _joined(pieces: Iterator[Piece]) -> Iterator[Piece]:

@@ -80,9 +80,9 @@ def closed_windows(
     for window in closing.promising():
         if problem.is_out_of_time:
             return
-        found = closing.close(window)
-        if found is not None:
-            yield found
+        closed = closing.close(window)
+        if closed is not None:
+            yield closed
 
 
 class _WindowClosing:
@@ -104,9 +104,14 @@ class _WindowClosing:
             ticks = np.linspace(longest, latest, params.window_begins).astype(np.int64).tolist()
             best = [ends for tick in ticks if (ends := self.best_ends(tick, least, most))]
             for score, n_closed in enumerate((params.most_by_value, params.most_by_calm)):
-                in_order = sorted((ends[score] for ends in best), key=lambda found: -found[0])
+                in_order = sorted((ends[score] for ends in best), key=lambda scored: -scored[0])
                 ranked.append(list(dict.fromkeys(window for _, window in in_order))[:n_closed])
-        in_turn = (one for row in zip_longest(*reversed(ranked)) for one in row if one is not None)
+        in_turn = (
+            stretch
+            for row in zip_longest(*reversed(ranked))
+            for stretch in row
+            if stretch is not None
+        )
         return list(dict.fromkeys(in_turn))
 
     def best_ends(self, begins: int, least: int, most: int) -> list[tuple[float, Stretch]]:
@@ -151,7 +156,7 @@ class _WindowClosing:
         bookings, placed = problem.empty_bookings(period), dict[int, RobotCycle]()
         # Robots with busy homes have least freedom to wait: placed first.
         users = Counter(vertex for lap in laps for vertex in set(lap.vertices))
-        for robot in sorted(range(len(laps)), key=lambda one: -users[laps[one].vertices[0]]):
+        for robot in sorted(range(len(laps)), key=lambda number: -users[laps[number].vertices[0]]):
             cycle = self.without_overlap(bookings, robot, *parts[robot])
             if cycle is None:
                 return None
@@ -188,7 +193,7 @@ def stretches(
     known, longest = max(past[-1] for past in run.history), run.context.longest
     visits_per_tick = sum(map(len, run.history)) / max(known, 1)
     homes = homes_of(run.context.routes, run.history)
-    found = []
+    candidates = []
     latest = max(params.latest_begin * known, longest)
     ticks = np.linspace(longest, latest, params.stretch_begins).astype(np.int64)
     for begins in np.unique(ticks).tolist():
@@ -198,8 +203,8 @@ def stretches(
             periods = np.unique(np.linspace(least, most, params.stretch_ends).astype(np.int64))
             values = _values(problem, run, homes, begins, periods)
             best = int(np.argmax(values))
-            found.append((float(values[best]), Stretch(begins, int(periods[best]))))
-    return sorted((one for one in found if one[0] > 0), reverse=True)
+            candidates.append((float(values[best]), Stretch(begins, int(periods[best]))))
+    return sorted((candidate for candidate in candidates if candidate[0] > 0), reverse=True)
 
 
 def _values(
@@ -308,8 +313,8 @@ class _SeamClosing:
             blocking = self._connect(robot, self._choices(robot))
             if blocking is None:
                 continue
-            for one in sorted(blocking):
-                self._book(one, replace(self._kept[one], through=None))
+            for blocker in sorted(blocking):
+                self._book(blocker, replace(self._kept[blocker], through=None))
             queue.extend(sorted(blocking))
             if self._connect(robot, self._choices(robot)) is not None:
                 queue.append(robot)
@@ -317,37 +322,43 @@ class _SeamClosing:
 
     def add_laps(self) -> None:
         """Add laps of all robots while they fit, robots with short laps first."""
-        for robot in sorted(range(len(self._kept)), key=lambda one: self._kept[one].lap.duration):
+        for robot in sorted(
+            range(len(self._kept)), key=lambda number: self._kept[number].lap.duration
+        ):
             if self._problem.is_out_of_time:
                 break
             n_laps = self._kept[robot].n_kept + self._kept[robot].n_through
             choices = self._choices(robot)
-            self._connect(robot, (one for one in choices if one[0].n_kept + one[1] > n_laps))
+            self._connect(
+                robot, (choice for choice in choices if choice[0].n_kept + choice[1] > n_laps)
+            )
 
     def cycle(self, robot: int) -> RobotCycle:
         """Return the cycle of a robot."""
-        kept, n = self._kept[robot], len(self._kept[robot].lap)
-        assert kept.through is not None, "all robots are connected"
-        visits = kept.past.enters(range(kept.first * n, kept.last * n))
-        return _cycle(kept.lap, np.concatenate((visits, kept.through)), self._period, early=True)
+        stretch, n = self._kept[robot], len(self._kept[robot].lap)
+        assert stretch.through is not None, "all robots are connected"
+        visits = stretch.past.enters(range(stretch.first * n, stretch.last * n))
+        return _cycle(
+            stretch.lap, np.concatenate((visits, stretch.through)), self._period, early=True
+        )
 
     def _waits_at_home(self, robot: int) -> bool:
         """Connect a robot by a wait at home; return whether its home stays free."""
-        kept = self._kept[robot]
-        times = kept.begins, kept.until, kept.leave
-        through = self._seam.connect(kept.lap, 0, *times, robot=robot)
-        self._kept[robot] = replace(kept, through=through)
+        stretch = self._kept[robot]
+        times = stretch.begins, stretch.until, stretch.leave
+        through = self._seam.connect(stretch.lap, 0, *times, robot=robot)
+        self._kept[robot] = replace(stretch, through=through)
         self._book_through(robot)
         return through is not None
 
     def _choices(self, robot: int) -> Iterator[tuple[_Kept, int]]:
         """Yield kept laps of a robot and the number of laps at the seam, most laps first."""
-        kept, params = replace(self._kept[robot], through=None), self._params
-        most = kept.n_kept + (kept.until - kept.begins) // int(kept.lap.duration)
+        stretch, params = replace(self._kept[robot], through=None), self._params
+        most = stretch.n_kept + (stretch.until - stretch.begins) // int(stretch.lap.duration)
         given_up = sorted(product(range(params.given_up), repeat=2), key=sum)
         for fewer in range(params.fewer_laps):
             for later, sooner in given_up:
-                less = replace(kept, first=kept.first + later, last=kept.last - sooner)
+                less = replace(stretch, first=stretch.first + later, last=stretch.last - sooner)
                 n_through = most - fewer - less.n_kept
                 inside = less.n_kept >= 0 and n_through >= 0
                 if inside and self._from <= less.begins and less.until <= self._to:
@@ -361,47 +372,50 @@ class _SeamClosing:
         """
         before, blocking = self._kept[robot], set[int]()
         self._seam.remove(robot)  # its own bookings do not block it
-        for kept, n_through in choices:
-            times = kept.begins, kept.until, kept.leave
-            through = self._seam.connect(kept.lap, n_through, *times, robot=robot)
+        for stretch, n_through in choices:
+            times = stretch.begins, stretch.until, stretch.leave
+            through = self._seam.connect(stretch.lap, n_through, *times, robot=robot)
             self._searches += 1
             if through is not None:
-                self._book(robot, replace(kept, through=through))
+                self._book(robot, replace(stretch, through=through))
                 return None
-            for one in self._seam.in_the_way(robot, kept.lap, kept.begins, kept.leave):
-                other = self._kept[one]
-                at_home = self._seam.keeps_out(one, other.lap, robot, kept.lap)
+            for blocker in self._seam.in_the_way(robot, stretch.lap, stretch.begins, stretch.leave):
+                other = self._kept[blocker]
+                at_home = self._seam.keeps_out(blocker, other.lap, robot, stretch.lap)
                 if other.through is not None and (other.n_through or at_home):
-                    blocking.add(one)
+                    blocking.add(blocker)
         self._book(robot, before)
         return blocking - {robot}
 
-    def _book(self, robot: int, kept: _Kept) -> None:
+    def _book(self, robot: int, stretch: _Kept) -> None:
         """Replace all bookings of a robot."""
-        self._kept[robot] = kept
+        self._kept[robot] = stretch
         self._seam.remove(robot)
         self._book_kept(robot)
         self._book_through(robot)
 
     def _book_kept(self, robot: int) -> None:
         """Book the kept laps of a robot around the seam."""
-        kept, n = self._kept[robot], len(self._kept[robot].lap)
-        first = max(int(np.searchsorted(kept.home, self._from)) - 1, kept.first)
-        last = min(int(np.searchsorted(kept.home, self._to - self._period)), kept.last)
-        before = range(first * n, kept.last * n)
-        after = range(kept.first * n + 1, last * n)
+        stretch, n = self._kept[robot], len(self._kept[robot].lap)
+        first = max(int(np.searchsorted(stretch.home, self._from)) - 1, stretch.first)
+        last = min(int(np.searchsorted(stretch.home, self._to - self._period)), stretch.last)
+        before = range(first * n, stretch.last * n)
+        after = range(stretch.first * n + 1, last * n)
         for visits, later in ((before, 0), (after, self._period)):
             if visits:
-                enter = kept.past.enters(range(visits.start, visits.stop + 1)) + later
-                self._seam.add_visits(robot, kept.lap, visits, enter[:-1], int(enter[-1]))
+                enter = stretch.past.enters(range(visits.start, visits.stop + 1)) + later
+                self._seam.add_visits(robot, stretch.lap, visits, enter[:-1], int(enter[-1]))
 
     def _book_through(self, robot: int) -> None:
         """Book the visits at the seam; if unknown, both stays at home."""
-        kept, leave = self._kept[robot], self._kept[robot].begins + self._kept[robot].lap.least(0)
-        stays = [(kept.begins, leave), (kept.until, kept.leave)]
-        if kept.through is not None:
-            visits = range(len(kept.through))
-            self._seam.add_visits(robot, kept.lap, visits, kept.through, kept.leave)
+        stretch, leave = (
+            self._kept[robot],
+            self._kept[robot].begins + self._kept[robot].lap.least(0),
+        )
+        stays = [(stretch.begins, leave), (stretch.until, stretch.leave)]
+        if stretch.through is not None:
+            visits = range(len(stretch.through))
+            self._seam.add_visits(robot, stretch.lap, visits, stretch.through, stretch.leave)
             return
-        for begins, ends in stays if leave < kept.until else [(kept.begins, kept.leave)]:
-            self._seam.add_visits(robot, kept.lap, range(1), np.array([begins]), ends)
+        for begins, ends in stays if leave < stretch.until else [(stretch.begins, stretch.leave)]:
+            self._seam.add_visits(robot, stretch.lap, range(1), np.array([begins]), ends)

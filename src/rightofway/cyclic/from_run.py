@@ -141,13 +141,13 @@ def extract_cycle(
     At least one closing is completed, in a bounded number of steps, also after the deadline; and
     one of each other run, if it fails.
     """
-    found: list[tuple[float, Stretch, int]] = []
+    candidates: list[tuple[float, Stretch, int]] = []
     for number, run in enumerate(runs):
         some = stretches(problem, run)[: params.stretches_each]
-        found += [(value, stretch, number) for value, stretch in some]
-    found.sort(key=lambda one: one[:2], reverse=True)
+        candidates += [(value, stretch, number) for value, stretch in some]
+    candidates.sort(key=lambda candidate: candidate[:2], reverse=True)
     failed = set[int]()
-    for _, stretch, number in found[: params.most_stretches]:
+    for _, stretch, number in candidates[: params.most_stretches]:
         if problem.is_out_of_time and number in failed:
             continue
         closed = close_stretch(problem, runs[number], stretch)

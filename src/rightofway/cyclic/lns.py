@@ -162,11 +162,11 @@ def improve(
             break
         step, in_vain = step + 1, in_vain + 1
         inserts = step % params.insert_every == 0 or candidate.n_visits > params.most_visits
-        found = (insert_laps if inserts else _step)(problem, candidate, params)
-        if found is not None and problem.accepts(found):
-            if problem.value(found) > problem.value(candidate):
-                best, in_vain = found, 0
-            candidate = found
+        changed = (insert_laps if inserts else _step)(problem, candidate, params)
+        if changed is not None and problem.accepts(changed):
+            if problem.value(changed) > problem.value(candidate):
+                best, in_vain = changed, 0
+            candidate = changed
         if in_vain >= params.patience:
             in_vain = 0
             if 2 * candidate.n_visits <= params.most_visits:
@@ -190,7 +190,7 @@ def insert_laps(problem: CyclicProblem, candidate: Candidate, params: LnsParams)
         if count * problem.alone[robot] <= bookings.period:
             near = sorted(bookings.neighbours(robot, cycles[robot].lap) - {robot})
             others = draw.sample(near, min(len(near), draw.choice(params.neighbours_moved)))
-            counts = {robot: count, **{one: cycles[one].count for one in others}}
+            counts = {robot: count, **{number: cycles[number].count for number in others}}
             _move(problem, bookings, cycles, counts)
     return problem.candidate(problem.timetable(cycles, candidate.period))
 
@@ -298,10 +298,10 @@ def _reinserted(
     for robot, cycle in cycles.items():
         bookings.add(robot, cycle.lap, cycle.count, cycle.enter)
     for robot in problem.draw.sample(list(removed), len(removed)):
-        found = problem.place(bookings, robot, counts[robot])
-        if found is None:
+        placed = problem.place(bookings, robot, counts[robot])
+        if placed is None:
             return None
-        bookings.add(robot, found.lap, found.count, found.enter)
-        cycles[robot] = found
+        bookings.add(robot, placed.lap, placed.count, placed.enter)
+        cycles[robot] = placed
     joined = [cycles[robot] for robot in range(len(problem))]
     return problem.candidate(problem.timetable(joined, period))

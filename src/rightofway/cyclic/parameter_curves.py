@@ -84,7 +84,7 @@ class ParameterCurve:
 
     def period(self, value: Fraction) -> Fraction:
         """Return the period for a value [time unit]."""
-        piece = next(each for each in self.pieces if value <= each.until)
+        piece = next(later for later in self.pieces if value <= later.until)
         return piece.fixed + piece.slope * (1 / value if self.kind == "speed" else value)
 
 
@@ -115,12 +115,12 @@ def parameter_curves(
     GaveUp
         If time ran out, or numbers become too large for the native core.
     """
-    found: list[ParameterCurve] = []
+    curves: list[ParameterCurve] = []
     for curve in _curves(scenario, graph, time_limit):
-        found.append(curve)
-        if (len(found) + 1) * len(graph) > most_visits:
+        curves.append(curve)
+        if (len(curves) + 1) * len(graph) > most_visits:
             break
-    return tuple(found)
+    return tuple(curves)
 
 
 def _curves(
@@ -217,7 +217,7 @@ def _of_speed(scenario: Scenario, graph: TimedEventGraph, place: int, robot: Rob
     drive = np.where(drives, graph.drive[arcs.head], 0)
     turns = _turns_by_speed(scenario, graph, place, robot)
     of, fixed = np.arange(len(arcs)), arcs.length - drive - turns
-    limits = [each.max_speed for each in scenario.roadmap.edge_classes]
+    limits = [edge_class.max_speed for edge_class in scenario.roadmap.edge_classes]
     if not any(limits):
         return Growth(of=of, fixed=fixed, slope=drive + turns)
     # Of what a drive takes now: at the robot's own speed, and at the limit.

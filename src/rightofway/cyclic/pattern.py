@@ -107,7 +107,7 @@ class Pattern:
     @property
     def n_visits(self) -> int:
         """The number of visits of all robots in a period."""
-        return sum(laps * each for laps, each in zip(self.counts, self.lengths, strict=True))
+        return sum(laps * length for laps, length in zip(self.counts, self.lengths, strict=True))
 
     def enter(self, robot: int, visit: int) -> int:
         """Return the enter of any visit of a robot [ticks]."""

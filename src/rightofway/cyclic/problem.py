@@ -183,9 +183,9 @@ class CyclicProblem:
         ways = [lap] if lap else self.draw.sample(self.ways[robot], len(self.ways[robot]))
         for way in ways:
             for _ in range(tries):
-                found = self._search(bookings, robot, way, count)
-                if found is not None:
-                    return found
+                placed = self._search(bookings, robot, way, count)
+                if placed is not None:
+                    return placed
         if lap or not self.round_trips:
             return None
         phase = self.draw.randrange(int(bookings.period))

@@ -260,11 +260,11 @@ def _waits(
                 vertex = context.routes[robot].vertex(visits[index])
                 for row in context.booked_at(robot, visits[index]):
                     freed_by[row, int(free[index])] = robot, vertex
-    robots, found = context.robots, []
+    robots, waits = context.robots, []
     for robot, visit, soonest, at, booked in late:
         rows = ((row, booked) for row in context.excluding(robot, visit))
         freed = (freed_by[row] for row in rows if row in freed_by)
-        by, place = next((one for one in freed if one[0] != robot), (None, None))
+        by, place = next((freeing for freeing in freed if freeing[0] != robot), (None, None))
         vertex = context.routes[robot].vertex(visit)
         if by is not None:  # else a wait for a planned time, or for no robot
             wait = LapWait(
@@ -275,5 +275,5 @@ def _waits(
                 ticks=Tick(at - soonest),
                 beside=None if place == vertex else place,
             )
-            found.append(wait)
-    return tuple(sorted(found, key=lambda one: (one.tick, one.waits)))
+            waits.append(wait)
+    return tuple(sorted(waits, key=lambda freeing: (freeing.tick, freeing.waits)))

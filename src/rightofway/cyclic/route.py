@@ -163,12 +163,12 @@ class GroupContext:
         For points the row is the vertex.
         """
         route, resources = self.routes[index], self.scenario.problem.resources
-        here, there = route.vertex(visit), route.vertex(visit + 1)
+        vertex, following = route.vertex(visit), route.vertex(visit + 1)
         if resources is None:
-            return (int(here),)
-        edge = self.scenario.roadmap.edge(here, there)
+            return (int(vertex),)
+        edge = self.scenario.roadmap.edge(vertex, following)
         assert edge is not None, "laps lead along edges"
-        return resources.vertex_row(route.robot, here), resources.edge_row(route.robot, edge)
+        return resources.vertex_row(route.robot, vertex), resources.edge_row(route.robot, edge)
 
     def excluding(self, index: int, visit: int) -> tuple[int, ...]:
         """Return the rows of other robots that keep a robot from the drive into a visit."""
@@ -231,7 +231,7 @@ def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     remedy = "take them out: what is closed once would be closed in every lap"
     refuse_closures(scenario.problem, "repeated work", remedy)
     refuse_turn_rates(scenario.problem, "repeated work", "give turn, the time to turn at each stop")
-    if scenario.rules.ends == "none" and all(one.ends != "home" for one in scenario.robots):
+    if scenario.rules.ends == "none" and all(robot.ends != "home" for robot in scenario.robots):
         raise InputError.at(("rules", "return"), NOTHING_REPEATS)
     faults = [
         fault.within(("robots", index))
@@ -243,7 +243,11 @@ def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     once = replace(scenario, robots=tuple(replace(robot, laps=1) for robot in scenario.robots))
     distances = Distances(once.roadmap)
     itineraries = once.problem.itineraries
-    distances.prepare((stage.vertex, one.edge_ticks) for one in itineraries for stage in one.stages)
+    distances.prepare(
+        (stage.vertex, itinerary.edge_ticks)
+        for itinerary in itineraries
+        for stage in itinerary.stages
+    )
     return once, distances
 
 
@@ -271,8 +275,8 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     """
     if scenario.problem.resources is not None:
         return _avoid_homes_by_rows(scenario, scenario.problem.resources, routes)
-    found = list(routes)
-    passed = [set(route.vertices) for route in found]
+    avoiding = list(routes)
+    passed = [set(route.vertices) for route in avoiding]
     itineraries = scenario.problem.itineraries
     robot_at = {itinerary.home: robot for robot, itinerary in enumerate(itineraries)}
     for robot, itinerary in enumerate(itineraries):
@@ -283,16 +287,16 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
         distances = Distances(_without(scenario.roadmap, homes))
         if not reaches_its_places(itinerary, distances):
             continue
-        found[robot] = shortest_route(itinerary, distances)
-        passed[robot] = set(found[robot].vertices)
-    return found
+        avoiding[robot] = shortest_route(itinerary, distances)
+        passed[robot] = set(avoiding[robot].vertices)
+    return avoiding
 
 
 def _avoid_homes_by_rows(
     scenario: Scenario, resources: Resources, routes: Sequence[Route]
 ) -> list[Route]:
     """Do as `avoid_homes` for robots with a size, which pass whatever a robot at home excludes."""
-    found, roadmap = list(routes), scenario.roadmap
+    avoiding, roadmap = list(routes), scenario.roadmap
     itineraries = scenario.problem.itineraries
     at_home = [
         frozenset(resources.excluded_by(resources.vertex_row(robot, one.home)).tolist())
@@ -300,14 +304,14 @@ def _avoid_homes_by_rows(
     ]
 
     def passed(robot: int) -> frozenset[int]:
-        rows = resources.rows_of_lap(roadmap, robot, found[robot].vertices[:-1])
+        rows = resources.rows_of_lap(roadmap, robot, avoiding[robot].vertices[:-1])
         return frozenset(np.concatenate(rows).tolist())
 
-    booked = [passed(robot) for robot in range(len(found))]
+    booked = [passed(robot) for robot in range(len(avoiding))]
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
     heads = roadmap.heads.tolist()
     for robot, itinerary in enumerate(itineraries):
-        others = [one for one in range(len(found)) if one != robot]
+        others = [one for one in range(len(avoiding)) if one != robot]
         if all(at_home[one].isdisjoint(booked[robot]) for one in others) or all(
             at_home[robot].isdisjoint(booked[one])
             for one in others
@@ -323,9 +327,9 @@ def _avoid_homes_by_rows(
         ]
         distances = Distances(roadmap.without((), edges))
         if reaches_its_places(itinerary, distances):
-            found[robot] = shortest_route(itinerary, distances)
+            avoiding[robot] = shortest_route(itinerary, distances)
             booked[robot] = passed(robot)
-    return found
+    return avoiding
 
 
 def _without(roadmap: Roadmap, vertices: set[VertexId]) -> Roadmap:
@@ -362,8 +366,8 @@ def independent_groups(scenario: Scenario, fleet: Sequence[CyclicRoute]) -> list
     booked = frozenset().union(*(lap.booked for lap in laps))
     for index, lap in enumerate(laps):
         for row in lap.booked | (lap.excluded & booked):
-            one, other = find(first_at.setdefault(row, index)), find(index)
-            leader[max(one, other)] = min(one, other)
+            first, second = find(first_at.setdefault(row, index)), find(index)
+            leader[max(first, second)] = min(first, second)
     groups: dict[int, list[CyclicRoute]] = {}
     for index, route in enumerate(fleet):
         groups.setdefault(find(index), []).append(route)

@@ -77,8 +77,8 @@ def run_laps(
         simulation_of(GroupContext(scenario=scenario, routes=tuple(group)), rule)
         for group in groups
     ]
-    found = share_time(simulations, deadline, report or (lambda _: None))
-    return CyclicResult(scenario=scenario, rule=rule, routes=routes, groups=tuple(found))
+    results = share_time(simulations, deadline, report or (lambda _: None))
+    return CyclicResult(scenario=scenario, rule=rule, routes=routes, groups=tuple(results))
 
 
 def simulation_of(context: GroupContext, rule: str) -> Simulation:
@@ -97,21 +97,21 @@ def share_time(
 
     Each group gets a share of the time left by its size, at least the least share.
     """
-    found: dict[int, GroupResult] = {}
-    sizes = [len(one.context) for one in simulations]
+    results: dict[int, GroupResult] = {}
+    sizes = [len(simulation.context) for simulation in simulations]
     open_ones = sorted(range(len(simulations)), key=lambda index: sizes[index])
     while open_ones:
         left = sum(sizes[index] for index in open_ones)
         for index in open_ones:
-            known = sum(one.ends != "open" for one in found.values())
+            known = sum(simulation.ends != "open" for simulation in results.values())
             report(f"{known} of {len(simulations)} groups done, next one of {sizes[index]} robots")
             share = deadline.sooner(max(sizes[index] / left, least_share))
             left -= sizes[index]
-            found[index] = advance(simulations[index], share)
-        open_ones = [index for index in open_ones if found[index].ends == "open"]
+            results[index] = advance(simulations[index], share)
+        open_ones = [index for index in open_ones if results[index].ends == "open"]
         if deadline.seconds_left() == 0:
             break
-    return [found[index] for index in range(len(simulations))]
+    return [results[index] for index in range(len(simulations))]
 
 
 def advance(simulation: Simulation, deadline: Deadline) -> GroupResult:

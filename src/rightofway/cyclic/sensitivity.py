@@ -91,7 +91,7 @@ def parameter_effects(
     shares = dict(_shares(scenario, graph, circuit))
     weights = {key: int(share[circuit].sum()) for key, share in shares.items()}
     chosen = sorted((key for key in shares if weights[key]), key=lambda key: -weights[key])[:most]
-    found = []
+    effects = []
     for key in chosen:
         effect = sensitivity(graph, shares[key], tight=tight, time_limit=time_limit)
         part = TEN_PER_CENT.get(key[0], Fraction(1, 10))
@@ -101,9 +101,11 @@ def parameter_effects(
             saved = critical_circuit_without(graph, shares[key], part, time_limit=time_limit)
             then = saved.cycle_time
         kind, robot, stop = key
-        one = ParameterEffect(kind=kind, robot=robot, stop=stop, effect=effect, ten_per_cent=then)
-        found.append(one)
-    return tuple(sorted(found, key=lambda one: one.ten_per_cent))
+        parameter_effect = ParameterEffect(
+            kind=kind, robot=robot, stop=stop, effect=effect, ten_per_cent=then
+        )
+        effects.append(parameter_effect)
+    return tuple(sorted(effects, key=lambda effect: effect.ten_per_cent))
 
 
 def _shares(
@@ -121,11 +123,11 @@ def _shares(
         at = stages_at(graph.timetable.laps[place], scenario.problem.itineraries[robot])
         dwelling = own & ~is_right
         turn = np.array([sum(stage.turn for _, stage in stages) for stages in at], np.int64)
-        here = graph.index[arcs.tail]
-        yield ("turn", robot, None), np.where(dwelling, turn[np.where(dwelling, here, 0)], 0)
+        at_visit = graph.index[arcs.tail]
+        yield ("turn", robot, None), np.where(dwelling, turn[np.where(dwelling, at_visit, 0)], 0)
         for visit, stages in enumerate(at):
             for stop, stage in stages:
-                mine = dwelling & (here == visit)
+                mine = dwelling & (at_visit == visit)
                 yield ("work", robot, stop), np.where(mine, np.int64(stage.work), np.int64(0))
     yield ("headway", None, None), np.where(is_right, np.int64(graph.headway), np.int64(0))
 

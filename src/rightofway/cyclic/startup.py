@@ -43,11 +43,11 @@ def start(
 
     def visits_while_waiting(begins: int) -> int:
         """Return the number of visits to homes of robots that wait there."""
-        found = 0
+        taken = 0
         for robot, enter in passes.items():
             waits = _first_home(timetable, robot, begins)[1]
-            found += int(np.count_nonzero((enter - begins) % period < waits))
-        return found
+            taken += int(np.count_nonzero((enter - begins) % period < waits))
+        return taken
 
     considered = ticks[:: -(-len(ticks) // most_begins)]
     begins = min(considered, key=lambda tick: (visits_while_waiting(tick), tick))
@@ -104,9 +104,9 @@ def _passes(scenario: Scenario, timetable: CyclicSchedule) -> dict[int, NDArray[
     passes = defaultdict[int, list[NDArray[np.int64]]](list)
     for index, (visits, enter) in enumerate(zip(booked, timetable.enter, strict=True)):
         for visit, own in enumerate(visits):
-            met = {one for row in own for one in owners.get(row, ()) if one != index}
-            for one in sorted(met):
-                passes[one].append(enter[visit :: len(visits)])
+            met = {number for row in own for number in owners.get(row, ()) if number != index}
+            for number in sorted(met):
+                passes[number].append(enter[visit :: len(visits)])
     return {robot: np.concatenate(ticks) for robot, ticks in passes.items()}
 
 

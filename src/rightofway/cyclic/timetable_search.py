@@ -130,7 +130,7 @@ def best_timetable(
         usual, others = cyclic_routes(scenario), cyclic_routes(scenario, "shortest")
     fleet = CyclicProblem(
         context=GroupContext(scenario=scenario, routes=tuple(usual)),
-        ways=tuple((one.lap, other.lap) for one, other in zip(usual, others, strict=True)),
+        ways=tuple((first.lap, second.lap) for first, second in zip(usual, others, strict=True)),
         round_trips=(),
         forbidden=frozenset(),
         weights=weights,
@@ -138,16 +138,16 @@ def best_timetable(
         deadline=deadline,
         draw=random.Random(),  # noqa: S311 (each group has its own)
     )
-    found: list[GroupResult] = []
+    results: list[GroupResult] = []
     groups = independent_groups(scenario, usual)
     for partition in (groups, [usual]):  # at last with the vertices of other groups
         try:
-            found = _by_groups(fleet, partition, params, rounds=rounds, seed=seed, report=report)
+            results = _by_groups(fleet, partition, params, rounds=rounds, seed=seed, report=report)
             break
         except GaveUp:
             if len(partition) == 1:
                 raise
-    return CyclicResult(scenario=scenario, rule=TIMETABLE, routes="chosen", groups=tuple(found))
+    return CyclicResult(scenario=scenario, rule=TIMETABLE, routes="chosen", groups=tuple(results))
 
 
 def _checked_weights(weights: Sequence[Fraction] | None, n_robots: int) -> tuple[Fraction, ...]:
@@ -182,22 +182,22 @@ def _by_groups(
     excluded = [excluded_by(group) for group in groups]
     uses = Counter(chain.from_iterable(excluded))
     taken = set(uses)
-    found: dict[int, GroupResult] = {}
+    results: dict[int, GroupResult] = {}
     left = len(fleet)
     for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
         group = groups[index]
         if report is not None:
-            report(f"{len(found)} of {len(groups)} groups done, next {len(group)} robots")
+            report(f"{len(results)} of {len(groups)} groups done, next {len(group)} robots")
         uses.subtract(excluded[index])
         taken.difference_update(row for row in excluded[index] if not uses[row])
         draw = random.Random(f"{seed} {index}")  # noqa: S311 (no secret depends on it)
         problem = _part(fleet, group, taken, draw, params).sooner(len(group) / left)
         left -= len(group)
-        found[index] = _choose(problem, rounds, params)
-        after = excluded_by(found[index].context.routes)
+        results[index] = _choose(problem, rounds, params)
+        after = excluded_by(results[index].context.routes)
         uses.update(after)
         taken |= after
-    return [found[index] for index in range(len(groups))]
+    return [results[index] for index in range(len(groups))]
 
 
 def _part(
@@ -212,9 +212,9 @@ def _part(
     trips: tuple[RoundTrip, ...] = ()
     if len(fleet) <= params.most_with_round_trips:
         distances = Distances(scenario.roadmap)
-        each = [_round_trip(scenario, robot, distances, taken) for robot in robots]
-        trips = tuple(one for one in each if one is not None)
-        trips = trips if len(trips) == len(each) else ()
+        round_trips = [_round_trip(scenario, robot, distances, taken) for robot in robots]
+        trips = tuple(trip for trip in round_trips if trip is not None)
+        trips = trips if len(trips) == len(round_trips) else ()
     ways = []
     for robot in robots:
         usual, other = fleet.ways[robot]
@@ -283,11 +283,11 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
         problem = problem.with_ways(together.timetable.laps)
         starts = [together]
     if not starts or not problem.accepts(starts[0]):
-        who = f"{len(problem)} robots that have to do with each other"
+        robots = f"{len(problem)} robots that have to do with each other"
         if problem.least_fairness:
-            why = f"for {who} that is fair enough (ask for less, or give time)"
+            why = f"for {robots} that is fair enough (ask for less, or give time)"
         else:
-            why = f"for {who} (give more time)"
+            why = f"for {robots} (give more time)"
         raise GaveUp(f"no timetable was found {why}")
     whole = _whole(problem, _improved(problem, starts, rounds, params), params)
     if pattern is not None and worth > problem.value(whole):
@@ -300,8 +300,12 @@ def _closed_run(problem: CyclicProblem) -> GroupResult | None:
     if problem.deadline.at is None:
         return None
     baseline = SimulatedRun(problem, problem.context, "first-come")
-    found = extract_cycle(problem, choose_runs(problem, baseline))
-    fair = [one for one in (found, _fair_pattern(problem, baseline.result)) if one is not None]
+    extracted = extract_cycle(problem, choose_runs(problem, baseline))
+    fair = [
+        candidate
+        for candidate in (extracted, _fair_pattern(problem, baseline.result))
+        if candidate is not None
+    ]
     if not fair:
         return None
     return _started(problem, max(fair, key=problem.value), *_baseline(problem, baseline.result))
@@ -331,9 +335,9 @@ def _by_other_rules(problem: CyclicProblem, params: ChoiceParams) -> Iterator[Ca
     if problem.deadline.at is None or len(problem) > params.many:
         return
     for rule in ("two-level", "fixed-order"):
-        found = _fair_pattern(problem, _simulated(problem, rule, params.other_rule_share))
-        if found is not None:
-            yield problem.candidate(found.timetable)
+        pattern = _fair_pattern(problem, _simulated(problem, rule, params.other_rule_share))
+        if pattern is not None:
+            yield problem.candidate(pattern.timetable)
 
 
 def _cut_out(problem: CyclicProblem, run: GroupResult, params: ChoiceParams) -> list[Candidate]:
@@ -343,10 +347,10 @@ def _cut_out(problem: CyclicProblem, run: GroupResult, params: ChoiceParams) -> 
     cutting = problem.sooner(params.cutting_share)
     windows = closed_windows(cutting.sooner(params.closing_share), run)
     best = sorted(filter(problem.accepts, windows), key=problem.value, reverse=True)
-    short = [one for one in best if one.n_visits <= params.short]
-    kept = dict.fromkeys((*best[:1], *short[: params.cuts_kept]))
-    filled = [fill(cutting, *cutting.booked(one)) for one in kept]
-    return [max(pair, key=problem.value) for pair in zip(kept, filled, strict=True)]
+    short = [candidate for candidate in best if candidate.n_visits <= params.short]
+    cuts = dict.fromkeys((*best[:1], *short[: params.cuts_kept]))
+    filled = [fill(cutting, *cutting.booked(candidate)) for candidate in cuts]
+    return [max(pair, key=problem.value) for pair in zip(cuts, filled, strict=True)]
 
 
 def _built(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> list[Candidate]:
@@ -375,10 +379,10 @@ def _improved(
 ) -> Candidate:
     """Improve all short timetables, then the best of these, then the best of all."""
     net = max(starts, key=problem.value)
-    short = [one for one in starts if one.n_visits <= params.short] or [net]
+    short = [candidate for candidate in starts if candidate.n_visits <= params.short] or [net]
     trying, tried = problem.sooner(params.trying_share), []
-    for index, one in enumerate(short):
-        tried.append(improve(trying.sooner(1 / (len(short) - index)), one, steps=rounds))
+    for index, candidate in enumerate(short):
+        tried.append(improve(trying.sooner(1 / (len(short) - index)), candidate, steps=rounds))
     continuing = problem.sooner(params.continuing_share)
     best = improve(continuing, max(tried, key=problem.value), steps=rounds)
     return improve(problem, max(net, best, key=problem.value), steps=rounds)

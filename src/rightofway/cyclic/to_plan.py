@@ -121,13 +121,13 @@ def excerpt(
     if visits_per_tick:
         until = min(until, int(most_visits / visits_per_tick))
 
-    def laps_and_visits(group: GroupResult, index: int, made: int) -> tuple[int, int]:
+    def laps_and_visits(group: GroupResult, index: int, laps: int) -> tuple[int, int]:
         if group.ends == "deadlock" or (group.pattern and not _moves(group, index)):
-            return made + 1, len(group.history[index])
-        if not group.pattern and not made:
+            return laps + 1, len(group.history[index])
+        if not group.pattern and not laps:
             name = group.context.names[index]
             raise GaveUp(f"{name} was not followed for a whole lap (allow more time)")
-        most = None if group.pattern else made - 1
+        most = None if group.pattern else laps - 1
         own = _laps_until(group, index, until, most) + 1
         return own, own * len(group.context.routes[index]) + 1
 
@@ -162,8 +162,8 @@ def _plan(
     """Return a plan with some laps and visits of each robot, by group, index and laps made."""
     robots, tracks = list(result.scenario.robots), dict[int, Track]()
     for group in result.groups:
-        for index, (robot, made) in enumerate(zip(group.robots, group.laps_made(), strict=True)):
-            laps, n_visits = laps_and_visits(group, index, made)
+        for index, (robot, n_laps) in enumerate(zip(group.robots, group.laps_made(), strict=True)):
+            laps, n_visits = laps_and_visits(group, index, n_laps)
             robots[robot] = replace(robots[robot], laps=laps)
             if group.pattern and _moves(group, index):
                 enter = group.pattern.enters(index, range(n_visits))

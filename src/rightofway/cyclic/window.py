@@ -204,16 +204,16 @@ def _recurrence(
     j_at_place = defaultdict[tuple[int, int], dict[int, list[int]]](dict)
     for a, b in pairs:
         j_at_place[a % i_lap, b % j_lap].setdefault(a, []).append(b)
-    found: Literal["in place"] | None = None
+    recurs: Literal["in place"] | None = None
     for j_by_i in j_at_place.values():
         latest = -1
         for _, visits in sorted(j_by_i.items()):
             if min(visits) < latest:
                 return "head-on"
             if len(visits) > 1 or latest in visits:
-                found = "in place"
+                recurs = "in place"
             latest = max(latest, *visits)
-    return found
+    return recurs
 
 
 WindowRule = Callable[[Window, Meeting, AnySegment], Literal[0, 1]]

@@ -174,7 +174,7 @@ class FleetBuilder:
         Raises
         ------
         InputError
-            For a name that is none or taken, a position that is no number, or where the map is a
+            For a name that is none or taken, a position that is not a number, or where the map is a
             grid or robots were added already.
         """
         self._refuse_fixed_map(f"vertex {shown(name)}")
@@ -200,7 +200,7 @@ class FleetBuilder:
             Names of the vertices that it leaves and enters.
         length
             Its length [length unit]; by default the straight distance of the two vertices. Where
-            that is no fraction, it is rounded up to 1/1000, on a map with distances below 1 to
+            that is not a fraction, it is rounded up to 1/1000, on a map with distances below 1 to
             1/1000000.
         both_ways
             Whether it is driven from head to tail, too.
@@ -321,8 +321,8 @@ class FleetBuilder:
         if radius is not None and size is not None:
             raise InputError.at("", "has both radius and size (give one of them)", source)
         if (target is None) == (stops is None):
-            what = "has nowhere to go" if target is None else "has both target and stops"
-            raise InputError.at("", f"{what} (give either target or stops)", source)
+            problem = "has nowhere to go" if target is None else "has both target and stops"
+            raise InputError.at("", f"{problem} (give either target or stops)", source)
         trip: list[tuple[Where, Any, Number]] = [("target", target, work)]
         if stops is not None:
             with in_file(source):
@@ -466,11 +466,11 @@ class FleetBuilder:
         if not isinstance(layout, Layout):
             from rightofway.io import read_layout
 
-            found = read_layout(path_of(layout, "layout"))
-            if not isinstance(found, Layout):
+            source = read_layout(path_of(layout, "layout"))
+            if not isinstance(source, Layout):
                 remedy = "write a scenario with map: {layout: …} and load it"
                 raise InputError.at("layout", f"is a map in pixels or cells ({remedy})")
-            layout = found
+            layout = source
         self._units = Units(length=self._units.length or "m", time=self._units.time or "s")
         metres, seconds = self._units.metres, self._units.seconds
         assert metres, "a unit of length has a length"

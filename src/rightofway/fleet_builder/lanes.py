@@ -151,7 +151,7 @@ def lanes_of_graph(graph: Any) -> DrawnLanes:
 
 def _position(node: Any, data: dict[str, Any]) -> tuple[Any, Any] | None:
     """Return where a node of a graph lies, if it says so."""
-    found = data.get("pos", (data["x"], data["y"]) if {"x", "y"} <= data.keys() else node)
-    if isinstance(found, str) or not hasattr(found, "__len__") or len(found) != 2:  # noqa: PLR2004 (x and y)
+    position = data.get("pos", (data["x"], data["y"]) if {"x", "y"} <= data.keys() else node)
+    if isinstance(position, str) or not hasattr(position, "__len__") or len(position) != 2:  # noqa: PLR2004 (x and y)
         return None
-    return found[0], found[1]
+    return position[0], position[1]

@@ -55,10 +55,10 @@ def types_of(place: Where, given: Iterable[str]) -> frozenset[str]:
 
 def surcharge_of(place: Where, given: Number) -> Fraction:
     """Return a surcharge, which is not negative [time unit]."""
-    found = at(place, number, given)
-    if found < 0:
+    surcharge = at(place, number, given)
+    if surcharge < 0:
         raise InputError.at(place, f"{shown(given)} is negative (give 0 or more)")
-    return found
+    return surcharge
 
 
 def pair_of(place: Where, given: Any) -> tuple[Any, Any]:

@@ -174,7 +174,7 @@ def _refuse_foreign(text: str) -> None:
 
 
 def _refuse_count(count: int | None) -> None:
-    """Refuse a number of robots for a file that is no list of starts and goals."""
+    """Refuse a number of robots for a file that is not a list of starts and goals."""
     if count is not None:
         message = f"the count {count} is for a .scen file, and this is none (leave it out)"
         raise InputError.at("", message)

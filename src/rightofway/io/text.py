@@ -2,7 +2,7 @@
 
 Plain data are mappings, lists, text, whole numbers, decimals, true, false and nothing. Whatever a
 file holds instead is an InputError with its place. YAML is built from the parser's events, not by
-its constructors: those accept tags that make objects, keys that are no text, the later of two equal
+its constructors: those accept tags that make objects, keys other than text, the later of two equal
 keys, decimals as floats, and aliases that expand without end ("billion laughs").
 """
 

@@ -30,7 +30,7 @@ Segment = tuple[Point, Point]
 """Both ends of a straight line; of a point, the point twice."""
 
 LEEWAY = 1e-9
-"""Distances in floating point leave out only what is farther off by this part of the roadmap."""
+"""Relative error allowed in floating-point distances before exact ones decide [roadmap sizes]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,7 +117,7 @@ def closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFault]:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Closures:
-    """The bookings of nobody, by row, then by time; those of one row neither overlap nor touch.
+    """The closed intervals of each row, by row, then by time; gaps separate those of one row.
 
     Attributes
     ----------

@@ -43,7 +43,7 @@ class Stop:
     Raises
     ------
     InputError
-        For a vertex that is no number, or a work time that is none.
+        For a vertex that is not a number, or a work time that is none.
     """
 
     at: VertexId

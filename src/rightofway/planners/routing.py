@@ -92,7 +92,7 @@ def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:
 
 
 def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
-    """Return a route for each robot that keeps clear of others where that is no long way round.
+    """Return a route for each robot that keeps clear of others where that is not a long way round.
 
     Robots are routed one after another. Each keeps clear of all homes and stops, and of the robots
     routed before it that come the other way. Raises `NoPlanExists` as `refuse_the_impossible`.

@@ -59,7 +59,7 @@ SEARCHES = 30
 """Searches for each robot without a track, and as many for each ten robots of the fleet."""
 
 MOST_REFUSED = 8
-"""If the old order fails for more robots than that, all robots behind them are planned again."""
+"""Robots that may lose their place in the old order; after them, its rest is dropped."""
 
 STEP = 1e-6
 """Vertices without names are the same vertex where their positions agree to that [length unit]."""

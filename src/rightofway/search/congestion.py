@@ -27,14 +27,14 @@ SHARES = 16
 STATION = 1 / 8
 """To pass another robot's home or stop costs as much as an eighth of a middling trip more.
 
-Who has to wait for a robot to come or go waits the longer, the longer their trips are.
+The expected wait at another robot's home or stop grows with the length of trips.
 """
 
 ONCOMING = 1 / 4
 """To meet a robot head-on on an edge costs as much as a quarter of it more."""
 
 FINE_SHARES = 1 << 12
-"""The same, if robots cost by how often they come."""
+"""The same for laps, where the cost depends on the frequency of each robot."""
 
 OFTEN_AT_STATION = 150
 """Ticks that passing a robot costs if that robot is at its place all the time."""
@@ -44,7 +44,7 @@ OFTEN_ONCOMING = 34
 
 
 class Congestion:
-    """The routes chosen so far, and what they make others cost.
+    """Congestion costs of vertices and edges, given the routes chosen so far.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ class Congestion:
 
     @classmethod
     def of_laps(cls, problem: Problem, distances: Distances) -> Self:
-        """Begin for laps: by how often each robot comes, and which part of its lap it stays."""
+        """Begin for laps: costs from the frequency of robots, and the shares of laps at stops."""
         station, oncoming = np.zeros(problem.roadmap.n_vertices, np.int64), []
         for one in problem.itineraries:
             lap = max(_ticks_of_lap(distances, one), 1)

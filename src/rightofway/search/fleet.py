@@ -127,7 +127,7 @@ class FleetSearch:
     def restore(self, tracks: Sequence[Track]) -> int:
         """Give robots these tracks where that costs nothing; return how many have theirs.
 
-        Large neighbourhood search takes other tracks that are no better. This takes them back.
+        Large neighbourhood search accepts tracks of equal cost. This restores earlier ones.
         """
         return self._core.restore(*_arrays(tracks))
 

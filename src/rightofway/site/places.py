@@ -100,7 +100,7 @@ def _spot(value: Mapping[object, object]) -> Spot:
 
 
 def _meant(value: object, roadmap: Roadmap | None) -> str:
-    """Return what the user may have meant by a value that is no place."""
+    """Return what the user may have meant by a value that is not a place."""
     labels = roadmap.labels if roadmap else None
     if _is_whole(value) and str(value) in (labels or ()):
         return f"did you mean the vertex '{value}'? write it in quotes"

@@ -41,8 +41,8 @@ lengths are then multiples of a twelfth of the smallest cell, and the tick stays
 """
 
 CLEARANCE = Fraction(1, 10)
-"""Square of the distance that such an edge keeps from what lies beside the smaller square, in sides
-of that square: the edge passes the corner of the two at 1/sqrt(10)."""
+"""Square of the distance between such an edge and the corner of the two squares that it passes
+[sides of the smaller square]: 1/sqrt(10) squared."""
 
 EAST, SOUTH, WEST, NORTH = range(4)
 

@@ -309,7 +309,7 @@ class Roadmap:
         return VertexId(vertex)
 
     def _refuse_unknown(self, place: str, vertex: int) -> None:
-        """Refuse what is no vertex; this is asked for each visit, and has to be quick."""
+        """Refuse a number without a vertex; called for each visit, so it has to be quick."""
         if type(vertex) not in WHOLE or not 0 <= vertex < self.n_vertices:
             last = self.n_vertices - 1
             message = f"{shown(vertex)} is no vertex (give a number from 0 to {last})"

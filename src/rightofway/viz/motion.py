@@ -48,13 +48,13 @@ class Trip:
     def at(self, tick: float) -> Moment:
         """Return where the robot is at an instant."""
         visit = max(bisect_right(self.enter, tick) - 1, 0)
-        here = self.vertices[visit]
+        vertex = self.vertices[visit]
         for begin, end, activity in self.phases(visit):
             if tick < end:
-                head = self.vertices[visit + 1] if activity is Activity.DRIVE else here
+                head = self.vertices[visit + 1] if activity is Activity.DRIVE else vertex
                 share = (tick - begin) / (end - begin)
-                return Moment(tail=here, head=head, activity=activity, share=share)
-        return Moment(tail=here, head=here, activity=Activity.DONE, share=1.0)
+                return Moment(tail=vertex, head=head, activity=activity, share=share)
+        return Moment(tail=vertex, head=vertex, activity=Activity.DONE, share=1.0)
 
     def phases(self, visit: int) -> Iterator[tuple[int, int, Activity]]:
         """Yield (begin, end, activity) of a visit, in order, without empty ones."""

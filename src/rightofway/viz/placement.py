@@ -118,8 +118,8 @@ def vertices_in_line(
             ahead = 1 if at[-1] >= at[0] else -1
             between = np.interp(laid, along, at).tolist()
             laid = [
-                place + ahead * (min(there - along[0], 0) + max(there - along[-1], 0))
-                for there, place in zip(laid, between, strict=True)
+                place + ahead * (min(laid_place - along[0], 0) + max(laid_place - along[-1], 0))
+                for laid_place, place in zip(laid, between, strict=True)
             ]
         for vertex, place in zip(once, laid, strict=True):
             places.setdefault(vertex, place)

@@ -45,7 +45,7 @@ def read(text: str) -> ForeignPlan:
     Raises
     ------
     InputError
-        For lines that are no cells, agents that come and go, and steps out of order.
+        For lines without cells, agents that come and go, and steps out of order.
     """
     header: dict[str, str] = {}
     steps: list[list[Cell] | None] = []

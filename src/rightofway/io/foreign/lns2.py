@@ -44,7 +44,7 @@ def read(text: str) -> ForeignPlan:
     Raises
     ------
     InputError
-        For lines that are no path, and agents that are missing or given twice.
+        For lines without a path, and agents that are missing or given twice.
     """
     paths: dict[int, tuple[int, Visits | None]] = {}
     faults = Faults()

@@ -27,7 +27,7 @@ def layout_of_graph(graph: Any) -> Layout:
     Raises
     ------
     InputError
-        With every node without a position, and every value that is no number.
+        With every node without a position, and every value that is not a number.
 
     Examples
     --------

@@ -32,7 +32,7 @@ def read(document: Any) -> Layout:
     Raises
     ------
     InputError
-        With every feature that is no node and no edge.
+        With every feature that is not a node and no edge.
     """
     draft = Draft("Nav2 route graph")
     level = draft.level()

@@ -1,7 +1,7 @@
 """Sheets of a workbook as plain values by cell, read with care for files that anybody made.
 
 A workbook is a zip archive of XML. Sheets are streamed, so that a cell in the last corner of a
-sheet costs no memory. Whatever a cell holds that is no value is an InputError with its place.
+sheet costs no memory. Whatever a cell holds that is not a value is an InputError with its place.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ DENOMINATOR = 1000
 """A decimal that a program computed from a fraction with at most this denominator is read as it."""
 
 CLOSE = Fraction(1, 10**12)
-"""How near, in parts of its size, a computed decimal is to such a fraction."""
+"""Relative distance up to which a decimal is read as such a fraction."""
 
 OLD_OFFICE = b"\xd0\xcf\x11\xe0"
 """How files of Excel 97 begin, and workbooks with a password."""

@@ -97,7 +97,7 @@ async def open_document(
     """Open any file that the library reads: a scenario, a layout, a workbook, or a plan.
 
     A layout becomes the map of a new scenario. A plan becomes a run that is done. ``save_as`` and
-    ``revision`` are for saving: what is no scenario of ours is saved beside its file.
+    ``revision`` are for saving: other files than scenarios are saved beside their file.
     """
     content = studio.workspace.read(path)
     result, blobs = await studio.ask("open", path=path, count=count)

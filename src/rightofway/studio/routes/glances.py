@@ -49,7 +49,7 @@ async def glance(
 ) -> Response:
     """Return what a file, draft or example is: kind, robots, extent, and a picture of its map.
 
-    Of a file that cannot be read, ``trouble`` says why: that is no fault of a list. The answer is
+    Of a file that cannot be read, ``trouble`` says why; a list has no such faults. The answer is
     kept until the file changes.
     """
     arguments, revision = _asked(studio, source, name)

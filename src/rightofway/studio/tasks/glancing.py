@@ -1,4 +1,4 @@
-"""A glance at a document, for lists: what it is, how large, and a small picture of its map."""
+"""A summary of a document for lists: its kind, its size, and a small picture of its map."""
 
 from __future__ import annotations
 

@@ -221,7 +221,7 @@ def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
 
 
 def unreadable(path: str | os.PathLike[str]) -> InputError:
-    """Return the error for a file that is no picture."""
+    """Return the error for a file that is not a picture."""
     message = "is no picture that can be read (give a PNG, JPEG or PGM file)"
     return InputError.at(str(path), message)
 

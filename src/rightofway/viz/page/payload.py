@@ -351,7 +351,7 @@ def _last_tick_of_all(trips: Sequence[Trip], groups: Sequence[SteadyData]) -> in
 
 
 def _until(group: SteadyState, track: Track) -> int:
-    """Return the tick up to which a robot does what it did a period before.
+    """Return the tick up to which a robot repeats its previous period.
 
     The first visit that is missing or begins at another tick ends the repetition at the visit
     before.

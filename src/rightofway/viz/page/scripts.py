@@ -29,7 +29,7 @@ def asset(name: str) -> str:
 
 @cache
 def scripts_of(entry: str, text_of: Callable[[str], str] = asset) -> tuple[str, ...]:
-    """Return a module and all that it imports, each after what it imports, as a browser runs them.
+    """Return a module and its imports in the order in which a browser runs them: imports first.
 
     Parameters
     ----------

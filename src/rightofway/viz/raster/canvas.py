@@ -26,7 +26,7 @@ SMALL_CELL = 13
 """Below this size of a cell [pixels] robots fill more of it, and homes and stops are faint."""
 
 HALO = 1.75
-"""Width of what sets a name apart from what is behind it [pixels]."""
+"""Width of the outline around a name [pixels]."""
 
 CORNER = 0.16
 """Radius of a square's round corners, as a share of its side."""

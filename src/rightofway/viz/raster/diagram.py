@@ -36,7 +36,7 @@ ROUND_SECONDS = (*map(Fraction, (10, 20, 30)), *(Fraction(60 * minutes) for minu
 """Times between labels, where the scenario says what its times are [s]."""
 
 MOST_STRETCHED = 1.6
-"""A way that rows have at more than so many times its length is faint: its slope is no speed."""
+"""Largest stretch of a drive in the diagram that is drawn solid; steeper slopes mislead."""
 
 MOST_CHARACTERS = 14
 

@@ -162,7 +162,7 @@ def to_the_right(points: Sequence[Point], aside: float) -> list[Point]:
         sides.append((-(to_y - y) / length * aside, (to_x - x) / length * aside))
     found: list[Point] = []
     befores, afters = [*sides[:1], *sides], [*sides, *sides[-1:]]
-    corners = [way[0] for way in ways] + [way[1] for way in ways[-1:]]
+    corners = [side[0] for side in ways] + [side[1] for side in ways[-1:]]
     for (x, y), before, after in zip(corners, befores, afters, strict=True):
         along = (before[0] * after[0] + before[1] * after[1]) / aside**2
         if along < TURNS_BACK:

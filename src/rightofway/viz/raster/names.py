@@ -171,13 +171,13 @@ class MapNames:
 
 def _points_along_lanes(scene: Scene, scale: float, apart: float) -> NDArray[np.float64]:
     """Return points along all lanes that are drawn [pixels]; shape (P, 2)."""
-    found = [np.empty((0, 2))]
+    points = [np.empty((0, 2))]
     if scene.roadmap.grid is None and scene.roadmap.sides is None:
         for tail, head in scene.edges:
             (x, y), (to_x, to_y) = scene.points[tail], scene.points[head]
             count = min(math.ceil(math.hypot(to_x - x, to_y - y) * scale / apart), 300) + 1
-            found.append(np.linspace((x * scale, y * scale), (to_x * scale, to_y * scale), count))
-    return np.concatenate(found)
+            points.append(np.linspace((x * scale, y * scale), (to_x * scale, to_y * scale), count))
+    return np.concatenate(points)
 
 
 def _box_beside(disc: Point, radius: float, width: float, height: float, side: Point) -> Box:

@@ -100,40 +100,42 @@ def event_list(
 
 
 def collision_list(
-    found: Sequence[NamedCollision], quantities: Quantities, title: str = "collisions"
+    collisions: Sequence[NamedCollision], quantities: Quantities, title: str = "collisions"
 ) -> Listing:
     """Return collisions and swaps as a list of intervals.
 
     Parameters
     ----------
-    found
+    collisions
         The rows of `named_collisions`.
     quantities
         How times are written.
     title
         A name for the list.
     """
-    until = [row.until if row.until is not None else "for ever" for row in found]
+    until = [row.until if row.until is not None else "for ever" for row in collisions]
     return Listing(
         title=title,
         columns=(
-            ListColumn(heading="robot i", values=[row.i for row in found]),
-            ListColumn(heading="robot j", values=[row.j for row in found]),
-            ListColumn(heading="from", values=[row.start for row in found], kind="time"),
+            ListColumn(heading="robot i", values=[row.i for row in collisions]),
+            ListColumn(heading="robot j", values=[row.j for row in collisions]),
+            ListColumn(heading="from", values=[row.start for row in collisions], kind="time"),
             ListColumn(heading="until", values=until, kind="time"),
-            ListColumn(heading="place", values=[" and ".join(row.places) for row in found]),
-            ListColumn(heading="kind", values=[row.kind for row in found]),
+            ListColumn(heading="place", values=[" and ".join(row.places) for row in collisions]),
+            ListColumn(heading="kind", values=[row.kind for row in collisions]),
         ),
         quantities=quantities,
     )
 
 
-def collision_ticks(found: Sequence[NamedCollision], quantities: Quantities, end: Tick) -> Listing:
+def collision_ticks(
+    collisions: Sequence[NamedCollision], quantities: Quantities, end: Tick
+) -> Listing:
     """Return the paper's list, Collision(i, j, t) = n: a row for each tick of each collision.
 
     Parameters
     ----------
-    found
+    collisions
         The rows of `named_collisions`.
     quantities
         How times are written.
@@ -145,15 +147,15 @@ def collision_ticks(found: Sequence[NamedCollision], quantities: Quantities, end
     InputError
         If the list would have more than `MAX_TICKS` rows.
     """
-    last = [end + 1 if row.until is None else row.until for row in found]
-    ticks = sum(until - row.start for row, until in zip(found, last, strict=True))
+    last = [end + 1 if row.until is None else row.until for row in collisions]
+    ticks = sum(until - row.start for row, until in zip(collisions, last, strict=True))
     if ticks > MAX_TICKS:
         message = f"the collisions last {ticks} ticks, more than {MAX_TICKS} (leave it out)"
         raise InputError.at("--each-tick", message)
     rows = sorted(
         (
             (tick, row.i, row.j, " and ".join(row.places), row.kind)
-            for row, until in zip(found, last, strict=True)
+            for row, until in zip(collisions, last, strict=True)
             for tick in ([row.start] if row.kind == "swap" else range(row.start, until))
         ),
         key=lambda row: row[0],
@@ -190,11 +192,11 @@ def conflicts_before(plan: Plan) -> list[int | None]:
     if plan.run.reroutes or plan.scenario.problem.resources is not None:
         return [None] * len(plan.run.decisions)
     tracks = free_running(plan)
-    found = collisions(plan.scenario, tracks)
-    overlap = [each.end - each.start for each in found if each.end is not None]
+    overlaps = collisions(plan.scenario, tracks)
+    overlap = [conflict.end - conflict.start for conflict in overlaps if conflict.end is not None]
     leaves_swaps = plan.run.name == "paper" or plan.run.options.get("swaps") == "leave"
     counted = sum(overlap) + (0 if leaves_swaps else len(swaps(tracks)))
-    first = counted if len(overlap) == len(found) else None
+    first = counted if len(overlap) == len(overlaps) else None
     return [first, *map(conflicts_left, plan.run.decisions)][: len(plan.run.decisions)]
 
 

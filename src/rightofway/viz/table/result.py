@@ -157,12 +157,12 @@ def _robots(plan: Plan) -> Listing:
         lost = ()
     if lost:
         times |= {
-            "alone": [each.alone for each in lost],
-            "detours": [each.detours for each in lost],
-            "making room": [each.making_room for each in lost],
-            "waiting": [each.waiting for each in lost],
+            "alone": [robot.alone for robot in lost],
+            "detours": [robot.detours for robot in lost],
+            "making room": [robot.making_room for robot in lost],
+            "waiting": [robot.waiting for robot in lost],
         }
-    columns = (ListColumn(heading=key, values=each, kind="time") for key, each in times.items())
+    columns = (ListColumn(heading=key, values=column, kind="time") for key, column in times.items())
     return Listing(
         title="robots",
         columns=(ListColumn(heading="robot", values=names), *columns),
@@ -218,7 +218,9 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
     _name_places(chart, data, columns, [scenario.roadmap.name(vertex) for vertex in line])
     height = max(map(len, columns))
     for row in range(height):
-        data.append([cell_of(data, each[row]) if row < len(each) else None for each in columns])
+        data.append(
+            [cell_of(data, column[row]) if row < len(column) else None for column in columns]
+        )
     chart.legend.position = "t"
     sheet.add_chart(chart, "A2")
     shown = len(trips)

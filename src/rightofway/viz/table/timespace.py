@@ -94,7 +94,7 @@ class Row:
         """
         if not self.runs or (step == 1 and ticks[-1] - ticks[0] == len(ticks) - 1):
             return self.cells(ticks[0], ticks[-1])
-        found, begins = list[Cell](), [run.start for run in self.runs]
+        cells, begins = list[Cell](), [run.start for run in self.runs]
         done = self.runs[-1].end - 1
         for tick in ticks:
             if tick - step >= done:
@@ -102,8 +102,8 @@ class Row:
             at, after = bisect_right(begins, tick) - 1, bisect_left(begins, tick + step)
             marks = {run.cell.mark for run in self.runs[at:after]}
             mark = next((mark for mark in MARKS if mark in marks), None)
-            found.append(Cell(self.runs[at].cell.place, mark))
-        return found
+            cells.append(Cell(self.runs[at].cell.place, mark))
+        return cells
 
     @property
     def places(self) -> list[Place]:
@@ -274,7 +274,9 @@ def table_of_groups(
     """
     kinds: tuple[RowKind, RowKind] = ("list 1", "list 2")
     fleets: list[tuple[RowKind, Sequence[Track]]] = [("planned", free_running(plan))]
-    fleets += [(kind, each) for kind, each in zip(kinds, groups, strict=True) if each is not None]
+    fleets += [
+        (kind, group) for kind, group in zip(kinds, groups, strict=True) if group is not None
+    ]
     order = [(robot, fleet) for fleet in fleets for robot in robots]
     table = _table(plan.scenario, order, (first_tick, last_tick), quantities)
     return replace(table, step=step)
@@ -387,7 +389,10 @@ def _runs(
     """Yield the runs of a track in a window; of several marks, the first of `MARKS` is shown."""
     if window[0] >= window[1]:
         return
-    spans = [np.clip(np.array(each, np.int64).reshape(-1, 2), *window) for each in spans_by_mark]
+    spans = [
+        np.clip(np.array(spans_of_mark, np.int64).reshape(-1, 2), *window)
+        for spans_of_mark in spans_by_mark
+    ]
     cuts = np.unique(np.concatenate([window, np.clip(track.enter, *window), *map(np.ravel, spans)]))
     visits = np.searchsorted(track.enter, cuts[:-1], side="right") - 1
     begun, ended = (

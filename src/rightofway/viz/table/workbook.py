@@ -69,8 +69,8 @@ def sheets_of(lists: Sequence[Listing]) -> bytes:
         If a list has more rows than a sheet.
     """
     workbook = openpyxl.Workbook(write_only=True)
-    for each in lists:
-        write_list(workbook.create_sheet(each.title), each)
+    for listing in lists:
+        write_list(workbook.create_sheet(listing.title), listing)
     return archive_of(workbook.save)
 
 
@@ -119,7 +119,7 @@ def write_legend(sheet: Any, table: TimeSpaceTable) -> None:
     widen(sheet, 1, 1, {name for name, *_ in LEGEND})
     widen(sheet, 2, 2, {meaning for _, meaning, *_ in LEGEND})
     kinds = {"", *(row.kind for row in table.rows)}
-    for name, meaning, font, mark in (each for each in LEGEND if each[0] in kinds):
+    for name, meaning, font, mark in (entry for entry in LEGEND if entry[0] in kinds):
         sheet.append([cell_of(sheet, name, font=font, mark=mark), meaning])
     lasts = replace(table.quantities, in_ticks=False).duration(table.step)
     sheet.append([table.heading, f"the first row; a column lasts {lasts}"])

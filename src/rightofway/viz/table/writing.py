@@ -91,7 +91,7 @@ def _shorter(table: TimeSpaceTable, columns: int) -> TimeSpaceTable:
         return table
     has_short_ticks = table.quantities.tick < 1 and not table.quantities.in_ticks
     longer = table.with_fewer(columns, LONGEST_STEP) if has_short_ticks else table
-    return min(longer, table.with_changes_only(), key=lambda each: len(each.ticks))
+    return min(longer, table.with_changes_only(), key=lambda candidate: len(candidate.ticks))
 
 
 def _column(table: TimeSpaceTable) -> int:

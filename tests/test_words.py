@@ -1,0 +1,151 @@
+"""One word, one meaning: exported names, names of classes and variables, sentences for readers."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections import Counter, defaultdict
+from collections.abc import Iterator
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+SOURCES = ROOT / "src" / "rightofway"
+ROOMS = sorted(
+    path.stem
+    for path in SOURCES.iterdir()
+    if (path.suffix == ".py" or (path / "__init__.py").exists()) and not path.stem.startswith("_")
+)
+
+
+@cache
+def modules() -> dict[Path, ast.Module]:
+    """Return the modules of the package, parsed."""
+    return {
+        path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(SOURCES.rglob("*.py"))
+    }
+
+
+def room_of(path: Path) -> str:
+    return path.relative_to(SOURCES).parts[0].removesuffix(".py")
+
+
+def test_no_two_rooms_export_one_name_for_different_things() -> None:
+    meanings = defaultdict[str, dict[int, str]](dict)
+    for room in ROOMS:
+        module = import_module(f"rightofway.{room}")
+        for name in getattr(module, "__all__", ()):
+            meanings[name].setdefault(id(getattr(module, name)), room)
+    assert {name: rooms for name, rooms in meanings.items() if len(rooms) > 1} == {}
+
+
+TWICE = {
+    "Activity": "of a robot on the floor, and on the page",
+    "ChangeData": "of the page's payload, and of the studio's answers",
+    "Circuit": "of a timed event graph, and of the studio's answers",
+    "ComparedRobot": "of the page's payload, and of the studio's answers",
+    "Draft": "of a layout, of a planner, and of the studio",
+    "Fault": "of a plan, and of the studio's answers",
+    "Figures": "of a plan, and of the studio's answers",
+    "Finding": "of an inspection, and of the studio's answers",
+    "Flipped": "of a decision, and of the studio's answers",
+    "Lane": "of a layout, and of a roadmap",
+    "Lateness": "of executions, and of the studio's answers",
+    "Placed": "of a fleet that is read, and of the studio",
+    "PlannerData": "of the page's payload, and of the studio's answers",
+    "PlannerDocument": "of a plan file, and of a suite",
+    "Problem": "of a scenario, and of the studio's answers",
+    "Progress": "of robots, of a run, and of the studio's answers",
+    "RobotLateness": "of executions, and of the studio's answers",
+    "Source": "of lateness, and of a value in a file",
+    "Units": "of a scenario, and of the studio's answers",
+    "Worker": "as the studio sees it, and as it runs",
+}
+"""Names that two classes have; the list may only grow shorter."""
+
+
+def test_no_two_classes_have_one_name() -> None:
+    places = defaultdict[str, list[str]](list)
+    for path, module in modules().items():
+        for node in module.body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                places[node.name].append(path.relative_to(SOURCES).as_posix())
+    twice = {name: files for name, files in places.items() if len(files) > 1}
+    assert {name: files for name, files in twice.items() if name not in TWICE} == {}
+
+
+STOPPED = {
+    *("each", "found", "here", "it", "kept", "made", "one", "such"),
+    *("that", "there", "thing", "this", "way", "what", "who"),
+}
+"""Names of variables that do not say what they hold."""
+
+MOST = {"bench": 0, "check": 0, "cli": 0, "cyclic": 10, "fleet_builder": 0, "viz": 43}
+"""How often a room still binds such a name; numbers may only fall, and rooms may only be added."""
+
+
+def bound_names(module: ast.Module) -> Iterator[str]:
+    """Yield the names that a module binds: variables and parameters."""
+    for node in ast.walk(module):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+        elif isinstance(node, ast.arg):
+            yield node.arg
+
+
+@pytest.mark.parametrize("room", MOST)
+def test_variables_say_what_they_hold(room: str) -> None:
+    count = Counter(
+        name
+        for path, module in modules().items()
+        if room_of(path) == room
+        for name in bound_names(module)
+        if name in STOPPED
+    )
+    assert count.total() <= MOST[room], count
+
+
+IDIOM = {
+    r"\bso many\b": "name the number",
+    r"\bwhoever\b": "name the person or the program",
+    r"\banew\b": "again",
+    r"\b(what|that|who) (is|are) no\b": "is not a …, or: without a …",
+    r"\bthe (more|longer)\b[^.]{0,60}, the (more|longer)\b": "grows with",
+    r"\bin parts of its\b": "relative to its",
+    r"\b(had|have) back\b": "restore",
+    r"\bone (press|choice) away\b": "say what the press does",
+}
+"""Turns of phrase that have to be read three times, and what to write instead."""
+
+
+BLOCK = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
+
+
+def texts_for_readers() -> Iterator[tuple[str, str]]:
+    """Yield the pages of the documentation and the docstrings of public names, by place."""
+    for page in [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]:
+        text = page.read_text(encoding="utf-8")
+        yield (
+            page.relative_to(ROOT).as_posix(),
+            re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL),
+        )
+    for path, module in modules().items():
+        for node in ast.walk(module):
+            if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+                name = getattr(node, "name", "")
+                if not name.startswith("_"):
+                    place = f"{path.relative_to(SOURCES).as_posix()}: {name}"
+                    yield place, ast.get_docstring(node) or ""
+
+
+@pytest.mark.parametrize("idiom", IDIOM)
+def test_sentences_name_what_they_are_about(idiom: str) -> None:
+    pattern = re.compile(idiom)
+    assert [
+        f"{place}: {' '.join(text[max(0, match.start() - 30) : match.end() + 20].split())}"
+        for place, text in texts_for_readers()
+        for match in pattern.finditer(text)
+    ] == []
