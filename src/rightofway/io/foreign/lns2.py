@@ -58,8 +58,8 @@ def read(text: str) -> ForeignPlan:
             continue
         agent = int(match[1])
         if agent in paths:
-            message = f"agent {agent} has a path in line {paths[agent][0]} already (take one out)"
-            faults.note(Location(line=number), message)
+            message = f"agent {agent} has a path in {{other}} already (take one out)"
+            faults.note(Location(line=number), message, Location(line=paths[agent][0]))
         paths[agent] = number, faults.attempt(Location(line=number), _visits, match[2])
     missing = next((number for number in range(len(paths)) if number not in paths), None)
     if missing is not None:

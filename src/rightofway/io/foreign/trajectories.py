@@ -9,14 +9,14 @@ are those of the agent's row, so that the plan is one of the very scenario that 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import FEW, InputError, InputFault, Location, path_text, shown
+from rightofway.errors import FEW, InputError, InputFault, Location, Steps, Where, shown
 from rightofway.io.faults import Faults
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.movingai import ScenRow, load_map, load_scen
@@ -174,12 +174,12 @@ def _scenario(found: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow])
 
 def _name_agent(fault: InputFault, found: ForeignPlan) -> InputFault:
     """Return a fault of a robot at the line of its agent."""
-    section, index, *rest = (*fault.path, "", "")
-    if section != "robots" or not isinstance(index, int):
-        return fault
-    agent = found.agents[index]
-    what = path_text((agent.name, *filter(None, rest)))
-    return InputFault(agent.location_of(0), f"{what}: {fault.message}")
+    starts: dict[Steps, Where] = {
+        ("robots", index): replace(where, path=(*where.path, agent.name))
+        for index, agent in enumerate(found.agents)
+        for where in [agent.location_of(0)]
+    }
+    return fault.relocate(starts)
 
 
 def _refuse_walls(found: ForeignPlan, lines: Sequence[str]) -> None:
