@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from dataclasses import replace
 from fractions import Fraction
 
@@ -19,6 +20,7 @@ from rightofway.site import VertexId
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
+from tests.oracles import judge
 from tests.oracles import periodic_space as oracle
 from tests.oracles.laps import largest_mean_cycle_is, replay
 
@@ -32,6 +34,9 @@ The oracle knows zones by bookings of edges, which there are where robots book a
 
 POINTS = any_fleet(robots=(2, 4), without={*LAPS_REFUSE, "sizes", "zones"}, apart=True, joined=True)
 """Fleets of points without zones: their oracle knows orders at vertices."""
+
+TRIES = 8
+"""Places that a law tries to close."""
 
 SLOW = 400
 """Visits in a period that the slow oracles are not asked for."""
@@ -193,11 +198,51 @@ def test_laps_that_are_late_keep_their_rights_of_way_without_contact(
     assert (replanned.collisions, replanned.deadlocks, replanned.stranded) == (0, 0, 0)
 
 
+@law(any_fleet(robots=(1, 2), without=LAPS_REFUSE, joined=True), st.integers(0, 2**32 - 1))
+def test_laps_keep_out_of_places_that_are_closed_for_ever(scenario: Scenario, chance: int) -> None:
+    """The judge knows the closure, whatever laps make of it."""
+    used = {place for one in scenario.robots for place in (one.home, *(at.at for at in one.stops))}
+    passed = [VertexId(v) for v in range(scenario.roadmap.n_vertices) if v not in used]
+    random.Random(chance).shuffle(passed)  # noqa: S311
+    for place in passed[:TRIES]:
+        closure = Closure(at=place)
+        try:
+            result = run_laps(replace(scenario, closures=(closure,)), time_limit=3)
+            plan = plan_of_laps(result, 2)
+        except (GaveUp, NoPlanExists):
+            continue  # no way is left, or a robot at home after its laps blocks others
+        except InputError as refused:
+            leave(without_values(refused))
+        as_closed = replace(plan.scenario, roadmap=scenario.roadmap, closures=(closure,))
+        assert check(replace(plan, scenario=as_closed)).ok
+        assert judge.faults(replace(plan, scenario=as_closed)) == set()
+        return
+    leave("no place can be closed")
+
+
+def test_a_place_that_is_closed_for_ever_is_driven_round_in_each_lap() -> None:
+    """From N0 to N2 round N1: 4 edges there and 4 back, and a turn of a cell at both ends."""
+    scenario = grid_fleet(["...", "..."], [("N0", "N2")])
+    closed = replace(scenario, closures=(Closure(at=VertexId(1)),))
+    for result in (run_laps(closed), best_timetable(closed, time_limit=1)):
+        (group,) = result.groups
+        assert group.pattern is not None
+        assert group.pattern.period == 10
+        assert all(1 not in lap.vertices for lap in group.context.laps)
+
+
 def test_laps_refuse_closures_turn_rates_and_trips_that_do_not_come_home() -> None:
     scenario = grid_fleet(["...."], [("N0", "N3")])
     closed = replace(scenario, closures=(Closure(at=VertexId(1), from_=Fraction(2)),))
-    with pytest.raises(InputError, match="what is closed once would be closed in every lap"):
+    with pytest.raises(InputError, match=r"closures\[0\]: is at one time, and laps come again"):
         run_laps(closed)
+    wide = replace(scenario.robots[0], radius=Fraction(1, 4))
+    large = replace(wide, name="R2", home=VertexId(2), radius=Fraction(2, 5))
+    near = Closure(at=VertexId(1), radius=Fraction(7, 10))
+    rules = replace(scenario.rules, occupancy="both")
+    unlike = replace(scenario, robots=(wide, large), closures=(near,), rules=rules)
+    with pytest.raises(InputError, match="close different places to robots of different sizes"):
+        run_laps(unlike)
     turning = replace(scenario, rules=replace(scenario.rules, turn=None, turn_rate=Fraction(90)))
     with pytest.raises(InputError, match="give turn, the time to turn at each stop"):
         run_laps(turning)

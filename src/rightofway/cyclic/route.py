@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault
 from rightofway.model import Lap, Resources, Robot, Route, Scenario, Tick, lap_of
-from rightofway.model.problem import refuse_closures, refuse_turn_rates
+from rightofway.model.problem import refuse_turn_rates
 from rightofway.native import BookedRows
 from rightofway.planners import planning_headway
 from rightofway.planners.routing import (
@@ -228,8 +228,7 @@ def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[Cyclic
 
 def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     """Return the scenario with one lap for each robot, and its distance tables."""
-    remedy = "take them out: what is closed once would be closed in every lap"
-    refuse_closures(scenario.problem, "repeated work", remedy)
+    scenario = without_closed_places(scenario)
     refuse_turn_rates(scenario.problem, "repeated work", "give turn, the time to turn at each stop")
     if scenario.rules.ends == "none" and all(robot.ends != "home" for robot in scenario.robots):
         raise InputError.at(("rules", "return"), NOTHING_REPEATS)
@@ -249,6 +248,52 @@ def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
         for stage in itinerary.stages
     )
     return once, distances
+
+
+def without_closed_places(scenario: Scenario) -> Scenario:
+    """Return the scenario without the places of its roadmap that are closed for ever, and closures.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+
+    Raises
+    ------
+    InputError
+        For closures that begin later than at 0 or end: they are at one time and do not come again
+        in each lap. For closures that close different places to robots of different sizes.
+    """
+    closed = scenario.problem.closures
+    if closed is None:
+        return scenario
+    once = "is at one time, and laps come again (take it out, or close the place for ever, from 0)"
+    faults = [
+        InputFault("", once).within(("closures", index))
+        for index, closure in enumerate(scenario.closures)
+        if closure.from_ > 0 or closure.until is not None
+    ]
+    if faults:
+        raise InputError(faults)
+    roadmap, n_vertices = scenario.roadmap, closed.n_vertices
+    size, resource = np.divmod(closed.row, n_vertices + closed.n_edges)
+    places = [frozenset(resource[size == one].tolist()) for one in sorted(set(closed.size_of))]
+    if len(set(places)) > 1:
+        message = "close different places to robots of different sizes, and laps have one roadmap"
+        raise InputError.at(("closures",), f"{message} (leave out radius)")
+    tails = np.repeat(np.arange(n_vertices), np.diff(roadmap.indptr)).tolist()
+    edges = [
+        (tails[place - n_vertices], int(roadmap.heads[place - n_vertices]))
+        for place in places[0]
+        if place >= n_vertices
+    ]
+    vertices = [place for place in places[0] if place < n_vertices]
+    return replace(
+        scenario,
+        roadmap=roadmap.without(vertices, edges),
+        closures=(),
+        clock=scenario.problem.clock,
+    )
 
 
 def _faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:

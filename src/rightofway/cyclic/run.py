@@ -7,7 +7,13 @@ from collections.abc import Callable, Sequence
 from rightofway.cyclic.pattern import pattern_of
 from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.cyclic.rolling_horizon import RollingHorizon
-from rightofway.cyclic.route import ROUTES, GroupContext, cyclic_routes, independent_groups
+from rightofway.cyclic.route import (
+    ROUTES,
+    GroupContext,
+    cyclic_routes,
+    independent_groups,
+    without_closed_places,
+)
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
 from rightofway.errors import GaveUp, kernel_limits
@@ -35,7 +41,8 @@ def run_laps(
     Parameters
     ----------
     scenario
-        The problem; its number of laps is not used.
+        The problem; its number of laps is not used. Places that are closed from 0 on for ever are
+        no part of the roadmap of the result.
     rule
         The robot of two that goes first at a meeting: ``first-come``, ``fixed-order`` (the first in
         the scenario), ``least-loss`` (the robot that would lose the larger part of its lap) or
@@ -72,6 +79,7 @@ def run_laps(
     at("rule", word_of(tuple(RULES)), rule)
     at("routes", word_of(ROUTES), routes)
     deadline = Deadline.after(checked_time_limit(time_limit))
+    scenario = without_closed_places(scenario)
     groups = independent_groups(scenario, cyclic_routes(scenario, routes))
     simulations = [
         simulation_of(GroupContext(scenario=scenario, routes=tuple(group)), rule)

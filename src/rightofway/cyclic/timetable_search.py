@@ -24,6 +24,7 @@ from rightofway.cyclic.route import (
     cyclic_routes,
     independent_groups,
     rows_of,
+    without_closed_places,
 )
 from rightofway.cyclic.rules import TIMETABLE
 from rightofway.cyclic.run import advance, simulation_of
@@ -121,6 +122,7 @@ def best_timetable(
     if rounds is not None:
         rounds = checked_number("rounds", rounds, 0, 2**31 - 1)
     time_limit = checked_time_limit(time_limit)
+    scenario = without_closed_places(scenario)
     if time_limit is None and rounds is None:
         raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
     deadline, params = Deadline.after(time_limit), ChoiceParams()
