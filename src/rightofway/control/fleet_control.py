@@ -105,9 +105,9 @@ class FleetControl:
             kept = slice(end + 1)
             if own.route.places[kept] != new.places[kept] or own.route.jobs[kept] != new.jobs[kept]:
                 message = "the route changes what is released (begin it with the released parts)"
-                raise InputError.at(f"routes[{robot}]", message)
+                raise InputError.at(("routes", robot), message)
             if lost := sorted(_jobs(own.route) - own.finished - _jobs(new)):
-                raise InputError.at(f"routes[{robot}]", f"{lost[0]} is in no visit (keep each job)")
+                raise InputError.at(("routes", robot), f"{lost[0]} is in no visit (keep each job)")
         self._commit(plan_entry("splice", self.ledger.run, routes, graph, committed))
         return self._go_on()
 
