@@ -40,6 +40,13 @@ wheel *pythons="python3":
     if [ "$(uname)" = Linux ]; then auditwheel repair -w build/wheels/repaired build/wheels/*.whl; fi
     .ci/try_wheel "$(ls build/wheels/repaired/*.whl build/wheels/*.whl 2>/dev/null | head -n 1)" {{ pythons }}
 
+# Write the versions that CI installs: the newest that fit together now
+constraints:
+    mkdir -p build
+    pip install -q --dry-run --ignore-installed --report build/constraints.json \
+        --group dev --group docs '.[test]'
+    python -m tests.builders.constraints build/constraints.json
+
 # Who may import whom
 contracts:
     lint-imports
