@@ -25,8 +25,10 @@ cardinal : bool
     Whether conflicts that cost both robots something are resolved first.
 bypass : bool
     Whether tracks of equal cost with fewer conflicts replace others without a split.
-heuristic : bool
-    Whether the losses of pairs of robots raise the bounds of nodes.)";
+clear : bool
+    Whether tracks of equal cost without any conflict are looked for.
+pair_nodes : int
+    Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.)";
 
 constexpr auto run_doc = R"(Search on; the search can be continued.
 
@@ -64,7 +66,7 @@ class ConflictBasedSearch {
           distances_(problem),
           tracks_(problem, distances_),
           losses_(tracks_, options),
-          tree_(tracks_, all(problem), options, options.heuristic ? &losses_ : nullptr) {}
+          tree_(tracks_, all(problem), options, options.pair_nodes > 0 ? &losses_ : nullptr) {}
 
     SearchEnd run(Tick upper, Tick enough, std::int64_t most_nodes, std::size_t most_bytes,
                   const Deadline& deadline) {
@@ -140,11 +142,12 @@ void bind_cbs(nb::module_& module) {
         .def(
             "__init__",
             [](ConflictBasedSearch* self, const Problem& problem, bool cardinal, bool bypass,
-               bool heuristic) {
-                new (self) ConflictBasedSearch(problem, {cardinal, bypass, heuristic});
+               bool clear, std::int64_t pair_nodes) {
+                require_range("pair_nodes", pair_nodes, 0, never);
+                new (self) ConflictBasedSearch(problem, {cardinal, bypass, clear, pair_nodes});
             },
-            nb::arg("problem"), nb::arg("cardinal"), nb::arg("bypass"), nb::arg("heuristic"),
-            nb::keep_alive<1, 2>())
+            nb::arg("problem"), nb::arg("cardinal"), nb::arg("bypass"), nb::arg("clear"),
+            nb::arg("pair_nodes"), nb::keep_alive<1, 2>())
         .def("run", &run, nb::arg("upper"), nb::arg("enough"), nb::arg("most_nodes"),
              nb::arg("most_bytes"), nb::arg("time_limit").none(), run_doc)
         .def(

@@ -7,12 +7,6 @@
 #include "cbs/vertex_cover.hpp"
 
 namespace rightofway {
-namespace {
-
-constexpr std::int64_t most_nodes_of_pair = 100;
-
-}  // namespace
-
 std::size_t PairLosses::Hash::operator()(const Key& key) const {
     std::uint64_t hash = 0;
     for (const std::int32_t part : {key.first, key.second, key.first_set, key.second_set}) {
@@ -34,7 +28,7 @@ Tick PairLosses::of(RobotId first, SetId first_set, RobotId second, SetId second
     Tick loss = never;
     if (tree.start(sets, is_over)) {
         const Tick alone = tree.bound();
-        if (tree.run(never, never, most_nodes_of_pair, is_over) != SearchEnd::proven_none) {
+        if (tree.run(never, never, options_.pair_nodes, is_over) != SearchEnd::proven_none) {
             loss = tree.bound() - alone;
         }
     }
@@ -93,16 +87,21 @@ SearchEnd ConflictTree::run(Tick upper, Tick enough, std::int64_t most_nodes,
         const OpenList::Entry top = open_.pop();
         Node node = std::move(nodes_[index(top.node)]);
         bytes_ -= bytes_of(node);
-        bound_ = std::max(bound_, std::min(node.bound, upper));
+        bound_ = std::max(bound_, std::min({node.bound, upper, cut_off_}));
         // What stops the search in the middle of a node must not lose the node.
         try {
             if (bound_ >= upper || bound_ >= enough || most_nodes-- <= 0 || is_over()) {
                 push(std::move(node), never);
                 return bound_ >= upper ? SearchEnd::proven_none : SearchEnd::stopped;
             }
+            if (options_.clear && !node.is_clear) {
+                clear(node, is_over);
+                node.is_clear = true;
+            }
             if (!node.is_measured) {
                 const Tick before = node.bound;
                 measure(node, is_over);
+                node.is_measured = true;
                 if (node.bound > before) {
                     push(std::move(node), upper);
                     continue;
@@ -116,6 +115,7 @@ SearchEnd ConflictTree::run(Tick upper, Tick enough, std::int64_t most_nodes,
             }
         } catch (...) {
             push(std::move(node), never);
+            raise_bound(upper);
             throw;
         }
     }
@@ -123,9 +123,20 @@ SearchEnd ConflictTree::run(Tick upper, Tick enough, std::int64_t most_nodes,
     return SearchEnd::proven_none;
 }
 
-// Raises the bound of a node by the losses of pairs of robots that conflict.
+// Takes the least bound of the open nodes and of those left out.
+void ConflictTree::raise_bound(Tick upper) {
+    Tick least = std::min(upper, cut_off_);
+    if (!open_.empty()) {
+        const OpenList::Entry top = open_.pop();
+        least = std::min(least, nodes_[index(top.node)].bound);
+        open_.push(top.key, top.node);
+    }
+    bound_ = std::max(bound_, least);
+}
+
+// Raises the bound of a node by the losses of pairs of robots that conflict. Where it is stopped,
+// the pairs solved so far count.
 void ConflictTree::measure(Node& node, const StopCondition& is_over) {
-    node.is_measured = true;
     if (losses_ == nullptr) {
         return;
     }
@@ -136,18 +147,63 @@ void ConflictTree::measure(Node& node, const StopCondition& is_over) {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     std::vector<WeightedPair> weighted;
-    for (const auto& [first, second] : pairs) {
-        const Tick loss = losses_->of(robots_[index(first)], node.sets[index(first)],
-                                      robots_[index(second)], node.sets[index(second)], is_over);
-        if (loss >= never) {
-            node.bound = never;
-            return;
-        }
-        if (loss > 0) {
-            weighted.push_back({index(first), index(second), loss});
+    bool is_stopped = false;
+    for (auto pair = pairs.begin(); pair != pairs.end() && !is_stopped; ++pair) {
+        const auto [first, second] = *pair;
+        try {
+            const Tick loss =
+                losses_->of(robots_[index(first)], node.sets[index(first)], robots_[index(second)],
+                            node.sets[index(second)], is_over);
+            if (loss >= never) {
+                node.bound = never;
+                return;
+            }
+            if (loss > 0) {
+                weighted.push_back({index(first), index(second), loss});
+            }
+        } catch (const Stopped&) {
+            is_stopped = true;
         }
     }
     node.bound = std::max(node.bound, node.cost + cover(robots_.size(), std::move(weighted)));
+    if (is_stopped) {
+        throw Stopped{};
+    }
+}
+
+// Gives each robot that conflicts a track of equal cost without any conflict, if it has one.
+void ConflictTree::clear(Node& node, const StopCondition& is_over) {
+    std::vector<RobotId> robots;
+    for (const TrackConflict& conflict : node.conflicts) {
+        robots.insert(robots.end(), conflict.robot.begin(), conflict.robot.end());
+    }
+    std::sort(robots.begin(), robots.end());
+    robots.erase(std::unique(robots.begin(), robots.end()), robots.end());
+    if (robots.empty()) {
+        return;
+    }
+    if (!traffic_) {
+        traffic_.emplace(tracks_.problem());
+    }
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+        traffic_->exchange(robots_[k], node.tracks[k]);
+    }
+    for (const RobotId robot : robots) {
+        const bool conflicts = std::any_of(
+            node.conflicts.begin(), node.conflicts.end(), [&](const TrackConflict& one) {
+                return one.robot[0] == robot || one.robot[1] == robot;
+            });
+        if (!conflicts) {
+            continue;
+        }
+        const auto place = index(robot);
+        const ConstrainedTrack* track = tracks_.clear(robots_[place], node.sets[place],
+                                                      node.tracks[place]->cost, *traffic_, is_over);
+        if (track != nullptr) {
+            replace(node, robot, track);
+        }
+        traffic_->exchange(robots_[place], node.tracks[place]);
+    }
 }
 
 // Makes the children of a node; true if it has no conflict.
@@ -261,7 +317,7 @@ void ConflictTree::branch(const Node& node, RobotId robot, SetId set, Tick upper
     if (track == nullptr) {
         return;
     }
-    Node child{node.sets, node.tracks, node.conflicts, node.cost, node.bound, false};
+    Node child{node.sets, node.tracks, node.conflicts, node.cost, node.bound, false, false};
     child.sets[index(robot)] = set;
     child.cost += track->cost - node.tracks[index(robot)]->cost;
     child.bound = std::max(node.bound, child.cost);

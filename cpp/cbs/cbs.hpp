@@ -22,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -36,16 +37,21 @@
 namespace rightofway {
 
 struct CbsOptions {
-    bool cardinal = true;   // resolve conflicts first that cost both robots something
-    bool bypass = true;     // replace tracks by others of equal cost with fewer conflicts
-    bool heuristic = true;  // losses of pairs raise the bounds of nodes
+    bool cardinal = true;  // resolve conflicts first that cost both robots something
+    bool bypass = true;    // replace tracks by others of equal cost with fewer conflicts
+    bool clear = true;     // look for tracks of equal cost without any conflict
+    // Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: no
+    // such losses.
+    std::int64_t pair_nodes = 100;
 };
 
 // The losses of pairs of robots, each pair solved for itself and kept.
 class PairLosses {
   public:
     PairLosses(ConstrainedTracks& tracks, const CbsOptions& options)
-        : tracks_(tracks), options_(options) {}
+        : tracks_(tracks), options_(options) {
+        options_.clear = false;  // it costs more than the trees of most pairs
+    }
 
     // A lower bound of what two robots lose together by each other, above their least costs under
     // their constraints; `never` if they have no plan.
@@ -82,7 +88,8 @@ class ConflictTree {
     // Expands nodes until there is a plan, or the bound is `enough` or more, or no node is left:
     // found, stopped with that bound, proven none. Nodes with a bound of `upper` or more are left
     // out; the bound ends at `upper` if no other is left. Stops after `most_nodes`. Throws
-    // Stopped; the bound is valid then, and the search can go on.
+    // Stopped; the bound is valid then, has the losses of pairs that were solved, and the search
+    // can go on.
     SearchEnd run(Tick upper, Tick enough, std::int64_t most_nodes, const StopCondition& is_over);
 
     // No plan that keeps the constraints of the root costs less; `upper` if that was reached.
@@ -100,11 +107,14 @@ class ConflictTree {
         Tick cost = 0;
         Tick bound = 0;
         bool is_measured = false;  // its bound has the losses of pairs
+        bool is_clear = false;     // tracks without conflict were looked for
     };
 
     void push(Node&& node, Tick upper);
+    void raise_bound(Tick upper);
     void measure(Node& node, const StopCondition& is_over);
     bool split(Node& node, Tick upper, const StopCondition& is_over);
+    void clear(Node& node, const StopCondition& is_over);
     const TrackConflict* choose(Node& node, const StopCondition& is_over);
     void weigh(const Node& node, TrackConflict& conflict, const StopCondition& is_over);
     bool bypass(Node& node, const TrackConflict& conflict, const StopCondition& is_over);
@@ -118,6 +128,7 @@ class ConflictTree {
     CbsOptions options_;
     PairLosses* losses_;
     ConflictFinder finder_;
+    std::optional<Traffic> traffic_;  // made at the first use
     std::deque<Node> nodes_;
     OpenList open_;
     std::vector<TrackConflict> met_;

@@ -14,17 +14,51 @@ std::int32_t count_rows(const Problem& problem) {
 
 }  // namespace
 
-ConstrainedTracks::ConstrainedTracks(const Problem& problem, SharedDistances& distances)
+Traffic::Traffic(const Problem& problem)
     : problem_(problem),
-      n_rows_(count_rows(problem)),
-      table_(n_rows_),
-      search_(problem.roads(), problem.rules()) {
-    for (RobotId robot = 0; robot < problem.n_robots(); ++robot) {
-        trips_.emplace_back(distances, true);
-    }
+      table_(count_rows(problem)),
+      tracks_(static_cast<std::size_t>(problem.n_robots()), nullptr) {
     const Closures& closed = problem.closures();
     for (std::size_t k = 0; k < closed.row.size(); ++k) {
         table_.insert(closed.row[k], {closed.start[k], closed.end[k]}, nobody);
+    }
+}
+
+// Calls `use` with each row from which a booking of the track excludes other robots, and when.
+template <class Use>
+void Traffic::for_each_mark(const ConstrainedTrack& track, const Use& use) const {
+    for (const RowBooking& booking : track.bookings) {
+        if (!problem_.has_sizes()) {
+            use(booking.row, booking.time);
+            continue;
+        }
+        for (const std::int32_t row : problem_.excluded(booking.row)) {
+            use(row, booking.time);
+        }
+    }
+}
+
+void Traffic::exchange(RobotId robot, const ConstrainedTrack* track) {
+    const ConstrainedTrack*& own = tracks_[index(robot)];
+    if (own == track) {
+        return;
+    }
+    if (own != nullptr) {
+        for_each_mark(*own, [&](std::int32_t row, const Booking& time) {
+            table_.erase(row, time.start, robot);
+        });
+    }
+    own = track;
+    if (own != nullptr) {
+        for_each_mark(
+            *own, [&](std::int32_t row, const Booking& time) { table_.insert(row, time, robot); });
+    }
+}
+
+ConstrainedTracks::ConstrainedTracks(const Problem& problem, SharedDistances& distances)
+    : problem_(problem), no_traffic_(problem), search_(problem.roads(), problem.rules()) {
+    for (RobotId robot = 0; robot < problem.n_robots(); ++robot) {
+        trips_.emplace_back(distances, true);
     }
 }
 
@@ -36,33 +70,46 @@ const ConstrainedTrack* ConstrainedTracks::best(RobotId robot, SetId set,
     if (known != known_.end()) {
         return known->second;
     }
+    const ConstrainedTrack* track = search(robot, set, never, no_traffic_.table(), is_over);
+    bytes_ += sets_.at(set).size_bytes() + 64;
+    known_.emplace(key, track);
+    return track;
+}
+
+const ConstrainedTrack* ConstrainedTracks::clear(RobotId robot, SetId set, Tick cost,
+                                                 Traffic& traffic, const StopCondition& is_over) {
+    traffic.exchange(robot, nullptr);
+    return search(robot, set, cost / problem_.weight(robot), traffic.table(), is_over);
+}
+
+const ConstrainedTrack* ConstrainedTracks::search(RobotId robot, SetId set, Tick limit,
+                                                  BookingTable& table,
+                                                  const StopCondition& is_over) {
     ++n_searches_;
     const auto constraints = sets_.at(set);
     for (const Constraint& one : constraints) {
-        table_.insert(one.row, {one.start, one.end}, nobody);
+        table.insert(one.row, {one.start, one.end}, nobody);
     }
-    const Trip& trip = trips_[index(robot)].read(robot);
-    const SearchEnd end = search_.run({trip, table_}, is_over);
+    SearchRequest request{trips_[index(robot)].read(robot), table};
+    request.limit = limit;
+    const SearchEnd end = search_.run(request, is_over);
     // The last one first: of equal starts in a row, the table erases the latest.
     for (std::size_t k = constraints.size(); k-- > 0;) {
-        table_.erase(constraints[k].row, constraints[k].start, nobody);
+        table.erase(constraints[k].row, constraints[k].start, nobody);
     }
     if (end == SearchEnd::stopped) {
         throw Stopped{};
     }
-    const ConstrainedTrack* track = nullptr;
-    if (end == SearchEnd::found) {
-        ConstrainedTrack& own = tracks_.emplace_back();
-        search_.track(own.visits);
-        own.cost = problem_.weight(robot) * search_.cost();
-        book(robot, own);
-        bytes_ += sizeof(own) + own.visits.size() * sizeof(Visit) +
-                  own.bookings.size() * sizeof(RowBooking) + own.moves.size() * sizeof(Move);
-        track = &own;
+    if (end != SearchEnd::found) {
+        return nullptr;
     }
-    bytes_ += constraints.size() * sizeof(Constraint) + 64;
-    known_.emplace(key, track);
-    return track;
+    ConstrainedTrack& track = tracks_.emplace_back();
+    search_.track(track.visits);
+    track.cost = problem_.weight(robot) * search_.cost();
+    book(robot, track);
+    bytes_ += sizeof(track) + track.visits.size() * sizeof(Visit) +
+              track.bookings.size() * sizeof(RowBooking) + track.moves.size() * sizeof(Move);
+    return &track;
 }
 
 void ConstrainedTracks::book(RobotId robot, ConstrainedTrack& track) const {

@@ -39,6 +39,26 @@ struct ConstrainedTrack {
     Tick cost = 0;  // completion time and surcharges of the edges, by the robot's weight
 };
 
+// What the tracks of some robots exclude others from, besides closures.
+class Traffic {
+  public:
+    // Borrows the problem.
+    explicit Traffic(const Problem& problem);
+
+    // Gives a robot another track; null for none. Borrows the track.
+    void exchange(RobotId robot, const ConstrainedTrack* track);
+
+    BookingTable& table() { return table_; }
+
+  private:
+    template <class Use>
+    void for_each_mark(const ConstrainedTrack& track, const Use& use) const;
+
+    const Problem& problem_;
+    BookingTable table_;
+    std::vector<const ConstrainedTrack*> tracks_;
+};
+
 // Thrown where the stop condition ends a search.
 struct Stopped {};
 
@@ -54,16 +74,22 @@ class ConstrainedTracks {
     // proven that there is none. Throws Stopped. The pointer stays valid.
     const ConstrainedTrack* best(RobotId robot, SetId set, const StopCondition& is_over);
 
+    // A track of at most this cost, by the robot's weight, that keeps the constraints and has no
+    // conflict with the tracks of others in the traffic; null if there is none. Throws Stopped.
+    const ConstrainedTrack* clear(RobotId robot, SetId set, Tick cost, Traffic& traffic,
+                                  const StopCondition& is_over);
+
     std::int64_t n_searches() const { return n_searches_; }
     // About how much memory the tracks take [bytes].
     std::size_t bytes() const { return bytes_; }
 
   private:
+    const ConstrainedTrack* search(RobotId robot, SetId set, Tick limit, BookingTable& table,
+                                   const StopCondition& is_over);
     void book(RobotId robot, ConstrainedTrack& track) const;
 
     const Problem& problem_;
-    std::int32_t n_rows_;
-    BookingTable table_;
+    Traffic no_traffic_;
     std::deque<TripReader> trips_;  // one per robot: a reader keeps one trip
     SafeIntervalSearch search_;
     ConstraintSets sets_;

@@ -806,11 +806,13 @@ class ConflictBasedSearch:
         Whether conflicts that cost both robots something are resolved first.
     bypass : bool
         Whether tracks of equal cost with fewer conflicts replace others without a split.
-    heuristic : bool
-        Whether the losses of pairs of robots raise the bounds of nodes.
+    clear : bool
+        Whether tracks of equal cost without any conflict are looked for.
+    pair_nodes : int
+        Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.
     """
 
-    def __init__(self, problem: Problem, cardinal: bool, bypass: bool, heuristic: bool) -> None: ...
+    def __init__(self, problem: Problem, cardinal: bool, bypass: bool, clear: bool, pair_nodes: int) -> None: ...
 
     def run(self, upper: int, enough: int, most_nodes: int, most_bytes: int, time_limit: float | None) -> tuple[int, int]:
         """

@@ -470,7 +470,7 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     },
     "ConflictBasedSearch": lambda rng: {
         "problem": _problem(rng), "cardinal": rng.random() < 1 / 2, "bypass": rng.random() < 1 / 2,
-        "heuristic": rng.random() < 1 / 2,
+        "clear": rng.random() < 1 / 2, "pair_nodes": rng.randrange(9),
     },
     "ConflictBasedSearch.run": _timed(
         upper=_core.NEVER, enough=_core.NEVER, most_nodes=50, most_bytes=2**24

@@ -193,6 +193,14 @@ def test_bounds_are_those_of_each_robot_alone(cli: Cli, door: Path) -> None:
     assert data["robots"][1] == {"name": "R2", "alone": 9}
 
 
+def test_a_bound_with_time_has_what_robots_lose_to_each_other(cli: Cli, door: Path) -> None:
+    """Both robots need the door, so one of them is a tick later than alone: 9 + 10."""
+    lines = cli("bound", door, "--time-limit", "10").out.splitlines()
+    assert lines[2] == "flowtime, proven  at least 19 time units, and a plan reaches it"
+    data = json.loads(cli("bound", door, "--time-limit", "10", "--json").out)
+    assert data["lower_bound"] == {"flowtime": 19, "makespan": 9}
+
+
 def test_help_groups_every_command_once_and_cuts_no_sentence(cli: Cli) -> None:
     listed = [name for group in GROUPS.values() for name in group]
     assert sorted(listed) == sorted(commands.commands)

@@ -12,19 +12,29 @@ from hypothesis import strategies as st
 from rightofway import OutcomeKind, check, solve
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Plan, PlannerRun, Scenario, cost_of
+from rightofway.model.outcome import minimized
+from rightofway.planners.cbs import prove_bound
 from rightofway.search import ConflictBasedSearch, least_completions
+from tests.builders.any_fleet import any_fleet
+from tests.builders.any_plan import planned
 from tests.builders.laws import law, leave
 from tests.builders.tiny import KINDS, least_flowtime
 
 kinds, seeds = st.sampled_from(sorted(KINDS)), st.integers(0, 10**6)
-SWITCHES = ("cardinal", "bypass", "heuristic")
-switches = st.fixed_dictionaries({name: st.booleans() for name in SWITCHES})
+switches = st.fixed_dictionaries(
+    {
+        "cardinal": st.booleans(),
+        "bypass": st.booleans(),
+        "clear": st.booleans(),
+        "pair_nodes": st.sampled_from([0, 3, 100]),
+    }
+)
 
 NODES = 300
 """Fleets without a plan may have trees without end."""
 
 
-def _search(scenario: Scenario, **options: bool) -> ConflictBasedSearch:
+def _search(scenario: Scenario, **options: Any) -> ConflictBasedSearch:
     alone = least_completions(scenario)
     if alone is None or alone.min() < 0:
         leave("a robot cannot reach its places")
@@ -40,7 +50,7 @@ def _answer(scenario: Scenario, options: dict[str, Any]) -> Plan | NoPlanExists 
 
 @law(kinds, seeds, switches)
 def test_a_tree_finds_the_optimum_and_its_bound_is_never_above_it(
-    kind: str, seed: int, options: dict[str, bool]
+    kind: str, seed: int, options: dict[str, Any]
 ) -> None:
     scenario = KINDS[kind](seed)
     search = _search(scenario, **options)
@@ -80,8 +90,8 @@ def test_among_plans_below_a_known_one_none_is_missed(kind: str, seed: int) -> N
     least = least_flowtime(kind, scenario)
     if least is None:
         leave("no plan exists")
-    for above, known in product((0, 1), (True, False)):
-        search = _search(scenario, heuristic=known)
+    for above, pair_nodes in product((0, 1), (0, 100)):
+        search = _search(scenario, pair_nodes=pair_nodes)
         search.run(upper=least + above, nodes=NODES)
         if search.is_proven:
             assert search.bound == least
@@ -128,6 +138,18 @@ def test_robots_count_by_their_weights(seed: int) -> None:
     assert outcome.bound <= least <= cost_of(scenario, answer.tracks)
     if outcome.kind is OutcomeKind.OPTIMAL:
         assert cost_of(scenario, answer.tracks) == least
+
+
+@law(any_fleet(), st.integers(1, 30))
+def test_no_plan_of_any_fleet_is_below_a_proven_bound(scenario: Scenario, nodes: int) -> None:
+    plan = planned(scenario, "lns")
+    proof, is_reached = prove_bound(scenario, nodes=nodes)
+    assert proof.objective is minimized(scenario)
+    assert proof.bound <= proof.objective.of(scenario, plan.tracks)
+    if is_reached:
+        answer = _answer(scenario, {"nodes": nodes})
+        assert isinstance(answer, Plan)
+        assert proof.bound == cost_of(scenario, answer.tracks)
 
 
 @law(seeds)

@@ -20,16 +20,16 @@ TEST_CASE(
     const Fleet fleet({4, {{0, 1}, {1, 2}, {1, 3}}}, {{0, {{2}}}, {2, {{0}}}});
     const Problem problem = fleet.problem();
     SharedDistances distances(problem);
-    for (const bool heuristic : {false, true}) {
+    for (const std::int64_t pair_nodes : {0, 100}) {
         ConstrainedTracks tracks(problem, distances);
-        const CbsOptions options{true, true, heuristic};
+        const CbsOptions options{true, true, true, pair_nodes};
         PairLosses losses(tracks, options);
-        ConflictTree tree(tracks, {0, 1}, options, heuristic ? &losses : nullptr);
+        ConflictTree tree(tracks, {0, 1}, options, pair_nodes > 0 ? &losses : nullptr);
         REQUIRE(tree.start(std::vector<SetId>{0, 0}, never_over));
         CHECK(tree.bound() == 4);
         CHECK(tree.run(never, never, 1000, never_over) == SearchEnd::found);
         CHECK(tree.bound() == 7);
-        CHECK(losses.of(0, 0, 1, 0, never_over) == 3);
+        CHECK(losses.of(0, 0, 1, 0, never_over) == (pair_nodes > 0 ? 3 : 0));
     }
 }
 

@@ -282,7 +282,11 @@ class CbsOptions(PlannerOptions):
         Literal["yes", "no"],
         "Replace tracks by others of equal cost with fewer conflicts; or split every node.",
     ] = "yes"
-    heuristic: Annotated[
-        Literal["pairs", "none"],
-        "Raise bounds by what pairs of robots lose, each pair solved for itself; or do not.",
-    ] = "pairs"
+    clear: Annotated[
+        Literal["yes", "no"],
+        "Look for tracks of equal cost without any conflict before a node is split; or do not.",
+    ] = "yes"
+    pair_nodes: Annotated[
+        int,
+        "Nodes for each pair of robots, whose losses by each other raise bounds; 0: none.",
+    ] = 100

@@ -25,8 +25,10 @@ class ConflictBasedSearch:
         Whether conflicts that cost both robots something are resolved first.
     bypass
         Whether tracks of equal cost with fewer conflicts replace others without a split.
-    heuristic
-        Whether the losses of pairs of robots raise the bounds of nodes.
+    clear
+        Whether tracks of equal cost without any conflict are looked for.
+    pair_nodes
+        Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.
 
     Attributes
     ----------
@@ -49,9 +51,10 @@ class ConflictBasedSearch:
         *,
         cardinal: bool = True,
         bypass: bool = True,
-        heuristic: bool = True,
+        clear: bool = True,
+        pair_nodes: int = 100,
     ) -> None:
-        self._core = _core.ConflictBasedSearch(bound(problem), cardinal, bypass, heuristic)
+        self._core = _core.ConflictBasedSearch(bound(problem), cardinal, bypass, clear, pair_nodes)
         self.bound: Tick | None = Tick(0)
         self.tracks: tuple[Track, ...] | None = None
         self.is_proven = False
