@@ -8,7 +8,9 @@ import { Player } from "./runs/player.js";
 import { fitCanvas } from "../../viz/page/assets/canvas.js";
 import { Choice } from "../../viz/page/assets/choice.js";
 import { Clock } from "../../viz/page/assets/clock.js";
+import { FrameLoop } from "../../viz/page/assets/frame_loop.js";
 import { MapView } from "../../viz/page/assets/map_view.js";
+import { LEGENDS } from "../../viz/page/assets/markup.js";
 import { Motion } from "../../viz/page/assets/motion.js";
 import { Observable } from "../../viz/page/assets/observable.js";
 import { Plan } from "../../viz/page/assets/plan.js";
@@ -20,11 +22,6 @@ import { words as texts } from "./words.js";
 /** @import { Roadmap } from "../../viz/page/assets/roadmap.js" */
 /** @import { Viewport } from "../../viz/page/assets/viewport.js" */
 /** @import { SitePayload, StageElements } from "./types.js" */
-
-const LEGENDS = `<div class="legends">
-<div id="heat-legend" class="heat-legend" hidden><span data-text="timeHeld" data-title="timeHeldAtLength"></span><span id="heat-scale" class="scale"></span></div>
-<div id="bottleneck-legend" class="lit-legend" hidden><span class="lit"></span><span class="name"></span></div></div>
-<div id="hover" class="hover" aria-live="off" hidden></div>`;
 
 const LEAST_IN_SIGHT = 0.2; // of a map, to keep the view of another one
 
@@ -55,7 +52,8 @@ export class Stage extends Observable {
   /** @type {Player | null} */
   player = null;
   root = new Root(document.body); // the parts of the viewer stand all over the studio
-  last = 0; // when the last frame was painted while time ran [ms]
+  /** @type {FrameLoop | null} */
+  loop = null;
 
   /**
    * All that is in `holder`, `below` and `time` is of the stage.
@@ -68,8 +66,6 @@ export class Stage extends Observable {
     this.time = time;
     this.card = card;
     this.theme = new Theme(this.root);
-    this.asked = false;
-    this.frames = 0;
     this.isPicking = false; // whether a press on a place is waited for
     this.isMoved = false; // whether somebody has zoomed or moved the map
     this.theme.on("theme", () => this.repaint());
@@ -100,6 +96,7 @@ export class Stage extends Observable {
     const canvas = this.#freshCanvas();
     this.plan = plan;
     this.clock = clock;
+    this.loop = new FrameLoop(clock, askBusily(clock), () => this.#paint());
     this.choice = choice;
     this.motion = motion;
     this.ghosts = ghosts;
@@ -116,6 +113,7 @@ export class Stage extends Observable {
       words,
       use: this.player?.use,
       bottleneck: this.player?.bottleneck ?? null,
+      tools: this.player ? this.root : null,
     });
     this.view = view;
     this.player?.begin(view);
@@ -199,33 +197,19 @@ export class Stage extends Observable {
 
   /** Have a frame painted soon; while nothing changes, none is. */
   ask() {
-    if (this.asked || !this.view) return;
-    this.asked = true;
-    const isStill = !this.clock.playing;
-    if (isStill) beginWork(); // a plan that plays is no work that ends
-    requestAnimationFrame((now) => {
-      this.#paint(now);
-      if (isStill) endWork();
-    });
+    if (this.view) this.loop?.ask();
   }
 
-  /**
-   * @param {number} now
-   * @returns {void}
-   */
-  #paint(now) {
+  /** Paint a frame; false where the map is not in sight. */
+  #paint() {
     const { clock, motion, ghosts, choice, view } = this;
-    this.asked = false;
-    if (clock.playing) clock.advance(this.last ? Math.min(now - this.last, 100) / 1000 : 0);
-    this.last = clock.playing ? now : 0;
-    if (!this.holder.clientWidth || !this.holder.clientHeight) return; // it is not in sight
+    if (!this.holder.clientWidth || !this.holder.clientHeight) return false;
     motion.moveTo(clock.tick);
     if (choice.ghosts) ghosts.moveTo(clock.tick);
     view.paint();
     this.#paintOn(this.over, "overlay");
     this.player?.paint();
-    this.frames++;
-    if (clock.playing) this.ask();
+    return true;
   }
 
   /**
@@ -246,6 +230,21 @@ export class Stage extends Observable {
     this.tell(event);
   }
 }
+
+/**
+ * What asks the browser for a frame: until it is painted the page is busy, unless a plan plays, which is
+ * no work that ends.
+ * @param {Clock} clock
+ * @returns {(paint: (now: number) => void) => void}
+ */
+const askBusily = (clock) => (paint) => {
+  const isStill = !clock.playing;
+  if (isStill) beginWork();
+  requestAnimationFrame((now) => {
+    paint(now);
+    if (isStill) endWork();
+  });
+};
 
 /**
  * Let the same place of the site be where it was, as large as it was.

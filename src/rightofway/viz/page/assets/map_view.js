@@ -201,7 +201,7 @@ export class MapView {
      * @param {string} id
      * @param {() => void} action
      */
-    const press = (id, action) => root.part(id).addEventListener("click", action);
+    const press = (id, action) => root.find(id)?.addEventListener("click", action);
     press("zoom-in", () => this.viewport.zoom(1.5));
     press("zoom-out", () => this.viewport.zoom(1 / 1.5));
     press("fit", () => this.viewport.fit());
@@ -216,7 +216,7 @@ export class MapView {
       this.choice.on(event, () => this.#showClosest(root));
     this.choice.on("corridor", () => {
       const { picked, corridor } = this.choice;
-      root.part("corridor").setAttribute("aria-pressed", String(Boolean(picked || corridor)));
+      root.find("corridor")?.setAttribute("aria-pressed", String(Boolean(picked || corridor)));
     });
     this.choice.on("heat", () => this.#showHeat(root));
     this.choice.on("mode", () => this.#showHeat(root));

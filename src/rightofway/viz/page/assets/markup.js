@@ -1,4 +1,105 @@
-/** All that a player makes in its element; `data-…` are keys of texts, see `writeMarkup`. */
+/** The parts that a player makes in its element; `data-…` are keys of texts, see `writeMarkup`. */
+
+/** What lies on a map: legends, and what is below the pointer. */
+export const LEGENDS = `
+  <div class="legends">
+    <div id="heat-legend" class="heat-legend" hidden>
+      <span data-text="timeHeld" data-title="timeHeldAtLength"></span><span id="heat-scale" class="scale"></span>
+    </div>
+    <div id="space-legend" class="space-legend" hidden></div>
+    <div id="bottleneck-legend" class="lit-legend" hidden><span class="lit"></span><span class="name"></span></div>
+  </div>
+  <div id="hover" class="hover" aria-live="off" hidden></div>
+`;
+
+/** What robots do now. */
+export const STATES = `<ul id="states" class="states" data-label="states"></ul>`;
+
+/** The moment that is shown, and how fast it plays. */
+export const READOUT = `
+    <output id="readout" class="readout" for="slider"></output>
+    <label class="speed"><span data-text="speed"></span> <select id="speed"></select></label>
+`;
+
+/** Buttons and slider of time. */
+export const TRANSPORT = `
+  <div class="transport">
+    <div class="buttons">
+      <button type="button" id="back" data-label="back" data-title="back" data-key="←"><svg viewBox="0 0 20 20"><path d="M13.5 5 8 10l5.5 5M5.5 5v10"/></svg></button>
+      <button type="button" id="play" class="play" data-label="play" data-title="playKey"><svg viewBox="0 0 20 20"><path class="play-sign" d="M6.5 4v12l10-6z"/><path class="pause-sign" d="M5.5 4h3v12h-3zM11.5 4h3v12h-3z"/></svg></button>
+      <button type="button" id="forth" data-label="forth" data-title="forth" data-key="→"><svg viewBox="0 0 20 20"><path d="M6.5 5 12 10l-5.5 5M14.5 5v10"/></svg></button>
+    </div>
+    <input type="range" id="slider" min="0" step="any" value="0" data-label="time">
+  </div>
+`;
+
+export const DIAGRAM = `
+  <div class="diagram">
+    <canvas id="diagram" role="img"></canvas>
+    <div id="needle" class="needle" aria-hidden="true"></div>
+  </div>
+`;
+
+/**
+ * The tools of a map: attributes, the key of a page, the picture.
+ *
+ * @type {Record<string, [attributes: string, key: string, picture: string]>}
+ */
+const TOOLS = {
+  "zoom-in": [
+    'class="zoom" data-label="zoomIn" data-title="zoomIn"',
+    "+",
+    '<path d="M10 4.5v11M4.5 10h11"/>',
+  ],
+  "zoom-out": [
+    'class="zoom" data-label="zoomOut" data-title="zoomOut"',
+    "−",
+    '<path d="M4.5 10h11"/>',
+  ],
+  fit: [
+    'data-label="fit" data-title="fit"',
+    "0",
+    '<path d="M4 7.5V4h3.5M12.5 4H16v3.5M16 12.5V16h-3.5M7.5 16H4v-3.5"/>',
+  ],
+  bottleneck: [
+    'aria-pressed="true" data-label="bottleneck" data-title="bottleneckAtLength"',
+    "B",
+    '<path d="M5.5 2.5V6L9 10l-3.500 4v3.500M14.5 2.5V6L11 10l3.500 4v3.500M4.5 2.5h11M4.5 17.5h11"/>',
+  ],
+  corridor: [
+    'aria-pressed="false" data-label="corridor" data-title="corridorAtLength"',
+    "C",
+    '<circle cx="5" cy="15" r="2"/><circle cx="15" cy="5" r="2"/><path d="M5 13V8.500a3 3 0 0 1 3-3h5"/>',
+  ],
+  space: [
+    'aria-pressed="false" data-label="space" data-title="spaceAtLength" hidden',
+    "S",
+    '<circle cx="6.500" cy="10" r="2.500"/><circle cx="6.500" cy="10" r="5" stroke-dasharray="2 2"/><path d="M11.500 10h6M15 7.500l2.500 2.500-2.500 2.500"/>',
+  ],
+  heat: [
+    'aria-pressed="false" data-label="heat" data-title="heatAtLength"',
+    "H",
+    '<path d="M10 2.5c.6 3-3.800 4.800-3.800 8.600A4 4 0 0 0 10 15.5a4 4 0 0 0 3.800-4.400c0-1.700-.9-2.900-1.5-3.600-.2 1.200-.7 1.800-1.300 2.100.3-2.600-.2-5-1-7.100zM6 17.5h8"/>',
+  ],
+};
+
+/**
+ * Buttons of tools.
+ *
+ * @param {string[]} names
+ * @param {{ withKeys?: boolean }} [options] whether their titles name the keys of a page
+ */
+export function toolButtons(names, { withKeys = false } = {}) {
+  return names
+    .map((name) => {
+      const [attributes, key, picture] = TOOLS[name];
+      const keyed = withKeys ? ` data-key="${key}"` : "";
+      return `<button type="button" id="${name}" ${attributes}${keyed}><svg viewBox="0 0 20 20" aria-hidden="true">${picture}</svg></button>`;
+    })
+    .join("\n");
+}
+
+/** All of a player. */
 export const MARKUP = `
 <header class="summary">
   <h1 id="headline"></h1>
@@ -17,27 +118,13 @@ export const MARKUP = `
 <section class="map" data-label="map">
   <h2 id="map-title" class="map-title" hidden></h2>
   <canvas id="map" tabindex="0" role="img" aria-describedby="hover"></canvas>
-  <div class="legends">
-    <div id="heat-legend" class="heat-legend" hidden>
-      <span data-text="timeHeld" data-title="timeHeldAtLength"></span><span id="heat-scale" class="scale"></span>
-    </div>
-    <div id="space-legend" class="space-legend" hidden></div>
-    <div id="bottleneck-legend" class="lit-legend" hidden><span class="lit"></span><span class="name"></span></div>
-  </div>
-  <div id="hover" class="hover" aria-live="off" hidden></div>
-</section>
+${LEGENDS}</section>
 </div>
 
 <div class="below">
-  <ul id="states" class="states" data-label="states"></ul>
+  ${STATES}
   <div class="tools" role="toolbar" data-label="mapView">
-    <button type="button" id="zoom-in" class="zoom" data-label="zoomIn" data-title="zoomIn" data-key="+"><svg viewBox="0 0 20 20"><path d="M10 4.5v11M4.5 10h11"/></svg></button>
-    <button type="button" id="zoom-out" class="zoom" data-label="zoomOut" data-title="zoomOut" data-key="−"><svg viewBox="0 0 20 20"><path d="M4.5 10h11"/></svg></button>
-    <button type="button" id="fit" data-label="fit" data-title="fit" data-key="0"><svg viewBox="0 0 20 20"><path d="M4 7.5V4h3.5M12.5 4H16v3.5M16 12.5V16h-3.5M7.5 16H4v-3.5"/></svg></button>
-    <button type="button" id="bottleneck" aria-pressed="true" data-label="bottleneck" data-title="bottleneckAtLength" data-key="B"><svg viewBox="0 0 20 20"><path d="M5.5 2.5V6L9 10l-3.500 4v3.500M14.5 2.5V6L11 10l3.500 4v3.500M4.5 2.5h11M4.5 17.5h11"/></svg></button>
-    <button type="button" id="corridor" aria-pressed="false" data-label="corridor" data-title="corridorAtLength" data-key="C"><svg viewBox="0 0 20 20"><circle cx="5" cy="15" r="2"/><circle cx="15" cy="5" r="2"/><path d="M5 13V8.500a3 3 0 0 1 3-3h5"/></svg></button>
-    <button type="button" id="space" aria-pressed="false" data-label="space" data-title="spaceAtLength" data-key="S" hidden><svg viewBox="0 0 20 20"><circle cx="6.500" cy="10" r="2.500"/><circle cx="6.500" cy="10" r="5" stroke-dasharray="2 2"/><path d="M11.500 10h6M15 7.500l2.500 2.500-2.500 2.500"/></svg></button>
-    <button type="button" id="heat" aria-pressed="false" data-label="heat" data-title="heatAtLength" data-key="H"><svg viewBox="0 0 20 20"><path d="M10 2.5c.6 3-3.800 4.800-3.800 8.600A4 4 0 0 0 10 15.5a4 4 0 0 0 3.800-4.400c0-1.700-.9-2.900-1.5-3.600-.2 1.200-.7 1.800-1.300 2.100.3-2.600-.2-5-1-7.100zM6 17.5h8"/></svg></button>
+    ${toolButtons(["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space", "heat"], { withKeys: true })}
   </div>
 </div>
 
@@ -52,23 +139,12 @@ export const MARKUP = `
       <label data-title="bothAtLength" data-key="F"><input type="radio" name="mode" value="both"><span data-text="both"></span></label>
     </fieldset>
     <button type="button" id="loop" class="quiet loop" aria-pressed="false" hidden><svg viewBox="0 0 20 20"><path d="M15.5 7A6.2 6.2 0 1 0 16 11.5M15.8 3.5V7.2H12"/></svg><span data-text="loop"></span></button>
-    <output id="readout" class="readout" for="slider"></output>
-    <label class="speed"><span data-text="speed"></span> <select id="speed"></select></label>
+    ${READOUT}
     <button type="button" id="help-open" class="quiet help-open" data-label="keys" data-title="keys" data-key="?">?</button>
   </div>
-  <div class="transport">
-    <div class="buttons">
-      <button type="button" id="back" data-label="back" data-title="back" data-key="←"><svg viewBox="0 0 20 20"><path d="M13.5 5 8 10l5.5 5M5.5 5v10"/></svg></button>
-      <button type="button" id="play" class="play" data-label="play" data-title="playKey"><svg viewBox="0 0 20 20"><path class="play-sign" d="M6.5 4v12l10-6z"/><path class="pause-sign" d="M5.5 4h3v12h-3zM11.5 4h3v12h-3z"/></svg></button>
-      <button type="button" id="forth" data-label="forth" data-title="forth" data-key="→"><svg viewBox="0 0 20 20"><path d="M6.5 5 12 10l-5.5 5M14.5 5v10"/></svg></button>
-    </div>
-    <input type="range" id="slider" min="0" step="any" value="0" data-label="time">
+  ${TRANSPORT}
   </div>
-  </div>
-  <div class="diagram">
-    <canvas id="diagram" role="img"></canvas>
-    <div id="needle" class="needle" aria-hidden="true"></div>
-  </div>
+  ${DIAGRAM}
 </section>
 
 </main>

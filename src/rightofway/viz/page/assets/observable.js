@@ -4,13 +4,17 @@ export class Observable {
   #listeners = {};
 
   /**
-   * Call `listener` at each `event`.
+   * Call `listener` at each `event`, until the function that is returned is called.
    *
    * @param {string} event
    * @param {() => void} listener
+   * @returns {() => void}
    */
   on(event, listener) {
     (this.#listeners[event] ??= []).push(listener);
+    return () => {
+      this.#listeners[event] = this.#listeners[event].filter((other) => other !== listener);
+    };
   }
 
   /**

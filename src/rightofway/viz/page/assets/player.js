@@ -7,6 +7,7 @@ import { DecisionList } from "./decision_list.js";
 import { DeepLink } from "./deep_link.js";
 import { Diagram } from "./diagram.js";
 import { FaultList } from "./fault_list.js";
+import { FrameLoop } from "./frame_loop.js";
 import { listenToKeys } from "./keys.js";
 import { askedLanguage, offerLanguages, setLanguage, writeMarkup } from "./language.js";
 import { learn } from "./library.js";
@@ -115,48 +116,28 @@ export function createPlayer(element, payload) {
   for (const row of root.all(".help .sized", HTMLElement)) row.hidden = !plan.hasSpace;
   listenToKeys(root, clock, choice, mapView.viewport, modeSwitch, loop);
 
-  const frames = {
-    last: 0,
-    asked: false,
-    written: NaN, // the tick that words are about
-
-    /** Have a frame painted soon; while nothing changes, none is. */
-    ask() {
-      if (this.asked) return;
-      this.asked = true;
-      root.ask((now) => this.paint(now));
-    },
-
-    /** @param {number} now */
-    paint(now) {
-      this.asked = false;
-      if (clock.playing) clock.advance(this.last ? Math.min(now - this.last, 100) / 1000 : 0);
-      this.last = clock.playing ? now : 0;
-      this.moveRobots();
+  let written = NaN; // the tick that words are about
+  const frames = new FrameLoop(
+    clock,
+    (paint) => root.ask(paint),
+    () => {
+      const { running } = clock;
+      const { steady } = plan;
+      // in a loop each group of robots has a period of its own
+      const own =
+        clock.loop && steady && ((/** @type {number} */ index) => steady.tickOf(index, running));
+      motion.moveTo(clock.tick, own);
+      if (choice.ghosts) ghosts.moveTo(clock.tick);
       mapView.paint();
       comparison?.paint();
       diagram.paint();
       transport.refresh();
-      this.refreshWords();
-      if (clock.playing) this.ask();
-    },
-
-    /** In a loop each group of robots has a period of its own. */
-    moveRobots() {
-      const { running } = clock;
-      const { steady } = plan;
-      motion.moveTo(clock.tick, clock.loop && steady && ((index) => steady.tickOf(index, running)));
-      if (choice.ghosts) ghosts.moveTo(clock.tick);
-    },
-
-    /** Words change only when a tick is over, or the choice is another one. */
-    refreshWords() {
-      if (this.written === clock.wholeTick) return;
-      this.written = clock.wholeTick;
+      if (written === clock.wholeTick) return; // words change only when a tick is over, or by a choice
+      written = clock.wholeTick;
       states.refresh();
       robotList.refresh();
     },
-  };
+  );
 
   /** Put the diagram beside the map where the map is much larger so than above the diagram. */
   function layOut() {
@@ -188,7 +169,7 @@ export function createPlayer(element, payload) {
   choice.on("space", repaintAll);
   clock.on("loop", repaintAll);
   choice.on("mode", () => {
-    frames.written = NaN;
+    written = NaN;
     repaintAll();
   });
   theme.on("theme", repaintAll);

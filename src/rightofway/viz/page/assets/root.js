@@ -61,6 +61,15 @@ export class Root {
   }
 
   /**
+   * A part, or null where the markup has none of the name.
+   *
+   * @param {string} name
+   */
+  find(name) {
+    return this.element.querySelector(`#${name}${this.#suffix}`);
+  }
+
+  /**
    * All elements that a selector finds.
    *
    * @template {Element} E
