@@ -11,7 +11,7 @@
 
 #include "bindings.hpp"
 #include "core/reject.hpp"
-#include "precedence/timetable.hpp"
+#include "precedence/retiming.hpp"
 
 namespace rightofway::bind {
 namespace {

@@ -40,7 +40,7 @@ first_stage : int32[R + 1]
 stage_vertex, stage_work, stage_turn : int32[S], int64[S], int64[S]
     Where each stage is, and how long it takes to work and then to turn. [ticks]
 size_of : int32[R] or None
-    The size class of each robot; None where no robot has a size.
+    The size class of each robot; None where all are points.
 weight : int64[R] or None
     How much a tick of each robot counts; None where all count alike.)";
 
@@ -85,8 +85,7 @@ constexpr auto closures_doc = R"(Bookings of nobody.
 Parameters
 ----------
 row, start, end : int32[K], int64[K], int64[K]
-    Rows of the booking table that are closed, and when. Where no robot has a size, row ``V + e``
-    is edge ``e``. [ticks])";
+    Rows of the booking table that are closed, and when. [ticks])";
 
 constexpr auto problem_doc = R"(A scenario in ticks: roads, robots and booking rules.
 
@@ -101,7 +100,7 @@ robots : Robots
 rules : BookingRules
     How visits are booked.
 lists : ExcludedRows or None
-    Where robots have sizes: the excluded rows of all rows. Row ``size * (V + E) + resource`` is a vertex
+    The excluded rows of all rows; None where all robots are points and a vertex excludes itself. Row ``size * (V + E) + resource`` is a vertex
     or an edge as robots of one size class book it; the vertices come first.
 turning : Turning or None
     How long robots turn; None where turning takes no time.
@@ -124,9 +123,8 @@ void init(Problem* self, const BoundRoads& roads, const BoundRobots& robots,
         view(robots.first_stage),    view(robots.stage_vertex), view(robots.stage_work),
         view(robots.stage_turn),     roads.n_classes,           view_or_empty(surcharges),
         view_or_empty(robots.weight)};
-    if (robots.size_of.has_value() != (lists != nullptr)) {
-        throw std::invalid_argument(
-            "size_of, lists: one of them is given alone (give both, or none)");
+    if (lists != nullptr && !robots.size_of) {
+        throw std::invalid_argument("size_of: is needed with lists");
     }
     Resources resources;
     if (lists != nullptr) {

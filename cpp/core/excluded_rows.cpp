@@ -6,7 +6,8 @@
 namespace rightofway {
 
 void require_excluded_rows(const ExcludedRows& rows) {
-    const auto& [first, excluded] = rows;
+    const auto& first = rows.first;
+    const auto& excluded = rows.excluded;
     require_lists("first", first, excluded.size());
     const std::size_t n_rows = first.size() - 1;
     for (std::size_t row = 0; row < n_rows; ++row) {

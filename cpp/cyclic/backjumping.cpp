@@ -49,9 +49,16 @@ Recurrence recurrence(const std::vector<IncompatiblePair>& linked, std::int32_t 
     return found;
 }
 
+// Periodic routes that agree for the length of both laps together agree endlessly.
+// N. J. Fine and H. S. Wilf, Uniqueness theorems for periodic functions, 1965.
+Recurrence recurrence_of_run(std::size_t n_visits, std::int32_t i_length, std::int32_t j_length) {
+    const std::int64_t both = std::int64_t{i_length} + j_length;
+    return static_cast<std::int64_t>(n_visits) < both ? Recurrence::none : Recurrence::head_on;
+}
+
 // Of (start, end before it), those with an end that no earlier start waits for.
 using Waits = std::vector<std::pair<CyclicVisit, CyclicVisit>>;
-std::vector<CyclicRight> implying(Waits waits) {
+std::vector<CyclicRight> implying(Waits& waits) {
     std::sort(waits.begin(), waits.end(), [](const auto& left, const auto& right) {
         return left.first != right.first ? left.first < right.first : left.second > right.second;
     });
@@ -80,8 +87,7 @@ Backjumping::Outcome Backjumping::resolve(const Conflict& conflict) {
     conflict_visit_ = i;
     waiting_cycle_.clear();
     Outcome outcome = Outcome::resolved;
-    const auto found =
-        routes_.has_sizes() ? choice_with_sizes(i, j, outcome) : choice(i, j, outcome);
+    const auto found = choice(i, j, outcome);
     if (!found) {
         return outcome;
     }
@@ -119,33 +125,15 @@ Backjumping::Outcome Backjumping::backjump() {
 
 std::optional<Backjumping::Choice> Backjumping::choice(CyclicVisit i, CyclicVisit j,
                                                        Outcome& outcome) {
-    const Segment segment = segment_of(i, j);
-    const bool reaches_end = segment.i_last.number == timetable_.end(i.robot) - 1 ||
-                             segment.j_last.number == timetable_.end(j.robot) - 1;
-    if (segment.kind == Segment::Kind::head_on && reaches_end) {
-        // Periodic routes that agree for the length of both laps together agree endlessly.
-        // N. J. Fine and H. S. Wilf, Uniqueness theorems for periodic functions, 1965.
-        const std::int32_t length = segment.i_last.number - segment.i_first.number + 1;
-        if (length < routes_.length(i.robot) + routes_.length(j.robot)) {
-            outcome = Outcome::window_too_short;
-            return std::nullopt;
-        }
-        waiting_cycle_ = {i.robot, j.robot};
-        outcome = Outcome::deadlock;
-        return std::nullopt;
-    }
-    return Choice{segment.i_first, segment.j_first, rights_if(segment, true),
-                  rights_if(segment, false)};
-}
-
-std::optional<Backjumping::Choice> Backjumping::choice_with_sizes(CyclicVisit i, CyclicVisit j,
-                                                                  Outcome& outcome) {
-    const LinkedVisits linked = linked_to(i, j);
+    const bool is_run = !routes_.books_edges();
+    const LinkedVisits linked = is_run ? run_through(i, j) : linked_to(i, j);
     Choice choice{linked.front().i_starts, linked.front().j_starts, {}, {}};
     CyclicVisit i_last = i;
     CyclicVisit j_last = j;
     Waits of_i;
     Waits of_j;
+    of_i.reserve(linked.size());
+    of_j.reserve(linked.size());
     std::int64_t products = 0;
     std::int64_t sum_i = 0;
     std::int64_t sum_j = 0;
@@ -167,7 +155,10 @@ std::optional<Backjumping::Choice> Backjumping::choice_with_sizes(CyclicVisit i,
     const bool reaches_end = i_last.number >= timetable_.end(i.robot) - 1 ||
                              j_last.number >= timetable_.end(j.robot) - 1;
     if (is_head_on && reaches_end) {
-        switch (recurrence(linked, routes_.length(i.robot), routes_.length(j.robot))) {
+        const std::int32_t i_length = routes_.length(i.robot);
+        const std::int32_t j_length = routes_.length(j.robot);
+        switch (is_run ? recurrence_of_run(linked.size(), i_length, j_length)
+                       : recurrence(linked, i_length, j_length)) {
             case Recurrence::none:
                 outcome = Outcome::window_too_short;
                 return std::nullopt;
@@ -179,8 +170,8 @@ std::optional<Backjumping::Choice> Backjumping::choice_with_sizes(CyclicVisit i,
                 break;
         }
     }
-    choice.if_i_waits = implying(std::move(of_i));
-    choice.if_j_waits = implying(std::move(of_j));
+    choice.if_i_waits = implying(of_i);
+    choice.if_j_waits = implying(of_j);
     return choice;
 }
 
@@ -223,29 +214,34 @@ Backjumping::LinkedVisits Backjumping::linked_to(CyclicVisit i, CyclicVisit j) c
 
 // The longest run of vertices around two visits that the robots visit in reverse order, or else in
 // the same order.
-Backjumping::Segment Backjumping::segment_of(CyclicVisit i, CyclicVisit j) const {
+Backjumping::LinkedVisits Backjumping::run_through(CyclicVisit i, CyclicVisit j) const {
+    const auto at = [](CyclicVisit visit, std::int32_t later) {
+        return CyclicVisit{visit.robot, visit.number + later};
+    };
     const auto run_length = [&](std::int32_t i_step, std::int32_t j_step) {
         for (std::int32_t length = 0;; ++length) {
-            const CyclicVisit one{i.robot, i.number + (length + 1) * i_step};
-            const CyclicVisit other{j.robot, j.number + (length + 1) * j_step};
+            const CyclicVisit one = at(i, (length + 1) * i_step);
+            const CyclicVisit other = at(j, (length + 1) * j_step);
             if (!timetable_.is_in_window(one) || !timetable_.is_in_window(other) ||
                 routes_.vertex(one) != routes_.vertex(other)) {
                 return length;
             }
         }
     };
-    const auto at = [](CyclicVisit visit, std::int32_t later) {
-        return CyclicVisit{visit.robot, visit.number + later};
-    };
-    std::int32_t before = run_length(-1, 1);
-    std::int32_t after = run_length(1, -1);
-    if (before > 0 || after > 0) {
-        return {Segment::Kind::head_on, at(i, -before), at(i, after), at(j, -after), at(j, before)};
+    std::int32_t j_step = -1;
+    std::int32_t before = run_length(-1, -j_step);
+    std::int32_t after = run_length(1, j_step);
+    if (before == 0 && after == 0) {
+        j_step = 1;
+        before = run_length(-1, -j_step);
+        after = run_length(1, j_step);
     }
-    before = run_length(-1, -1);
-    after = run_length(1, 1);
-    const auto kind = before > 0 || after > 0 ? Segment::Kind::following : Segment::Kind::vertex;
-    return {kind, at(i, -before), at(i, after), at(j, -before), at(j, after)};
+    LinkedVisits run;
+    run.reserve(static_cast<std::size_t>(before + after + 1));
+    for (std::int32_t k = -before; k <= after; ++k) {
+        run.push_back({at(i, k), at(j, k * j_step), at(i, k), at(j, k * j_step)});
+    }
+    return run;
 }
 
 // On a tie, the robot that enters the segment first goes first; on a second tie, i.
@@ -277,20 +273,6 @@ std::int64_t Backjumping::loss_if(const Choice& choice, bool i_waits) const {
 // The enter of a visit, at least the beginning of the window.
 Tick Backjumping::enter_in_window(CyclicVisit visit) const {
     return std::max(timetable_.enter(visit), timetable_.begins());
-}
-
-// Head-on, one right of way is enough: from the last visit of one to the first of the other.
-std::vector<CyclicRight> Backjumping::rights_if(const Segment& segment, bool i_waits) {
-    if (segment.kind != Segment::Kind::following) {
-        return {i_waits ? CyclicRight{segment.j_last, segment.i_first}
-                        : CyclicRight{segment.i_last, segment.j_first}};
-    }
-    std::vector<CyclicRight> rights;
-    CyclicVisit j = segment.j_first;
-    for (CyclicVisit i = segment.i_first; i <= segment.i_last; i = i.next(), j = j.next()) {
-        rights.push_back(i_waits ? CyclicRight{j, i} : CyclicRight{i, j});
-    }
-    return rights;
 }
 
 // Gives all rights of way of an order; returns false and changes nothing if one is refused.

@@ -83,16 +83,8 @@ class Backjumping {
         std::vector<DecisionId> culprits;  // rising
         SegmentOrder order;
     };
-    struct Segment {
-        enum class Kind { vertex, head_on, following } kind;
-        CyclicVisit i_first;
-        CyclicVisit i_last;
-        CyclicVisit j_first;
-        CyclicVisit j_last;
-    };
-
-    // A largest set of linked pairs of visits of two robots with sizes: one robot goes first in all
-    // of them (docs/decisions/0010-space.md).
+    // A segment: linked pairs of visits of two robots. One robot goes first in all of them
+    // (docs/decisions/0010-space.md).
     using LinkedVisits = std::vector<IncompatiblePair>;
     // The two ways to decide a segment, and the first visit of each robot that may start later.
     struct Choice {
@@ -108,13 +100,11 @@ class Backjumping {
 
     // No value: the segment of a conflict has to be longer, or is endless (`outcome`).
     std::optional<Choice> choice(CyclicVisit i, CyclicVisit j, Outcome& outcome);
-    std::optional<Choice> choice_with_sizes(CyclicVisit i, CyclicVisit j, Outcome& outcome);
-    Segment segment_of(CyclicVisit i, CyclicVisit j) const;
+    LinkedVisits run_through(CyclicVisit i, CyclicVisit j) const;
     LinkedVisits linked_to(CyclicVisit i, CyclicVisit j) const;
     bool i_waits(const Choice& choice) const;
     std::int64_t loss_if(const Choice& choice, bool i_waits) const;
     Tick enter_in_window(CyclicVisit visit) const;
-    static std::vector<CyclicRight> rights_if(const Segment& segment, bool i_waits);
     bool decide(SegmentOrder&& order, bool is_turned);
     void add_culprits(std::span<const DecisionId> ids, DecisionId below);
     void add_culprits_of_refusal(DecisionId below);

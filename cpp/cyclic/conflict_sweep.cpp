@@ -11,7 +11,7 @@ namespace rightofway {
 ConflictSweep::ConflictSweep(const CyclicRoutes& routes, const RollingTimetable& timetable)
     : routes_(routes),
       timetable_(timetable),
-      at_(static_cast<std::size_t>(routes.n_lists())),
+      at_(static_cast<std::size_t>(routes.n_rows())),
       sweeps_(static_cast<std::size_t>(routes.n_robots())) {
     restart();
 }
@@ -30,7 +30,7 @@ void ConflictSweep::restart() {
 
 void ConflictSweep::end_changed(RobotId robot, std::int32_t old_end) {
     const std::int32_t swept = sweeps_[index(robot)].number;
-    if (routes_.has_sizes()) {
+    if (routes_.books_edges()) {
         // The last visit in the window is swept without the edge driven out of it.
         const std::int32_t last = std::min(old_end, timetable_.end(robot)) - 1;
         if (swept > last) {
@@ -56,14 +56,8 @@ void ConflictSweep::unsweep(RobotId robot, std::int32_t from) {
     std::int32_t& swept = sweeps_[index(robot)].number;
     for (; swept > from; --swept) {
         const CyclicVisit visit{robot, swept - 1};
-        if (routes_.has_sizes()) {
-            take_out(routes_.vertex_row(visit), visit);
-            take_out(routes_.edge_row(visit), visit);
-            continue;
-        }
-        auto& booked = at_[index(routes_.vertex(visit))].booked;
-        const auto is_it = [visit](const Booked& one) { return one.visit == visit; };
-        booked.erase(std::find_if(booked.rbegin(), booked.rend(), is_it).base() - 1);
+        take_out(routes_.vertex_row(visit), visit);
+        take_out(routes_.edge_row(visit), visit);
     }
     find_next(robot);
 }
@@ -98,11 +92,6 @@ void ConflictSweep::replace_first_upcoming(RobotId robot) {
     upcoming_[at] = own;
 }
 
-Booking ConflictSweep::booking(CyclicVisit visit) const {
-    return {timetable_.enter(visit) - routes_.approach(visit),
-            timetable_.enter(visit.next()) + routes_.headway()};
-}
-
 Booking ConflictSweep::booking(CyclicVisit visit, CyclicVisit starts) const {
     return {timetable_.enter(starts) - routes_.approach(starts),
             timetable_.enter(visit.next()) + routes_.headway()};
@@ -112,7 +101,7 @@ bool ConflictSweep::leaves(CyclicVisit visit) const {
     return visit.number + 1 < timetable_.end(visit.robot);
 }
 
-// The conflict of two visits of different robots with sizes, if any.
+// The overlap of the bookings of two visits of different robots, if any.
 std::optional<Conflict> ConflictSweep::conflict(CyclicVisit one, CyclicVisit other) const {
     const auto [a, b] = std::minmax(one, other);
     const auto found = routes_.incompatible(a, leaves(a), b, leaves(b));
@@ -134,15 +123,10 @@ bool ConflictSweep::holds(const Conflict& conflict) const {
     if (!timetable_.is_in_window(a) || !timetable_.is_in_window(b)) {
         return false;
     }
-    if (routes_.has_sizes()) {
-        return this->conflict(a, b) == conflict;
-    }
     if (conflict.kind == ConflictKind::swap) {
         return timetable_.enter(a) == conflict.tick && timetable_.enter(b) == conflict.tick;
     }
-    const Booking one = booking(a);
-    const Booking other = booking(b);
-    return overlap(one, other) > 0 && std::max(one.start, other.start) == conflict.tick;
+    return this->conflict(a, b) == conflict;
 }
 
 std::optional<Conflict> ConflictSweep::next(Tick limit) {
@@ -162,7 +146,7 @@ std::optional<Conflict> ConflictSweep::next(Tick limit) {
         const auto& [start, visit] = upcoming_.front();
         const Sweep& own = sweeps_[index(visit.robot)];
         if (start < never && start == own.start && visit.number == own.number) {
-            routes_.has_sizes() ? sweep_with_sizes(visit.robot) : sweep(visit.robot);
+            routes_.books_edges() ? sweep_with_sizes(visit.robot) : sweep(visit.robot);
         } else {
             std::pop_heap(upcoming_.begin(), upcoming_.end(), std::greater<>());
             upcoming_.pop_back();
@@ -198,6 +182,9 @@ void ConflictSweep::sweep(RobotId robot) {
 }
 
 void ConflictSweep::take_out(std::int32_t list, CyclicVisit visit) {
+    if (list == none) {
+        return;
+    }
     auto& booked = at_[index(list)].booked;
     const auto is_it = [visit](const Booked& one) { return one.visit == visit; };
     const auto found = std::find_if(booked.rbegin(), booked.rend(), is_it);
@@ -226,7 +213,7 @@ void ConflictSweep::sweep_with_sizes(RobotId robot) {
     const CyclicVisit visit{robot, sweep.number};
     const Tick leave = timetable_.enter(visit.next());
     const Booked own{visit, {sweep.start, leave + routes_.headway()}};
-    const auto meet = [&](std::int32_t row) {
+    const auto meet = [&](const std::int32_t& row) {
         for (const std::int32_t list : routes_.excluded(row)) {
             const Place& place = at_[index(list)];
             for (std::size_t k = place.booked.size(); k-- > 0;) {
@@ -246,11 +233,13 @@ void ConflictSweep::sweep_with_sizes(RobotId robot) {
             }
         }
     };
-    meet(routes_.vertex_row(visit));
-    put_in(routes_.vertex_row(visit), own);
+    const std::int32_t at_vertex = routes_.vertex_row(visit);
+    meet(at_vertex);
+    put_in(at_vertex, own);
     if (leaves(visit)) {
-        meet(routes_.edge_row(visit));
-        put_in(routes_.edge_row(visit), own);
+        const std::int32_t along_edge = routes_.edge_row(visit);
+        meet(along_edge);
+        put_in(along_edge, own);
     }
     advance(robot, leave);
 }

@@ -58,7 +58,6 @@ class ConflictSweep {
         Tick start = never;  // of its booking; `never` outside the window
     };
 
-    Booking booking(CyclicVisit visit) const;
     Booking booking(CyclicVisit visit, CyclicVisit starts) const;
     std::optional<Conflict> conflict(CyclicVisit one, CyclicVisit other) const;
     bool leaves(CyclicVisit visit) const;

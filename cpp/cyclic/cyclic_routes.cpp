@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/excluded_rows.hpp"
 #include "core/reject.hpp"
 
 namespace rightofway {
@@ -49,7 +48,7 @@ CyclicRoutes::CyclicRoutes(const LapArrays& arrays)
       first_(arrays.first.begin(), arrays.first.end()),
       excluded_(arrays.excluded.begin(), arrays.excluded.end()) {
     check_lengths(arrays);
-    if (has_sizes()) {
+    if (books_edges()) {
         check_rows();
     }
     for (RobotId r = 0; r < n_robots(); ++r) {
@@ -104,26 +103,31 @@ void CyclicRoutes::check_rows() const {
     require_length("vertex_row", vertex_row_.size(), vertex_.size());
     require_length("edge_row", edge_row_.size(), vertex_.size());
     require_excluded_rows({first_, excluded_});
-    require_ids("vertex_row", vertex_row_, n_lists());
-    require_ids("edge_row", edge_row_, n_lists());
+    require_ids("vertex_row", vertex_row_, n_rows());
+    require_ids("edge_row", edge_row_, n_rows());
 }
 
 bool CyclicRoutes::excludes(std::int32_t row, std::int32_t other) const {
+    if (row == none) {
+        return false;
+    }
     const auto rows = excluded(row);
-    return std::binary_search(rows.begin(), rows.end(), other);
+    return rows.size() == 1 ? rows.front() == other
+                            : std::binary_search(rows.begin(), rows.end(), other);
 }
 
 std::optional<IncompatiblePair> CyclicRoutes::incompatible(CyclicVisit i, bool i_leaves,
                                                            CyclicVisit j, bool j_leaves) const {
-    const bool at_both = excludes(vertex_row(i), vertex_row(j));
+    if (excludes(vertex_row(i), vertex_row(j))) {
+        return IncompatiblePair{i, j, i, j};
+    }
     const bool i_stays = j_leaves && excludes(vertex_row(i), edge_row(j));
     const bool j_stays = i_leaves && excludes(edge_row(i), vertex_row(j));
     const bool on_edges = i_leaves && j_leaves && excludes(edge_row(i), edge_row(j));
-    if (!at_both && !i_stays && !j_stays && !on_edges) {
+    if (!i_stays && !j_stays && !on_edges) {
         return std::nullopt;
     }
-    return IncompatiblePair{i, j, at_both || i_stays ? i : i.next(),
-                            at_both || j_stays ? j : j.next()};
+    return IncompatiblePair{i, j, i_stays ? i : i.next(), j_stays ? j : j.next()};
 }
 
 Tick CyclicRoutes::unimpeded_enter(CyclicVisit visit) const {

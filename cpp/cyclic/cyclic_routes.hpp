@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/excluded_rows.hpp"
 #include "core/types.hpp"
 
 namespace rightofway {
@@ -36,15 +37,15 @@ struct LapArrays {
     std::span<const Tick> approach;     // n: ticks from the start of the booking to the enter
     std::span<const Tick> first_least;  // r: of visit 0
     Tick headway = 0;                   // ticks from the leave to the end of the booking
-    // Where robots have sizes: the rows of each place's vertex and of the edge driven out of it (n
-    // each), and the lists of excluded rows, see Resources in problem.hpp. Else empty.
+    // The rows of each place's vertex and of the edge driven out of it (n each), and the lists of
+    // excluded rows, see Resources in problem.hpp. Empty for points: their rows are vertices.
     std::span<const std::int32_t> vertex_row = {};
     std::span<const std::int32_t> edge_row = {};
     std::span<const std::int32_t> first = {};
     std::span<const std::int32_t> excluded = {};
 };
 
-// Two incompatible visits of robots with sizes, and the visits whose starts are the earliest
+// Two incompatible visits, and the visits whose starts are the earliest
 // incompatible ones: each is the visit itself, or the next one if only the edge driven out of the
 // visit takes part.
 struct IncompatiblePair {
@@ -67,19 +68,23 @@ class CyclicRoutes {
     }
     Tick headway() const { return headway_; }
 
-    bool has_sizes() const { return !first_.empty(); }
-    // Lists of bookings: one for each vertex, or for each row.
-    std::int32_t n_lists() const {
-        return has_sizes() ? static_cast<std::int32_t>(first_.size()) - 1 : n_vertices();
+    // Whether drives book edges: where lists of excluded rows are given.
+    bool books_edges() const { return !first_.empty(); }
+    // One list of bookings for each row.
+    std::int32_t n_rows() const {
+        return books_edges() ? static_cast<std::int32_t>(first_.size()) - 1 : n_vertices();
     }
-    // Only where robots have sizes.
-    std::int32_t vertex_row(CyclicVisit visit) const { return vertex_row_[index(place(visit))]; }
-    std::int32_t edge_row(CyclicVisit visit) const { return edge_row_[index(place(visit))]; }
-    std::span<const std::int32_t> excluded(std::int32_t row) const {
-        return std::span(excluded_).subspan(
-            index(first_[index(row)]),
-            static_cast<std::size_t>(first_[index(row + 1)] - first_[index(row)]));
+    std::int32_t vertex_row(CyclicVisit visit) const {
+        return books_edges() ? vertex_row_[index(place(visit))] : vertex(visit);
     }
+    // `none` for points.
+    std::int32_t edge_row(CyclicVisit visit) const {
+        return books_edges() ? edge_row_[index(place(visit))] : none;
+    }
+    std::span<const std::int32_t> excluded(const std::int32_t& row) const {
+        return ExcludedRows{first_, excluded_}.of(row);
+    }
+    std::span<const std::int32_t> excluded(std::int32_t&&) const = delete;
     // No value if the visits are compatible. `i_leaves`, `j_leaves`: whether the edge driven out of
     // the visit counts.
     std::optional<IncompatiblePair> incompatible(CyclicVisit i, bool i_leaves, CyclicVisit j,

@@ -24,7 +24,7 @@ struct Pibt::Choosing {
     RobotId here(VertexId vertex) const { return now.here(vertex); }
     RobotId keeps_off(RobotId robot, VertexId vertex) const {
         RobotId found = now.here(vertex);
-        if (found == nobody && pibt.problem_.has_sizes()) {
+        if (found == nobody) {
             pibt.any_ahead(now, robot, vertex, [&](RobotId other) {
                 found = other;
                 return true;
@@ -104,11 +104,8 @@ bool Pibt::choose_all(const FleetState& now, std::span<const RobotId> order) {
 // the drive is near to it). Ends when `use` returns true.
 template <class Use>
 bool Pibt::any_near(const FleetState& now, RobotId robot, VertexId place, const Use& use) const {
-    if (!problem_.has_sizes()) {
-        return use(place, 0, false);
-    }
     const std::int32_t n_resources = problem_.n_resources();
-    const auto any_of = [&](std::int32_t own_row, bool is_drive) {
+    const auto any_of = [&](const std::int32_t own_row, bool is_drive) {
         const auto rows = problem_.excluded(own_row);
         return std::any_of(rows.begin(), rows.end(), [&](std::int32_t row) {
             const std::int32_t resource = row < n_resources ? row : row % n_resources;
@@ -135,16 +132,14 @@ bool Pibt::any_ahead(const FleetState& now, RobotId robot, VertexId place, const
 // The next robot that has to leave before this robot drives to a place, by the choices so far;
 // `nobody` if all have been asked.
 RobotId Pibt::next_ahead(const FleetState& now, RobotId robot, Ahead& ahead) const {
-    if (!problem_.has_sizes()) {
-        const RobotId other = ahead.n_asked++ == 0 ? now.here(ahead.place) : nobody;
-        return other == robot ? nobody : other;
-    }
     const std::int32_t n_resources = problem_.n_resources();
-    const auto near_place = problem_.excluded(problem_.vertex_row(robot, ahead.place));
-    const auto near_drive =
-        problem_.edges_exclude() && ahead.place != now.at(robot)
-            ? problem_.excluded(problem_.edge_row(robot, edge_to(now, robot, ahead.place)))
-            : std::span<const std::int32_t>{};
+    const std::int32_t own_place = problem_.vertex_row(robot, ahead.place);
+    const auto near_place = problem_.excluded(own_place);
+    std::span<const std::int32_t> near_drive;
+    if (problem_.edges_exclude() && ahead.place != now.at(robot)) {
+        const std::int32_t own_drive = problem_.edge_row(robot, edge_to(now, robot, ahead.place));
+        near_drive = problem_.excluded(own_drive);  // of the lists: only those have edges
+    }
     while (ahead.n_asked < 2 * (near_place.size() + near_drive.size())) {
         const std::size_t k = ahead.n_asked / 2;
         const bool is_drive = k >= near_place.size();
@@ -399,10 +394,6 @@ bool Pibt::has_partner(const FleetState& now, RobotId robot) {
 
 // Lets the partner follow the robot, if no other robot is in its way.
 void Pibt::pull(const FleetState& now, RobotId partner, VertexId place) {
-    if (!problem_.has_sizes()) {
-        take(now, partner, place);
-        return;
-    }
     const auto stays = [&](RobotId other) { return !moves(now, other); };
     if (!is_open(now, partner, place) || any_ahead(now, partner, place, stays)) {
         return;

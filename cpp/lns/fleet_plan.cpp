@@ -5,7 +5,7 @@
 
 #include "core/poll.hpp"
 #include "distances/trip.hpp"
-#include "precedence/timetable.hpp"
+#include "precedence/retiming.hpp"
 
 namespace rightofway {
 
@@ -30,7 +30,7 @@ Tick FleetPlan::surcharges(std::span<const Visit> visits) const {
 
 Booking FleetPlan::booking(const TimedTrack& track, std::size_t k) const {
     const auto& visits = track.visits;
-    const Tick approach = problem_->rules().books_ahead ? visits[k].drive : 0;
+    const Tick approach = problem_->approach(visits[k].drive);
     const Tick end =
         k + 1 < visits.size() ? visits[k + 1].enter + problem_->rules().headway : never;
     return {visits[k].enter - approach, end};
@@ -50,16 +50,9 @@ void FleetPlan::for_each_row(RobotId robot, const TimedTrack& track, std::size_t
     }
 }
 
-// Calls `use` with each row from which a booking of a row excludes other robots. Points exclude
-// each other from vertices only.
+// Calls `use` with each row from which a booking of a row excludes other robots.
 template <class Use>
 void FleetPlan::for_each_mark(std::int32_t row, const Use& use) const {
-    if (!problem_->has_sizes()) {
-        if (row < problem_->n_vertices()) {
-            use(row);
-        }
-        return;
-    }
     for (const std::int32_t other : problem_->excluded(row)) {
         use(other);
     }

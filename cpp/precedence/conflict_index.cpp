@@ -12,12 +12,6 @@ namespace {
 // below 2^63.
 constexpr std::int64_t most_pairs = std::int64_t{1} << 30;
 
-Booking booked(VisitId visit, const Routes& routes, const Timetable& timetable) {
-    const Tick start = timetable.enter(visit) - routes.approach(visit);
-    const Tick end = routes.is_last(visit) ? never : timetable.leave(visit) + routes.headway();
-    return {start, end};
-}
-
 template <class Accept>
 std::vector<VisitId> visits_where(const Routes& routes, Accept&& accept) {
     std::vector<VisitId> visits;
@@ -62,21 +56,18 @@ ConflictIndex::Groups<Value>::Groups(const Routes& routes, std::vector<VisitId> 
 
 ConflictIndex::ConflictIndex(const Routes& routes)
     : routes_(routes),
-      bookings_(
-          routes, visits_where(routes, [&](VisitId) { return !routes.has_sizes(); }),
+      stays_(
+          routes, visits_where(routes, [](VisitId) { return true; }),
           [&](VisitId x) { return routes.vertex(x); }, [&](VisitId x) { return routes.vertex(x); }),
       enters_(
-          routes,
-          visits_where(routes,
-                       [&](VisitId x) { return !routes.has_sizes() && routes.may_swap(x); }),
+          routes, visits_where(routes, [&](VisitId x) { return routes.may_swap(x); }),
           [&](VisitId x) { return std::pair(routes.vertex(x - 1), routes.vertex(x)); },
-          [&](VisitId x) { return std::pair(routes.vertex(x), routes.vertex(x - 1)); }),
-      stays_(routes.has_sizes() ? static_cast<std::size_t>(routes.n_visits()) : 0) {
+          [&](VisitId x) { return std::pair(routes.vertex(x), routes.vertex(x - 1)); }) {
     for (auto& slot : enters_.slots) {
         slot.value = never;
     }
     std::int64_t n_pairs = 0;
-    for (const auto& range : bookings_.others) {
+    for (const auto& range : stays_.others) {
         n_pairs += range.end - range.own_end;  // each pair of visits once
     }
     if (n_pairs > most_pairs) {
@@ -87,14 +78,8 @@ ConflictIndex::ConflictIndex(const Routes& routes)
     }
 }
 
-bool ConflictIndex::has(VisitId visit) const {
-    return routes_.has_sizes()
-               ? stays_[index(visit)].start != never
-               : !bookings_.slots[index(bookings_.slot_of[index(visit)])].value.is_empty();
-}
-
 Tick ConflictIndex::add(VisitId visit, const Timetable& timetable) {
-    if (has(visit)) {
+    if (stay(visit).start != never) {
         return 0;
     }
     move(visit, timetable);
@@ -103,11 +88,7 @@ Tick ConflictIndex::add(VisitId visit, const Timetable& timetable) {
 
 Tick ConflictIndex::remove(VisitId visit) {
     const Tick removed = weight(visit);
-    if (routes_.has_sizes()) {
-        stays_[index(visit)] = {};
-        return removed;
-    }
-    *bookings_.find(visit) = no_booking;
+    *stays_.find(visit) = {};
     if (Tick* const enter = enters_.find(visit)) {
         *enter = never;
     }
@@ -118,14 +99,12 @@ void ConflictIndex::move(VisitId visit, const Timetable& timetable) {
     if (!routes_.is_active(routes_.robot(visit))) {
         return;
     }
-    if (routes_.has_sizes()) {
-        const auto [start, end] = booked(visit, routes_, timetable);
-        const Tick edge_start =
-            routes_.is_last(visit) ? never : timetable.leave(visit) - routes_.approach(visit + 1);
-        stays_[index(visit)] = {start, edge_start, end};
-        return;
+    Stay& stay = *stays_.find(visit);
+    stay.start = timetable.enter(visit) - routes_.approach(visit);
+    if (!routes_.is_last(visit)) {
+        stay.edge_start = timetable.leave(visit) - routes_.approach(visit + 1);
+        stay.end = timetable.leave(visit) + routes_.headway();
     }
-    *bookings_.find(visit) = booked(visit, routes_, timetable);
     if (Tick* const enter = enters_.find(visit)) {
         *enter = timetable.enter(visit);
     }
@@ -135,8 +114,8 @@ template <class Use>
 void ConflictIndex::for_each_conflict(VisitId visit, Use&& use) const {
     if (routes_.has_sizes()) {
         for (const IncompatibleVisit& other : routes_.incompatible(visit)) {
-            const Booking own = stays_[index(visit)].from(other.own_is_later != 0);
-            const Booking its = stays_[index(other.visit)].from(other.is_later != 0);
+            const Booking own = stay(visit).from(other.own_is_later != 0);
+            const Booking its = stay(other.visit).from(other.is_later != 0);
             if (const Tick weight = overlap(own, its); weight > 0) {
                 use(Other{other.visit, routes_.robot(other.visit)}, std::max(own.start, its.start),
                     weight, ConflictKind::vertex);
@@ -144,9 +123,9 @@ void ConflictIndex::for_each_conflict(VisitId visit, Use&& use) const {
         }
         return;
     }
-    const Booking own = bookings_.slots[index(bookings_.slot_of[index(visit)])].value;
-    bookings_.for_each_other(visit, [&](const auto& other) {
-        if (const Tick weight = overlap(own, other.value); weight > 0) {
+    const Booking own = stay(visit).from(false);
+    stays_.for_each_other(visit, [&](const auto& other) {
+        if (const Tick weight = overlap(own, other.value.from(false)); weight > 0) {
             use(other, std::max(own.start, other.value.start), weight, ConflictKind::vertex);
         }
     });

@@ -43,6 +43,15 @@ class ConflictIndex {
     std::optional<Conflict> earliest(VisitId visit, RobotId other) const;
 
   private:
+    // What a visit books: its vertex, and later the edge driven out.
+    struct Stay {
+        Tick start = never;
+        Tick edge_start = never;
+        Tick end = never;
+
+        Booking from(bool is_edge) const { return {is_edge ? edge_start : start, end}; }
+    };
+
     // Visits with a value each, grouped by a key. Each visit can have conflicts with the slots of
     // one key, except the slots of its own robot.
     template <class Value>
@@ -86,21 +95,14 @@ class ConflictIndex {
         }
     };
 
-    // What a visit books where robots have sizes: its vertex, and later the edge driven out.
-    struct Stay {
-        Tick start = never;
-        Tick edge_start = never;
-        Tick end = never;
-
-        Booking from(bool is_edge) const { return {is_edge ? edge_start : start, end}; }
-    };
-
     struct Other {
         VisitId visit;
         RobotId robot;
     };
 
-    bool has(VisitId visit) const;
+    const Stay& stay(VisitId visit) const {
+        return stays_.slots[index(stays_.slot_of[index(visit)])].value;
+    }
     // Calls use(other, tick, weight, kind) for each conflict of a visit.
     template <class Use>
     void for_each_conflict(VisitId visit, Use&& use) const;
@@ -110,9 +112,8 @@ class ConflictIndex {
     std::optional<Conflict> earliest_where(VisitId visit, Accept&& accept) const;
 
     const Routes& routes_;
-    Groups<Booking> bookings_;
-    Groups<Tick> enters_;
-    std::vector<Stay> stays_;  // of each visit, only where robots have sizes
+    Groups<Stay> stays_;   // by vertex
+    Groups<Tick> enters_;  // by edge
 };
 
 }  // namespace rightofway

@@ -42,8 +42,11 @@ class IncompatibleVisits {
 
     bool is_known() const { return !first_.empty(); }  // false where no robot has a size
 
-    // Visits of other robots, in increasing order.
+    // Visits of other robots, in increasing order; none where no robot has a size.
     std::span<const IncompatibleVisit> of(VisitId visit) const {
+        if (!is_known()) {
+            return {};
+        }
         return {others_.data() + first_[index(visit)], others_.data() + first_[index(visit + 1)]};
     }
 

@@ -54,9 +54,6 @@ std::vector<VisitId> PrecedenceGraph::incompatible(RobotId robot, RobotId other)
     require_id("i", robot, n_robots());
     require_id("j", other, n_robots());
     std::vector<VisitId> found;
-    if (!routes_.has_sizes()) {
-        return found;
-    }
     for (VisitId x = routes_.first_of(robot); x <= routes_.last_of(robot); ++x) {
         const auto all = routes_.incompatible(x);
         auto one = std::lower_bound(

@@ -21,7 +21,6 @@
 #include "precedence/raise_search.hpp"
 #include "precedence/rights_of_way.hpp"
 #include "precedence/routes.hpp"
-#include "problem/problem.hpp"
 
 namespace rightofway {
 
@@ -138,11 +137,5 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     std::vector<std::uint8_t> is_in_instant_;
     std::vector<OldEnter> risen_;  // visits that closures raised, with their enters before
 };
-
-// Shifts each visit of the tracks to the earliest time that keeps the order of visits at every
-// vertex, or of bookings that exclude each other where robots have sizes, in one sweep.
-// Precondition: no conflicts. No visit becomes later. Only an exception of `interrupt`, which is
-// polled, ends it early.
-void retime(const Problem& problem, Tracks& tracks, const StopCondition& interrupt = {});
 
 }  // namespace rightofway

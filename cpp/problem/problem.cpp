@@ -30,9 +30,11 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const R
     : arrays_(arrays),
       roads_{{arrays.indptr, arrays.heads}, arrays.length_class},
       rules_(rules),
-      resources_(resources),
+      size_of_(resources.size_of),
+      lists_{resources.first, resources.excluded, roads_.graph.n_vertices()},
       turns_(turns),
-      closures_(closures) {
+      closures_(closures),
+      n_rows_(roads_.graph.n_vertices()) {
     if (arrays_.n_classes < 0) {
         reject("n_classes", arrays_.n_classes, "is negative");
     }
@@ -54,9 +56,7 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const R
         require_durations("surcharges", arrays_.surcharges);
     }
     check_robots();
-    if (has_sizes()) {
-        check_resources();
-    }
+    check_resources();
     if (!turns_.class_of.empty()) {
         check_turns();
     }
@@ -66,10 +66,11 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const R
 void Problem::check_closures() {
     require_length("closed_from", closures_.start.size(), closures_.row.size());
     require_length("closed_until", closures_.end.size(), closures_.row.size());
-    require_ids("closed_row", closures_.row, has_sizes() ? n_rows() : n_resources());
-    closes_edges_ =
-        !has_sizes() && std::any_of(closures_.row.begin(), closures_.row.end(),
-                                    [this](std::int32_t row) { return row >= n_vertices(); });
+    require_ids("closed_row", closures_.row, std::max(n_rows(), n_resources()));
+    if (std::any_of(closures_.row.begin(), closures_.row.end(),
+                    [this](std::int32_t row) { return row >= n_vertices(); })) {
+        n_rows_ = std::max(n_rows_, n_resources());
+    }
     for (std::size_t k = 0; k < closures_.row.size(); ++k) {
         if (closures_.start[k] < 0 || closures_.end[k] <= closures_.start[k] ||
             closures_.end[k] > never) {
@@ -111,16 +112,21 @@ void Problem::check_turns() const {
 }
 
 void Problem::check_resources() {
-    require_length("size_of", resources_.size_of.size(), arrays_.home.size());
+    if (lists_.is_identity()) {
+        size_of_ = {};
+        return;
+    }
+    n_rows_ = static_cast<std::int32_t>(lists_.first.size()) - 1;
+    require_length("size_of", size_of_.size(), arrays_.home.size());
     if (n_resources() == 0 || n_rows() % n_resources() != 0) {
         reject("first", n_rows(),
                "rows are no multiple of the number of vertices and edges, " +
                    std::to_string(n_resources()));
     }
-    require_ids("size_of", resources_.size_of, n_rows() / n_resources());
-    require_excluded_rows({resources_.first, resources_.excluded});
+    require_ids("size_of", size_of_, n_rows() / n_resources());
+    require_excluded_rows(lists_);
     edges_exclude_ =
-        std::any_of(resources_.excluded.begin(), resources_.excluded.end(),
+        std::any_of(lists_.excluded.begin(), lists_.excluded.end(),
                     [this](std::int32_t row) { return row % n_resources() >= n_vertices(); });
     if (!rules_.books_ahead) {
         throw std::invalid_argument("books_ahead: is false, but robots with sizes book ahead");
@@ -129,8 +135,7 @@ void Problem::check_resources() {
 
 bool Problem::moves_in_steps() const {
     const auto is_step = [](std::int32_t ticks) { return ticks == 1 || ticks == -1; };
-    if (!may_follow() || has_sizes() ||
-        !std::all_of(arrays_.paces.begin(), arrays_.paces.end(), is_step)) {
+    if (!may_follow() || !std::all_of(arrays_.paces.begin(), arrays_.paces.end(), is_step)) {
         return false;
     }
     for (RobotId r = 0; r < n_robots(); ++r) {

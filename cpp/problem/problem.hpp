@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/excluded_rows.hpp"
 #include "core/graph.hpp"
 #include "core/types.hpp"
 
@@ -38,19 +39,17 @@ struct ProblemArrays {
     std::span<const Tick> weight = {};      // per robot: of a tick of it; empty: all 1
 };
 
-// Which bookings exclude each other where robots have sizes; empty where none has. A *row* is a
-// resource as robots of one size class book it: row size * (V + E) + resource; resources are the
-// vertices, then the edges. A booking of row r excludes other robots from the rows
-// excluded[first[r]] .. excluded[first[r + 1] - 1]. An edge's list leaves out what the lists of its
-// ends hold, because both ends are booked for as long as the edge.
+// Which bookings exclude each other. A *row* is a resource as robots of one size class book it: row
+// size * (V + E) + resource; resources are the vertices, then the edges. An edge's list leaves out
+// what the lists of its ends hold, because both ends are booked for as long as the edge. Points are
+// a class of their own, and their lists need no arrays.
 struct Resources {
-    std::span<const std::int32_t> size_of;  // size class of each robot
+    std::span<const std::int32_t> size_of;  // size class of each robot; empty: all 0
     std::span<const std::int32_t> first;
     std::span<const std::int32_t> excluded;
 };
 
-// Bookings of nobody: row k of the booking table is closed from start[k] to end[k]. Where robots
-// have no sizes, row V + e is edge e.
+// Bookings of nobody: row k of the booking table is closed from start[k] to end[k].
 struct Closures {
     std::span<const std::int32_t> row;
     std::span<const Tick> start;
@@ -168,19 +167,13 @@ class Problem {
         return arrays_.weight.empty() ? 1 : arrays_.weight[index(robot)];
     }
 
-    bool has_sizes() const { return !resources_.first.empty(); }
-    // Whether drives book edges: where robots have sizes, or an edge is closed.
-    bool books_edges() const { return has_sizes() || closes_edges_; }
+    // Whether drives book edges: where lists are given, or an edge is closed.
+    bool books_edges() const { return n_rows_ > n_vertices(); }
     const Closures& closures() const { return closures_; }
-    // Without sizes, the rows are the vertices, and the edges if drives book edges.
-    std::int32_t n_rows() const {
-        if (has_sizes()) {
-            return static_cast<std::int32_t>(resources_.first.size()) - 1;
-        }
-        return closes_edges_ ? n_resources() : n_vertices();
-    }
+    // The rows of all size classes; for points without the edges, unless drives book edges.
+    std::int32_t n_rows() const { return n_rows_; }
     std::int32_t first_row(RobotId robot) const {
-        return has_sizes() ? resources_.size_of[index(robot)] * n_resources() : 0;
+        return size_of_.empty() ? 0 : size_of_[index(robot)] * n_resources();
     }
     std::int32_t vertex_row(RobotId robot, VertexId vertex) const {
         return first_row(robot) + vertex;
@@ -192,16 +185,13 @@ class Problem {
     // Whether a drive along some edge excludes robots from more than its ends do. If not, no list
     // of excluded rows has a row of an edge.
     bool edges_exclude() const { return edges_exclude_; }
-    // Vertices, and edges after them. Only where robots have sizes, edges are booked.
+    // Vertices, and edges after them.
     std::int32_t n_resources() const {
         return n_vertices() + static_cast<std::int32_t>(arrays_.heads.size());
     }
-    // Only where robots have sizes: the rows from which a booking of a row excludes other robots.
-    std::span<const std::int32_t> excluded(std::int32_t row) const {
-        const auto begin = index(resources_.first[index(row)]);
-        const auto end = index(resources_.first[index(row + 1)]);
-        return resources_.excluded.subspan(begin, end - begin);
-    }
+    // The rows from which a booking of a row excludes other robots.
+    std::span<const std::int32_t> excluded(const std::int32_t& row) const { return lists_.of(row); }
+    std::span<const std::int32_t> excluded(std::int32_t&&) const = delete;
 
     // The ticks of a robot's drive along an edge, -1 if it is barred.
     std::int32_t drive(RobotId robot, EdgeId edge) const {
@@ -219,10 +209,10 @@ class Problem {
         return !is_barred_ || drive(robot, tail, head) >= 0;
     }
 
+    // How long before its enter a visit books its vertex, after a drive.
+    Tick approach(Tick drive_ticks) const { return rules_.books_ahead ? drive_ticks : 0; }
     // The least ticks from the leave of one robot to the enter of the next robot after its drive.
-    Tick gap(Tick drive_ticks) const {
-        return rules_.headway + (rules_.books_ahead ? drive_ticks : 0);
-    }
+    Tick gap(Tick drive_ticks) const { return rules_.headway + approach(drive_ticks); }
     // Whether a robot can enter a vertex at the instant when another robot leaves it.
     bool may_follow() const { return rules_.headway == 0 && !rules_.books_ahead; }
     bool may_rotate() const { return rules_.rotations && may_follow(); }
@@ -239,10 +229,11 @@ class Problem {
     ProblemArrays arrays_;
     Roads roads_;
     BookingRules rules_;
-    Resources resources_;
+    std::span<const std::int32_t> size_of_;
+    ExcludedRows lists_;
     TurnArrays turns_;
     Closures closures_;
-    bool closes_edges_ = false;
+    std::int32_t n_rows_;
     bool edges_exclude_ = false;
     bool is_barred_ = false;
 };

@@ -63,11 +63,11 @@ PeriodicBookings::PeriodicBookings(std::int32_t n_rows, std::optional<Tick> peri
         reject("headway", headway, "is negative or too long");
     }
     at_.resize(static_cast<std::size_t>(n_rows));
+    is_changed_.assign(at_.size(), 0);
     if (has_sizes()) {
         require_length("first", first_.size(), at_.size() + 1);
         require_excluded_rows({first_, excluded_});
         joined_.resize(at_.size());
-        is_changed_.assign(at_.size(), 0);
     }
 }
 
@@ -150,7 +150,7 @@ bool PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const 
         const Tick start = enter[k] - approach(visits, k);
         const Tick folded = fold(start);
         bookings.push_back({visits.vertex[k], {folded, folded + (ends + headway_ - start), robot}});
-        if (has_sizes()) {
+        if (visits.edge_into(k) != none) {
             const Tick arrives = folded + (enter[k] + headway_ - start);
             bookings.push_back({visits.edge[k], {folded, arrives, robot}});
         }
@@ -168,12 +168,7 @@ bool PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const 
         rows.push_back(row);
     };
     for (const auto& [row, booking] : bookings) {
-        if (!has_sizes()) {
-            insert(row, booking);
-            continue;
-        }
-        for (auto k = first_[index(row)]; k < first_[index(row) + 1]; ++k) {
-            const std::int32_t marked = excluded_[index(k)];
+        for (const std::int32_t marked : ExcludedRows{first_, excluded_}.of(row)) {
             insert(marked, booking);
             is_changed_[index(marked)] = 1;
         }
@@ -189,9 +184,7 @@ void PeriodicBookings::remove(RobotId robot) {
     }
     for (const std::int32_t row : found->second) {
         std::erase_if(at_[index(row)], [robot](const Booking& one) { return one.robot == robot; });
-        if (has_sizes()) {
-            is_changed_[index(row)] = 1;
-        }
+        is_changed_[index(row)] = 1;
     }
     rows_of_.erase(found);
 }

@@ -51,7 +51,7 @@ def knows(planner: str, scenario: Scenario) -> bool:
     features, problem = SPECS[planner].features, scenario.problem
     return all(
         (
-            Feature.SIZES in features or problem.resources is None,
+            Feature.SIZES in features or problem.resources.are_points,
             Feature.TURN_RATES in features
             or all(one.turning is None for one in problem.itineraries),
             Feature.CLOSURES in features or not scenario.closures,

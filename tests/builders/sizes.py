@@ -41,7 +41,7 @@ def has_room(scenario: Scenario) -> bool:
     resources = scenario.problem.resources
     itineraries = scenario.problem.itineraries
     ends = [one.home for one in itineraries], [one.last for one in itineraries]
-    return resources is None or not any(any(resources.clashes(places)) for places in ends)
+    return not any(any(resources.clashes(places)) for places in ends)
 
 
 def sized(seed: int, *, robots: int = 4, headway: int = 0) -> Scenario:

@@ -22,13 +22,20 @@ from tests.builders.sizes import crossing
 from tests.oracles.space import incompatible
 
 
-def lists(resources: Resources | None) -> list[list[int]]:
-    assert resources is not None
-    return [resources.excluded_by(row).tolist() for row in range(len(resources.first) - 1)]
+def lists(resources: Resources) -> list[list[int]]:
+    assert resources.lists is not None
+    return [resources.excluded_by(row).tolist() for row in range(len(resources.lists.first) - 1)]
 
 
-def test_a_fleet_of_points_has_no_resources() -> None:
-    assert grid_fleet(["..."], [("N0", "N2")]).problem.resources is None
+def test_a_point_excludes_others_from_its_vertex_and_needs_no_lists() -> None:
+    """Three vertices, then four edges."""
+    trips = [("N0", "N2"), ("N2", "N0")]
+    resources = grid_fleet(["..."], trips).problem.resources
+    assert resources.lists is None
+    excluded = [resources.excluded_by(row).tolist() for row in range(7)]
+    assert excluded == [[0], [1], [2], [], [], [], []]
+    assert list(resources.clashes([1, 2])) == []
+    assert resources.vertices_near(0, 2).tolist() == [2]
 
 
 def test_crossing_lanes_exclude_each_other_in_both_directions() -> None:

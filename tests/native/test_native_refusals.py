@@ -56,7 +56,7 @@ def with_entry(array: Any, index: int, value: float) -> Any:
 HEADS = problem_arguments("points")["roads"].arguments["heads"]
 
 PROBLEMS = [
-    ("sizes", {"lists": None}, "size_of, lists: one of them is given alone"),
+    ("sizes", {"size_of": None}, "size_of: is needed with lists"),
     ("sizes", {"first": int32()}, "first: its length is 0, but must be at least 1"),
     ("sizes", {"first": int32(0, 0), "excluded": int32()}, "first: 1 rows are no multiple .*, 46"),
     ("sizes", {"first": with_entry(FIRST, 3, 0)}, r"first\[3\]: 0 is less than the entry"),

@@ -7,16 +7,16 @@ from typing import Literal
 from rightofway.cyclic.rolling_horizon import RollingHorizon
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.simulator import HorizonParams, choose_pacemaker
-from rightofway.cyclic.window import AnySegment, Window, WindowRule
+from rightofway.cyclic.window import Window, WindowRule
 from rightofway.planners.conflict_resolution import rights_if_waits
-from rightofway.precedence import Meeting
+from rightofway.precedence import Meeting, Segment
 
 __all__ = ["rolling"]
 
 LAP_LOSS = 1 << 40
 
 
-def first_come(window: Window, meeting: Meeting, segment: AnySegment) -> Literal[0, 1]:
+def first_come(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 1]:
     """Let the robot go first that would enter the segment first; on a tie the first listed."""
     (i, j), graph = meeting.robots, window.graph
     i_enters = graph.enter(graph.visit(i, segment.i_first))
@@ -24,12 +24,12 @@ def first_come(window: Window, meeting: Meeting, segment: AnySegment) -> Literal
     return 0 if j_enters < i_enters else 1
 
 
-def fixed_order(_window: Window, _meeting: Meeting, _segment: AnySegment) -> Literal[0, 1]:
+def fixed_order(_window: Window, _meeting: Meeting, _segment: Segment) -> Literal[0, 1]:
     """Let the robot go first that the scenario lists first."""
     return 1
 
 
-def least_loss(window: Window, meeting: Meeting, segment: AnySegment) -> Literal[0, 1]:
+def least_loss(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 1]:
     """Let the robot wait that loses the smaller part of a lap; on a tie as first come."""
     of_i, of_j = (_loss(window, meeting, segment, waits) for waits in (0, 1))
     if of_i == of_j:
@@ -37,7 +37,7 @@ def least_loss(window: Window, meeting: Meeting, segment: AnySegment) -> Literal
     return 0 if of_i < of_j else 1
 
 
-def _loss(window: Window, meeting: Meeting, segment: AnySegment, waits: int) -> int:
+def _loss(window: Window, meeting: Meeting, segment: Segment, waits: int) -> int:
     """Return the part of a lap that a robot loses by waiting: how late it is in the segment."""
     graph, context = window.graph, window.context
     later = 0

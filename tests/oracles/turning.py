@@ -52,7 +52,7 @@ class _State(NamedTuple):
 class _Fleet:
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
-        self.has_sizes = scenario.problem.resources is not None
+        self.has_sizes = not scenario.problem.resources.are_points
         self.excludes: dict[tuple[int, Shape, int, Shape], bool] = {}
 
     def clash(self, i: int, one: list[Shape], j: int, other: list[Shape]) -> bool:

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "fleets.hpp"
-#include "precedence/timetable.hpp"
+#include "precedence/retiming.hpp"
 
 namespace rightofway {
 namespace {

@@ -40,7 +40,7 @@ def repeated_plan(problem: CyclicProblem) -> Candidate | None:
         deadline=problem.deadline,
     )
     try:
-        if scenario.problem.resources is None:
+        if scenario.problem.resources.are_points:
             tracks = lacam(task).tracks
         else:
             tracks = prioritized(replace(task, options={"order": "shortest"})).tracks

@@ -119,7 +119,7 @@ class CyclicProblem:
         context, roadmap = self.context, self.context.scenario.roadmap
         resources = context.scenario.problem.resources
         rows = None
-        if resources is not None:
+        if not resources.are_points:
             rows = RowsOfLaps(roadmap=roadmap, resources=resources, robots=context.robots)
         return PeriodicBookings(
             roadmap.n_vertices,

@@ -21,13 +21,13 @@ import numpy as np
 from rightofway.cyclic.backjumping import LapDecision, RightOfWaySearch
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.simulator import DEFAULT, Deadlock, HorizonParams, choose_pacemaker
-from rightofway.cyclic.window import AnySegment, FrozenPrefix, TooShort, Window, WindowRule
+from rightofway.cyclic.window import FrozenPrefix, TooShort, Window, WindowRule
 from rightofway.planners import Deadline
 from rightofway.planners.two_level import by_two_levels
-from rightofway.precedence import Meeting
+from rightofway.precedence import Meeting, Segment
 
 
-def two_level(window: Window, meeting: Meeting, segment: AnySegment) -> Literal[0, 1]:
+def two_level(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 1]:
     """Decide as in the paper: fewest conflicts left in the window, then least time of two robots.
 
     On a tie, the robot that would enter the segment later waits.

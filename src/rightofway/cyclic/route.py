@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import accumulate, chain
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault
-from rightofway.model import Lap, Resources, Robot, Route, Scenario, Tick, lap_of
+from rightofway.model import Lap, Robot, Route, Scenario, Tick, lap_of
 from rightofway.model.problem import refuse_turn_rates
 from rightofway.native import BookedRows
 from rightofway.planners import planning_headway
@@ -25,7 +26,7 @@ from rightofway.planners.routing import (
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from rightofway.search import Distances
 from rightofway.search.missing_ways import reaches_its_places
-from rightofway.site import Roadmap, VertexId
+from rightofway.site import VertexId
 
 NOTHING_REPEATS = "'none' leaves nothing to repeat (set return: home)"
 
@@ -158,23 +159,16 @@ class GroupContext:
         )
 
     def booked_at(self, index: int, visit: int) -> tuple[int, ...]:
-        """Return the rows that a visit books until its end: its vertex and the edge driven out.
-
-        For points the row is the vertex.
-        """
+        """Return the rows that a visit books until its end: its vertex and the edge driven out."""
         route, resources = self.routes[index], self.scenario.problem.resources
         vertex, following = route.vertex(visit), route.vertex(visit + 1)
-        if resources is None:
-            return (int(vertex),)
         edge = self.scenario.roadmap.edge(vertex, following)
         assert edge is not None, "laps lead along edges"
         return resources.vertex_row(route.robot, vertex), resources.edge_row(route.robot, edge)
 
     def excluding(self, index: int, visit: int) -> tuple[int, ...]:
         """Return the rows of other robots that keep a robot from the drive into a visit."""
-        route, resources = self.routes[index], self.scenario.problem.resources
-        if resources is None:
-            return (int(route.vertex(visit)),)
+        resources = self.scenario.problem.resources
         row, edge = self.booked_at(index, visit)[0], self.booked_at(index, visit - 1)[1]
         return (*resources.excluded_by(row).tolist(), *resources.excluded_by(edge).tolist())
 
@@ -318,75 +312,37 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     The new route is a shortest route that avoids all homes of other robots. Without a new route,
     the old route is kept.
     """
-    if scenario.problem.resources is not None:
-        return _avoid_homes_by_rows(scenario, scenario.problem.resources, routes)
-    avoiding = list(routes)
-    passed = [set(route.vertices) for route in avoiding]
-    itineraries = scenario.problem.itineraries
-    robot_at = {itinerary.home: robot for robot, itinerary in enumerate(itineraries)}
-    for robot, itinerary in enumerate(itineraries):
-        others = (robot_at[home] for home in passed[robot] & robot_at.keys() - {itinerary.home})
-        if not any(itinerary.home in passed[other] for other in others):
-            continue
-        homes = robot_at.keys() - {itinerary.home}
-        distances = Distances(_without(scenario.roadmap, homes))
-        if not reaches_its_places(itinerary, distances):
-            continue
-        avoiding[robot] = shortest_route(itinerary, distances)
-        passed[robot] = set(avoiding[robot].vertices)
-    return avoiding
-
-
-def _avoid_homes_by_rows(
-    scenario: Scenario, resources: Resources, routes: Sequence[Route]
-) -> list[Route]:
-    """Do as `avoid_homes` for robots with a size, which pass whatever a robot at home excludes."""
-    avoiding, roadmap = list(routes), scenario.roadmap
+    avoiding, roadmap, resources = list(routes), scenario.roadmap, scenario.problem.resources
     itineraries = scenario.problem.itineraries
     at_home = [
         frozenset(resources.excluded_by(resources.vertex_row(robot, one.home)).tolist())
         for robot, one in enumerate(itineraries)
     ]
+    owners = defaultdict[int, list[int]](list)  # of homes, by the rows that exclude them
+    for robot, rows in enumerate(at_home):
+        for row in rows:
+            owners[row].append(robot)
 
     def passed(robot: int) -> frozenset[int]:
         rows = resources.rows_of_lap(roadmap, robot, avoiding[robot].vertices[:-1])
         return frozenset(np.concatenate(rows).tolist())
 
     booked = [passed(robot) for robot in range(len(avoiding))]
-    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
-    heads = roadmap.heads.tolist()
+    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     for robot, itinerary in enumerate(itineraries):
-        others = [one for one in range(len(avoiding)) if one != robot]
-        if all(at_home[one].isdisjoint(booked[robot]) for one in others) or all(
-            at_home[robot].isdisjoint(booked[one])
-            for one in others
-            if not at_home[one].isdisjoint(booked[robot])
-        ):
+        met = {one for row in booked[robot] for one in owners.get(row, ()) if one != robot}
+        if all(at_home[robot].isdisjoint(booked[one]) for one in met):
             continue
-        shut = frozenset().union(*(at_home[one] for one in others))
-        edges = [
-            ends
-            for edge, ends in enumerate(zip(tails, heads, strict=True))
-            if resources.edge_row(robot, edge) in shut
-            or resources.vertex_row(robot, ends[1]) in shut
-        ]
-        distances = Distances(roadmap.without((), edges))
+        shut = {row for row, homes in owners.items() if homes != [robot]}
+        own = np.arange(resources.n_vertices + resources.n_edges) + resources.vertex_row(robot, 0)
+        is_shut = np.isin(own, list(shut))
+        edges = np.flatnonzero(is_shut[resources.n_vertices :] | is_shut[roadmap.heads])
+        ends = zip(tails[edges].tolist(), roadmap.heads[edges].tolist(), strict=True)
+        distances = Distances(roadmap.without((), list(ends)))
         if reaches_its_places(itinerary, distances):
             avoiding[robot] = shortest_route(itinerary, distances)
             booked[robot] = passed(robot)
     return avoiding
-
-
-def _without(roadmap: Roadmap, vertices: set[VertexId]) -> Roadmap:
-    """Return the roadmap without edges into the given vertices."""
-    stays = ~np.isin(roadmap.heads, list(vertices))
-    before = np.concatenate(([0], np.cumsum(stays)))
-    return replace(
-        roadmap,
-        indptr=before[roadmap.indptr].astype(np.int32),
-        heads=roadmap.heads[stays],
-        class_of_edge=roadmap.class_of_edge[stays],
-    )
 
 
 def independent_groups(scenario: Scenario, fleet: Sequence[CyclicRoute]) -> list[list[CyclicRoute]]:
@@ -421,7 +377,7 @@ def independent_groups(scenario: Scenario, fleet: Sequence[CyclicRoute]) -> list
 
 @dataclass(frozen=True, slots=True)
 class LapRows:
-    """What a lap books, and what it excludes other robots from; for points both are its vertices.
+    """What a lap books, and what it excludes other robots from.
 
     Attributes
     ----------
@@ -438,9 +394,6 @@ class LapRows:
 def rows_of(scenario: Scenario, robot: int, lap: Lap) -> LapRows:
     """Return what a lap of a robot books and excludes."""
     resources = scenario.problem.resources
-    if resources is None:
-        vertices = frozenset(map(int, lap.vertices))
-        return LapRows(vertices, vertices)
     booked = frozenset(
         np.concatenate(resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)).tolist()
     )

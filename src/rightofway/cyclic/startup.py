@@ -85,18 +85,11 @@ def _first_home(timetable: CyclicSchedule, robot: int, begins: int) -> tuple[int
 
 
 def _passes(scenario: Scenario, timetable: CyclicSchedule) -> dict[int, NDArray[np.int64]]:
-    """Return for each robot the enters of other robots' visits to its home, if any.
-
-    Where robots have a size: of visits that exclude it from its home.
-    """
+    """Return for each robot the enters of others' visits that exclude it from its home, if any."""
     resources = scenario.problem.resources
     owners = defaultdict[int, list[int]](list)  # of homes, by the rows that exclude them
     booked = list[list[tuple[int, ...]]]()  # of each visit of each lap
     for index, (robot, lap) in enumerate(zip(timetable.robots, timetable.laps, strict=True)):
-        if resources is None:
-            owners[int(lap.vertices[0])].append(index)
-            booked.append([(int(vertex),) for vertex in lap.vertices])
-            continue
         rows = resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)
         for row in resources.excluded_by(int(rows[0][0])).tolist():
             owners[row].append(index)

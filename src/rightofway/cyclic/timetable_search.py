@@ -236,14 +236,12 @@ def _part(
 def _round_trip(
     scenario: Scenario, robot: int, distances: Distances, taken: set[int]
 ) -> RoundTrip | None:
-    """Return a round trip of a robot that keeps clear of rows; for points these are vertices.
+    """Return a round trip of a robot that keeps clear of rows.
 
     A robot with a size does not visit an end of an edge that it must not drive along. None if it
     works at both ends of such an edge.
     """
     resources, once = scenario.problem.resources, one_lap(scenario, robot)
-    if resources is None:
-        return RoundTrip.of(once, distances, forbidden=taken)
     places, roadmap = {stage.vertex for stage in once.stages}, scenario.roadmap
     forbidden = {
         vertex

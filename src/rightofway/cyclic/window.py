@@ -11,7 +11,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -22,10 +22,8 @@ from rightofway.model import Route, Tick
 from rightofway.native import BookedRows
 from rightofway.planners import Deadline, Task
 from rightofway.planners.conflict_resolution import PartialPlan
-from rightofway.precedence import Meeting, PrecedenceGraph, Segment, SegmentOfSizes
+from rightofway.precedence import Meeting, PrecedenceGraph, Segment
 from rightofway.site import VertexId
-
-AnySegment = Segment | SegmentOfSizes
 
 NumberedRight = tuple[tuple[int, int], tuple[int, int]]
 """A right of way of one visit over another; a visit is (robot, number)."""
@@ -111,7 +109,7 @@ class Window:
         )
         return (self.prefix.tick - self.begins, *frozen)
 
-    def is_endless(self, meeting: Meeting, segment: AnySegment) -> bool:
+    def is_endless(self, meeting: Meeting, segment: Segment) -> bool:
         """Return whether two robots are head-on for ever, so that neither can give way.
 
         Two cyclic routes that agree for the length of both laps together agree for ever (Fine and
@@ -131,11 +129,11 @@ class Window:
         if i_last < len(self.routes[i]) - 2 and j_last < len(self.routes[j]) - 2:
             return False
         i_lap, j_lap = len(self.context.routes[i]), len(self.context.routes[j])
-        if isinstance(segment, SegmentOfSizes):
+        if not self.context.scenario.problem.resources.are_points:
             recurrence = _recurrence(((pair.i, pair.j) for pair in segment.pairs), i_lap, j_lap)
             if recurrence is not None:
                 return recurrence == "head-on"
-        elif len(segment.vertices) >= i_lap + j_lap:
+        elif len(pairs) >= i_lap + j_lap:
             return True
         raise TooShort(meeting.robots)
 
@@ -143,9 +141,10 @@ class Window:
         """Return what the visits book where robots have a size; the last vertices are free."""
         scenario = self.context.scenario
         resources = scenario.problem.resources
-        if resources is None:
+        lists = resources.lists
+        if lists is None:
             return None
-        n_rows = len(resources.first) - 1
+        n_rows = len(lists.first) - 1
         beyond = np.array([n_rows], np.int32)
         at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
         for route, start, stretch in zip(
@@ -158,8 +157,7 @@ class Window:
         return BookedRows(
             vertex=np.concatenate(at_vertex),
             edge=np.concatenate(along_edge),
-            first=np.append(resources.first, resources.first[-1:]),
-            excluded=resources.excluded,
+            lists=replace(lists, first=np.append(lists.first, lists.first[-1:])),
         )
 
     def _route(self, robot: int, ahead: int, stop: int) -> Route:
@@ -216,5 +214,5 @@ def _recurrence(
     return recurs
 
 
-WindowRule = Callable[[Window, Meeting, AnySegment], Literal[0, 1]]
+WindowRule = Callable[[Window, Meeting, Segment], Literal[0, 1]]
 """Returns the robot (0: i, 1: j) of a meeting that waits if possible; else the other waits."""

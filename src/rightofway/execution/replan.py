@@ -147,7 +147,7 @@ def held_by_broken(forecast: Forecast) -> Held:
         here, end = forecast.visit_of(robot), int(adg.first_visit[robot + 1])
         held = adg.vertex[here:end][booked[here:end]].tolist()
         vertices.update(held)
-        if resources is not None:
+        if not resources.are_points:
             own = [resources.vertex_row(robot, vertex) for vertex in held]
             own += (
                 resources.edge_row(robot, edge)
@@ -155,7 +155,7 @@ def held_by_broken(forecast: Forecast) -> Held:
                 if (edge := adg.scenario.roadmap.edge(*ends)) is not None
             )
             rows.update(other for row in own for other in resources.excluded_by(row).tolist())
-    if resources is None:
+    if resources.are_points:
         return Held(vertices=frozenset(vertices))
     n_vertices, count = resources.n_vertices, resources.n_vertices + resources.n_edges
     others = (robot for robot in range(len(adg.routes)) if robot not in forecast.broken)
@@ -253,7 +253,7 @@ def _another_way(
     deadline: Deadline,
 ) -> tuple[list[Commitment], frozenset[int], list[Track]] | None:
     """Return commitments and stages, the smallest set of cut-off robots, and LaCAM's tracks."""
-    is_simple = rest.problem.resources is None and not rest.closures
+    is_simple = rest.problem.resources.are_points and not rest.closures
     find = _together if is_simple else _by_turns
     for cut_off, tried in islice(_choices(rest, broken, commitments), MOST_CHOICES):
         if deadline.seconds_left() == 0:
@@ -300,7 +300,7 @@ def _by_turns(
     ends = [one.last for one in problem.itineraries]
     is_clear = (
         len(set(ends)) == len(ends)
-        if problem.resources is None
+        if problem.resources.are_points
         else not any(problem.resources.clashes(ends))
     )
     if is_clear:
@@ -311,7 +311,7 @@ def _by_turns(
             tracks = search.tracks()
     if tracks:
         return tracks
-    if problem.resources is None:  # its order of visits may keep the closures
+    if problem.resources.are_points:  # its order of visits may keep the closures
         return _together(rest, cut_off, seed, deadline)
     return tracks_by_moves(task, ends_anywhere=cut_off, most_states=MOST_STATES)
 
@@ -421,7 +421,7 @@ def _spliced(
     adg, now = forecast.adg, forecast.now
     # The arrival of a robot with a size comes after all that has ended until now, and before all
     # that is new. For points both begin at the vertex, and the order there is known.
-    arrives = now if adg.scenario.problem.resources is None else now + 1
+    arrives = now if adg.scenario.problem.resources.are_points else now + 1
     routes, tracks, sinces = [], [], []
     for robot, (one, old) in enumerate(zip(commitments, adg.routes, strict=True)):
         itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]

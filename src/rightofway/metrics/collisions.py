@@ -213,7 +213,7 @@ def near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, 
     """
     one_for_each(scenario.robots, tracks=tracks)
     resources = scenario.problem.resources
-    if resources is None:
+    if resources.are_points:  # their bookings exclude each other at one vertex: collisions
         return ()
     of_row: defaultdict[int, list[_Booking]] = defaultdict(list)
     for robot, (track, stay) in enumerate(zip(tracks, stays_of(scenario, tracks), strict=True)):

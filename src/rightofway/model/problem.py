@@ -10,7 +10,7 @@ from math import gcd, lcm
 
 from rightofway.errors import InputError
 from rightofway.model.closures import Closure, Closures, closures_of
-from rightofway.model.resources import Resources, resources_of
+from rightofway.model.resources import Resources, points_on, resources_of
 from rightofway.model.robot import Robot, Rules
 from rightofway.model.turning import Turning, turnings_of
 from rightofway.model.units import Clock, Tick, choose_clock
@@ -125,7 +125,7 @@ class Problem:
     itineraries
         One for each robot.
     resources
-        Which bookings exclude each other, or None where no robot has a size and there is no zone.
+        Which bookings exclude each other.
     closures
         The bookings of nobody, or None where nothing is closed.
     """
@@ -136,7 +136,7 @@ class Problem:
     books_ahead: bool
     rotations: bool
     itineraries: tuple[Itinerary, ...]
-    resources: Resources | None = None
+    resources: Resources
     closures: Closures | None = None
 
     @property
@@ -172,7 +172,7 @@ class Problem:
             books_ahead=False,
             rotations=self.rotations and self.headway == 0 and not self.books_ahead,
             itineraries=tuple(one.in_steps() for one in self.itineraries),
-            resources=None,
+            resources=points_on(self.roadmap, len(self.itineraries)),
             closures=None,
         )
 

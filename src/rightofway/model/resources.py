@@ -1,6 +1,7 @@
-"""What robots with a size book, and which bookings exclude each other.
+"""What robots book, and which bookings exclude each other.
 
-A resource is a vertex or an edge. Robots of different sizes exclude different resources, so a
+A resource is a vertex or an edge. A point is a robot of size nothing: a vertex excludes itself, an
+edge nothing. Robots of different sizes exclude different resources, so a
 *row* is a resource as robots of one size class book it: row ``size * (V + E) + resource``, where
 the vertices come first. A robot that books a row excludes robots of every size class from the rows
 in its list. Safe planning then needs no geometry: a robot marks all rows in the lists of what it
@@ -61,13 +62,13 @@ Exact = NDArray[Any]
 """Integers of 64 bits where they fit, else Python integers of any size."""
 
 
-def refuse_sizes(resources: Resources | None, what: str, remedy: str) -> None:
+def refuse_sizes(resources: Resources, what: str, remedy: str) -> None:
     """Refuse a fleet in which a robot has a size, or whose roadmap has zones.
 
     Parameters
     ----------
     resources
-        The resources of the fleet, None where no robot has a size and there is no zone.
+        The resources of the fleet.
     what
         What does not know sizes yet.
     remedy
@@ -78,7 +79,7 @@ def refuse_sizes(resources: Resources | None, what: str, remedy: str) -> None:
     InputError
         If a robot has a size, or there is a zone.
     """
-    if resources is not None:
+    if not resources.are_points:
         message = f"{what} does not know robots with a size or zones ({remedy})"
         raise InputError.at("", message)
 
@@ -207,6 +208,21 @@ def close_pairs(roadmap: Roadmap, distance: Fraction) -> ClosePairs:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ExcludedRows:
+    """The rows that each row excludes.
+
+    Attributes
+    ----------
+    first, excluded
+        Robots that book row ``r`` exclude others from the rows ``excluded[first[r]:first[r + 1]]``,
+        in increasing order; int32, shapes (rows + 1,) and (n,).
+    """
+
+    first: NDArray[np.int32]
+    excluded: NDArray[np.int32]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Resources:
     """Which bookings of a fleet exclude each other.
 
@@ -216,16 +232,19 @@ class Resources:
         Vertices and edges of the roadmap.
     size_of
         Size class of each robot; int32, shape (R,).
-    first, excluded
-        Robots that book row ``r`` exclude others from the rows ``excluded[first[r]:first[r + 1]]``,
-        in increasing order; int32, shapes (rows + 1,) and (n,).
+    lists
+        The rows that each row excludes; None for points without zones, which need none.
     """
 
     n_vertices: int
     n_edges: int
     size_of: NDArray[np.int32]
-    first: NDArray[np.int32] = field(repr=False)
-    excluded: NDArray[np.int32] = field(repr=False)
+    lists: ExcludedRows | None = field(default=None, repr=False)
+
+    @property
+    def are_points(self) -> bool:
+        """Whether no robot has a size and there is no zone: a vertex excludes itself."""
+        return self.lists is None
 
     def vertex_row(self, robot: int, vertex: int) -> int:
         """Return the row that a robot books at a vertex."""
@@ -255,7 +274,9 @@ class Resources:
 
     def excluded_by(self, row: int) -> NDArray[np.int32]:
         """Return the rows that a booking of a row excludes."""
-        return self.excluded[self.first[row] : self.first[row + 1]]
+        if self.lists is None:
+            return np.array([row] if row < self.n_vertices else [], np.int32)
+        return self.lists.excluded[self.lists.first[row] : self.lists.first[row + 1]]
 
     def vertices_near(self, robot: int, vertex: int) -> NDArray[np.int32]:
         """Return the vertices that robots of some size cannot book while a robot is at a vertex."""
@@ -281,10 +302,8 @@ class Resources:
                 yield from ((robot, one) for one in holders.get(other, ()) if robot < one)
 
 
-def resources_of(
-    roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fraction
-) -> Resources | None:
-    """Return the resources of a fleet, or None where no robot has a size and there is no zone.
+def resources_of(roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fraction) -> Resources:
+    """Return the resources of a fleet.
 
     Parameters
     ----------
@@ -300,23 +319,35 @@ def resources_of(
     InputError
         For zones that hold more than `MOST_PAIRS_IN_ZONES` pairs.
     """
-    if not any(radii) and not roadmap.zones:
-        return None
     sizes = tuple(sorted(set(radii)))
-    first, excluded = _excluded(roadmap, sizes, clearance)
+    has_lists = any(radii) or bool(roadmap.zones)
     return Resources(
         n_vertices=roadmap.n_vertices,
         n_edges=roadmap.n_edges,
         size_of=np.array([sizes.index(radius) for radius in radii], np.int32),
-        first=first,
-        excluded=excluded,
+        lists=_excluded(roadmap, sizes, clearance) if has_lists else None,
+    )
+
+
+def points_on(roadmap: Roadmap, n_robots: int) -> Resources:
+    """Return the resources of a fleet of points.
+
+    Parameters
+    ----------
+    roadmap
+        The vertices and edges.
+    n_robots
+        How many robots there are.
+    """
+    return Resources(
+        n_vertices=roadmap.n_vertices,
+        n_edges=roadmap.n_edges,
+        size_of=np.zeros(n_robots, np.int32),
     )
 
 
 @lru_cache(maxsize=8)
-def _excluded(
-    roadmap: Roadmap, sizes: tuple[Fraction, ...], clearance: Fraction
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+def _excluded(roadmap: Roadmap, sizes: tuple[Fraction, ...], clearance: Fraction) -> ExcludedRows:
     """Return the lists of all rows in compressed sparse rows."""
     n_vertices, n_rows = roadmap.n_vertices, roadmap.n_vertices + roadmap.n_edges
     check_work(FINDING)
@@ -345,7 +376,8 @@ def _excluded(
             if sizes[other] > 0:
                 distance = sizes[one] + sizes[other] + clearance
                 exclude(one, other, [*drawing.nearer(distance, part), *crossing])
-    return _rows_of(keys, n_keys)
+    first, excluded = _rows_of(keys, n_keys)
+    return ExcludedRows(first=first, excluded=excluded)
 
 
 def _rows_of(parts: list[Ints], n_rows: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:

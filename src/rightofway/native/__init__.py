@@ -1,13 +1,14 @@
 """The waist of the native core: its twin of a problem, and what it takes beside."""
 
 from rightofway.native.bookings import BookedRows, ClosedPlaces, native_closures, native_rows
-from rightofway.native.problem import bound, compiler, roads_of, rules_of, tracks_of
+from rightofway.native.problem import bound, compiler, lists_of, roads_of, rules_of, tracks_of
 
 __all__ = [
     "BookedRows",
     "ClosedPlaces",
     "bound",
     "compiler",
+    "lists_of",
     "native_closures",
     "native_rows",
     "roads_of",

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import Lap, Route, Scenario, Tick
+from rightofway.model.resources import ExcludedRows
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -22,14 +23,13 @@ class BookedRows:
     vertex, edge
         The row of each visit's vertex, and of the edge driven out of it, -1 for last visits; int32,
         shape (N,).
-    first, excluded
-        The lists of rows that each row excludes, as in `Resources`.
+    lists
+        The rows that each row excludes.
     """
 
     vertex: NDArray[np.int32]
     edge: NDArray[np.int32]
-    first: NDArray[np.int32]
-    excluded: NDArray[np.int32]
+    lists: ExcludedRows
 
     @classmethod
     def of(
@@ -45,7 +45,7 @@ class BookedRows:
             The vertices that each robot visits.
         """
         resources = scenario.problem.resources
-        if resources is None:
+        if resources.lists is None:
             return None
         at_vertex, along_edge = [], []
         for robot, route in enumerate(vertices):
@@ -56,8 +56,7 @@ class BookedRows:
         return cls(
             vertex=np.concatenate(at_vertex, dtype=np.int32),
             edge=np.concatenate(along_edge, dtype=np.int32, casting="same_kind"),
-            first=resources.first,
-            excluded=resources.excluded,
+            lists=resources.lists,
         )
 
     @classmethod
@@ -74,7 +73,7 @@ class BookedRows:
             Robots of the scenario, the lap of each, and how many laps it makes in a period.
         """
         resources = scenario.problem.resources
-        if resources is None:
+        if resources.lists is None:
             return None
         at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
         for robot, lap, count in zip(robots, laps, counts, strict=True):
@@ -84,8 +83,7 @@ class BookedRows:
         return cls(
             vertex=np.concatenate(at_vertex, dtype=np.int32),
             edge=np.concatenate(along_edge, dtype=np.int32),
-            first=resources.first,
-            excluded=resources.excluded,
+            lists=resources.lists,
         )
 
 
@@ -155,7 +153,7 @@ def native_rows(rows: BookedRows | None) -> _core.VisitRows | None:
     """
     if rows is None:
         return None
-    lists = _core.ExcludedRows(rows.first, rows.excluded)
+    lists = _core.ExcludedRows(rows.lists.first, rows.lists.excluded)
     return _core.VisitRows(lists, rows.vertex, rows.edge)
 
 

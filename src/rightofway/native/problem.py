@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.errors import InputError, shown
 from rightofway.model import Problem, Tick, Track
+from rightofway.model.resources import Resources
 from rightofway.model.turning import Turning
 from rightofway.site import Roadmap
 
@@ -57,11 +58,11 @@ def bound(problem: Problem) -> _core.Problem:
                 stage_vertex=np.array([stage.vertex for stage in stages], np.int32),
                 stage_work=np.array([stage.work for stage in stages], np.int64),
                 stage_turn=np.array([stage.turn for stage in stages], np.int64),
-                size_of=None if sizes is None else sizes.size_of,
+                size_of=sizes.size_of,
                 weight=np.array([robot.weight for robot in robots], np.int64),
             ),
             rules_of(problem),
-            lists=None if sizes is None else _core.ExcludedRows(sizes.first, sizes.excluded),
+            lists=lists_of(sizes),
             turning=_turning(problem),
             surcharges=np.array(robots[0].surcharges, np.int64) if robots[0].surcharges else None,
             closures=(
@@ -80,6 +81,18 @@ def rules_of(problem: Problem) -> _core.BookingRules:
         The scenario in ticks.
     """
     return _core.BookingRules(int(problem.headway), problem.books_ahead, problem.rotations)
+
+
+def lists_of(resources: Resources) -> _core.ExcludedRows | None:
+    """Return the rows that each row excludes; None for points.
+
+    Parameters
+    ----------
+    resources
+        The resources of a fleet.
+    """
+    lists = resources.lists
+    return None if lists is None else _core.ExcludedRows(lists.first, lists.excluded)
 
 
 def roads_of(roadmap: Roadmap) -> _core.Roads:

@@ -28,7 +28,6 @@ from rightofway.precedence import (
     Meeting,
     PrecedenceGraph,
     Segment,
-    SegmentOfSizes,
     crossing,
     graph_of,
     graph_on,
@@ -105,12 +104,12 @@ class PartialPlan:
             self.decisions += resolution.decisions
             self.settled[list(meeting.robots)] = 1
 
-    def segment_of(self, meeting: Meeting) -> Segment | SegmentOfSizes:
+    def segment_of(self, meeting: Meeting) -> Segment:
         """Return the visits of which one robot goes first in all."""
         if self.sees_swaps:
             return self.graph.segment(*meeting.visits)
-        (i, visit_i), (_, visit_j) = (self.graph.place(visit) for visit in meeting.visits)
-        return crossing(self.routes[i], visit_i, visit_j)
+        (i, visit_i), (j, visit_j) = (self.graph.place(visit) for visit in meeting.visits)
+        return crossing(self.routes[i], visit_i, self.routes[j], visit_j)
 
     def defer(self, meeting: Meeting) -> None:
         """Take out one of two robots that no waiting keeps apart; the others keep their rights."""
@@ -141,9 +140,7 @@ class PartialPlan:
                 break
         return why
 
-    def decide(
-        self, meeting: Meeting, segment: Segment | SegmentOfSizes, waits: int, delay: Tick
-    ) -> Decision:
+    def decide(self, meeting: Meeting, segment: Segment, waits: int, delay: Tick) -> Decision:
         """Record that one of two robots (0: i, 1: j) waits; rules add their reasons."""
         first_visit = segment.i_first if waits == 0 else segment.j_first
         return Decision(
@@ -164,7 +161,7 @@ Rule = Callable[[PartialPlan, Meeting], Resolution | None]
 
 
 def rights_if_waits(
-    graph: PrecedenceGraph, meeting: Meeting, segment: Segment | SegmentOfSizes, waits: int
+    graph: PrecedenceGraph, meeting: Meeting, segment: Segment, waits: int
 ) -> tuple[Right, ...]:
     """Return the rights of way in a segment if one of two robots (0: i, 1: j) waits."""
     i, j = meeting.robots
@@ -220,7 +217,7 @@ def _for(names: Sequence[str], robot: int | None) -> str:
 def _plan_together(task: Task, because: str) -> Draft:
     robots, problem = range(len(task.scenario.robots)), task.scenario.problem
     found = None
-    if problem.resources is not None or not problem.is_open:
+    if not problem.resources.are_points or not problem.is_open:
         found = plan_in_turn(task, fleet_search(task), "shortest")
     return replace(
         found or plan_fleet(task),

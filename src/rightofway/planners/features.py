@@ -66,7 +66,7 @@ def refuse_unknown(
     InputError
         For robots with a size, turn rates, closures or barred edges, with the first that is found.
     """
-    if problem.resources is not None and Feature.SIZES not in features:
+    if not problem.resources.are_points and Feature.SIZES not in features:
         if Feature.LEAVES_SWAPS in features:
             why = "it leaves swaps, and robots with a size collide in them"
             raise InputError.at("", f"{what} is for points: {why} ({remedy(Feature.SIZES)})")

@@ -99,9 +99,7 @@ def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
 
 
 def _clashes(scenario: Scenario) -> Iterator[Blockage]:
-    """Yield where two robots with a size would start or end too near to each other."""
-    if scenario.problem.resources is None:
-        return
+    """Yield where two robots would start or end too near to each other."""
     itineraries, roadmap = scenario.problem.itineraries, scenario.roadmap
     length, clearance = scenario.quantities.length, scenario.rules.clearance
     homes, ends = [one.home for one in itineraries], [one.last for one in itineraries]

@@ -59,7 +59,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         found = plan_by_instants(task, spreads=spreads)
         if found is not None:
             return found
-    if problem.resources is not None:
+    if not problem.resources.are_points:
         task.report("no end by instants: planning the order of single moves")
         search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
         return plan_by_moves(task, search)

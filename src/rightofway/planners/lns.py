@@ -74,14 +74,14 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
     """
     problem = task.scenario.problem
     few = None
-    if problem.resources is not None or problem.closures is not None:
+    if not problem.resources.are_points or problem.closures is not None:
         few = plan_few(task, search)
     found: tuple[Draft | None, ...]
     if few is not None:
         found = (first, few)
     elif not problem.is_open:
         found = (first, _if_found(task, search, needed=first is None))
-    elif len(problem.itineraries) > MOST_ROBOTS and problem.resources is None:
+    elif len(problem.itineraries) > MOST_ROBOTS and problem.resources.are_points:
         found = (first, _together(task))
     else:
         together = _quickly_together(task)
@@ -89,7 +89,7 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
         found = (first, together, _in_turn(task, search, has_plan=has_plan))
     plans = [plan for plan in found if plan is not None]
     if not plans:
-        is_simple = problem.resources is None and problem.is_open
+        is_simple = problem.resources.are_points and problem.is_open
         together = _together(task) if is_simple else plan_fleet(task)
         plans = [together] if together is not None else []
     if not plans:
@@ -121,7 +121,7 @@ def _together(task: Task) -> Draft | None:
 
 def _quickly_together(task: Task) -> Draft | None:
     """Plan by LaCAM: in an instant, or not at all, as in long narrow lanes."""
-    share = SHARE if task.scenario.problem.resources is None else SHARE_WITH_SIZES
+    share = SHARE if task.scenario.problem.resources.are_points else SHARE_WITH_SIZES
     hurried = replace(task, deadline=task.deadline.sooner(share))
     draft = plan_by_instants(hurried, effort=EFFORT * len(task.scenario.robots))
     if draft is None:
@@ -132,7 +132,7 @@ def _quickly_together(task: Task) -> Draft | None:
 
 def _in_turn(task: Task, search: FleetSearch, *, has_plan: bool) -> Draft | None:
     """Plan robots one after another; without a plan, LaCAM needs time for a second attempt."""
-    if not has_plan and task.scenario.problem.resources is None:
+    if not has_plan and task.scenario.problem.resources.are_points:
         task = replace(task, deadline=task.deadline.sooner(SHARE_IN_TURN))
     draft = plan_in_turn(task, search, "shortest", has_plan=has_plan)
     if draft is not None:

@@ -83,8 +83,6 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
         After too many states, or when time ran out. With closures the moves are a proof only,
         because they have no times.
     """
-    resources = task.scenario.problem.resources
-    assert resources is not None, "this is for robots with a size"
     moves = _moves(task, _Floor(task), MOST_STATES)
     if task.scenario.problem.closures is not None:
         message = "robots one after another find no plan that keeps clear of closures"
@@ -114,8 +112,6 @@ def tracks_by_moves(task: Task, *, ends_anywhere: Collection[int], most_states: 
     GaveUp
         After too many states, or when time ran out.
     """
-    resources = task.scenario.problem.resources
-    assert resources is not None, "this is for robots with a size"
     return _in_sequence(task, _moves(task, _Floor(task, ends_anywhere), most_states))
 
 
@@ -297,20 +293,6 @@ class _Floor:
             for one, ways in zip(self.itineraries, self._ways, strict=True)
         ]
 
-    def _vertex_row(self, robot: int, vertex: int) -> int:
-        """Return the row that a robot books at a vertex; points book the vertex itself."""
-        return vertex if self._resources is None else self._resources.vertex_row(robot, vertex)
-
-    def _edge_row(self, robot: int, edge: int) -> int:
-        return self._vertex_row(robot, self._roadmap.n_vertices + edge)
-
-    def _excluded_rows(self, row: int) -> list[int]:
-        """Return the rows that a booking excludes; points exclude each other from vertices."""
-        if self._resources is not None:
-            rows: list[int] = self._resources.excluded_by(row).tolist()
-            return rows
-        return [row] if row < self._roadmap.n_vertices else []
-
     def _closed_at(self, robot: int, vertex: int) -> list[tuple[Tick, Tick]]:
         return [] if self._closures is None else self._closures.at_vertex(robot, vertex)
 
@@ -385,7 +367,10 @@ class _Floor:
         robot = move.robot
         drive = self.itineraries[robot].edge_ticks[self._roadmap.class_of_edge[move.edge]]
         approach = drive if self._ahead else 0
-        needed = {self._edge_row(robot, move.edge), self._vertex_row(robot, move.vertex)}
+        needed = {
+            self._resources.edge_row(robot, move.edge),
+            self._resources.vertex_row(robot, move.vertex),
+        }
         enter = timed.ready[robot] + drive
         turning = self.itineraries[robot].turning
         if turning is not None:
@@ -415,9 +400,9 @@ class _Floor:
         served = itinerary.stages[timed.state.stages[robot] : state.stages[robot]]
         ready = enter + least_dwell(served, leaves=True)
         ends = dict(timed.ends)
-        along = self._edge_row(robot, move.edge)
-        for left in (along, self._vertex_row(robot, timed.state.places[robot])):
-            for row in self._excluded_rows(left):
+        along = self._resources.edge_row(robot, move.edge)
+        for left in (along, self._resources.vertex_row(robot, timed.state.places[robot])):
+            for row in self._resources.excluded_by(left).tolist():
                 ends[row, robot] = enter + self._headway
         edges = timed.edges
         if itinerary.turning is not None:
@@ -434,7 +419,7 @@ class _Floor:
 
     def successors(self, state: _State) -> Iterator[tuple[_Move, _State]]:
         """Yield every move that the places of all other robots allow, and the state after it."""
-        rows = map(self._vertex_row, range(len(state.places)), state.places)
+        rows = map(self._resources.vertex_row, range(len(state.places)), state.places)
         excluded = [self._excluded_by(row) for row in rows]
         before, after = [0], [0]
         for mask in excluded:
@@ -446,7 +431,9 @@ class _Floor:
             first, end = int(self._roadmap.indptr[place]), int(self._roadmap.indptr[place + 1])
             for edge in range(first, end):
                 head = int(self._roadmap.heads[edge])
-                needed = 1 << self._vertex_row(robot, head) | 1 << self._edge_row(robot, edge)
+                needed = 1 << self._resources.vertex_row(
+                    robot, head
+                ) | 1 << self._resources.edge_row(robot, edge)
                 ticks = self.itineraries[robot].edge_ticks[self._roadmap.class_of_edge[edge]]
                 is_useless = ticks < 0 or self._ways[robot][state.stages[robot]][head] < 0
                 if needed & by_others or is_useless:
@@ -458,7 +445,9 @@ class _Floor:
     def _excluded_by(self, row: int) -> int:
         """Return the rows that a booking excludes, as bits."""
         if row not in self._excluded:
-            self._excluded[row] = sum(1 << other for other in self._excluded_rows(row))
+            self._excluded[row] = sum(
+                1 << other for other in self._resources.excluded_by(row).tolist()
+            )
         return self._excluded[row]
 
 

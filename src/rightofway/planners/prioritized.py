@@ -80,7 +80,7 @@ def plan_in_turn(
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
     problem = task.scenario.problem
-    if problem.resources is not None or problem.closures is not None:
+    if not problem.resources.are_points or problem.closures is not None:
         return _patiently(task, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES)
     searches, deadline = SEARCHES * len(turns), task.deadline
     if search.prioritize(

@@ -42,7 +42,7 @@ from rightofway.planners.conflict_resolution import (
 from rightofway.planners.features import refuse_with_swaps_left
 from rightofway.planners.routing import chosen_routes
 from rightofway.planners.task import Draft, Task
-from rightofway.precedence import Meeting, Segment, SegmentOfSizes
+from rightofway.precedence import Meeting, Segment
 from rightofway.search import Distances
 
 
@@ -211,9 +211,7 @@ def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup
     return _MovementGroup(resolution=resolution, completion_sum=completion_sum)
 
 
-def _attempt(
-    plan: PartialPlan, meeting: Meeting, segment: Segment | SegmentOfSizes, waits: int
-) -> _Option | None:
+def _attempt(plan: PartialPlan, meeting: Meeting, segment: Segment, waits: int) -> _Option | None:
     """Let one of the two wait until the other has left, and count; None if impossible."""
     graph, robot = plan.graph, meeting.robots[waits]
     others = plan.settled.copy()

@@ -17,7 +17,7 @@ from rightofway.precedence.graph import (
 )
 from rightofway.precedence.period_curve import Growth, PeriodPiece, period_curve
 from rightofway.precedence.release_graph import Arrival, Part, ReleaseGraph
-from rightofway.precedence.segments import Segment, SegmentOfSizes, crossing, shared_segment
+from rightofway.precedence.segments import Segment, crossing, shared_segment
 from rightofway.precedence.sensitivity import (
     Sensitivity,
     critical_circuit_without,
@@ -49,7 +49,6 @@ __all__ = [
     "ReleaseGraph",
     "RunBatch",
     "Segment",
-    "SegmentOfSizes",
     "Sensitivity",
     "Stoppage",
     "TimedEventGraph",

@@ -233,7 +233,7 @@ class ActionDependencyGraph:
         ValueError
             If robots with a size cannot make their visits in that order.
         """
-        if self.scenario.problem.resources is None:
+        if self.scenario.problem.resources.are_points:
             return order_of(self.vertex, when)
         # An order has no clock: what has begun too late for a closure has its place in it, too.
         begun = np.ones((len(self.vertex), 2), bool)

@@ -28,8 +28,7 @@ from rightofway.native import BookedRows, ClosedPlaces, native_closures, native_
 from rightofway.precedence.segments import (
     IncompatiblePair,
     Segment,
-    SegmentOfSizes,
-    segments_of_sizes,
+    linked_segments,
     shared_segment,
 )
 from rightofway.site import VertexId
@@ -104,7 +103,7 @@ class PrecedenceGraph:
     ) -> None:
         self.routes = tuple(routes)
         self._has_sizes = rows is not None
-        self._segments: dict[tuple[int, int], Mapping[tuple[int, int], SegmentOfSizes]] = {}
+        self._segments: dict[tuple[int, int], Mapping[tuple[int, int], Segment]] = {}
         self._frozen = frozenset(frozen)
         self._delays_frozen = False
         lengths = [len(route) for route in routes]
@@ -215,14 +214,14 @@ class PrecedenceGraph:
         """Return all (first, second) in the order they were given."""
         return self._kernel.rights_of_way()
 
-    def segment(self, visit: Visit, other: Visit) -> Segment | SegmentOfSizes:
+    def segment(self, visit: Visit, other: Visit) -> Segment:
         """Return the segment around two visits that are in conflict if both are at one time."""
         (i, index_i), (j, index_j) = self.place(visit), self.place(other)
         if self._has_sizes:
             return self._segments_of(i, j)[index_i, index_j]
         return shared_segment(self.routes[i], index_i, self.routes[j], index_j)
 
-    def segment_of_right(self, first: Visit, second: Visit) -> Segment | SegmentOfSizes:
+    def segment_of_right(self, first: Visit, second: Visit) -> Segment:
         """Return the segment for which a right of way holds."""
         if not self._has_sizes:
             return self.segment(first, second)
@@ -235,13 +234,13 @@ class PrecedenceGraph:
             and (index_i, starts) in segment.meetings()
         )
 
-    def _segments_of(self, i: int, j: int) -> Mapping[tuple[int, int], SegmentOfSizes]:
+    def _segments_of(self, i: int, j: int) -> Mapping[tuple[int, int], Segment]:
         """Return the segments of two robots by the indices of the visits in them."""
         if (i, j) not in self._segments:
             begin_i, begin_j = self.visit(i, 0), self.visit(j, 0)
             indices = self._kernel.incompatible(i, j) - [begin_i, begin_j, begin_i, begin_j]
             pairs = [IncompatiblePair(*pair) for pair in indices.tolist()]
-            self._segments[i, j] = segments_of_sizes(self.routes[i], self.routes[j], pairs)
+            self._segments[i, j] = linked_segments(self.routes[i], self.routes[j], pairs)
         return self._segments[i, j]
 
     def checkpoint(self) -> int:

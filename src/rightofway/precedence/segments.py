@@ -6,9 +6,11 @@ paper's "optimum point where one robot waits until the other has passed". Robots
 way cannot overtake each other either: who enters first stays ahead, and the other follows it from
 vertex to vertex.
 
-Robots with a size also meet where their visits are at different vertices: on lanes side by side,
-and where lanes cross. Two pairs of incompatible visits of two robots are *linked* if no timetable
-orders them differently. A segment is then a largest set of linked pairs.
+A segment is a set of pairs of visits. For points it is a longest run of vertices that both robots
+visit in one order, or in reverse order. Robots with a size also meet where their visits are at
+different vertices: on lanes side by side, and where lanes cross. Two pairs of incompatible visits
+of two robots are *linked* if no timetable orders them differently; a segment is then a largest set
+of linked pairs.
 """
 
 from __future__ import annotations
@@ -19,50 +21,6 @@ from typing import Literal, NamedTuple
 
 from rightofway.model import Route
 from rightofway.site import VertexId
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Segment:
-    """A longest run of vertices that two robots visit in the same or in reverse order.
-
-    Attributes
-    ----------
-    kind
-        ``head-on`` (in reverse order), ``following`` (in the same) or ``vertex`` (just one).
-    i_first, i_last
-        Indices of the first and last visit of robot i in it.
-    j_first, j_last
-        The same for robot j; if head-on, its first visit is where i has its last.
-    vertices
-        The vertices in the order of robot i.
-    """
-
-    kind: Literal["vertex", "head-on", "following"]
-    i_first: int
-    i_last: int
-    j_first: int
-    j_last: int
-    vertices: tuple[VertexId, ...]
-
-    def meetings(self) -> list[tuple[int, int]]:
-        """Return the visits (of i, of j) to each vertex, in the order of i."""
-        i, j = range(self.i_first, self.i_last + 1), range(self.j_first, self.j_last + 1)
-        return list(zip(i, reversed(j) if self.kind == "head-on" else j, strict=True))
-
-    def if_j_waits(self) -> list[tuple[int, int]]:
-        """Return the visits (of i, of j) of which i's goes first if j waits.
-
-        Head-on, i's last and j's first visit say it all: the rest follows.
-        """
-        return self.meetings() if self.kind == "following" else [(self.i_last, self.j_first)]
-
-    def if_i_waits(self) -> list[tuple[int, int]]:
-        """Return the visits (of i, of j) of which j's goes first if i waits."""
-        return self.meetings() if self.kind == "following" else [(self.i_first, self.j_last)]
-
-    def ahead(self, waits: int) -> tuple[VertexId, ...]:
-        """Return the vertices in the order of the robot that goes first; 0: i waits, 1: j waits."""
-        return self.vertices[::-1] if waits == 0 and self.kind == "head-on" else self.vertices
 
 
 class IncompatiblePair(NamedTuple):
@@ -89,8 +47,8 @@ class IncompatiblePair(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SegmentOfSizes:
-    """A largest set of linked pairs of visits of two robots with a size.
+class Segment:
+    """Linked pairs of visits of two robots: one of them goes first in all.
 
     Attributes
     ----------
@@ -141,9 +99,9 @@ def _implying(waits: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
     return found
 
 
-def segments_of_sizes(
+def linked_segments(
     one: Route, other: Route, pairs: Iterable[IncompatiblePair]
-) -> Mapping[tuple[int, int], SegmentOfSizes]:
+) -> Mapping[tuple[int, int], Segment]:
     """Return the segment of each pair of incompatible visits of two robots.
 
     Parameters
@@ -154,7 +112,7 @@ def segments_of_sizes(
         All incompatible visits of the two.
     """
     left = {(pair.i, pair.j): pair for pair in pairs}
-    found: dict[tuple[int, int], SegmentOfSizes] = {}
+    found: dict[tuple[int, int], Segment] = {}
     while left:
         _, pair = left.popitem()
         linked = [pair]
@@ -167,7 +125,7 @@ def segments_of_sizes(
     return found
 
 
-def _segment_of(one: Route, other: Route, pairs: tuple[IncompatiblePair, ...]) -> SegmentOfSizes:
+def _segment_of(one: Route, other: Route, pairs: tuple[IncompatiblePair, ...]) -> Segment:
     i, j = [pair.i for pair in pairs], [pair.j for pair in pairs]
     i_first = min(pair.i_starts for pair in pairs)
     j_first = min(pair.j_starts for pair in pairs)
@@ -177,7 +135,7 @@ def _segment_of(one: Route, other: Route, pairs: tuple[IncompatiblePair, ...]) -
         kind = "following" if together > 0 else "head-on"
     elif len(pairs) == 1 and one.vertices[i[0]] == other.vertices[j[0]]:
         kind = "vertex"
-    return SegmentOfSizes(
+    return Segment(
         kind=kind,
         pairs=pairs,
         i_first=i_first,
@@ -187,22 +145,8 @@ def _segment_of(one: Route, other: Route, pairs: tuple[IncompatiblePair, ...]) -
     )
 
 
-def crossing(one: Route, i: int, j: int) -> Segment:
+def crossing(one: Route, i: int, other: Route, j: int) -> Segment:
     """Return the segment of two visits to one vertex, and of nothing around it.
-
-    Parameters
-    ----------
-    one, i
-        Route of robot i and the index of its visit.
-    j
-        Index of the visit of robot j to the same vertex.
-    """
-    here = (one.vertices[i],)
-    return Segment(kind="vertex", i_first=i, i_last=i, j_first=j, j_last=j, vertices=here)
-
-
-def shared_segment(one: Route, i: int, other: Route, j: int) -> Segment:
-    """Return the longest segment around two visits to one vertex; head-on if it could be both.
 
     Parameters
     ----------
@@ -211,24 +155,28 @@ def shared_segment(one: Route, i: int, other: Route, j: int) -> Segment:
     other, j
         Route of robot j and the index of its visit, to the same vertex.
     """
+    return _segment_of(one, other, (IncompatiblePair(i, j, i, j),))
+
+
+def shared_segment(one: Route, i: int, other: Route, j: int) -> Segment:
+    """Return the longest run of vertices around two visits; head-on if it could be both.
+
+    Parameters
+    ----------
+    one, i
+        Route of robot i and the index of its visit.
+    other, j
+        Route of robot j and the index of its visit, to the same vertex.
+    """
+    j_step = -1
     before = _run(one, i, other, j, i_step=-1, j_step=1)
     after = _run(one, i, other, j, i_step=1, j_step=-1)
-    kind: Literal["head-on", "following"] = "head-on"
-    j_first, j_last = j - after, j + before
     if not before + after:
+        j_step = 1
         before = _run(one, i, other, j, i_step=-1, j_step=-1)
         after = _run(one, i, other, j, i_step=1, j_step=1)
-        kind, j_first, j_last = "following", j - before, j + after
-    if before + after:
-        return Segment(
-            kind=kind,
-            i_first=i - before,
-            i_last=i + after,
-            j_first=j_first,
-            j_last=j_last,
-            vertices=one.vertices[i - before : i + after + 1],
-        )
-    return crossing(one, i, j)
+    visits = [(i + step, j + j_step * step) for step in range(-before, after + 1)]
+    return _segment_of(one, other, tuple(IncompatiblePair(a, b, a, b) for a, b in visits))
 
 
 def _run(one: Route, i: int, other: Route, j: int, *, i_step: int, j_step: int) -> int:

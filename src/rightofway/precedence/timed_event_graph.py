@@ -263,7 +263,7 @@ class TimedEventGraph:
         ends, of_row = np.append(begins[1:], 2 * n), found // n_robots
         places = np.repeat(np.arange(len(found)), ends - begins) * n + rank[visit[order]]
         # Each start asks all rows that exclude it, and there each other robot.
-        first, excluded = rows.first, rows.excluded
+        first, excluded = rows.lists.first, rows.lists.excluded
         robots_at = np.searchsorted(of_row, [excluded, excluded + 1])
         n_asked = np.append(0, np.cumsum(robots_at[1] - robots_at[0]))
         before = np.empty(n, np.int64)

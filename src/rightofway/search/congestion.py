@@ -81,10 +81,8 @@ class Congestion:
         cost = int(STATION * SHARES * mean(_edges_of_trip(distances, one) for one in robots))
         for robot, one in enumerate(robots):
             places = [one.home, *(stage.vertex for stage in one.stages)]
-            station[places] = cost
-            if problem.resources is not None:
-                for place in places:
-                    station[problem.resources.vertices_near(robot, place)] = cost
+            for place in places:
+                station[problem.resources.vertices_near(robot, place)] = cost
         oncoming = [int(ONCOMING * SHARES)] * len(robots)
         return cls(problem, distances, shares=SHARES, station=station, oncoming=oncoming)
 

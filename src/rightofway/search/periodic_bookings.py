@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import NEVER, Itinerary, Lap, Resources, Stage, Tick, visits_of_laps
-from rightofway.native import roads_of
+from rightofway.native import lists_of, roads_of
 from rightofway.search.distances import Distances
 from rightofway.site import Roadmap, VertexId
 
@@ -143,12 +143,12 @@ class PeriodicBookings:
     ) -> None:
         self.period = NEVER if period is None else period
         self._rows = rows
-        lists = None if rows is None else rows.resources
+        lists = None if rows is None else rows.resources.lists
         self._kernel = _core.PeriodicBookings(
             _core.BookingRules(int(headway), books_ahead),
             n_vertices if lists is None else len(lists.first) - 1,
             period,
-            None if lists is None else _core.ExcludedRows(lists.first, lists.excluded),
+            None if rows is None else lists_of(rows.resources),
         )
 
     def _visits(self, robot: int, lap: Lap, count: int) -> tuple[Visits, NDArray[np.int32] | None]:

@@ -51,8 +51,9 @@ class Bookings:
         self._n_vertices, closed = problem.roadmap.n_vertices, problem.closures
         self._books_edges = closed is not None and closed.close_edges
         n_rows = self._n_vertices + self._books_edges * problem.roadmap.n_edges
-        if self.resources is not None:
-            n_rows = len(self.resources.first) - 1
+        if self.resources.lists is not None:
+            n_rows = len(self.resources.lists.first) - 1
+            self._books_edges = True
         self.table = _core.BookingTable(n_rows)
         if closed is not None:
             arrays = (closed.row, closed.start, closed.end)
@@ -65,8 +66,8 @@ class Bookings:
         return [Booking(Tick(s), Tick(e), robot) for s, e, robot in self.table.at(row)]
 
     def vertex_row(self, robot: int, vertex: int) -> int:
-        """Return the row that a robot books at a vertex: the vertex, or where it has a size."""
-        return vertex if self.resources is None else self.resources.vertex_row(robot, vertex)
+        """Return the row that a robot books at a vertex; for points the vertex itself."""
+        return self.resources.vertex_row(robot, vertex)
 
     def add(self, robot: int, track: Track) -> None:
         """Book all vertices of a track."""
@@ -76,13 +77,9 @@ class Bookings:
 
     def book(self, row: int, booking: Booking) -> None:
         """Book one vertex, or mark what one row excludes."""
-        if self.resources is None:
-            if row < self._n_vertices:  # points that book an edge exclude nobody from it
-                self.table.book(row, *booking)
-                self._of[booking.robot].append((row, booking.start))
-            return
+        put = self.table.book if self.resources.are_points else self.table.mark
         for mark in self.resources.excluded_by(row).tolist():
-            self.table.mark(mark, *booking)
+            put(mark, *booking)
             self._of[booking.robot].append((mark, booking.start))
 
     def release(self, robot: int) -> None:
@@ -101,7 +98,7 @@ class Bookings:
         ):
             row = self.vertex_row(robot, vertex)
             yield row, Booking(Tick(tick - approach), end, robot)
-        if self.resources is None and not self._books_edges:
+        if not self._books_edges:
             return
         edges = problem.roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
         for edge, tick, drive, end in zip(edges, enter[1:], drives, ends[:-1], strict=True):

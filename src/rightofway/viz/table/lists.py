@@ -189,7 +189,7 @@ def conflicts_before(plan: Plan) -> list[int | None]:
         robots, then what the decision before has left. None where robots were rerouted or have
         sizes, a collision never ends, or the planner did not count.
     """
-    if plan.run.reroutes or plan.scenario.problem.resources is not None:
+    if plan.run.reroutes or not plan.scenario.problem.resources.are_points:
         return [None] * len(plan.run.decisions)
     tracks = free_running(plan)
     overlaps = collisions(plan.scenario, tracks)
