@@ -75,7 +75,6 @@ def crossing_lanes(draw: random.Random, ends_of_r1: str = "BE") -> Scenario:
 
 def bookings_of(scenario: Scenario, period: int) -> PeriodicBookings:
     resources = scenario.problem.resources
-    assert resources is not None
     robots = tuple(range(len(scenario.robots)))
     return PeriodicBookings(
         scenario.roadmap.n_vertices,

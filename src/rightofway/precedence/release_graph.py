@@ -179,21 +179,20 @@ class _Use(NamedTuple):
 
 
 def _uses_of(scenario: Scenario, robot: int, track: Track) -> list[_Use]:
-    """Return what a robot books: each vertex, and where robots have sizes each edge, too."""
+    """Return what a robot books: each vertex and each edge."""
     resources, roadmap = scenario.problem.resources, scenario.roadmap
     vertices, enter = track.vertices.tolist(), track.enter.tolist()
-    own = 0 if resources is None else resources.vertex_row(robot, 0)
+    own = resources.vertex_row(robot, 0)
     uses = [
         _Use(enter[k], own + vertex, robot, k, k + 1, is_vertex=True)
         for k, vertex in enumerate(vertices)
     ]
-    if resources is not None:
-        edges = roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
-        drives = drives_along(roadmap, scenario.problem.itineraries[robot], vertices)
-        uses += (
-            _Use(enter[k] - ticks, resources.edge_row(robot, edge), robot, k, k, is_vertex=False)
-            for k, (edge, ticks) in enumerate(zip(edges, drives, strict=True), 1)
-        )
+    edges = roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
+    drives = drives_along(roadmap, scenario.problem.itineraries[robot], vertices)
+    uses += (
+        _Use(enter[k] - ticks, resources.edge_row(robot, edge), robot, k, k, is_vertex=False)
+        for k, (edge, ticks) in enumerate(zip(edges, drives, strict=True), 1)
+    )
     return uses
 
 
@@ -204,8 +203,7 @@ def _waits_of(
     resources = scenario.problem.resources
     latest = defaultdict[int, dict[int, int]](dict)  # part: other robot: visit
     for use in own:
-        rows = [use.row] if resources is None else resources.excluded_by(use.row).tolist()
-        for row in rows:
+        for row in resources.excluded_by(use.row).tolist():
             users = order.get(row, ())
             for k in range(bisect_left(users, (use.begin,)) - 1, -1, -1):
                 other = users[k]
