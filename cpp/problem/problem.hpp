@@ -167,6 +167,8 @@ class Problem {
         return arrays_.weight.empty() ? 1 : arrays_.weight[index(robot)];
     }
 
+    // Whether lists are given: for robots with a size, and zones. Else robots are points.
+    bool has_sizes() const { return !lists_.is_identity(); }
     // Whether drives book edges: where lists are given, or an edge is closed.
     bool books_edges() const { return n_rows_ > n_vertices(); }
     const Closures& closures() const { return closures_; }
