@@ -57,7 +57,7 @@ class Robots:
     stage_vertex, stage_work, stage_turn : int32[S], int64[S], int64[S]
         Where each stage is, and how long it takes to work and then to turn. [ticks]
     size_of : int32[R] or None
-        The size class of each robot; None where no robot has a size.
+        The size class of each robot; None where all are points.
     weight : int64[R] or None
         How much a tick of each robot counts; None where all count alike.
     """
@@ -122,8 +122,7 @@ class Closures:
     Parameters
     ----------
     row, start, end : int32[K], int64[K], int64[K]
-        Rows of the booking table that are closed, and when. Where no robot has a size, row ``V + e``
-        is edge ``e``. [ticks]
+        Rows of the booking table that are closed, and when. [ticks]
     """
 
     def __init__(self, row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], end: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
@@ -143,7 +142,7 @@ class Problem:
     rules : BookingRules
         How visits are booked.
     lists : ExcludedRows or None
-        Where robots have sizes: the excluded rows of all rows. Row ``size * (V + E) + resource`` is a vertex
+        The excluded rows of all rows; None where all robots are points and a vertex excludes itself. Row ``size * (V + E) + resource`` is a vertex
         or an edge as robots of one size class book it; the vertices come first.
     turning : Turning or None
         How long robots turn; None where turning takes no time.

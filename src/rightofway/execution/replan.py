@@ -298,12 +298,7 @@ def _by_turns(
     task = Task(scenario=rest, seed=seed, deadline=deadline)
     tracks: Sequence[Track] = ()
     ends = [one.last for one in problem.itineraries]
-    is_clear = (
-        len(set(ends)) == len(ends)
-        if problem.resources.are_points
-        else not any(problem.resources.clashes(ends))
-    )
-    if is_clear:
+    if not any(problem.resources.clashes(ends)):
         search = fleet_search(task)
         turns = sorted(range(len(rest.robots)), key=search.alone().tolist().__getitem__)
         searches, limit = SEARCHES * len(turns), deadline.sooner(SHARE).seconds_left()
