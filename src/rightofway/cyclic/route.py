@@ -271,7 +271,10 @@ def without_closed_places(scenario: Scenario) -> Scenario:
         raise InputError(faults)
     roadmap, n_vertices = scenario.roadmap, closed.n_vertices
     size, resource = np.divmod(closed.row, n_vertices + closed.n_edges)
-    places = [frozenset(resource[size == one].tolist()) for one in sorted(set(closed.size_of))]
+    places = [
+        frozenset(resource[size == size_class].tolist())
+        for size_class in sorted(set(closed.size_of))
+    ]
     if len(set(places)) > 1:
         message = "close different places to robots of different sizes, and laps have one roadmap"
         raise InputError.at(("closures",), f"{message} (leave out radius)")
