@@ -55,7 +55,7 @@ def fleets(draw: st.DrawFn, most_robots: int = 4) -> Scenario:
     return random_fleet(
         draw(st.integers(0, 10**6)),
         size=draw(st.integers(4, 6)),
-        robots=draw(st.sampled_from((*range(2, most_robots + 1), *range(3, most_robots + 1)))),
+        robots=draw(st.sampled_from((*range(3, most_robots + 1), *range(2, most_robots + 1)))),
         rules=draw(st.sampled_from(RULES)),
         apart=True,
     )

@@ -133,11 +133,11 @@ class _WindowClosing:
         fit &= np.cumsum(visits) <= self.params.most_window_visits
         if not fit.any():
             return []
-        found = []
+        scored = []
         for score in (np.cumsum(weights) / ends, np.cumsum(lasted) / ends - len(ends_of)):
             best = int(np.argmax(np.where(fit, score, -np.inf)))
-            found.append((float(score[best]), Stretch(begins, int(ends[best]))))
-        return found
+            scored.append((float(score[best]), Stretch(begins, int(ends[best]))))
+        return scored
 
     def close(self, window: Stretch) -> Candidate | None:
         """Return the timetable of a window; None if a robot finds no place."""

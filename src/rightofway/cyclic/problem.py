@@ -181,9 +181,9 @@ class CyclicProblem:
         On ``lap`` if given; else on one of the robot's laps, or, if these do not fit, on a new lap.
         """
         ways = [lap] if lap else self.draw.sample(self.ways[robot], len(self.ways[robot]))
-        for way in ways:
+        for usual in ways:
             for _ in range(tries):
-                placed = self._search(bookings, robot, way, count)
+                placed = self._search(bookings, robot, usual, count)
                 if placed is not None:
                     return placed
         if lap or not self.round_trips:

@@ -71,10 +71,10 @@ def whole_laps(result: CyclicResult, laps: int | None = None) -> Plan:
         ends.append(max(pattern.transient + 2 * pattern.period for pattern in patterns))
     until = min(ends)
 
-    def laps_and_visits(group: GroupResult, index: int, made: int) -> tuple[int, int]:
+    def laps_and_visits(group: GroupResult, index: int, n_laps: int) -> tuple[int, int]:
         name, moves = group.context.names[index], _moves(group, index)
-        own = laps or max(_laps_until(group, index, until, None if moves else made), 1)
-        if not group.pattern and own > made:
+        own = laps or max(_laps_until(group, index, until, None if moves else n_laps), 1)
+        if not group.pattern and own > n_laps:
             raise GaveUp(f"{name} was not followed for {own} laps")
         if group.pattern and not moves:
             raise GaveUp(f"{name} waits for ever (choose another rule)")
