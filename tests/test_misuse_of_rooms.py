@@ -53,6 +53,7 @@ STEPS = {
     "native": {
         "bound",
         "compiler",
+        "lists_of",
         "native_closures",
         "native_rows",
         "roads_of",
