@@ -270,7 +270,7 @@ class FleetControl:
             if not own.is_acknowledged and self._acknowledges(own, state):
                 yield {"kind": "acknowledged", "robot": robot}
             elif self._has_stopped(own, state) and stands_at is not None:
-                order = self._new_order(robot, stands_at, stands_at, has_stopped=True)
+                order = self._new_order(robot, stands_at, stands_at)
                 yield {**order, "stands_at": stands_at}
         elif not state.order_id or state.order_id in own.orders:
             yield from self._settle_doubt(robot, state)
@@ -307,12 +307,12 @@ class FleetControl:
         status = state.actions.get(own.cancel.action_id)
         return status in {"FINISHED", "FAILED"} and state.is_idle and own.is_acknowledged
 
-    def _new_order(self, robot: int, begin: int, end: int, *, has_stopped: bool = False) -> Entry:
+    def _new_order(self, robot: int, begin: int, end: int) -> Entry:
         """Return the entry of a new order over some parts."""
         own = self.ledger.robots[robot]
         order_id = f"{self.ledger.run}-{robot}-{len(own.orders)}"
         parts = range(begin, end + 1)
-        nodes, actions = self._nodes(robot, parts, begin, keeps_ids=not has_stopped)
+        nodes, actions = self._nodes(robot, parts, begin)
         order = Order(robot=robot, order_id=order_id, update_id=0, nodes=tuple(nodes))
         return _order_entry(order, begin, actions)
 
@@ -325,7 +325,7 @@ class FleetControl:
         assert own.message is not None
         sent = own.orders[own.order_id]
         parts = range(own.released + 1, end + 1)
-        nodes, actions = self._nodes(robot, parts, sent.offset, keeps_ids=False)
+        nodes, actions = self._nodes(robot, parts, sent.offset)
         order = Order(
             robot=robot,
             order_id=own.order_id,
@@ -335,12 +335,12 @@ class FleetControl:
         return _order_entry(order, sent.offset, actions)
 
     def _nodes(
-        self, robot: int, parts: range, offset: int, *, keeps_ids: bool
+        self, robot: int, parts: range, offset: int
     ) -> tuple[list[OrderNode], list[tuple[str, str, int]]]:
         """Return the nodes of parts, and the id, job and number of their actions.
 
-        An action that a robot may have begun keeps its id, so that it is not done twice. After a
-        withdrawal it failed, and the next one has another id.
+        The action of a job keeps its id in all orders, so that it is not done twice: a state that
+        says that it is finished may have been lost.
         """
         own, actions, nodes = self.ledger.robots[robot], [], []
         for part in parts:
@@ -349,7 +349,7 @@ class FleetControl:
                 if job in own.finished:
                     continue
                 last = own.attempts.get(job, 0)
-                attempt = max(last, 1) if keeps_ids else last + 1
+                attempt = max(last, 1)
                 ids.append(f"{self.ledger.run}-{robot}-{job}-{attempt}")
                 actions.append((ids[-1], job, attempt))
             place, number = own.route.places[part], 2 * (part - offset)
