@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import random
 from dataclasses import replace
-from fractions import Fraction
 from itertools import pairwise
 
 import pytest
@@ -12,17 +11,15 @@ from hypothesis import strategies as st
 
 import rightofway
 from rightofway.check import check
-from rightofway.errors import InputError
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
-from rightofway.model import NEVER, Closure, Rules, Scenario, Tick
+from rightofway.model import NEVER, Rules, Scenario, Tick
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
-from rightofway.site import VertexId
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, planned
 from tests.builders.executions import ONE_CHAIN, late, oracle_of, times
-from tests.builders.fleets import grid_fleet, random_fleet
+from tests.builders.fleets import random_fleet
 from tests.builders.laws import law
 from tests.oracles import execution
 
@@ -76,16 +73,6 @@ def test_nothing_is_changed_where_no_robot_is_late(
     plan = planned(fleet, planner)
     adg = ActionDependencyGraph(fleet, plan.tracks, DelayModel.none(len(plan.tracks)))
     assert ExecutionMonitor(adg, policy, 0, 0, Deadline()).adg is adg
-
-
-@pytest.mark.parametrize("change", ["switch", "replan"])
-def test_fleets_with_closures_are_refused(change: str) -> None:
-    fleet = grid_fleet(["..."], [("N0", "N1")])
-    closed = replace(fleet, closures=(Closure(at=VertexId(2), from_=Fraction(1)),))
-    plan = rightofway.solve(closed, "prioritized")
-    what = {"switch": "switching rights of way", "replan": "replanning during execution"}
-    with pytest.raises(InputError, match=f"{what[change]} does not know closures"):
-        rightofway.simulate(plan, runs=1, **{change: True})  # type: ignore[arg-type]
 
 
 def booked_until(monitor: ExecutionMonitor, tick: int) -> list[list[tuple[int, int]]]:
