@@ -90,12 +90,12 @@ def test_what_a_killed_run_left_of_a_parquet_file_is_taken_up(tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("content", "fault"),
     [
-        ("name,age\n", "line 1: this is no file of results as they are now (give another file)"),
-        ("precious", "line 1: this is no file of results as they are now (give another file)"),
-        ("{header}\n{row}\na,b\n", "line 3: this is no row of results: "),
+        ("name,age\n", "1: this is no file of results as they are now (give another file)"),
+        ("precious", "1: this is no file of results as they are now (give another file)"),
+        ("{header}\n{row}\na,b\n", "3: this is no row of results: "),
         (
             "{header}\n{bad}\n",
-            "line 2: this is no row of results: 'perhaps' is not yes or no (take",
+            "2: this is no row of results: 'perhaps' is not yes or no (take",
         ),
     ],
 )
@@ -108,7 +108,7 @@ def test_another_file_is_refused_and_left_alone(tmp_path: Path, content: str, fa
     path.write_text(content, encoding="utf-8")
     with pytest.raises(InputError) as caught:
         Results(path)
-    assert str(caught.value).startswith(f"{path}: {fault}")
+    assert str(caught.value).startswith(f"{path}:{fault}")
     assert path.read_text(encoding="utf-8") == content
 
 
