@@ -237,7 +237,7 @@ def test_parquet_has_the_same_rows_and_goes_on_too(cli: Cli) -> None:
         (["suite.toml", "--report", "r.pdf"], "'r.pdf' does not end in .html or .md"),
         (["suite.toml", "--jobs", "0"], "0 is not in the range x>=1"),
         (["suite.toml", "--jobs", "2", "--dask", "tcp://x:1"], "choose one"),
-        (["suite.toml", "-o", "other.csv"], "other.csv: line 1: this is no file of results as"),
+        (["suite.toml", "-o", "other.csv"], "other.csv:1: this is no file of results as"),
     ],
 )
 def test_bad_use_ends_with_2_and_one_message(cli: Cli, args: list[str], message: str) -> None:
