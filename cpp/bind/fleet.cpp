@@ -63,7 +63,7 @@ ValueError
 constexpr auto prioritize_doc =
     R"(Give the robots tracks one after another, in this order; return whether all have one now.
 
-`go_on` may change a False.
+`resume` may change a False.
 
 Parameters
 ----------
@@ -73,8 +73,8 @@ n_searches : int
     The most searches before it gives up.
 time_limit : float or None
     When to stop; at once for 0 or less. [s]
-with_net : float or None
-    When to stop instead once there is a plan made in haste. [s])";
+with_fallback : float or None
+    When to stop instead once the hasty attempt has a plan. [s])";
 
 constexpr auto restore_doc =
     R"(Give robots these tracks where that costs no more; return how many have theirs.
@@ -102,7 +102,7 @@ n_searches : int
 time_limit : float or None
     When to stop; at once for 0 or less. [s])";
 
-constexpr auto go_on_doc = R"(Continue a `prioritize` that returned False.
+constexpr auto resume_doc = R"(Continue a `prioritize` that returned False.
 
 Parameters
 ----------
@@ -184,13 +184,13 @@ class FleetSearch {
     }
 
     bool prioritize(std::span<const RobotId> order, std::int64_t n_searches,
-                    const StopCondition& deadline, const StopCondition& with_net) {
+                    const StopCondition& deadline, const StopCondition& with_fallback) {
         require_count("n_searches", n_searches);
         require_length("order", order.size(), n_robots());
         require_each_once(order);
         clear();
-        in_turn_.emplace(distances_, plan_, order);
-        return go_on(n_searches, deadline, with_net);
+        portfolio_.emplace(distances_, plan_, order);
+        return resume(n_searches, deadline, with_fallback);
     }
 
     bool repair(std::span<const RobotId> order, std::int64_t n_searches,
@@ -211,23 +211,23 @@ class FleetSearch {
                 reject("order", robot, "is a robot without a track, and left out");
             }
         }
-        let_go();
+        drop_searches();
         Prioritized planner(distances_, plan_);
         planner.start(order);
         return planner.run(n_searches, deadline) == SearchEnd::found;
     }
 
-    bool go_on(std::int64_t n_searches, const StopCondition& deadline,
-               const StopCondition& with_net) {
+    bool resume(std::int64_t n_searches, const StopCondition& deadline,
+                const StopCondition& with_fallback) {
         require_count("n_searches", n_searches);
-        if (!in_turn_) {
+        if (!portfolio_) {
             throw std::invalid_argument(
-                "go_on: there is no attempt to continue (prioritize first)");
+                "resume: there is no attempt to continue (prioritize first)");
         }
-        if (!in_turn_->run(n_searches, n_threads_ > 1, deadline, with_net)) {
+        if (!portfolio_->run(n_searches, n_threads_ > 1, deadline, with_fallback)) {
             return false;
         }
-        in_turn_.reset();
+        portfolio_.reset();
         return true;
     }
 
@@ -277,7 +277,7 @@ class FleetSearch {
                 if (is_restored[index(first)] != 0) {
                     continue;
                 }
-                const std::vector<RobotId> group = in_the_way_of_each_other(first, old, poll);
+                const std::vector<RobotId> group = find_conflict_closure(first, old, poll);
                 Tick gain = 0;
                 for (const RobotId robot : group) {
                     gain +=
@@ -344,9 +344,9 @@ class FleetSearch {
 
     void require_each_once(std::span<const RobotId> order) const {
         require_ids("order", order, problem_.n_robots());
-        std::vector<std::uint8_t> is_there(n_robots(), 0);
+        std::vector<std::uint8_t> is_listed(n_robots(), 0);
         for (std::size_t k = 0; k < order.size(); ++k) {
-            if (is_there[index(order[k])]++ != 0) {
+            if (is_listed[index(order[k])]++ != 0) {
                 reject_entry("order", k, order[k], "is there twice");
             }
         }
@@ -370,14 +370,14 @@ class FleetSearch {
     }
 
     // A robot, and all that have to give way for it to have its track of `old`.
-    std::vector<RobotId> in_the_way_of_each_other(RobotId first, std::span<const TimedTrack> old,
-                                                  Poll& poll) const {
+    std::vector<RobotId> find_conflict_closure(RobotId first, std::span<const TimedTrack> old,
+                                               Poll& poll) const {
         std::vector<RobotId> group{first};
-        std::vector<RobotId> met;
+        std::vector<RobotId> conflicting;
         for (std::size_t k = 0; k < group.size(); ++k) {
             poll();
-            plan_.in_the_way(group[k], old[index(group[k])], met);
-            for (const RobotId other : met) {
+            plan_.find_conflicting(group[k], old[index(group[k])], conflicting);
+            for (const RobotId other : conflicting) {
                 if (std::find(group.begin(), group.end(), other) == group.end()) {
                     group.push_back(other);
                 }
@@ -434,14 +434,14 @@ class FleetSearch {
         return track;
     }
 
-    // What goes on from the present plan.
-    void let_go() {
-        in_turn_.reset();
+    // Searches that continue from the present plan.
+    void drop_searches() {
+        portfolio_.reset();
         improvement_.reset();
     }
 
     void clear() {
-        let_go();
+        drop_searches();
         plan_ = FleetPlan(problem_);
     }
 
@@ -453,7 +453,7 @@ class FleetSearch {
     std::vector<Tick> alone_;
     bool is_alone_known_ = false;
     Tick bound_ = 0;
-    std::optional<PrioritizedPortfolio> in_turn_;
+    std::optional<PrioritizedPortfolio> portfolio_;
     std::optional<AnytimeLns> improvement_;
 };
 
@@ -516,14 +516,14 @@ void bind_fleet(nb::module_& module) {
         .def(
             "prioritize",
             [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,
-               std::optional<double> time_limit, std::optional<double> with_net) {
+               std::optional<double> time_limit, std::optional<double> with_fallback) {
                 const Deadline deadline(time_limit);
-                const Deadline deadline_with_net(with_net, "with_net");
+                const Deadline deadline_with_fallback(with_fallback, "with_fallback");
                 const nb::gil_scoped_release released;
-                return self.prioritize(view(order), n_searches, deadline, deadline_with_net);
+                return self.prioritize(view(order), n_searches, deadline, deadline_with_fallback);
             },
             array("order"), nb::arg("n_searches"), nb::arg("time_limit").none(),
-            nb::arg("with_net").none(), prioritize_doc)
+            nb::arg("with_fallback").none(), prioritize_doc)
         .def(
             "repair",
             [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,
@@ -534,13 +534,13 @@ void bind_fleet(nb::module_& module) {
             },
             array("order"), nb::arg("n_searches"), nb::arg("time_limit").none(), repair_doc)
         .def(
-            "go_on",
+            "resume",
             [](FleetSearch& self, std::int64_t n_searches, std::optional<double> time_limit) {
                 const Deadline deadline(time_limit);
                 const nb::gil_scoped_release released;
-                return self.go_on(n_searches, deadline, deadline);
+                return self.resume(n_searches, deadline, deadline);
             },
-            nb::arg("n_searches"), nb::arg("time_limit").none(), go_on_doc)
+            nb::arg("n_searches"), nb::arg("time_limit").none(), resume_doc)
         .def(
             "improve",
             [](FleetSearch& self, std::int64_t n_tasks, std::int64_t patience,

@@ -112,9 +112,9 @@ Rotation find_rotation(const Problem& problem, std::span<const RobotId> robots,
             rotation.constraints.push_back(against_move(problem, next->edge, next->enter));
             const Mover wanted{{next->enter, none, next->head, none}, 0};
             const auto place = std::lower_bound(movers.begin(), movers.end(), wanted, is_before);
-            const bool is_there =
+            const bool is_match =
                 place != movers.end() && place->enter == wanted.enter && place->tail == wanted.tail;
-            next = is_there ? &*place : nullptr;
+            next = is_match ? &*place : nullptr;
         } while (next != nullptr && next != &first && rotation.robots.size() <= robots.size());
         if (next == &first) {
             return rotation;

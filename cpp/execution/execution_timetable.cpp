@@ -187,9 +187,9 @@ void ExecutionTimetable::by_right_of_way(const DelaySample& sample, ActualTimes&
         const std::int32_t end = first_of_group_[group + 1];
         poll();
         if (end - first == 1) {
-            take_place(events_[index(first)], sample, times);
+            start_visit(events_[index(first)], sample, times);
         } else {
-            take_place_jointly({events_.begin() + first, events_.begin() + end}, sample, times);
+            start_jointly({events_.begin() + first, events_.begin() + end}, sample, times);
         }
     }
     complete(plan_, sample, times, next_stoppage_);
@@ -238,7 +238,7 @@ void ExecutionTimetable::find_caught(const DelaySample& sample, ActualTimes& tim
     }
 }
 
-void ExecutionTimetable::take_place(VisitId x, const DelaySample& sample, ActualTimes& times) {
+void ExecutionTimetable::start_visit(VisitId x, const DelaySample& sample, ActualTimes& times) {
     const Tick from = times.enter[index(x - 1)];
     if (from >= never) {
         return;
@@ -270,8 +270,8 @@ void ExecutionTimetable::take_place(VisitId x, const DelaySample& sample, Actual
 }
 
 // All visits of the group begin when the last of their robots is ready.
-void ExecutionTimetable::take_place_jointly(std::span<const VisitId> group,
-                                            const DelaySample& sample, ActualTimes& times) {
+void ExecutionTimetable::start_jointly(std::span<const VisitId> group, const DelaySample& sample,
+                                       ActualTimes& times) {
     Tick instant = 0;
     VisitId latest = group.front();
     const auto put_off = [&](VisitId x, Tick until) {

@@ -52,11 +52,11 @@ class ExecutionTimetable {
     void order_events();
     void emit(std::span<const VisitId> group);
     bool is_possible(std::span<const VisitId> group) const;
-    void take_place(VisitId visit, const DelaySample& sample, ActualTimes& times);
+    void start_visit(VisitId visit, const DelaySample& sample, ActualTimes& times);
     Tick clear_of_closures(VisitId visit, Tick start) const;
     void find_caught(const DelaySample& sample, ActualTimes& times) const;
-    void take_place_jointly(std::span<const VisitId> group, const DelaySample& sample,
-                            ActualTimes& times);
+    void start_jointly(std::span<const VisitId> group, const DelaySample& sample,
+                       ActualTimes& times);
 
     const ActionDependencyGraph& plan_;
     std::vector<VisitId> events_;                  // all but first visits, in topological order

@@ -42,8 +42,8 @@ Lacam::Lacam(const Problem& problem, StepTables& tables, const SpaceUtilization&
 SearchEnd Lacam::run(const StopCondition& is_over, std::int64_t most_effort) {
     add(none, 0);
     std::int64_t next_question = 0;
-    for (; !open_.empty(); ++n_retaken_) {
-        const std::int64_t effort = pibt_.n_choices() + n_retaken_;
+    for (; !open_.empty(); ++n_replayed_) {
+        const std::int64_t effort = pibt_.n_choices() + n_replayed_;
         if (effort >= next_question) {
             next_question = effort + effort_between_questions;
             if (effort > most_effort || is_over()) {
@@ -86,7 +86,7 @@ SearchEnd Lacam::expand() {
         return SearchEnd::stopped;
     }
     if (pibt_.choose(state_, by_urgency())) {
-        go_on(top);
+        generate_successor(top);
     }
     return SearchEnd::stopped;
 }
@@ -158,7 +158,7 @@ std::span<const RobotId> Lacam::by_urgency() {
 }
 
 // Applies the decisions and advances the clock to the next state.
-void Lacam::go_on(std::int32_t from) {
+void Lacam::generate_successor(std::int32_t from) {
     const std::size_t first = decisions_.size();
     for (const Decision& decision : pibt_.decisions()) {
         if (!in_steps_) {
@@ -224,7 +224,7 @@ void Lacam::restore(std::int32_t node) {
     if (in_steps_) {
         state_.resume(standing(node));
         state_of_ = node;
-        n_retaken_ += problem_.n_robots();
+        n_replayed_ += problem_.n_robots();
         return;
     }
     std::vector<std::int32_t> path;
@@ -238,18 +238,18 @@ void Lacam::restore(std::int32_t node) {
     }
     state_ = snapshot == nullptr ? start_ : snapshot->state;
     for (auto step = path.rbegin(); step != path.rend(); ++step) {
-        take_again(*step);
+        replay_step(*step);
         keep_snapshot(*step);
     }
     state_of_ = node;
 }
 
-void Lacam::take_again(std::int32_t node) {
+void Lacam::replay_step(std::int32_t node) {
     const Node& taken = nodes_[index(node)];
     for (std::size_t k = taken.first_decision; k < taken.end_decision; ++k) {
         state_.decide(decisions_[k]);
     }
-    n_retaken_ += 1 + static_cast<std::int64_t>(taken.end_decision - taken.first_decision);
+    n_replayed_ += 1 + static_cast<std::int64_t>(taken.end_decision - taken.first_decision);
     if (taken.parent != none) {
         state_.advance();
     }

@@ -74,7 +74,7 @@ class Lacam {
     bool next_constraint(Node& node);
     void branch(Node& node, std::int32_t constraint);
     std::span<const RobotId> by_urgency();
-    void go_on(std::int32_t from);
+    void generate_successor(std::int32_t from);
     std::int32_t known_node() const;
     bool is_goal() const;
     bool add(std::int32_t parent, std::size_t first_decision);
@@ -82,7 +82,7 @@ class Lacam {
     template <class Use>
     void for_each_decision(std::int32_t node, const Use& use) const;
     void restore(std::int32_t node);
-    void take_again(std::int32_t node);
+    void replay_step(std::int32_t node);
     const Snapshot* snapshot_of(std::int32_t node) const;
     void keep_snapshot(std::int32_t node);
 
@@ -102,7 +102,7 @@ class Lacam {
     std::vector<std::int32_t> open_;
     std::vector<Decision> decisions_;  // of all nodes; none in steps
     std::vector<Standing> standing_;   // in steps: n_robots for each node
-    std::int64_t n_retaken_ = 0;       // decisions repeated by `restore`
+    std::int64_t n_replayed_ = 0;      // decisions repeated by `restore`
     std::unordered_multimap<std::uint64_t, std::int32_t> known_;  // by fingerprint
     std::int32_t goal_;
 };

@@ -233,15 +233,16 @@ bool Pibt::is_booked(const FleetState& now, RobotId robot, VertexId place) const
 }
 
 // Whether the robot waits for a robot that waits for it, directly or not.
-bool Pibt::closes_circle(const FleetState& now, RobotId robot) {
-    ++n_circles_;
+bool Pibt::closes_rotation(const FleetState& now, RobotId robot) {
+    ++n_rotation_searches_;
     queue_.assign(1, robot);
     while (!queue_.empty()) {
         const RobotId next = queue_.back();
         queue_.pop_back();
         const bool meets = any_ahead(now, next, next_[index(next)], [&](RobotId other) {
-            if (other != robot && moves(now, other) && seen_by_[index(other)] != n_circles_) {
-                seen_by_[index(other)] = n_circles_;
+            if (other != robot && moves(now, other) &&
+                seen_by_[index(other)] != n_rotation_searches_) {
+                seen_by_[index(other)] = n_rotation_searches_;
                 queue_.push_back(other);
             }
             return other == robot;
@@ -258,7 +259,7 @@ bool Pibt::closes_circle(const FleetState& now, RobotId robot) {
 bool Pibt::choose_one(const FleetState& now, RobotId robot) {
     Choice latest = begin(now, robot);
     while (!frames_.empty()) {
-        latest = go_on(now, latest);
+        latest = try_candidates(now, latest);
     }
     return latest == Choice::found;
 }
@@ -287,7 +288,7 @@ Pibt::Choice Pibt::begin(const FleetState& now, RobotId robot) {
 
 // Tries candidates of the robot on top of the stack until it has chosen, or has to push another
 // robot (`open`). `pushed`: what the robot that it pushed last has chosen.
-Pibt::Choice Pibt::go_on(const FleetState& now, Choice pushed) {
+Pibt::Choice Pibt::try_candidates(const FleetState& now, Choice pushed) {
     Frame& frame = frames_.back();
     const auto stays = [&](RobotId other) { return next_[index(other)] == now.at(other); };
     while (frame.ahead.place != nowhere || take_next_place(now, frame)) {
@@ -317,7 +318,7 @@ Pibt::Choice Pibt::go_on(const FleetState& now, Choice pushed) {
     return end(now, false);
 }
 
-// Takes the next candidate that is open and closes no circle; false if none is left.
+// Takes the next candidate that is open and closes no forbidden rotation; false if none is left.
 bool Pibt::take_next_place(const FleetState& now, Frame& frame) {
     for (; frame.k < frame.end; ++frame.k) {
         const VertexId place = places_[frame.k].vertex;
@@ -326,7 +327,7 @@ bool Pibt::take_next_place(const FleetState& now, Frame& frame) {
         }
         take(now, frame.robot, place);
         if (!problem_.may_rotate() && place != now.at(frame.robot) &&
-            closes_circle(now, frame.robot)) {
+            closes_rotation(now, frame.robot)) {
             release(now, frame.robot);
             continue;
         }
@@ -399,7 +400,7 @@ void Pibt::pull(const FleetState& now, RobotId partner, VertexId place) {
         return;
     }
     take(now, partner, place);
-    if (closes_circle(now, partner)) {
+    if (closes_rotation(now, partner)) {
         release(now, partner);
         next_[index(partner)] = nowhere;
         chosen_.pop_back();
@@ -504,20 +505,20 @@ bool Pibt::settle_arrivals(const FleetState& now) {
 }
 
 // Follows the queues to their fronts and computes the arrivals from there. False if a robot ahead
-// stays, or if a queue is a circle and rotations are forbidden.
+// stays, or if a queue is a cycle and rotations are forbidden.
 bool Pibt::settle_queue(const FleetState& now, RobotId last) {
     queue_.assign(1, last);
     arrival_[index(last)] = in_queue;
     while (!queue_.empty()) {
         const RobotId robot = queue_.back();
         const VertexId place = next_[index(robot)];
-        RobotId in_circle = nobody;
+        RobotId in_rotation = nobody;
         const bool is_behind = any_ahead(now, robot, place, [&](RobotId other) {
             if (now.is_busy(other) || arrival_[index(other)] >= 0) {
                 return false;
             }
             if (arrival_[index(other)] == in_queue || !moves(now, other)) {
-                in_circle = other;
+                in_rotation = other;
                 return false;
             }
             arrival_[index(other)] = in_queue;
@@ -527,12 +528,12 @@ bool Pibt::settle_queue(const FleetState& now, RobotId last) {
         if (is_behind) {
             continue;
         }
-        if (in_circle != nobody && (!moves(now, in_circle) || !settle_circle(now, robot))) {
+        if (in_rotation != nobody && (!moves(now, in_rotation) || !settle_rotation(now, robot))) {
             return false;
         }
         queue_.pop_back();
         if (arrival_[index(robot)] != in_queue) {
-            continue;  // part of a circle
+            continue;  // part of a rotation
         }
         const EdgeId edge = edge_to(now, robot, place);
         const Tick drive = problem_.drive(robot, edge);
@@ -551,7 +552,7 @@ bool Pibt::settle_queue(const FleetState& now, RobotId last) {
     return true;
 }
 
-bool Pibt::settle_circle(const FleetState& now, RobotId member) {
+bool Pibt::settle_rotation(const FleetState& now, RobotId member) {
     if (!problem_.may_rotate()) {
         return false;
     }

@@ -90,7 +90,7 @@ class Pibt {
     bool choose_all(const FleetState& now, std::span<const RobotId> order);
     bool choose_one(const FleetState& now, RobotId robot);
     Choice begin(const FleetState& now, RobotId robot);
-    Choice go_on(const FleetState& now, Choice pushed);
+    Choice try_candidates(const FleetState& now, Choice pushed);
     bool take_next_place(const FleetState& now, Frame& frame);
     Choice end(const FleetState& now, bool is_found);
     bool has_to_wait(const FleetState& now, RobotId robot);
@@ -105,7 +105,7 @@ class Pibt {
     bool is_open(const FleetState& now, RobotId robot, VertexId place) const;
     bool is_booked(const FleetState& now, RobotId robot, VertexId place) const;
     bool moves(const FleetState& now, RobotId robot) const;
-    bool closes_circle(const FleetState& now, RobotId robot);
+    bool closes_rotation(const FleetState& now, RobotId robot);
     void take(const FleetState& now, RobotId robot, VertexId vertex);
     void release(const FleetState& now, RobotId robot);
     EdgeId edge_to(const FleetState& now, RobotId robot, VertexId place) const {
@@ -124,7 +124,7 @@ class Pibt {
     std::int32_t way(const FleetState& now, RobotId robot, VertexId vertex);
     bool settle_arrivals(const FleetState& now);
     bool settle_queue(const FleetState& now, RobotId last);
-    bool settle_circle(const FleetState& now, RobotId member);
+    bool settle_rotation(const FleetState& now, RobotId member);
     void forget(const FleetState& now);
 
     const Problem& problem_;
@@ -143,9 +143,9 @@ class Pibt {
     std::vector<RobotId> chosen_;     // robots with a choice
     std::vector<std::int32_t> rank_;  // of each robot with a choice: its index in chosen_
     std::vector<RobotId> queue_;
-    std::vector<std::int64_t> seen_by_;  // of each robot: the latest search for a circle
-    std::int64_t n_circles_ = 0;         // searches
-    std::vector<Place> places_;          // a stack: candidates of each robot that is choosing
+    std::vector<std::int64_t> seen_by_;  // of each robot: the latest search for a rotation
+    std::int64_t n_rotation_searches_ = 0;
+    std::vector<Place> places_;  // a stack: candidates of each robot that is choosing
     std::vector<Frame> frames_;  // a stack: robots that are choosing, each pushed by the last
     std::vector<Fixed> fixed_;
     std::vector<Decision> decisions_;

@@ -161,8 +161,8 @@ bool FleetPlan::fits(RobotId robot, const TimedTrack& track) const {
     return is_free;
 }
 
-void FleetPlan::in_the_way(RobotId robot, const TimedTrack& track,
-                           std::vector<RobotId>& robots) const {
+void FleetPlan::find_conflicting(RobotId robot, const TimedTrack& track,
+                                 std::vector<RobotId>& robots) const {
     robots.clear();
     meet(robot, track, [&](RobotId other) {
         robots.push_back(other);

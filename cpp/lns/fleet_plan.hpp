@@ -40,7 +40,8 @@ class FleetPlan {
     bool fits(RobotId robot, const TimedTrack& track) const;
 
     // The robots in conflict with a track (vertex or swap), each once, in order of id.
-    void in_the_way(RobotId robot, const TimedTrack& track, std::vector<RobotId>& robots) const;
+    void find_conflicting(RobotId robot, const TimedTrack& track,
+                          std::vector<RobotId>& robots) const;
 
     // Books the home of a robot without a track until a tick; 0 removes the booking.
     void hold_home(RobotId robot, Tick until);

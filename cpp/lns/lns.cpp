@@ -131,9 +131,9 @@ bool Lns::find_tracks(Worker& worker, const Task& task, Tick& slack, const StopC
     for (const RobotId robot : task.robots) {
         const Tick alone = alone_[index(robot)];
         const Tick weight = plan_.problem().weight(robot);
-        const SearchRequest errand{
+        const SearchRequest request{
             worker.reader.read(robot), worker.plan.bookings(), {}, alone + slack / weight};
-        if (worker.search.run(errand, is_over) != SearchEnd::found) {
+        if (worker.search.run(request, is_over) != SearchEnd::found) {
             return false;
         }
         worker.search.track(worker.found.visits);

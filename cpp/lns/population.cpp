@@ -30,7 +30,7 @@ bool is_same(const TimedTrack& left, const TimedTrack& right) {
                       });
 }
 
-std::vector<RobotId> all_that_differ(const FleetPlan& left, const FleetPlan& right) {
+std::vector<RobotId> find_differing(const FleetPlan& left, const FleetPlan& right) {
     std::vector<RobotId> robots;
     for (RobotId robot = 0; robot < left.n_robots(); ++robot) {
         if (!is_same(left.track(robot), right.track(robot))) {
@@ -42,15 +42,15 @@ std::vector<RobotId> all_that_differ(const FleetPlan& left, const FleetPlan& rig
 
 // Grows a group around a robot: adds robots in conflict with a member when only one of the two
 // takes the mate's track. The group may have fewer than `size` robots.
-std::vector<RobotId> grow(const FleetPlan& plan, const FleetPlan& mate, RobotId first,
-                          std::size_t size, Random& random) {
+std::vector<RobotId> grow_group(const FleetPlan& plan, const FleetPlan& mate, RobotId first,
+                                std::size_t size, Random& random) {
     std::vector<RobotId> group{first};
     std::vector<RobotId> open{first};
     std::vector<std::uint8_t> is_known(static_cast<std::size_t>(plan.n_robots()), 0);
     is_known[index(first)] = 1;
-    std::vector<RobotId> met;
-    const auto add_all = [&] {
-        for (const RobotId robot : met) {
+    std::vector<RobotId> conflicting;
+    const auto add_conflicting = [&] {
+        for (const RobotId robot : conflicting) {
             if (is_known[index(robot)] == 0 && group.size() < size) {
                 is_known[index(robot)] = 1;
                 group.push_back(robot);
@@ -62,16 +62,16 @@ std::vector<RobotId> grow(const FleetPlan& plan, const FleetPlan& mate, RobotId 
         std::swap(open[random.below(open.size())], open.back());
         const RobotId robot = open.back();
         open.pop_back();
-        plan.in_the_way(robot, mate.track(robot), met);
-        add_all();
-        mate.in_the_way(robot, plan.track(robot), met);
-        add_all();
+        plan.find_conflicting(robot, mate.track(robot), conflicting);
+        add_conflicting();
+        mate.find_conflicting(robot, plan.track(robot), conflicting);
+        add_conflicting();
     }
     return group;
 }
 
 // A uniform sample of `percent` % of all robots, at least one.
-std::vector<RobotId> some(RobotId n_robots, std::size_t percent, Random& random) {
+std::vector<RobotId> sample_robots(RobotId n_robots, std::size_t percent, Random& random) {
     std::vector<RobotId> robots(static_cast<std::size_t>(n_robots));
     std::iota(robots.begin(), robots.end(), 0);
     random.shuffle(robots);
@@ -79,7 +79,7 @@ std::vector<RobotId> some(RobotId n_robots, std::size_t percent, Random& random)
     return robots;
 }
 
-void take_away_all(FleetPlan& plan, std::span<const RobotId> robots) {
+void remove_tracks(FleetPlan& plan, std::span<const RobotId> robots) {
     for (const RobotId robot : robots) {
         TimedTrack no_track;
         plan.exchange(robot, no_track);
@@ -108,10 +108,10 @@ void Population::run(std::int64_t n_tasks, std::int64_t patience, const StopCond
         const std::int64_t before = n_tasks_;
         const std::size_t n = begin_generation(std::min(n_tasks, patience - n_idle_));
         const auto work = [this](std::size_t, std::size_t k, const StopCondition& stop) {
-            bring_up(k, stop);
+            make_child(k, stop);
         };
         crew_.run(n, work, is_over);
-        take_up(n);
+        insert_children(n);
         n_tasks -= n_tasks_ - before;
         if (crew_.is_stopped() || is_due()) {
             break;
@@ -137,7 +137,7 @@ std::size_t Population::begin_generation(std::int64_t n_tasks) {
 
 bool Population::has_all_members() const { return members_.size() == n_members; }
 
-void Population::bring_up(std::size_t k, const StopCondition& is_over) {
+void Population::make_child(std::size_t k, const StopCondition& is_over) {
     Child& child = children_[k];
     Random random(seed_, n_generations_, k);
     if (!vary(child, has_all_members() ? k : 0, random, is_over)) {
@@ -156,13 +156,13 @@ bool Population::vary(Child& child, std::size_t parent, Random& random,
                       const StopCondition& is_over) {
     child.plan = members_[parent];
     const FleetPlan& mate = members_[(parent + 1 + random.below(n_members - 1)) % members_.size()];
-    const std::vector<RobotId> differing = all_that_differ(child.plan, mate);
+    const std::vector<RobotId> differing = find_differing(child.plan, mate);
     std::vector<RobotId> out;
     if (differing.empty()) {
-        out = some(plan_.n_robots(), most_share, random);
-        take_away_all(child.plan, out);
+        out = sample_robots(plan_.n_robots(), most_share, random);
+        remove_tracks(child.plan, out);
     } else {
-        out = take_over(child.plan, mate, differing, random);
+        out = cross_over(child.plan, mate, differing, random);
     }
     random.shuffle(out);
     Prioritized planner(distances_, child.plan);
@@ -174,21 +174,21 @@ bool Population::vary(Child& child, std::size_t parent, Random& random,
 }
 
 // Gives a group of robots the mate's tracks. Returns the robots that lost their tracks by that.
-std::vector<RobotId> Population::take_over(FleetPlan& plan, const FleetPlan& mate,
-                                           std::span<const RobotId> differing,
-                                           Random& random) const {
+std::vector<RobotId> Population::cross_over(FleetPlan& plan, const FleetPlan& mate,
+                                            std::span<const RobotId> differing,
+                                            Random& random) const {
     const std::size_t share = least_share + random.below(most_share - least_share + 1);
     const RobotId first = differing[random.below(differing.size())];
     const std::size_t size = std::max<std::size_t>(1, differing.size() * share / 100);
-    const std::vector<RobotId> group = grow(plan, mate, first, size, random);
-    take_away_all(plan, group);
+    const std::vector<RobotId> group = grow_group(plan, mate, first, size, random);
+    remove_tracks(plan, group);
     std::vector<RobotId> out;
-    std::vector<RobotId> met;
+    std::vector<RobotId> conflicting;
     for (const RobotId robot : group) {
         TimedTrack track = mate.track(robot);
-        plan.in_the_way(robot, track, met);
-        take_away_all(plan, met);
-        out.insert(out.end(), met.begin(), met.end());
+        plan.find_conflicting(robot, track, conflicting);
+        remove_tracks(plan, conflicting);
+        out.insert(out.end(), conflicting.begin(), conflicting.end());
         plan.exchange(robot, track);
     }
     return out;
@@ -196,7 +196,7 @@ std::vector<RobotId> Population::take_over(FleetPlan& plan, const FleetPlan& mat
 
 // Inserts the children in order: a child replaces its parent if its flowtime is no greater, else
 // the worst member if its flowtime is no greater than the worst.
-void Population::take_up(std::size_t n_children) {
+void Population::insert_children(std::size_t n_children) {
     const bool are_parents = has_all_members();
     const auto is_better = [](const FleetPlan& left, const FleetPlan& right) {
         return left.cost() < right.cost();

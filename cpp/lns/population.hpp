@@ -58,11 +58,11 @@ class Population {
 
     bool has_all_members() const;
     std::size_t begin_generation(std::int64_t n_tasks);
-    void bring_up(std::size_t k, const StopCondition& is_over);
+    void make_child(std::size_t k, const StopCondition& is_over);
     bool vary(Child& child, std::size_t parent, Random& random, const StopCondition& is_over);
-    std::vector<RobotId> take_over(FleetPlan& plan, const FleetPlan& mate,
-                                   std::span<const RobotId> differing, Random& random) const;
-    void take_up(std::size_t n_children);
+    std::vector<RobotId> cross_over(FleetPlan& plan, const FleetPlan& mate,
+                                    std::span<const RobotId> differing, Random& random) const;
+    void insert_children(std::size_t n_children);
 
     SharedDistances& distances_;
     FleetPlan& plan_;  // the best

@@ -31,7 +31,7 @@ Prioritized::Prioritized(SharedDistances& distances, FleetPlan& plan, const Trac
       search_(problem_.roads(), problem_.rules()),
       reader_(distances),
       prices_(static_cast<std::size_t>(problem_.n_robots())),
-      n_lost_(prices_.size(), 0),
+      n_evictions_(prices_.size(), 0),
       expected_(prices_.size()),
       next_raise_(prices.states_between_raises) {
     for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
@@ -44,7 +44,7 @@ Tick Prioritized::first_hold(RobotId robot) const {
 }
 
 void Prioritized::keep_home(RobotId robot) {
-    const Tick holds = 1 + n_lost_[index(robot)];
+    const Tick holds = 1 + n_evictions_[index(robot)];
     plan_.hold_home(robot, holds * first_hold(robot));
 }
 
@@ -76,12 +76,12 @@ bool Prioritized::place(RobotId robot, const StopCondition& is_over) {
     if (!find(robot, is_over)) {
         return false;
     }
-    if (evict_those_met() && has_lost(robot) && crosses_their_homes(robot) &&
+    if (evict_conflicting() && was_evicted(robot) && conflicts_with_start_holds(robot) &&
         random_.below(2) == 0) {
         if (!find(robot, is_over)) {
             return false;
         }
-        evict_those_met();
+        evict_conflicting();
     }
     Tick& expected = expected_[index(robot)];
     outlook_ += problem_.weight(robot) * (track_.cost - expected);
@@ -91,31 +91,31 @@ bool Prioritized::place(RobotId robot, const StopCondition& is_over) {
 }
 
 bool Prioritized::find(RobotId robot, const StopCondition& is_over) {
-    const SearchRequest errand{reader_.read(robot), plan_.bookings(), prices_, never, greed};
-    if (search_.run(errand, is_over) != SearchEnd::found) {
+    const SearchRequest request{reader_.read(robot), plan_.bookings(), prices_, never, greed};
+    if (search_.run(request, is_over) != SearchEnd::found) {
         return false;
     }
     search_.track(track_.visits);
     track_.cost = search_.completion() + plan_.surcharges(track_.visits);
-    plan_.in_the_way(robot, track_, met_);
+    plan_.find_conflicting(robot, track_, conflicting_);
     return true;
 }
 
-// Evicts the robots in met_ that have tracks; met_ keeps the evicted robots.
-bool Prioritized::evict_those_met() {
-    std::erase_if(met_, [this](RobotId other) { return !plan_.has_track(other); });
-    for (const RobotId other : met_) {
+// Evicts the robots in conflicting_ that have tracks; conflicting_ keeps the evicted robots.
+bool Prioritized::evict_conflicting() {
+    std::erase_if(conflicting_, [this](RobotId other) { return !plan_.has_track(other); });
+    for (const RobotId other : conflicting_) {
         evict(other);
     }
-    return !met_.empty();
+    return !conflicting_.empty();
 }
 
-// Whether the track conflicts with the start hold of a robot in met_.
-bool Prioritized::crosses_their_homes(RobotId robot) {
-    evicted_.swap(met_);
-    plan_.in_the_way(robot, track_, met_);
+// Whether the track conflicts with the start hold of a robot in conflicting_.
+bool Prioritized::conflicts_with_start_holds(RobotId robot) {
+    evicted_.swap(conflicting_);
+    plan_.find_conflicting(robot, track_, conflicting_);
     return std::any_of(evicted_.begin(), evicted_.end(), [this](RobotId other) {
-        return std::binary_search(met_.begin(), met_.end(), other);
+        return std::binary_search(conflicting_.begin(), conflicting_.end(), other);
     });
 }
 
@@ -135,33 +135,33 @@ void Prioritized::evict(RobotId robot) {
     const Tick dearer = track_prices_.dearer * first_hold(robot);
     prices_[index(robot)] += static_cast<Tick>(level_ * static_cast<double>(dearer));
     keep_home(robot);
-    ++n_lost_[index(robot)];
+    ++n_evictions_[index(robot)];
     waiting_.push_back(robot);
 }
 
 void PrioritizedPortfolio::Side::run(std::int64_t n_searches, const StopCondition& is_over) {
-    is_there = planner.run(n_searches, is_over) == SearchEnd::found;
+    is_complete = planner.run(n_searches, is_over) == SearchEnd::found;
 }
 
 // Whether the other run finished in no more states with a flowtime no greater than projected here.
 bool PrioritizedPortfolio::Side::is_beaten_by(const Side& other) const {
-    return other.is_there && other.planner.n_expanded() <= planner.n_expanded() &&
+    return other.is_complete && other.planner.n_expanded() <= planner.n_expanded() &&
            other.plan.cost() <= planner.highest_outlook();
 }
 
 // Runs a side in another thread until destruction or until the rival has beaten it.
-class PrioritizedPortfolio::Beside {
+class PrioritizedPortfolio::SecondThread {
   public:
-    Beside(Side& side, const Side& rival, std::int64_t n_searches) {
+    SecondThread(Side& side, const Side& rival, std::int64_t n_searches) {
         const auto work = [this, &side, &rival, n_searches] {
             side.run(n_searches, [&] { return is_stopped_ || side.is_beaten_by(rival); });
             has_ended_ = true;
         };
         thread_.start(work, [this] { has_ended_ = true; });
     }
-    Beside(const Beside&) = delete;
-    Beside& operator=(const Beside&) = delete;
-    ~Beside() { is_stopped_ = true; }  // the thread is joined after that
+    SecondThread(const SecondThread&) = delete;
+    SecondThread& operator=(const SecondThread&) = delete;
+    ~SecondThread() { is_stopped_ = true; }  // the thread is joined after that
 
     // Waits until the side has ended, or ends it. Rethrows an exception of the side.
     void finish(const StopCondition& is_over) {
@@ -181,9 +181,9 @@ class PrioritizedPortfolio::Beside {
 PrioritizedPortfolio::PrioritizedPortfolio(SharedDistances& distances, FleetPlan& plan,
                                            std::span<const RobotId> order)
     : plan_(plan),
-      plan_in_haste_(distances.problem()),
+      hasty_plan_(distances.problem()),
       patient_{plan_, Prioritized(distances, plan_, patient)},
-      hasty_{plan_in_haste_, Prioritized(distances, plan_in_haste_, hasty)} {
+      hasty_{hasty_plan_, Prioritized(distances, hasty_plan_, hasty)} {
     patient_.planner.start(order);
     hasty_.planner.start(order);
 }
@@ -191,29 +191,29 @@ PrioritizedPortfolio::PrioritizedPortfolio(SharedDistances& distances, FleetPlan
 bool PrioritizedPortfolio::run(std::int64_t n_searches, bool has_second_thread,
                                const StopCondition& is_over, const StopCondition& is_late) {
     {
-        std::optional<Beside> beside;
+        std::optional<SecondThread> second_thread;
         if (has_second_thread) {
-            beside.emplace(hasty_, patient_, n_searches);
+            second_thread.emplace(hasty_, patient_, n_searches);
         } else {
             hasty_.run(n_searches, is_over);
         }
         patient_.run(n_searches, [&] {
-            return hasty_.is_there ? is_late() || patient_.is_beaten_by(hasty_) : is_over();
+            return hasty_.is_complete ? is_late() || patient_.is_beaten_by(hasty_) : is_over();
         });
-        if (beside) {
-            beside->finish(is_over);
+        if (second_thread) {
+            second_thread->finish(is_over);
         }
     }
-    if (hasty_.is_there && (!patient_.is_there || is_hasty_better())) {
-        plan_ = plan_in_haste_;
+    if (hasty_.is_complete && (!patient_.is_complete || is_hasty_better())) {
+        plan_ = hasty_plan_;
     }
-    return patient_.is_there || hasty_.is_there;
+    return patient_.is_complete || hasty_.is_complete;
 }
 
 // Compares projections before flowtimes, because a run may have been stopped for its projection.
 bool PrioritizedPortfolio::is_hasty_better() const {
     return patient_.is_beaten_by(hasty_) ||
-           (!hasty_.is_beaten_by(patient_) && plan_in_haste_.cost() < plan_.cost());
+           (!hasty_.is_beaten_by(patient_) && hasty_plan_.cost() < plan_.cost());
 }
 
 }  // namespace rightofway

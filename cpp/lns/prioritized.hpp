@@ -62,13 +62,13 @@ class Prioritized {
   private:
     bool place(RobotId robot, const StopCondition& is_over);
     bool find(RobotId robot, const StopCondition& is_over);
-    bool evict_those_met();
-    bool crosses_their_homes(RobotId robot);
+    bool evict_conflicting();
+    bool conflicts_with_start_holds(RobotId robot);
     void evict(RobotId robot);
     void raise_prices();
     void keep_home(RobotId robot);
     Tick first_hold(RobotId robot) const;
-    bool has_lost(RobotId robot) const { return n_lost_[index(robot)] > 0; }
+    bool was_evicted(RobotId robot) const { return n_evictions_[index(robot)] > 0; }
 
     SharedDistances& distances_;
     const Problem& problem_;
@@ -78,10 +78,10 @@ class Prioritized {
     TripReader reader_;
     std::deque<RobotId> waiting_;
     std::vector<Tick> prices_;
-    std::vector<std::int32_t> n_lost_;  // evictions of each robot
-    std::vector<Tick> expected_;        // projected completion times
+    std::vector<std::int32_t> n_evictions_;  // evictions of each robot
+    std::vector<Tick> expected_;             // projected completion times
     Random random_{0};
-    std::vector<RobotId> met_;
+    std::vector<RobotId> conflicting_;
     std::vector<RobotId> evicted_;
     TimedTrack track_;
     std::int64_t n_searches_ = 0;
@@ -117,14 +117,14 @@ class PrioritizedPortfolio {
 
         const FleetPlan& plan;
         Prioritized planner;
-        std::atomic<bool> is_there = false;  // the plan is complete; set by its thread
+        std::atomic<bool> is_complete = false;  // the plan is complete; set by its thread
     };
-    class Beside;
+    class SecondThread;
 
     bool is_hasty_better() const;
 
     FleetPlan& plan_;
-    FleetPlan plan_in_haste_;
+    FleetPlan hasty_plan_;
     Side patient_;
     Side hasty_;
 };

@@ -68,7 +68,7 @@ class PolicyIteration {
                 if (best_.height <= 0) {
                     return best_;
                 }
-                hang_on_circuit();
+                direct_to_circuit();
             } else {
                 value_policy();
             }
@@ -156,13 +156,13 @@ class PolicyIteration {
 
     // Directs every node with a path to the best circuit there: by the node's policy if the policy
     // leads to the circuit, else by the fewest arcs. The other nodes follow no arc.
-    void hang_on_circuit() {
+    void direct_to_circuit() {
         std::fill(seen_.begin(), seen_.end(), 0);
         order_.assign(1, arcs_.head[index(best_.arcs.back())]);
         seen_[index(order_.front())] = 1;
         value_[index(order_.front())] = 0;
-        hang(true);
-        hang(false);
+        extend_tree(true);
+        extend_tree(false);
         for (std::size_t node = 0; node < seen_.size(); ++node) {
             if (seen_[node] == 0) {
                 follows_[node] = none;
@@ -172,7 +172,7 @@ class PolicyIteration {
     }
 
     // Breadth-first from the circuit: along the policy only, or along all arcs.
-    void hang(bool by_policy) {
+    void extend_tree(bool by_policy) {
         for (std::size_t k = 0; k < order_.size(); ++k) {
             const std::int32_t node = order_[k];
             for (const Rows::Arc& arc : entering_.of(node)) {

@@ -338,8 +338,8 @@ bool Timetable::closes_swap(VisitId a, VisitId b) const {
 // Lowers b and the visits held by b. Visits of one instant may hold each other (a rotation), so
 // they fall together.
 void Timetable::lower(VisitId b) {
-    let_fall(b);
-    while (!falling_.empty()) {
+    queue_lowering(b);
+    while (!to_lower_.empty()) {
         gather_instant();
         lower_instant();
         for (const VisitId x : instant_) {
@@ -348,7 +348,7 @@ void Timetable::lower(VisitId b) {
                 raised_.push_back(x);
                 for_each_arc(x, [this, x](VisitId next, Tick length) {
                     if (length > 0 && enter_[index(next)] == enter_[index(x)] + length) {
-                        let_fall(next);  // held by x, at a later instant
+                        queue_lowering(next);  // held by x, at a later instant
                     }
                 });
             }
@@ -357,9 +357,9 @@ void Timetable::lower(VisitId b) {
 }
 
 // Min-heap by enter; visits of one instant are popped together, so ties do not matter.
-void Timetable::let_fall(VisitId visit) {
-    falling_.push_back(visit);
-    std::push_heap(falling_.begin(), falling_.end(),
+void Timetable::queue_lowering(VisitId visit) {
+    to_lower_.push_back(visit);
+    std::push_heap(to_lower_.begin(), to_lower_.end(),
                    [this](VisitId x, VisitId y) { return enter_[index(x)] > enter_[index(y)]; });
 }
 
@@ -371,13 +371,13 @@ void Timetable::gather_instant() {
             instant_.push_back(x);
         }
     };
-    const Tick now = enter_[index(falling_.front())];
+    const Tick now = enter_[index(to_lower_.front())];
     instant_.clear();
-    while (!falling_.empty() && enter_[index(falling_.front())] == now) {
-        std::pop_heap(falling_.begin(), falling_.end(),
+    while (!to_lower_.empty() && enter_[index(to_lower_.front())] == now) {
+        std::pop_heap(to_lower_.begin(), to_lower_.end(),
                       [this](VisitId x, VisitId y) { return enter_[index(x)] > enter_[index(y)]; });
-        add(falling_.back());
-        falling_.pop_back();
+        add(to_lower_.back());
+        to_lower_.pop_back();
     }
     for (std::size_t k = 0; k < instant_.size(); ++k) {
         rights_.for_each_second(instant_[k] - 1, [&](VisitId second) {

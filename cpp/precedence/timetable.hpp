@@ -118,7 +118,7 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     void lower(VisitId b);
     void gather_instant();
     void lower_instant();
-    void let_fall(VisitId visit);
+    void queue_lowering(VisitId visit);
     Tick held_to(VisitId visit) const;
     void accept();
     void restore_enters(std::size_t trail_length);
@@ -130,10 +130,10 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     std::vector<OldEnter> trail_;  // every overwritten enter
 
     // Buffers of a change, reused to avoid allocation.
-    std::vector<Tick> raise_;       // per visit, 0 if untouched; below 0 where a visit falls
-    std::vector<VisitId> cause_;    // per raised visit: the visit that raised it
-    std::vector<VisitId> falling_;  // a heap
-    std::vector<VisitId> instant_;  // visits that fall from one instant
+    std::vector<Tick> raise_;        // per visit, 0 if untouched; below 0 where a visit falls
+    std::vector<VisitId> cause_;     // per raised visit: the visit that raised it
+    std::vector<VisitId> to_lower_;  // a heap
+    std::vector<VisitId> instant_;   // visits that fall from one instant
     std::vector<std::uint8_t> is_in_instant_;
     std::vector<OldEnter> risen_;  // visits that closures raised, with their enters before
 };

@@ -12,16 +12,16 @@ constexpr Tick latest_tick = Tick{1} << 60;
 
 }  // namespace
 
-PeriodicSearch::PeriodicSearch(const Roads& roads, const PeriodicBookings& circle)
+PeriodicSearch::PeriodicSearch(const Roads& roads, const PeriodicBookings& bookings)
     : roads_(roads),
-      circle_(circle),
+      bookings_(bookings),
       at_(roads.graph.indptr.empty() ? 0 : roads.graph.indptr.size() - 1, none) {
     require_graph(roads.graph, "heads");
-    if (!circle.has_sizes()) {
+    if (!bookings.has_sizes()) {
         require_length("indptr", roads.graph.indptr.size(),
-                       static_cast<std::size_t>(circle.n_rows()) + 1);
+                       static_cast<std::size_t>(bookings.n_rows()) + 1);
     }
-    if (!circle.has_period()) {
+    if (!bookings.has_period()) {
         reject("period", 0, "is needed for a trip that repeats");
     }
 }
@@ -43,7 +43,7 @@ bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
     require_trip(roads_, trip);
     require_range("phase", phase, -latest_tick, latest_tick);
     const auto n_own = static_cast<std::int32_t>(at_.size() + roads_.graph.indices.size());
-    require_id("first_row", first_row, circle_.has_sizes() ? circle_.n_rows() - n_own + 1 : 1);
+    require_id("first_row", first_row, bookings_.has_sizes() ? bookings_.n_rows() - n_own + 1 : 1);
     first_row_ = first_row;
     trip_ = &trip;
     is_over_ = &is_over;
@@ -52,14 +52,14 @@ bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
     for (std::int32_t stage = last_stage(); stage-- > 0;) {
         to_go_[index(stage)] = dwell_of(stage) + rest(trip.stage_vertex[index(stage)], stage + 1);
     }
-    const Tick first = circle_.fold(phase);
+    const Tick first = bookings_.fold(phase);
     bool is_found = false;
-    circle_.for_each_gap(first_row_ + trip.home, first, first + circle_.period(),
-                         [&](const PeriodicBookings::Gap& home) {
-                             is_found =
-                                 close_from(home, home.start == -never ? first : home.start, found);
-                             return !is_found && !is_stopped_;
-                         });
+    bookings_.for_each_gap(first_row_ + trip.home, first, first + bookings_.period(),
+                           [&](const PeriodicBookings::Gap& home) {
+                               is_found = close_from(
+                                   home, home.start == -never ? first : home.start, found);
+                               return !is_found && !is_stopped_;
+                           });
     return is_found;
 }
 
@@ -67,18 +67,18 @@ bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
 bool PeriodicSearch::close_from(const PeriodicBookings::Gap& home, Tick start,
                                 PeriodicRoundTrip& found) {
     const Tick leaves =
-        home.end == never ? start : home.end - circle_.headway() - dwell_of(last_stage());
+        home.end == never ? start : home.end - bookings_.headway() - dwell_of(last_stage());
     while (start <= leaves && !is_stopped_) {
         // The latest return is the last possible start plus a period.
-        const Tick again = earliest_return(home, start, leaves + circle_.period());
+        const Tick again = earliest_return(home, start, leaves + bookings_.period());
         if (again >= never) {
             return false;
         }
-        if (again <= start + circle_.period()) {
+        if (again <= start + bookings_.period()) {
             trace(found);
             return true;
         }
-        start = again - circle_.period();
+        start = again - bookings_.period();
     }
     return false;
 }
@@ -102,7 +102,7 @@ Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick sta
             continue;
         }
         const bool is_same_gap =
-            home.end == never || node.gap.start == home.start + circle_.period();
+            home.end == never || node.gap.start == home.start + bookings_.period();
         if (node.from != none && node.stage == last_stage() && node.vertex == trip_->home &&
             is_same_gap) {
             goal_ = top.node;
@@ -149,16 +149,16 @@ void PeriodicSearch::drive(std::int32_t from, EdgeId edge, std::int32_t stage, T
     }
     const Tick soonest = here.enter + dwell + ticks;
     const Tick last =
-        std::min(here.gap.end == never ? never : here.gap.end - circle_.headway(), latest - left);
+        std::min(here.gap.end == never ? never : here.gap.end - bookings_.headway(), latest - left);
     if (soonest > last) {
         return;
     }
-    const Tick approach = circle_.books_ahead() ? ticks : 0;
+    const Tick approach = bookings_.books_ahead() ? ticks : 0;
     const std::int32_t row =
-        circle_.has_sizes() ? first_row_ + static_cast<std::int32_t>(at_.size()) + edge : none;
-    circle_.for_each_gap(
+        bookings_.has_sizes() ? first_row_ + static_cast<std::int32_t>(at_.size()) + edge : none;
+    bookings_.for_each_gap(
         first_row_ + next, soonest, last - approach, [&](const PeriodicBookings::Gap& gap) {
-            const Tick enter = circle_.enters(here.gap, gap, soonest, last, approach, row);
+            const Tick enter = bookings_.enters(here.gap, gap, soonest, last, approach, row);
             if (enter < never) {
                 reach({enter, gap, next, stage, from, ticks, none});
             }
@@ -211,7 +211,7 @@ void PeriodicSearch::trace(PeriodicRoundTrip& found) const {
     std::reverse(stages.begin(), stages.end());
     // The return is the first visit, a period later.
     found.drive.front() = found.drive.back();
-    found.enter.front() = found.enter.back() - circle_.period();
+    found.enter.front() = found.enter.back() - bookings_.period();
     found.vertex.pop_back();
     found.drive.pop_back();
     found.enter.pop_back();

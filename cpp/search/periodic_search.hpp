@@ -32,11 +32,11 @@ class PeriodicSearch {
   public:
     // Borrows both. The last stage of a trip is at its home. On the way to a stage the robot enters
     // only vertices with a distance in the stage's table.
-    PeriodicSearch(const Roads& roads, const PeriodicBookings& circle);
+    PeriodicSearch(const Roads& roads, const PeriodicBookings& bookings);
 
     // Finds a route and its enters; false as in `PeriodicBookings::search`. Tries the gaps of the
     // home in order, from the gap at `phase` on; in the first possible gap the return is earliest.
-    // Throws std::invalid_argument if roads and circle do not fit together. Where robots have
+    // Throws std::invalid_argument if roads and bookings do not fit together. Where robots have
     // sizes, the robot's rows begin at `first_row`.
     bool run(const Trip& trip, Tick phase, PeriodicRoundTrip& found, const StopCondition& is_over,
              std::int32_t first_row = 0);
@@ -63,7 +63,7 @@ class PeriodicSearch {
     void trace(PeriodicRoundTrip& found) const;
 
     Roads roads_;
-    const PeriodicBookings& circle_;
+    const PeriodicBookings& bookings_;
     const Trip* trip_ = nullptr;
     const StopCondition* is_over_ = nullptr;
     std::int32_t first_row_ = 0;

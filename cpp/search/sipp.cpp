@@ -20,22 +20,22 @@ std::uint64_t scatter(std::uint64_t key) {
 SafeIntervalSearch::SafeIntervalSearch(const Roads& roads, const BookingRules& rules)
     : roads_(roads), rules_(rules), slots_(first_slots, unused) {}
 
-void SafeIntervalSearch::begin(const SearchRequest& errand) {
-    trip_ = &errand.trip;
-    bookings_ = &errand.bookings;
+void SafeIntervalSearch::begin(const SearchRequest& request) {
+    trip_ = &request.trip;
+    bookings_ = &request.bookings;
     books_edges_ = bookings_->n_rows() > roads_.graph.n_vertices();
-    prices_ = errand.prices;
-    limit_ = errand.limit;
+    prices_ = request.prices;
+    limit_ = request.limit;
     nodes_.clear();
     open_.clear();
     goal_ = none;
     mask_ = first_slots - 1;
-    greed_ = errand.greed;
+    greed_ = request.greed;
     // Overlaps that no price buys make an earlier, dearer node worth keeping.
     has_one_label_ = (prices_.empty() && trip_->surcharges.empty()) ||
                      (greed_ > 0 && !bookings_->has_closures());
     next_generation();
-    measure_stages(errand.trip);
+    measure_stages(request.trip);
     least_drive_ = never;
     for (const std::int32_t ticks : trip_->pace) {
         least_drive_ = ticks == barred ? least_drive_ : std::min<Tick>(least_drive_, ticks);
@@ -98,8 +98,8 @@ Tick SafeIntervalSearch::rest(const Node& node) const {
     return trip_->with_turns->from(node.edge, node.stage);
 }
 
-SearchEnd SafeIntervalSearch::run(const SearchRequest& errand, const StopCondition& is_over) {
-    begin(errand);
+SearchEnd SafeIntervalSearch::run(const SearchRequest& request, const StopCondition& is_over) {
+    begin(request);
     if (least_f_ >= never || least_f_ > limit_) {
         return SearchEnd::proven_none;
     }
@@ -108,7 +108,7 @@ SearchEnd SafeIntervalSearch::run(const SearchRequest& errand, const StopConditi
         if (end == SearchEnd::found) {
             return end;
         }
-        begin(errand);
+        begin(request);
     }
     return search(never, is_over);
 }

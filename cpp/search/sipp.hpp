@@ -59,7 +59,7 @@ class SafeIntervalSearch {
     SafeIntervalSearch(const Roads& roads, const BookingRules& rules);
 
     // Calls `is_over` every few hundred states.
-    SearchEnd run(const SearchRequest& errand, const StopCondition& is_over);
+    SearchEnd run(const SearchRequest& request, const StopCondition& is_over);
 
     // The track of the last search; empty if the search found none.
     void track(std::vector<Visit>& visits) const;
@@ -91,7 +91,7 @@ class SafeIntervalSearch {
     static constexpr Slot unused{0, 0, 0, -1};
 
     SearchEnd search(std::int64_t most_states, const StopCondition& is_over);
-    void begin(const SearchRequest& errand);
+    void begin(const SearchRequest& request);
     void measure_stages(const Trip& trip);
     Tick least_end() const;
     Tick free_end(std::span<const BookedBy> before) const;

@@ -701,11 +701,11 @@ class FleetSearch:
             Where and when each visit begins. [ticks] None is empty.
         """
 
-    def prioritize(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None, with_net: float | None) -> bool:
+    def prioritize(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None, with_fallback: float | None) -> bool:
         """
         Give the robots tracks one after another, in this order; return whether all have one now.
 
-        `go_on` may change a False.
+        `resume` may change a False.
 
         Parameters
         ----------
@@ -715,8 +715,8 @@ class FleetSearch:
             The most searches before it gives up.
         time_limit : float or None
             When to stop; at once for 0 or less. [s]
-        with_net : float or None
-            When to stop instead once there is a plan made in haste. [s]
+        with_fallback : float or None
+            When to stop instead once the hasty attempt has a plan. [s]
         """
 
     def repair(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None) -> bool:
@@ -735,7 +735,7 @@ class FleetSearch:
             When to stop; at once for 0 or less. [s]
         """
 
-    def go_on(self, n_searches: int, time_limit: float | None) -> bool:
+    def resume(self, n_searches: int, time_limit: float | None) -> bool:
         """
         Continue a `prioritize` that returned False.
 

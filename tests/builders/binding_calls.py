@@ -487,12 +487,12 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "FleetSearch.restore": _always(**TRACKS),
     "FleetSearch.prioritize": lambda rng: {
         "order": int32(*rng.sample(range(3), 3)), "n_searches": 100, "time_limit": 0.2,
-        "with_net": 0.1,
+        "with_fallback": 0.1,
     },
     "FleetSearch.repair": lambda rng: {
         "order": int32(*rng.sample(range(3), rng.randrange(4))), "n_searches": 50, "time_limit": 0.2
     },
-    "FleetSearch.go_on": _timed(n_searches=200),
+    "FleetSearch.resume": _timed(n_searches=200),
     "FleetSearch.improve": _timed(n_tasks=40, patience=20, pause=None),
     "FleetSearch.retime": _always(),
     "FleetSearch.tracks": _always(),

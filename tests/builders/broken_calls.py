@@ -99,7 +99,7 @@ def _try_problem(problem: _core.Problem, rng: random.Random, *, shows: bool) -> 
     for name in ("FleetSearch", "plan_by_lacam", "Congestion", "earliest_track"):
         made = call(getattr(_core, name), rng, name, False, shows=shows, problem=problem)
         if isinstance(made, _core.FleetSearch):
-            for own in ("alone", "prioritize", "go_on", "improve", "retime", "tracks"):
+            for own in ("alone", "prioritize", "resume", "improve", "retime", "tracks"):
                 method = f"FleetSearch.{own}"
                 call(getattr(made, own), rng, method, False, shows=shows)
 

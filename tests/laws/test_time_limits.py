@@ -78,7 +78,7 @@ def native_calls_with_a_limit() -> set[str]:
                 yield from named(node.body, f"{node.name}.")
             elif isinstance(node, ast.FunctionDef):
                 arguments = [one.arg for one in (*node.args.args, *node.args.kwonlyargs)]
-                if {"time_limit", "with_net", "pause"} & set(arguments):
+                if {"time_limit", "with_fallback", "pause"} & set(arguments):
                     yield within + node.name
 
     return set(named(ast.parse(stub.read_text()).body))
@@ -94,10 +94,10 @@ def improve(scenario: Scenario, limit: float) -> None:
         search.improve(10**9, patience=10**9, time_limit=limit)
 
 
-def go_on(scenario: Scenario, limit: float) -> None:
+def resume(scenario: Scenario, limit: float) -> None:
     search = FleetSearch(scenario.problem)
     search.prioritize(order(scenario), searches=1, time_limit=None)
-    search.go_on(searches=10**9, time_limit=limit)
+    search.resume(searches=10**9, time_limit=limit)
 
 
 def prioritize(scenario: Scenario, limit: float) -> None:
@@ -163,7 +163,7 @@ CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "ActionDependencyGraph.runs": runs,
     "CyclicSimulator.advance": lambda one, limit: rightofway.run_laps(one, time_limit=limit),
     "FleetSearch.alone": lambda one, limit: least_completions(one, time_limit=limit),
-    "FleetSearch.go_on": go_on,
+    "FleetSearch.resume": resume,
     "FleetSearch.improve": improve,
     "FleetSearch.prioritize": prioritize,
     "FleetSearch.repair": repair,

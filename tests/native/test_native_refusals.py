@@ -148,8 +148,8 @@ def test_what_needs_a_plan_is_refused_without_one() -> None:
         search.improve(n_tasks=3, patience=3, time_limit=None, pause=None)
     with pytest.raises(ValueError, match="retime: 0 is a robot without a track"):
         search.retime()
-    with pytest.raises(ValueError, match="go_on: there is no attempt to continue"):
-        search.go_on(n_searches=3, time_limit=None)
+    with pytest.raises(ValueError, match="resume: there is no attempt to continue"):
+        search.resume(n_searches=3, time_limit=None)
 
 
 @pytest.mark.parametrize(
@@ -165,7 +165,7 @@ def test_what_needs_a_plan_is_refused_without_one() -> None:
 def test_orders_that_are_none_are_refused(method: str, order: Any, message: str) -> None:
     limits = {"n_searches": 9, "time_limit": None}
     if method == "prioritize":
-        limits |= {"with_net": None}
+        limits |= {"with_fallback": None}
     with pytest.raises(ValueError, match=message):
         getattr(fleet(), method)(order, **limits)
 
@@ -285,6 +285,6 @@ def test_a_limit_that_is_no_number_is_refused(call: Callable[[Any, float], objec
     search = fleet()
     search.start(**TRACKS)
     with pytest.raises(
-        ValueError, match=r"^(time_limit|with_net|pause): nan is no number of seconds"
+        ValueError, match=r"^(time_limit|with_fallback|pause): nan is no number of seconds"
     ):
         call(search, math.nan)

@@ -49,10 +49,10 @@ void check_grid(VertexId rows, VertexId columns, VertexId one_way) {
     for (VertexId v = 0; v < rows * columns; ++v) {
         const VertexId row = v / columns;
         const VertexId column = v % columns;
-        for (const auto& [is_there, head] :
+        for (const auto& [is_joined, head] :
              {std::pair{column + 1 < columns, v + 1}, std::pair{row + 1 < rows, v + columns},
               std::pair{column > 0 && row != one_way, v - 1}, std::pair{row > 0, v - columns}}) {
-            if (is_there) {
+            if (is_joined) {
                 heads.push_back(head);
             }
         }

@@ -18,12 +18,12 @@ TEST_CASE("a plan knows who is in the way of a track, by booking or by swap") {
     TimedTrack there{{{0, 5, 0}, {1, 6, 1}, {2, 7, 1}}, 2};
     plan.exchange(0, there);
     CHECK(plan.cost() == 2);
-    std::vector<RobotId> met;
+    std::vector<RobotId> conflicting;
     const TimedTrack into{{{0, 12, 0}, {3, 7, 3}}, 3};
     CHECK_FALSE(plan.fits(1, into));
     const TimedTrack swap{{{-9, 11, 0}, {-5, 6, 3}, {1, 5, 3}, {4, 10, 3}}, 4};
-    plan.in_the_way(1, swap, met);
-    CHECK(met == std::vector<RobotId>{0});
+    plan.find_conflicting(1, swap, conflicting);
+    CHECK(conflicting == std::vector<RobotId>{0});
     const TimedTrack later{{{0, 11, 0}, {3, 6, 3}, {6, 5, 3}}, 6};
     CHECK(plan.fits(1, later));
     plan.hold_home(2, 7);

@@ -26,64 +26,64 @@ struct Trip {
 bool no_deadline() { return false; }
 
 TEST_CASE("alone, a robot makes its round at the phase it is given") {
-    PeriodicBookings circle(4, 10, 0, false);
+    PeriodicBookings bookings(4, 10, 0, false);
     const Trip trip({0, 1, 2, 1});
     Ticks enter;
-    CHECK(circle.search(trip.visits(), 3, enter, no_deadline));
+    CHECK(bookings.search(trip.visits(), 3, enter, no_deadline));
     CHECK(enter == Ticks{-3, 4, 5, 6});  // home again at 7, and stays there until 13
 }
 
 TEST_CASE("a round longer than the period has no place") {
-    PeriodicBookings circle(4, 3, 0, false);
+    PeriodicBookings bookings(4, 3, 0, false);
     const Trip trip({0, 1, 2, 1});
     Ticks enter;
-    CHECK_FALSE(circle.search(trip.visits(), 0, enter, no_deadline));
+    CHECK_FALSE(bookings.search(trip.visits(), 0, enter, no_deadline));
 }
 
 TEST_CASE("the next one waits for the gap that lets it in and out again") {
-    PeriodicBookings circle(6, 8, 0, false);
+    PeriodicBookings bookings(6, 8, 0, false);
     const Trip one({0, 2, 4, 2});  // in the door 2 from 1 to 2 and from 3 to 4
-    circle.add(0, one.visits(), Ticks{-4, 1, 2, 3});
+    bookings.add(0, one.visits(), Ticks{-4, 1, 2, 3});
     Trip other({1, 2, 5, 2});
     Ticks enter;
-    REQUIRE(circle.search(other.visits(), 0, enter, no_deadline));
-    circle.add(1, other.visits(), enter);
+    REQUIRE(bookings.search(other.visits(), 0, enter, no_deadline));
+    bookings.add(1, other.visits(), enter);
     CHECK(enter == Ticks{-3, 2, 3, 4});
 }
 
 TEST_CASE("what is booked across the seam is booked on both sides of it") {
-    PeriodicBookings circle(4, 6, 0, false);
+    PeriodicBookings bookings(4, 6, 0, false);
     const Trip one({0, 2});
-    circle.add(0, one.visits(), Ticks{2, 5});  // in 2 from 5 to 8: over the seam until 2
+    bookings.add(0, one.visits(), Ticks{2, 5});  // in 2 from 5 to 8: over the seam until 2
     const Trip other({1, 2});
     Ticks enter;
-    REQUIRE(circle.search(other.visits(), 0, enter, no_deadline));
+    REQUIRE(bookings.search(other.visits(), 0, enter, no_deadline));
     CHECK(enter == Ticks{-3, 2});  // from 2 to 3
 }
 
 TEST_CASE("from a home that others pass, the search finds the start that meets itself") {
-    PeriodicBookings circle(4, 10, 0, false);
+    PeriodicBookings bookings(4, 10, 0, false);
     const Trip passes({0, 1});  // in 1 from 4 to 6
-    circle.add(0, passes.visits(), Ticks{-4, 4});
+    bookings.add(0, passes.visits(), Ticks{-4, 4});
     Trip lives({1, 2});
     lives.dwell = {0, 6};  // away for 1 + 6 + 1: home for 2 ticks at least
     Ticks enter;
-    REQUIRE(circle.search(lives.visits(), 0, enter, no_deadline));
+    REQUIRE(bookings.search(lives.visits(), 0, enter, no_deadline));
     // It is home from 6 on, leaves at 7 for 2, and comes back 7 ticks later: then it waits.
-    circle.add(1, lives.visits(), enter);
+    bookings.add(1, lives.visits(), enter);
     lives.dwell = {0, 9};
-    circle.remove(1);
-    CHECK_FALSE(circle.search(lives.visits(), 0, enter, no_deadline));
+    bookings.remove(1);
+    CHECK_FALSE(bookings.search(lives.visits(), 0, enter, no_deadline));
 }
 
 TEST_CASE("a swap is no way through") {
-    PeriodicBookings circle(4, 4, 0, false);
+    PeriodicBookings bookings(4, 4, 0, false);
     const Trip one({0, 1});  // in 1 for one tick in four, in 0 for the rest
-    circle.add(0, one.visits(), Ticks{-2, 1});
+    bookings.add(0, one.visits(), Ticks{-2, 1});
     const Trip against({1, 0});  // would have to be in 0 exactly while the other is in 1
     Ticks enter;
-    CHECK_FALSE(circle.search(against.visits(), 0, enter, no_deadline));
-    CHECK(circle.reached() == 0);
+    CHECK_FALSE(bookings.search(against.visits(), 0, enter, no_deadline));
+    CHECK(bookings.reached() == 0);
 }
 
 TEST_CASE("headway and booking ahead keep robots apart") {
@@ -112,20 +112,20 @@ struct CrossingLanes {
     std::vector<std::int32_t> into_a_and_b{5, 4};
     std::vector<std::int32_t> into_c_and_d{7, 6};
 
-    PeriodicBookings circle(Tick period) const { return {8, period, 0, true, {first, excluded}}; }
+    PeriodicBookings bookings(Tick period) const { return {8, period, 0, true, {first, excluded}}; }
     Visits one() const { return {a_and_b, dwell, drive, into_a_and_b}; }
     Visits other() const { return {c_and_d, dwell, drive, into_c_and_d}; }
 };
 
 TEST_CASE("drives along lanes that cross take turns") {
     const CrossingLanes lanes;
-    PeriodicBookings circle = lanes.circle(16);
-    REQUIRE(circle.add(0, lanes.one(), Ticks{0, 4}));  // drives from 0 to 4 and from 12 to 16
+    PeriodicBookings bookings = lanes.bookings(16);
+    REQUIRE(bookings.add(0, lanes.one(), Ticks{0, 4}));  // drives from 0 to 4 and from 12 to 16
     Ticks enter;
-    REQUIRE(circle.search(lanes.other(), 0, enter, no_deadline));
+    REQUIRE(bookings.search(lanes.other(), 0, enter, no_deadline));
     CHECK(enter == Ticks{-4, 8});  // to D from 4 to 8, to C from 8 to 12
-    CHECK(circle.add(1, lanes.other(), enter));
-    PeriodicBookings shorter = lanes.circle(15);
+    CHECK(bookings.add(1, lanes.other(), enter));
+    PeriodicBookings shorter = lanes.bookings(15);
     REQUIRE(shorter.add(0, lanes.one(), Ticks{0, 4}));
     CHECK_FALSE(shorter.search(lanes.other(), 0, enter, no_deadline));
 }
@@ -154,16 +154,16 @@ TEST_CASE("marks of two robots in one row are joined, and leave with their robot
 }
 
 TEST_CASE("what overlaps, or is no round, is refused and books nothing") {
-    PeriodicBookings circle(4, 6, 0, false);
+    PeriodicBookings bookings(4, 6, 0, false);
     const Trip one({0, 2});
-    circle.add(0, one.visits(), Ticks{-3, 2});
+    bookings.add(0, one.visits(), Ticks{-3, 2});
     const Trip other({1, 2});
-    CHECK_FALSE(circle.add(1, other.visits(), Ticks{-3, 2}));
-    CHECK_THROWS_AS(circle.add(0, one.visits(), Ticks{-3, 2}), std::invalid_argument);
-    CHECK_THROWS_AS(circle.add(1, other.visits(), Ticks{2, 2}), std::invalid_argument);
-    circle.remove(0);
-    circle.remove(0);
-    CHECK(circle.add(1, other.visits(), Ticks{-3, 2}));
+    CHECK_FALSE(bookings.add(1, other.visits(), Ticks{-3, 2}));
+    CHECK_THROWS_AS(bookings.add(0, one.visits(), Ticks{-3, 2}), std::invalid_argument);
+    CHECK_THROWS_AS(bookings.add(1, other.visits(), Ticks{2, 2}), std::invalid_argument);
+    bookings.remove(0);
+    bookings.remove(0);
+    CHECK(bookings.add(1, other.visits(), Ticks{-3, 2}));
     CHECK_THROWS_AS(PeriodicBookings(4, 0, 0, false), std::invalid_argument);
 }
 
@@ -242,16 +242,17 @@ TEST_CASE("a line of time refuses what does not fit together, and has no closed 
 }
 
 TEST_CASE("ticks that would overflow, and robots that are nobody, are refused") {
-    PeriodicBookings circle(4, 10, 0, false);
+    PeriodicBookings bookings(4, 10, 0, false);
     const Trip trip({0, 1});
     const Tick late = (Tick{1} << 60) + 1;
     Ticks enter;
-    CHECK_THROWS_WITH(circle.add(-1, trip.visits(), Ticks{0, 5}), "robot: -1 is negative");
-    CHECK_THROWS_WITH(circle.add(0, trip.visits(), Ticks{late, late + 1}),
+    CHECK_THROWS_WITH(bookings.add(-1, trip.visits(), Ticks{0, 5}), "robot: -1 is negative");
+    CHECK_THROWS_WITH(bookings.add(0, trip.visits(), Ticks{late, late + 1}),
                       "enter[0]: 1152921504606846977 is not in -1152921504606846976.."
                       "1152921504606846976");
-    CHECK_THROWS_AS(circle.search(trip.visits(), late, enter, no_deadline), std::invalid_argument);
-    CHECK_THROWS_WITH(circle.connect(trip.visits(), 0, 655'371, 655'372, enter),
+    CHECK_THROWS_AS(bookings.search(trip.visits(), late, enter, no_deadline),
+                    std::invalid_argument);
+    CHECK_THROWS_WITH(bookings.connect(trip.visits(), 0, 655'371, 655'372, enter),
                       "until: 655371 is more than 65536 periods after begins, 0");
 }
 

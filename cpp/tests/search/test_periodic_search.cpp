@@ -34,8 +34,8 @@ struct Diamond {
 
 TEST_CASE("alone, a robot takes a shortest way from the phase it is given") {
     const Diamond map;
-    const PeriodicBookings circle(4, 10, 0, false);
-    PeriodicSearch search(map.roads(), circle);
+    const PeriodicBookings bookings(4, 10, 0, false);
+    PeriodicSearch search(map.roads(), bookings);
     PeriodicRoundTrip found;
     REQUIRE(search.run(map.trip(), 3, found, no_deadline));
     CHECK(found.vertex == Vertices{0, 1, 3, 1});
@@ -46,16 +46,17 @@ TEST_CASE("alone, a robot takes a shortest way from the phase it is given") {
 
 TEST_CASE("where one way is taken for long, it goes the other") {
     const Diamond map;
-    PeriodicBookings circle(4, 10, 0, false);
+    PeriodicBookings bookings(4, 10, 0, false);
     const Vertices there{1, 3};
     const Ticks dwell{0, 0};
     const Ticks drive{1, 1};
-    circle.add(7, {there, dwell, drive}, Ticks{1, 0 + 10});  // in 1 from 1 to 10, in 3 from 0 to 1
-    PeriodicSearch search(map.roads(), circle);
+    bookings.add(7, {there, dwell, drive},
+                 Ticks{1, 0 + 10});  // in 1 from 1 to 10, in 3 from 0 to 1
+    PeriodicSearch search(map.roads(), bookings);
     PeriodicRoundTrip found;
     REQUIRE(search.run(map.trip(), 0, found, no_deadline));
     CHECK(found.vertex == Vertices{0, 2, 3, 2});
-    circle.add(0, {found.vertex, found.dwell, found.drive}, found.enter);
+    bookings.add(0, {found.vertex, found.dwell, found.drive}, found.enter);
 }
 
 TEST_CASE("a trip longer than the period has no place, and what must not be entered is not") {
@@ -63,17 +64,18 @@ TEST_CASE("a trip longer than the period has no place, and what must not be ente
     PeriodicRoundTrip found;
     const PeriodicBookings tight(4, 6, 0, false);
     CHECK_FALSE(PeriodicSearch(map.roads(), tight).run(map.trip(), 0, found, no_deadline));
-    const PeriodicBookings circle(4, 7, 0, false);
+    const PeriodicBookings bookings(4, 7, 0, false);
     map.to_three[1] = map.to_zero[1] = -1;
-    REQUIRE(PeriodicSearch(map.roads(), circle).run(map.trip(), 0, found, no_deadline));
+    REQUIRE(PeriodicSearch(map.roads(), bookings).run(map.trip(), 0, found, no_deadline));
     CHECK(found.vertex == Vertices{0, 2, 3, 2});
 }
 
 TEST_CASE("it stops when it is told to, and refuses another map's roads") {
     const Diamond map;
     PeriodicRoundTrip found;
-    const PeriodicBookings circle(4, 7, 0, false);
-    CHECK_FALSE(PeriodicSearch(map.roads(), circle).run(map.trip(), 0, found, [] { return true; }));
+    const PeriodicBookings bookings(4, 7, 0, false);
+    CHECK_FALSE(
+        PeriodicSearch(map.roads(), bookings).run(map.trip(), 0, found, [] { return true; }));
     const PeriodicBookings other(5, 7, 0, false);
     CHECK_THROWS_AS(PeriodicSearch(map.roads(), other), std::invalid_argument);
 }

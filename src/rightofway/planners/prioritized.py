@@ -30,7 +30,7 @@ from rightofway.search import FleetSearch
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
 """The parts of the time left for planning at own speeds, then at one pace, then at own speeds."""
 
-SHARE_WITH_NET = 0.5
+SHARE_WITH_FALLBACK = 0.5
 """The part of the time left for planning at own speeds where the greedy attempt has a plan."""
 
 SEARCHES, SEARCHES_AT_ONE_PACE = 3, 20
@@ -87,11 +87,11 @@ def plan_in_turn(
         turns,
         searches=searches,
         time_limit=_part(deadline, SHARE),
-        with_net=_part(deadline, SHARE_WITH_NET),
+        with_fallback=_part(deadline, SHARE_WITH_FALLBACK),
     ):
         return _at_own_speeds(task, search)
     drafts = [_at_one_pace(task, turns)]
-    if search.go_on(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
+    if search.resume(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
         drafts.append(_at_own_speeds(task, search))
     there = [draft for draft in drafts if draft is not None]
     return min(there, key=lambda draft: cost_of(task.scenario, draft.tracks), default=None)

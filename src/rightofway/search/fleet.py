@@ -90,7 +90,7 @@ class FleetSearch:
         *,
         searches: int,
         time_limit: float | None,
-        with_net: float | None = None,
+        with_fallback: float | None = None,
     ) -> bool:
         """Give the robots tracks one after another; tell whether all have one.
 
@@ -102,20 +102,20 @@ class FleetSearch:
             The most searches before it gives up.
         time_limit
             When to stop [s].
-        with_net
+        with_fallback
             When to stop [s] once the greedy attempt has a plan, if that is later.
         """
-        with_net = time_limit if with_net is None else with_net
-        return self._core.prioritize(self._robots(order), searches, time_limit, with_net)
+        with_fallback = time_limit if with_fallback is None else with_fallback
+        return self._core.prioritize(self._robots(order), searches, time_limit, with_fallback)
 
     def _robots(self, order: Sequence[int]) -> NDArray[np.int32]:
         for k, robot in enumerate(order):
             checked_index(("order", k), robot, self._n_robots)
         return np.array(order, np.int32)
 
-    def go_on(self, *, searches: int, time_limit: float | None) -> bool:
+    def resume(self, *, searches: int, time_limit: float | None) -> bool:
         """Continue `prioritize` where it ended; the searches count from its beginning."""
-        return self._core.go_on(searches, time_limit)
+        return self._core.resume(searches, time_limit)
 
     def start(self, tracks: Sequence[Track | None]) -> None:
         """Take over tracks; robots without one are left to `repair`.
