@@ -12,8 +12,9 @@
 #include "bindings.hpp"
 #include "core/poll.hpp"
 #include "core/reject.hpp"
-#include "lns/population.hpp"
+#include "lns/anytime_lns.hpp"
 #include "lns/prioritized.hpp"
+#include "lns/prioritized_portfolio.hpp"
 
 namespace rightofway::bind {
 namespace {

@@ -20,6 +20,7 @@
 #include "cyclic/cyclic_routes.hpp"
 #include "cyclic/rolling_timetable.hpp"
 #include "cyclic/seen_states.hpp"
+#include "cyclic/visit_times.hpp"
 
 namespace rightofway {
 

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/task_crew.hpp"
+#include "lns/adaptive_choice.hpp"
 #include "lns/fleet_plan.hpp"
 #include "lns/neighbourhoods.hpp"
 #include "search/sipp.hpp"

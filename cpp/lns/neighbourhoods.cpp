@@ -9,9 +9,6 @@ constexpr std::int32_t walks = 10;
 constexpr std::size_t places_around = 40;
 constexpr std::size_t visits_around = 12;
 
-constexpr double memory = 0.97;    // of a record, from use to use
-constexpr double curiosity = 0.3;  // the share of draws that is even
-
 }  // namespace
 
 Neighbourhoods::Neighbourhoods(SharedDistances& distances, const FleetPlan& plan,
@@ -248,44 +245,6 @@ void Neighbourhoods::segment(std::size_t size, Random& random) {
         if (chosen_.size() < size) {
             add(other);
         }
-    }
-}
-
-AdaptiveChoice::AdaptiveChoice(std::size_t n_options)
-    : records_(n_options), weights_(n_options, 1.0 / static_cast<double>(n_options)) {}
-
-std::size_t AdaptiveChoice::draw(Random& random) const {
-    double left = static_cast<double>(random.next() >> 11) * 0x1.0p-53;
-    std::size_t option = 0;
-    while (option + 1 < weights_.size() && (left -= weights_[option]) >= 0) {
-        ++option;
-    }
-    return option;
-}
-
-void AdaptiveChoice::learn(std::size_t option, double gain, double effort) {
-    Record& record = records_[option];
-    record.gain = memory * record.gain + gain;
-    record.effort = memory * record.effort + effort;
-}
-
-void AdaptiveChoice::settle() {
-    const auto n = static_cast<double>(records_.size());
-    double total_gain = 0;
-    double total_effort = 1;
-    for (const Record& record : records_) {
-        total_gain += record.gain;
-        total_effort += record.effort;
-    }
-    const double prior = total_effort / n * 0.1 + 1;
-    double sum = 0;
-    for (std::size_t k = 0; k < records_.size(); ++k) {
-        weights_[k] = (records_[k].gain + prior * (total_gain + 1e-9) / total_effort) /
-                      (records_[k].effort + prior);
-        sum += weights_[k];
-    }
-    for (double& weight : weights_) {
-        weight = (1 - curiosity) * weight / sum + curiosity / n;
     }
 }
 

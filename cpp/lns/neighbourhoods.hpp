@@ -23,31 +23,6 @@ enum class NeighbourhoodKind : std::int32_t {
 };
 inline constexpr std::size_t n_neighbourhood_kinds = 5;
 
-// Adaptive weights of ALNS: a neighbourhood is drawn with a probability that grows with its recent
-// gain for the effort.
-//
-// Ropke & Pisinger, "An adaptive large neighborhood search heuristic for the pickup and delivery
-// problem with time windows", Transportation Science 2006 (weights).
-class AdaptiveChoice {
-  public:
-    explicit AdaptiveChoice(std::size_t n_options);
-
-    std::size_t draw(Random& random) const;
-
-    // Notes what an option has brought; the weights take that up when `settle` is called.
-    void learn(std::size_t option, double gain, double effort);
-    void settle();
-
-  private:
-    struct Record {
-        double gain = 0;
-        double effort = 0;
-    };
-
-    std::vector<Record> records_;
-    std::vector<double> weights_;
-};
-
 class Neighbourhoods {
   public:
     // Borrows all. `alone`: completion time of each robot driving alone.

@@ -179,23 +179,6 @@ TEST_CASE("laps that lead nowhere are refused") {
                       "and back)");
 }
 
-TEST_CASE("past enters follow from the visits that had to wait") {
-    const Laps laps{{{0, 1, 2}}, {1}};
-    const Ticks approach(laps.vertex.size(), 0);
-    const CyclicRoutes routes{laps.arrays(approach)};
-    VisitTimes waits{routes};
-    for (const Tick tick : {1, 5, 7, 8, 10, 14}) {
-        waits.add(0, tick);
-    }
-    CHECK(waits.enter({0, 5}) == 10);
-    CHECK(waits.enter({0, 6}) == 14);
-    CHECK(waits.late(0).size() == 2);
-    waits.truncate(0, 6);
-    waits.add(0, 11);
-    CHECK(waits.enter({0, 6}) == 11);
-    CHECK(waits.late(0).size() == 1);
-}
-
 TEST_CASE("a horizon that leads nowhere is refused") {
     const Laps laps{door, {1, 1}};
     const Ticks approach(laps.vertex.size(), 0);

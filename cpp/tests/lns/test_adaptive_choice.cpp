@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "lns/neighbourhoods.hpp"
+#include "lns/adaptive_choice.hpp"
 
 namespace {
 

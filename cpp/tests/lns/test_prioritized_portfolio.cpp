@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "crossing.hpp"
-#include "lns/prioritized.hpp"
+#include "lns/prioritized_portfolio.hpp"
 
 namespace rightofway {
 namespace {
