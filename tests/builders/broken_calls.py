@@ -16,6 +16,7 @@ import select
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -77,7 +78,7 @@ def run_case(seed: int, case: int, *, shows: bool = False) -> None:
     Case -1 crashes and case -2 hangs, to test what sees that.
     """
     if case < 0:
-        os.abort() if case == -1 else time.sleep(10 * PATIENCE)
+        os.abort() if case == -1 else threading.Event().wait()
     rng = random.Random(f"{seed}:{case}")  # noqa: S311 - the same calls each time
     names = [name for name in CALLS if "." not in name and name != "compiler"]
     name = rng.choice(names)
@@ -273,6 +274,8 @@ class Child:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
             )
+            assert self._process.stdout is not None
+            self._process.stdout.readline()  # patience is for cases, not for imports
         return self._process
 
     def stop(self) -> None:
@@ -293,6 +296,7 @@ def _serve(seed: int) -> None:
     """Run the cases whose numbers come in, and answer each with what is wrong."""
     if "ASAN_OPTIONS" not in os.environ:
         resource.setrlimit(resource.RLIMIT_AS, (GIGABYTES << 30, GIGABYTES << 30))
+    _say("ready")
     for line in sys.stdin:
         fault = ""
         try:

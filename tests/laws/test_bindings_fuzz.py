@@ -68,11 +68,12 @@ def test_broken_calls_are_refused_in_words(child: Child, batch: int) -> None:
 
 def test_a_crash_and_a_hang_are_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """Case -1 ends its process, case -2 never ends, and the next case is fine."""
-    monkeypatch.setattr("tests.builders.broken_calls.PATIENCE", 2)
     child = Child(SEED)
     try:
         assert child.fault_of(-1) == "ends the process with status -6"
-        assert child.fault_of(-2) == "hangs"
+        with monkeypatch.context() as patch:
+            patch.setattr("tests.builders.broken_calls.PATIENCE", 2)
+            assert child.fault_of(-2) == "hangs"
         assert child.fault_of(0) is None
     finally:
         child.stop()
