@@ -19,7 +19,6 @@ HEAVY = {
     "networkx",
     "openpyxl",
     "pandas",
-    "shapely",
     "uvicorn",
     "xml.sax",
 }

@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from rightofway.errors import InputError, shown
 from rightofway.model.deadline import check_work
 from rightofway.site import Point, Roadmap, squared_distance
+from rightofway.site.nearness import Lines, PointGrid
 from rightofway.site.zones import Zone
 
 RADIUS_STEP = Fraction(1, 10**6)
@@ -464,32 +465,25 @@ class _Drawing:
 
         They come in `n_parts` parts.
         """
-        import shapely
-
         points = np.array(
             [[x / self.scale, y / self.scale] for x, y in zip(self.x, self.y, strict=True)]
         )
         slack = SLACK * float(np.abs(points).max() + reach)
         near = float(reach) + slack
-        vertices = np.array(shapely.points(points), object)
-        check_work(FINDING)
-        tree = shapely.STRtree(list(vertices))
         none: Pairs = (np.zeros(0, np.int64), np.zeros(0, np.int64))
-        for begin in range(0, len(vertices), LANES_AT_ONCE):
-            left, right = tree.query(vertices[begin : begin + LANES_AT_ONCE], "dwithin", near)
+        check_work(FINDING)
+        vertices = PointGrid(points, near)
+        for begin in range(0, len(points), LANES_AT_ONCE):
+            left, right = vertices.near(points[begin : begin + LANES_AT_ONCE])
             upwards = left + begin < right
             yield ((left + begin)[upwards], right[upwards]), none, none
-        ends = np.stack((points[self.a], points[self.b]), axis=1)
-        lanes = np.array(shapely.linestrings(ends), object)
-        check_work(FINDING)
-        of_lanes = shapely.STRtree(list(lanes))
-        for begin in range(0, len(lanes), LANES_AT_ONCE):
-            some = lanes[begin : begin + LANES_AT_ONCE]
-            lane, vertex = tree.query(some, "dwithin", near)
-            one, other = of_lanes.query(some, "dwithin", slack)
-            upwards = one + begin < other
-            crossing = (one + begin)[upwards], other[upwards]
-            yield none, (vertex, lane + begin), crossing
+        lanes = Lines(points[self.a], points[self.b])
+        vertices = PointGrid(points, near + lanes.piece / 2 + slack)
+        middles = PointGrid(lanes.middles, lanes.piece + 2 * slack)
+        for begin in range(0, len(self.a), LANES_AT_ONCE):
+            some = slice(begin, begin + LANES_AT_ONCE)
+            lane, vertex = lanes.near_points(vertices, some, near)
+            yield none, (vertex, lane), lanes.crossing(middles, some, slack)
 
     def crossing(self, candidates: Candidates) -> Iterator[Pairs]:
         """Yield pairs of edges that cross, both directions of a lane."""
