@@ -46,7 +46,6 @@ STEPS = {
         "route_of",
         "route_through",
         "serving_visits",
-        "stages_at_home",
         "stays_of",
         "turns_along",
         "visits_of_laps",

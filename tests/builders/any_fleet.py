@@ -48,7 +48,7 @@ FEATURES = (
 )
 """What a fleet may have; without any of them it is the paper's: points of speed 1 on a grid."""
 
-LAPS_REFUSE = {"closures", "one way", "turn rates"}
+LAPS_REFUSE = {"closures", "one way"}
 """Features that repeated laps refuse (test_laps.py has the messages)."""
 
 LAYOUTS = (

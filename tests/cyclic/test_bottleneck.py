@@ -162,5 +162,5 @@ def test_stages_are_found_in_the_visits_that_serve_them() -> None:
     scenario = crossing(rules=Rules(turn=Fraction(5)))
     lap, itinerary = laps_of(scenario)[0], scenario.problem.itineraries[0]
     stop, home = itinerary.stages
-    assert stages_at(lap, itinerary) == [[(1, home)], [], [(0, stop)], []]
+    assert stages_at(scenario.roadmap, itinerary, lap) == [[(1, home)], [], [(0, stop)], []]
     assert lap.vertices[2] == VertexId(scenario.roadmap.vertex("N1"))

@@ -12,10 +12,12 @@ from hypothesis import strategies as st
 import rightofway
 from rightofway.check import check
 from rightofway.cyclic import RULES, CyclicResult, best_timetable, plan_of_laps, run_laps
+from rightofway.cyclic.sensitivity import parameter_effects
 from rightofway.cyclic.to_plan import whole_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Closure, Plan, Scenario, Tick
 from rightofway.planners import planning_headway
+from rightofway.search import Distances, RoundTrip
 from rightofway.site import VertexId
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.fleets import grid_fleet
@@ -27,7 +29,7 @@ from tests.oracles.laps import largest_mean_cycle_is, replay
 LAPS = any_fleet(
     robots=(2, 4), without={*LAPS_REFUSE, "zones"}, apart=True, joined=True
 ) | any_fleet(robots=(2, 3), without=LAPS_REFUSE, always={"both", "zones"}, apart=True, joined=True)
-"""Laps refuse closures, turn rates and trips that end at the last stop (see the last tests).
+"""Laps refuse closures and trips that end at the last stop (see the last tests).
 
 The oracle knows zones by bookings of edges, which there are where robots book ahead.
 """
@@ -231,7 +233,35 @@ def test_a_place_that_is_closed_for_ever_is_driven_round_in_each_lap() -> None:
         assert all(1 not in lap.vertices for lap in group.context.laps)
 
 
-def test_laps_refuse_closures_turn_rates_and_trips_that_do_not_come_home() -> None:
+def test_a_robot_with_a_turn_rate_turns_in_each_visit_of_its_lap_and_at_home_between_two() -> None:
+    """From N0 round the corner N2 to N5 and back: turns of 90, 180, 90 degrees, 180 at home."""
+    scenario = grid_fleet(["...", "@@."], [("N0", "N5")])
+    scenario = replace(scenario, rules=replace(scenario.rules, turn=None, turn_rate=Fraction(45)))
+    for result in (run_laps(scenario), best_timetable(scenario, time_limit=1)):
+        (group,) = result.groups
+        assert group.pattern is not None
+        assert group.context.laps[0].dwell == (4, 0, 2, 4, 2, 0)
+        assert group.pattern.period == 6 + 12
+        plan = plan_of_laps(result, 2)
+        assert check(plan).ok
+        assert judge.faults(plan) == set()
+        graph = group.graph()
+        assert graph is not None
+        turning = {one.kind: one.effect for one in parameter_effects(scenario, graph)}["turn"]
+        assert turning.gain == 12  # ticks of the period that turning takes
+    first = run_laps(scenario).groups[0].pattern
+    assert first is not None
+    assert first.enter(0, 6) == 6 + 8  # it does not turn before its first lap
+
+
+def test_a_route_of_laps_is_not_searched_for_a_robot_that_turns() -> None:
+    scenario = grid_fleet(["...", "@@."], [("N0", "N5")])
+    scenario = replace(scenario, rules=replace(scenario.rules, turn_rate=Fraction(45)))
+    with pytest.raises(InputError, match="routes of laps are chosen without headings"):
+        RoundTrip.of(scenario.problem.itineraries[0], Distances(scenario.roadmap))
+
+
+def test_laps_refuse_closures_at_one_time_and_trips_that_do_not_come_home() -> None:
     scenario = grid_fleet(["...."], [("N0", "N3")])
     closed = replace(scenario, closures=(Closure(at=VertexId(1), from_=Fraction(2)),))
     with pytest.raises(InputError, match=r"closures\[0\]: is at one time, and laps come again"):
@@ -243,8 +273,5 @@ def test_laps_refuse_closures_turn_rates_and_trips_that_do_not_come_home() -> No
     unlike = replace(scenario, robots=(wide, large), closures=(near,), rules=rules)
     with pytest.raises(InputError, match="close different places to robots of different sizes"):
         run_laps(unlike)
-    turning = replace(scenario, rules=replace(scenario.rules, turn=None, turn_rate=Fraction(90)))
-    with pytest.raises(InputError, match="give turn, the time to turn at each stop"):
-        run_laps(turning)
     with pytest.raises(InputError, match=r"rules\.return"):
         run_laps(replace(scenario, rules=replace(scenario.rules, ends="none")))

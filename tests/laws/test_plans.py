@@ -18,7 +18,7 @@ from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.planners.routing import shortest_routes
 from rightofway.precedence import graph_on
 from rightofway.search import Distances
-from tests.builders.any_fleet import any_fleet
+from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.any_plan import ALL, QUICK, STRICT, broken, by_both_judges, knows, planned
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
@@ -110,9 +110,9 @@ def test_moving_a_roadmap_changes_no_plan(fleet: Scenario, planner: str) -> None
     assert planned(fleet, planner).tracks == planned(moved, planner).tracks
 
 
-@law(any_fleet(robots=(1, 1), always={"stops"}, without={"closures", "turn rates", "one way"}))
+@law(any_fleet(robots=(1, 1), always={"stops"}, without=LAPS_REFUSE))
 def test_laps_of_a_robot_alone_are_as_short_as_the_second_judge_allows(fleet: Scenario) -> None:
-    """None of its visits may begin a tick sooner. Laps refuse closures, turn rates, one way."""
+    """None of its visits may begin a tick sooner. Laps refuse closures and one way."""
     try:
         plan = plan_of_laps(run_laps(fleet))
     except (NoPlanExists, GaveUp):

@@ -183,14 +183,16 @@ def in_words(bottleneck: Bottleneck, scenario: Scenario, *, most: int = 12) -> s
 
 def _steps(run: Sequence[Piece], scenario: Scenario) -> Iterator[str]:
     """Yield what one robot does without waiting for others; whole laps in between are counted."""
-    home, place = scenario.robots[run[0].robot].home, PlaceNames(scenario)
+    robot, place = scenario.robots[run[0].robot], PlaceNames(scenario)
+    home, works_at = robot.home, {stop.at for stop in robot.stops} - {robot.home}
     steps: list[str] = []
     arrivals: list[int] = []  # how many steps have been made when the robot is home
     for piece in run:
         if piece.kind == "right of way":
             steps.append(f"enters {' beside '.join(map(place, piece.places))}")
         elif piece.kind == "work":
-            steps.append(f"turns at {place(home)}" if piece.places[0] == home else "works")
+            (vertex,) = piece.places
+            steps.append("works" if vertex in works_at else f"turns at {place(vertex)}")
         else:
             for last in _split_at(piece.places[1:], home):
                 steps.append("drives home" if last == home else f"drives to {place(last)}")

@@ -53,7 +53,7 @@ def repeated_plan(problem: CyclicProblem) -> Candidate | None:
     for robot, track in zip(context.robots, tracks, strict=True):
         once, enter = one_lap(scenario, robot), track.enter * factor.numerator
         route = route_of(scenario.roadmap, once, Track(vertices=track.vertices, enter=enter))
-        laps.append((lap_of(once, route), enter))
+        laps.append((lap_of(scenario.roadmap, once, route), enter))
         if not problem.forbidden.isdisjoint(rows_of(scenario, robot, laps[-1][0]).booked):
             return None
     apart = int(context.headway) + max(max(lap.drive) + lap.dwell[0] for lap, _ in laps)

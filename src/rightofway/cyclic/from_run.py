@@ -9,7 +9,7 @@ Therefore simulations are compared: on clear or direct routes, under ``least-los
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from rightofway.cyclic.closing import Stretch, close_stretch, stretches
@@ -109,7 +109,8 @@ def choose_runs(
     context, deadline = problem.context, problem.deadline
     ways = zip(context.routes, problem.ways, strict=True)
     direct = GroupContext(
-        scenario=context.scenario, routes=tuple(route.on(own[-1]) for route, own in ways)
+        scenario=context.scenario,
+        routes=tuple(replace(route, lap=own[-1]) for route, own in ways),
     )
     rest = iter(((direct, "least-loss"), (direct, "first-come"), (context, "least-loss")))
     tried, enough = [baseline], params.good * baseline.value

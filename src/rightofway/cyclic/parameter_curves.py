@@ -146,7 +146,8 @@ def _of_robot(
     """Yield the curves of the speed of a robot and of its work at each stop."""
     number = graph.timetable.robots[place]
     robot, arcs = scenario.robots[number], graph.arcs
-    at = stages_at(graph.timetable.laps[place], scenario.problem.itineraries[number])
+    itinerary = scenario.problem.itineraries[number]
+    at = stages_at(scenario.roadmap, itinerary, graph.timetable.laps[place])
     growth, tick = _of_speed(scenario, graph, place, robot), scenario.problem.clock.tick
     ends = Fraction(1, RANGE), Fraction(RANGE)
     yield ParameterCurve(
@@ -252,7 +253,7 @@ def _turns_by_speed(
     if turning_time(rules[0], robot, rules[1]) == turning_time(rules[0], faster, rules[1]):
         return np.zeros(len(arcs), np.int64)
     itinerary = scenario.problem.itineraries[graph.timetable.robots[place]]
-    at = stages_at(graph.timetable.laps[place], itinerary)
+    at = stages_at(scenario.roadmap, itinerary, graph.timetable.laps[place])
     turn = np.array([sum(stage.turn for _, stage in stages) for stages in at], np.int64)
     dwells = (arcs.first < 0) & (graph.robot[arcs.tail] == place)
     return np.where(dwells, turn[np.where(dwells, graph.index[arcs.tail], 0)], 0)

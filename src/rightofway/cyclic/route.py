@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault
 from rightofway.model import Lap, Robot, Route, Scenario, Tick, lap_of
-from rightofway.model.problem import refuse_turn_rates
 from rightofway.native import BookedRows
 from rightofway.planners import planning_headway
 from rightofway.planners.routing import (
@@ -44,13 +43,14 @@ class CyclicRoute:
         The number of the robot in the scenario.
     lap
         The repeated lap.
-    first_least
-        The least duration of visit 0, which has no turn at home [ticks].
+    first_dwell
+        How long visit 0 lasts at least, without the drive that follows: no lap comes before, so
+        the robot does not turn [ticks].
     """
 
     robot: int
     lap: Lap
-    first_least: Tick
+    first_dwell: Tick
     _within: tuple[int, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -58,6 +58,11 @@ class CyclicRoute:
 
     def __len__(self) -> int:
         return len(self.lap)
+
+    @property
+    def first_least(self) -> Tick:
+        """The least duration of visit 0 with the drive that follows [ticks]."""
+        return Tick(self.first_dwell + self.drive(1))
 
     def vertex(self, visit: int) -> VertexId:
         """Return the vertex of a visit."""
@@ -92,11 +97,6 @@ class CyclicRoute:
         place = visit % len(self.lap)
         laps, rest = divmod(self._within[place] + ticks, self.lap.duration)
         return laps * len(self.lap) + bisect_left(self._within, rest) - place
-
-    def on(self, lap: Lap) -> CyclicRoute:
-        """Return the same robot on another lap."""
-        turn = self.lap.least(0) - self.first_least
-        return replace(self, lap=lap, first_least=Tick(lap.least(0) - turn))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -223,7 +223,6 @@ def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[Cyclic
 def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     """Return the scenario with one lap for each robot, and its distance tables."""
     scenario = without_closed_places(scenario)
-    refuse_turn_rates(scenario.problem, "repeated work", "give turn, the time to turn at each stop")
     if scenario.rules.ends == "none" and all(robot.ends != "home" for robot in scenario.robots):
         raise InputError.at(("rules", "return"), NOTHING_REPEATS)
     faults = [
@@ -304,7 +303,11 @@ def _faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
 def _repeated(once: Scenario, routes: Sequence[Route]) -> list[CyclicRoute]:
     itineraries = once.problem.itineraries
     return [
-        CyclicRoute(robot=robot, lap=lap_of(itineraries[robot], route), first_least=route.least(0))
+        CyclicRoute(
+            robot=robot,
+            lap=lap_of(once.roadmap, itineraries[robot], route),
+            first_dwell=route.dwell[0],
+        )
         for robot, route in enumerate(routes)
     ]
 
@@ -343,7 +346,7 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
         ends = zip(tails[edges].tolist(), roadmap.heads[edges].tolist(), strict=True)
         distances = Distances(roadmap.without((), list(ends)))
         if reaches_its_places(itinerary, distances):
-            avoiding[robot] = shortest_route(itinerary, distances)
+            avoiding[robot] = shortest_route(roadmap, itinerary, distances)
             booked[robot] = passed(robot)
     return avoiding
 

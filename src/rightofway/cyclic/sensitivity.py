@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.model import Itinerary, Lap, Scenario, Stage, serving_visits
+from rightofway.model.lap import turns_of_lap
 from rightofway.precedence import (
     Sensitivity,
     TimedEventGraph,
@@ -24,6 +25,7 @@ from rightofway.precedence import (
     sensitivity,
     tight_arcs,
 )
+from rightofway.site import Roadmap
 
 TEN_PER_CENT = {"speed": Fraction(1, 11)}
 """The part of the time saved by ten per cent of a parameter; one tenth by default."""
@@ -120,9 +122,11 @@ def _shares(
         robot, own = graph.timetable.robots[place], robot_of == place
         driving = own & (~is_right | graph.books_ahead)
         yield ("speed", robot, None), np.where(driving, drive, 0)
-        at = stages_at(graph.timetable.laps[place], scenario.problem.itineraries[robot])
+        lap, itinerary = graph.timetable.laps[place], scenario.problem.itineraries[robot]
+        at = stages_at(scenario.roadmap, itinerary, lap)
         dwelling = own & ~is_right
         turn = np.array([sum(stage.turn for _, stage in stages) for stages in at], np.int64)
+        turn += turns_of_lap(scenario.roadmap, itinerary, lap.vertices)
         at_visit = graph.index[arcs.tail]
         yield ("turn", robot, None), np.where(dwelling, turn[np.where(dwelling, at_visit, 0)], 0)
         for visit, stages in enumerate(at):
@@ -132,15 +136,17 @@ def _shares(
     yield ("headway", None, None), np.where(is_right, np.int64(graph.headway), np.int64(0))
 
 
-def stages_at(lap: Lap, itinerary: Itinerary) -> list[list[tuple[int, Stage]]]:
+def stages_at(roadmap: Roadmap, itinerary: Itinerary, lap: Lap) -> list[list[tuple[int, Stage]]]:
     """Return for each visit of a lap the stages served, with their numbers.
 
     Parameters
     ----------
-    lap
-        One lap of a robot.
+    roadmap
+        The graph of the lap.
     itinerary
         The stages of one lap or of several laps.
+    lap
+        One lap of a robot.
 
     Notes
     -----
@@ -152,7 +158,8 @@ def stages_at(lap: Lap, itinerary: Itinerary) -> list[list[tuple[int, Stage]]]:
     n = next(k for k in range(1, n + 1) if n % k == 0 and stages[:k] * (n // k) == stages)
     order = [*range(1, len(lap)), 0]
     vertices = np.array(lap.vertices, np.int32)[order]
-    spare = np.array(lap.dwell, np.int64)[order]
+    turns = turns_of_lap(roadmap, itinerary, lap.vertices)
+    spare = (np.array(lap.dwell, np.int64) - turns)[order]
     at: list[list[tuple[int, Stage]]] = [[] for _ in order]
     for number, place in enumerate(serving_visits(stages[:n], vertices, spare)):
         at[order[place]].append((number, stages[number]))

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import BaselineComparison, GroupResult
 from rightofway.cyclic.route import CyclicRoute, GroupContext
-from rightofway.model import Scenario, Tick, least_dwell, stages_at_home
+from rightofway.model import Scenario, Tick
+from rightofway.model.lap import dwell_between_laps
 from rightofway.precedence import CyclicSchedule
 
 
@@ -64,9 +65,9 @@ def start(
     )
     itineraries, routes = scenario.problem.itineraries, []
     for robot, lap in zip(timetable.robots, timetable.laps, strict=True):
-        before = least_dwell(stages_at_home(itineraries[robot]), leaves=True)
-        first_least = Tick(lap.least(0) - before)
-        routes.append(CyclicRoute(robot=robot, lap=lap, first_least=first_least))
+        between = dwell_between_laps(scenario.roadmap, itineraries[robot], lap.vertices)
+        first_dwell = Tick(lap.dwell[0] - between)
+        routes.append(CyclicRoute(robot=robot, lap=lap, first_dwell=first_dwell))
     return GroupResult(
         context=GroupContext(scenario=scenario, routes=tuple(routes)),
         ends="repeats",

@@ -1,7 +1,7 @@
 """Robot, scenario, problem, plan: frozen, in integer ticks, without files."""
 
 from rightofway.model.closures import Closure, Closures
-from rightofway.model.lap import Lap, lap_of, stages_at_home, visits_of_laps
+from rightofway.model.lap import Lap, lap_of, visits_of_laps
 from rightofway.model.lost_time import Loss, LostTime
 from rightofway.model.outcome import Objective, Outcome, OutcomeKind, Proof
 from rightofway.model.plan import (
@@ -83,7 +83,6 @@ __all__ = [
     "route_of",
     "route_through",
     "serving_visits",
-    "stages_at_home",
     "stays_of",
     "turns_along",
     "visits_of_laps",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import takewhile
@@ -10,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model.problem import Itinerary, Stage, least_dwell
-from rightofway.model.route import Route
+from rightofway.model.route import Route, turns_along
 from rightofway.model.units import Tick
-from rightofway.site import VertexId
+from rightofway.site import Roadmap, VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,7 +26,8 @@ class Lap:
         Where each visit is; the first is at home.
     dwell
         How long each visit lasts at least, without the drive that follows: at a stop the work and
-        the turn, at home the turn between two laps [ticks].
+        the turn, at home the turn between two laps; of a robot with a turn rate also the change of
+        heading [ticks].
     drive
         Ticks of the edge driven into each visit; into the first: from the last one.
     """
@@ -64,31 +66,66 @@ def visits_of_laps(
     )
 
 
-def lap_of(itinerary: Itinerary, route: Route) -> Lap:
+def lap_of(roadmap: Roadmap, itinerary: Itinerary, route: Route) -> Lap:
     """Wrap a round trip into a lap.
 
     Parameters
     ----------
+    roadmap
+        The graph the route runs on.
     itinerary
         What the robot has to do in one lap; it ends at home.
     route
         Where it goes for that; the last visit serves all stages at home at the end.
     """
-    between = route.dwell[0] + least_dwell(stages_at_home(itinerary), leaves=True)
+    vertices = route.vertices[:-1]
+    between = route.dwell[0] + dwell_between_laps(roadmap, itinerary, vertices)
     return Lap(
-        vertices=route.vertices[:-1],
+        vertices=vertices,
         dwell=(Tick(between), *route.dwell[1:-1]),
         drive=(route.drive[-1], *route.drive[1:-1]),
     )
 
 
-def stages_at_home(itinerary: Itinerary) -> tuple[Stage, ...]:
-    """Return the stages at home with which each lap of an itinerary ends.
+def dwell_between_laps(
+    roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]
+) -> Tick:
+    """Return how much longer a robot stays at home between two laps than before its first [ticks].
+
+    It serves the stages with which a lap ends, and turns from the last edge to the first one.
 
     Parameters
     ----------
+    roadmap
+        The graph of the lap.
     itinerary
-        What the robot has to do; it ends at home and leads elsewhere before.
+        What the robot has to do in one lap or several; it ends at home and leads elsewhere before.
+    vertices
+        Where each visit of the lap is; the first is at home.
     """
+    turn = int(turns_of_lap(roadmap, itinerary, vertices)[0])
+    return Tick(least_dwell(_stages_at_home(itinerary), leaves=True) + turn)
+
+
+def turns_of_lap(
+    roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]
+) -> NDArray[np.int64]:
+    """Return how long a robot turns between two edges in each visit of a lap [ticks]; int64.
+
+    Parameters
+    ----------
+    roadmap
+        The graph of the lap.
+    itinerary
+        The robot; how it turns is in `Itinerary.turning`.
+    vertices
+        Where each visit of the lap is; after the last one the first one follows.
+    """
+    around = np.array((vertices[-1], *vertices, vertices[0]), np.int32)
+    return turns_along(roadmap, itinerary, around)[1:-1]
+
+
+def _stages_at_home(itinerary: Itinerary) -> tuple[Stage, ...]:
+    """Return the stages at home with which each lap of an itinerary ends."""
     at_home = takewhile(lambda stage: stage.vertex == itinerary.home, reversed(itinerary.stages))
     return tuple(reversed(tuple(at_home)))

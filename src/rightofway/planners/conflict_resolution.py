@@ -280,7 +280,7 @@ class _Reservations:
             alone = Bookings(self.bookings.problem)
             track = earliest_track(robot, alone, self.distances)
         if track is None:
-            route = shortest_route(itinerary, self.distances)
+            route = shortest_route(self.bookings.problem.roadmap, itinerary, self.distances)
             enter = accumulate(map(route.least, range(len(route) - 1)), initial=0)
             track = Track.of(route.vertices, list(enter))
         return self.bookings.in_the_way(robot, track)

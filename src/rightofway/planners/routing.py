@@ -11,7 +11,7 @@ from rightofway.model import Itinerary, Route, Scenario, Track, route_along, rou
 from rightofway.planners.impossible import refuse_the_impossible
 from rightofway.planners.task import Task, planning_problem
 from rightofway.search import Bookings, Congestion, Distances, earliest_track
-from rightofway.site import VertexId
+from rightofway.site import Roadmap, VertexId
 
 
 def chosen_routes(task: Task) -> tuple[Distances, list[Route]]:
@@ -49,7 +49,8 @@ def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
     Raises `NoPlanExists` as `refuse_the_impossible`.
     """
     refuse_the_impossible(scenario, distances)
-    return [shortest_route(itinerary, distances) for itinerary in scenario.problem.itineraries]
+    itineraries, roadmap = scenario.problem.itineraries, scenario.roadmap
+    return [shortest_route(roadmap, itinerary, distances) for itinerary in itineraries]
 
 
 def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
@@ -74,9 +75,10 @@ def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
     )
 
 
-def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:
+def shortest_route(roadmap: Roadmap, itinerary: Itinerary, distances: Distances) -> Route:
     """Return the route of the paper: shortest paths to the stops, and home as it would come.
 
+    Distances may be those of a part of the roadmap; how the robot turns is known on the roadmap.
     The way home from the last stop of a lap is the path that leads there from home, reversed,
     wherever that is a shortest path too.
     """
@@ -88,7 +90,7 @@ def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:
             if distances.cost(back, ticks) == distances.cost(leg, ticks):
                 leg = back
         legs.append(leg)
-    return route_along(distances.roadmap, itinerary, legs)
+    return route_along(roadmap, itinerary, legs)
 
 
 def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.errors import InputError
 from rightofway.model import NEVER, Itinerary, Lap, Resources, Stage, Tick, visits_of_laps
 from rightofway.native import lists_of, roads_of
 from rightofway.search.distances import Distances
@@ -59,7 +60,15 @@ class RoundTrip:
             The tables that guide the search.
         forbidden
             Vertices that the robot must not visit.
+
+        Raises
+        ------
+        InputError
+            For a robot with a turn rate: a route is chosen without headings.
         """
+        if itinerary.turning is not None:
+            message = "turns on the spot, and routes of laps are chosen without headings"
+            raise InputError.at("itinerary", f"{message} (search on a lap, or leave out turn_rate)")
         stages = _with_one_home(itinerary.stages)
         tables = tuple(distances.to(stage.vertex, itinerary.edge_ticks) for stage in stages)
         if forbidden:
