@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
 from typing import Any
 
 import pytest
-from jsonschema import Draft202012Validator
 
 from rightofway.control import FleetControl, InstantAction, Message, Order, SimulatedRobot
 from rightofway.control.routes import routes_to_drive
@@ -16,14 +13,7 @@ from rightofway.errors import InputError
 from rightofway.precedence import ReleaseGraph
 from tests.builders.chaos import MemoryJournal
 from tests.builders.plans import door
-
-SCHEMAS = Path(__file__).parents[1] / "data" / "vda5050"
-
-
-def validator(version: str, topic: str) -> Draft202012Validator:
-    """Return the official schema of a topic."""
-    text = (SCHEMAS / version / f"{topic}.schema").read_text(encoding="utf-8-sig")
-    return Draft202012Validator(json.loads(text))
+from tests.builders.schemas import validator
 
 
 def header(version: str) -> Header:

@@ -64,6 +64,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "collisions": "collisions",
     },
     "Repeated work and delays": {"laps": "laps", "simulate": "simulate"},
+    "Drive": {"drive": "drive"},
     "Compare": {"bench": "bench", "paper": "paper"},
     "Formats": {"convert": "formats", "schema": "formats"},
 }

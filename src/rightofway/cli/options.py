@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import stat
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -159,3 +159,30 @@ class ListingCommand(click.Command):
         """Write the list, then the examples."""
         self.listing(formatter)
         super().format_epilog(ctx, formatter)
+
+
+def list_delays(formatter: click.HelpFormatter) -> None:
+    """Write the causes of delay, for `ListingCommand`."""
+    from rightofway.execution import CAUSES
+
+    with formatter.section("Delays (times in time units; numbers may be fractions like 1/3)"):
+        formatter.write_dl([example for cause in CAUSES.values() for example in cause.examples])
+        formatter.write_paragraph()
+        formatter.write_text("Several delays: with commas between, or a YAML or JSON list.")
+
+
+def delays_option(default: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return the option that makes robots late."""
+    return click.option("--delays", multiple=True, metavar="DELAYS",
+                        help="Kinds of delays, see below; or a file with a list of them. May be"
+                        f" repeated.  [default: {default}]")  # fmt: skip
+
+
+def delay_texts(given: Sequence[str]) -> list[str]:
+    """Return the causes of delay of the option; those of files are read."""
+    from rightofway.io import DELAY_FILES, load_delays
+
+    texts: list[str] = []
+    for text in given:
+        texts += load_delays(text) if text.lower().endswith(DELAY_FILES) else [text]
+    return texts

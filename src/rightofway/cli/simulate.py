@@ -9,6 +9,9 @@ from rightofway.cli.inputs import foreign_options, read_plan
 from rightofway.cli.options import (
     ListingCommand,
     as_json_option,
+    delay_texts,
+    delays_option,
+    list_delays,
     quantities_of,
     seed_option,
     ticks_option,
@@ -33,26 +36,15 @@ Examples:
 """
 
 
-def _list_delays(formatter: click.HelpFormatter) -> None:
-    from rightofway.execution import CAUSES
-
-    with formatter.section("Delays (times in time units; numbers may be fractions like 1/3)"):
-        formatter.write_dl([example for cause in CAUSES.values() for example in cause.examples])
-        formatter.write_paragraph()
-        formatter.write_text("Several delays: with commas between, or a YAML or JSON list.")
-
-
 @click.command(
     cls=ListingCommand,
-    listing=_list_delays,
+    listing=list_delays,
     epilog=EXAMPLES,
     short_help="Execute a PLAN many times with robots that are late.",
 )
 @click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
 @foreign_options
-@click.option("--delays", multiple=True, metavar="DELAYS",
-              help="Kinds of delays, see below; or a file with a list of them. May be repeated."
-              "  [default: exponential:0.2]")  # fmt: skip
+@delays_option("exponential:0.2")
 @click.option("--runs", type=click.IntRange(1), default=1000, show_default=True, metavar="N",
               help="Number of runs.")  # fmt: skip
 @seed_option
@@ -94,13 +86,10 @@ def simulate(
         raise click.UsageError(f"--run {run} is not among the {runs} runs (0 is the first)")
     from rightofway.execution import DEFAULT_DELAYS
     from rightofway.execution import simulate as execute
-    from rightofway.io import DELAY_FILES, load_delays
     from rightofway.report.execution import report
     from rightofway.report.plan_data import measures
 
-    texts: list[str] = []
-    for text in delays or [DEFAULT_DELAYS]:
-        texts += load_delays(text) if text.lower().endswith(DELAY_FILES) else [text]
+    texts = delay_texts(delays or [DEFAULT_DELAYS])
     opened = read_plan(plan)
     with progress() as reported:
         outcome = execute(opened, texts, runs, seed, switch=switch, replan=replan, report=reported)

@@ -9,7 +9,12 @@ state of them has arrived, nobody could know that the work is done.
 
 from __future__ import annotations
 
+from typing import Literal
+
 from rightofway.control.messages import InstantAction, Order, OrderNode, RobotState
+
+Step = Literal["begin to drive", "arrive", "begin work", "end work"]
+"""What a robot does next."""
 
 
 class SimulatedRobot:
@@ -32,13 +37,15 @@ class SimulatedRobot:
         How often each action was finished, by its id.
     rejected
         How many orders it has refused.
+    instant_actions
+        The ids of all instant actions that it was asked for.
     """
 
     def __init__(self, place: str) -> None:
         self.place, self.is_driving = place, False
         self.ahead: list[OrderNode] = []
         self.done: dict[str, int] = {}
-        self.rejected = 0
+        self.rejected, self.instant_actions = 0, set[str]()
         self._order_id, self._update_id, self._sequence_id = "", 0, 0
         self._actions: dict[str, str] = {}
         self._waiting: list[str] = []  # at this node
@@ -50,6 +57,16 @@ class SimulatedRobot:
     def is_active(self) -> bool:
         """Whether an order is under way."""
         return bool(self.ahead or self._waiting or self.is_driving)
+
+    @property
+    def next_step(self) -> Step | None:
+        """What the next `step` does; None for nothing."""
+        if self.is_driving:
+            return "arrive"
+        if self._waiting:
+            is_new = self._actions[self._waiting[0]] == "WAITING"
+            return "begin work" if is_new else "end work"
+        return "begin to drive" if self.ahead else None
 
     def state(self) -> RobotState:
         """Return what the robot says of itself."""
@@ -106,6 +123,7 @@ class SimulatedRobot:
         action
             A request for a state, or the withdrawal of the order.
         """
+        self.instant_actions.add(action.action_id)
         if action.kind == "stateRequest":
             self._actions[action.action_id] = "FINISHED"
             return True
@@ -128,28 +146,27 @@ class SimulatedRobot:
         return True
 
     def step(self) -> bool:
-        """Do the next thing: arrive, work, or drive on; return whether there was one."""
-        if self.is_driving:
-            node = self.ahead.pop(0)
-            self.place, self._sequence_id, self.is_driving = node.place, node.sequence_id, False
-            if self._is_cancelled:
-                self._fail(node.actions)
-            else:
-                self._waiting = [action for action in node.actions if action not in self.done]
-            self._finish_cancel()
-        elif self._waiting:
-            action = self._waiting[0]
-            if self._actions[action] == "WAITING":
-                self._actions[action] = "RUNNING"
-            else:
+        """Do the next thing, see `next_step`; return whether there was one."""
+        match self.next_step:
+            case "arrive":
+                node = self.ahead.pop(0)
+                self.place, self._sequence_id, self.is_driving = node.place, node.sequence_id, False
+                if self._is_cancelled:
+                    self._fail(node.actions)
+                else:
+                    self._waiting = [action for action in node.actions if action not in self.done]
+                self._finish_cancel()
+            case "begin work":
+                self._actions[self._waiting[0]] = "RUNNING"
+            case "end work":
+                action = self._waiting.pop(0)
                 self._actions[action] = "FINISHED"
                 self.done[action] = self.done.get(action, 0) + 1
-                self._waiting.pop(0)
                 self._finish_cancel()
-        elif self.ahead:
-            self.is_driving = True
-        else:
-            return False
+            case "begin to drive":
+                self.is_driving = True
+            case None:
+                return False
         return True
 
     def forget(self) -> bool:

@@ -1,0 +1,166 @@
+"""Simulated robots drive a plan in one process, with messages of VDA 5050."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import rightofway
+from rightofway.control.demo import DemoResult, drive_demo
+from rightofway.control.endpoints import ControlEnd, Identity, Letter
+from rightofway.control.fleet_control import FleetControl
+from rightofway.control.report import report
+from rightofway.control.routes import routes_to_drive
+from rightofway.control.vda5050 import VERSIONS
+from rightofway.errors import InputError
+from rightofway.io import scenario_of
+from rightofway.model import Tick
+from rightofway.precedence import ReleaseGraph
+from tests.builders.chaos import MemoryJournal
+from tests.builders.plans import door, door_shifted
+from tests.builders.schemas import validator
+
+TIMELY = """\
+0 R1 waits at N0 until R2 is at N4
+0 R2 sets out from N2 to N8
+2 R1 sets out from N0 to N1
+5 R2 has done its work at N8 (1 of 1)
+5 R2 waits at N8 until R1 is at N6
+6 R2 goes on from N8 to N2
+7 R1 has done its work at N6 (1 of 1)
+7 R1 waits at N6 until R2 is at N4
+8 R1 goes on from N6 to N7
+10 R2 is at the end of its way, N2
+12 R1 is at the end of its way, N0"""
+
+
+def story_of(delays: str | tuple[()] = (), seed: int = 0) -> tuple[DemoResult, str]:
+    """Return how the door was driven, and the story."""
+    lines = list[str]()
+
+    def note(tick: Tick, sentence: str) -> None:
+        lines.append(f"{tick} {sentence}")
+
+    return drive_demo(door(), delays, seed, report=note), "\n".join(lines)
+
+
+def test_the_log_reads_as_a_story() -> None:
+    result, story = story_of()
+    assert story == TIMELY
+    assert result.as_dict() == {
+        "robots": [
+            {"name": "R1", "jobs": 1, "waits": 2, "planned": 10, "completion": 12},
+            {"name": "R2", "jobs": 1, "waits": 1, "planned": 9, "completion": 10},
+        ],
+        "jobs": 2,
+        "messages": {"instantActions": 2, "order": 12, "state": 50},
+    }
+
+
+def test_a_seed_gives_one_run_and_delays_make_others_wait() -> None:
+    late, story = story_of("exponential:0.5", 3)
+    assert story == story_of("exponential:0.5", 3)[1]
+    assert story != story_of("exponential:0.5", 4)[1]
+    assert late.trace.completion == (18, 15)
+    assert late.jobs == (1, 1)
+
+
+def test_a_stop_of_one_robot_holds_the_other_one_and_no_longer() -> None:
+    """R2 stands in N4 for ten ticks; R1, which follows it, is later by as much."""
+    timely, _ = story_of()
+    stopped, _ = story_of("stop:R2@2+10")
+    late = [int(b or 0) - int(a or 0) for a, b in zip(*_completions(timely, stopped), strict=True)]
+    assert late == [10, 10]
+
+
+def _completions(*results: DemoResult) -> list[tuple[Tick | None, ...]]:
+    return [result.trace.completion for result in results]
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_all_that_control_and_robots_send_is_valid_by_the_official_schemas(version: str) -> None:
+    schemas = {name: validator(version, name) for name in ("order", "instantActions", "state")}
+    letters = list[Letter]()
+    drive_demo(door(), version=version, watch=letters.append)
+    for letter in letters:
+        schemas[letter.topic.rpartition("/")[2]].validate(json.loads(letter.payload))
+    interface = "vda5050/v3" if version == "3.0.0" else "uagv/v2"
+    assert {letter.topic for letter in letters} == {
+        f"{interface}/rightofway/{robot}/{name}"
+        for robot in ("robot0", "robot1")
+        for name in schemas
+    }
+    numbers = [
+        json.loads(letter.payload)["headerId"]
+        for letter in letters
+        if letter.topic == f"{interface}/rightofway/robot0/state"
+    ]
+    assert numbers == list(range(len(numbers)))  # one count for each topic
+
+
+@pytest.mark.parametrize("planner", ["prioritized", "lns"])
+def test_laps_with_work_at_several_stops_are_driven_to_their_end(planner: str) -> None:
+    scenario = scenario_of(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"grid": ["....", ".@@.", "...."]},
+            "rules": {"laps": 3},
+            "robots": [
+                {"name": "R1", "home": "N0", "stops": [{"at": "N3", "work": 2}, {"at": "N8"}]},
+                {"name": "R2", "home": "N11", "stops": [{"at": "N4", "work": 1}]},
+            ],
+        }
+    )
+    plan = rightofway.solve(scenario, planner)
+    result = drive_demo(plan, "exponential:0.4", 1)
+    assert result.jobs == (6, 3)
+    assert [track.vertices.tolist() for track in result.trace.tracks] == [
+        track.vertices.tolist() for track in plan.tracks
+    ]
+
+
+def test_the_report_names_jobs_and_messages() -> None:
+    result, _ = story_of()
+    assert report(result, result.plan.scenario.quantities).splitlines() == [
+        "jobs      2 done",
+        "makespan  12 time units; planned 10 time units",
+        "messages  12 orders, 2 instant actions, 50 states",
+        "",
+        "completion of each robot",
+        "robot  jobs  waits  planned  actual",
+        "R1        1      2       10      12",
+        "R2        1      1        9      10",
+    ]
+
+
+def test_a_plan_with_faults_is_refused() -> None:
+    with pytest.raises(InputError, match="only one without can be driven"):
+        drive_demo(door_shifted(-1))
+
+
+def test_a_robot_that_breaks_down_for_ever_is_refused() -> None:
+    with pytest.raises(InputError, match=r"delays: R. would never complete.*delays that end"):
+        drive_demo(door(), "stop:R2@2")
+
+
+@pytest.mark.parametrize(
+    ("key", "value"), [("serial_number", "a/b"), ("manufacturer", ""), ("version", "1.1")]
+)
+def test_an_identity_that_cannot_be_a_topic_is_refused(key: str, value: str) -> None:
+    with pytest.raises(InputError, match=f"^{key}: "):
+        Identity(**{"manufacturer": "maker", "serial_number": "R1", key: value})
+
+
+def test_a_broken_state_proves_nothing_and_is_reported_once() -> None:
+    plan, said = door(), list[str]()
+    control = FleetControl(MemoryJournal())
+    control.begin("run", routes_to_drive(plan), ReleaseGraph.of(plan.scenario, plan.tracks))
+    identities = [Identity(manufacturer="maker", serial_number=name) for name in ("R1", "R2")]
+    end = ControlEnd(control, identities, lambda: "2026-01-31T12:00:00.000Z", said.append)
+    end.letters(control.start())
+    for payload in (b"{", b"{", b"[]", b"{}", b"\xff", b'{"orderId": 1}'):
+        assert end.receive(Letter("uagv/v2/maker/R2/state", payload)) == []
+    assert len(said) == 5
+    assert all(sentence.startswith("robot 1: ") for sentence in said)
+    assert control.ledger.arrived == [0, 0]
