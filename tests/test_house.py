@@ -85,3 +85,41 @@ def test_tests_of_pages_ask_nothing_of_the_names_inside_scripts() -> None:
         if asks.search(path.read_text(encoding="utf-8"))
     ]
     assert found == []
+
+
+ASSETS = [TESTS.parent / "src/rightofway" / room for room in ("viz/page/assets", "studio/assets")]
+TAKES_APART = {
+    "a place as text": re.compile(  # of a fault
+        r"(?<!typeof )\bplace(\.(startsWith|endsWith|match|split|includes|indexOf)\(| === \")"
+    ),
+    "a sentence split": re.compile(r"\.(split|indexOf|lastIndexOf)\(\"[^\"]* [^\"]*\"\)"),
+    "words in a pattern": re.compile(
+        r"/[^/\n]*( [a-z]{3,}|[a-z]{3,} )[^/\n]*/\w*\.(exec|test)\("
+        r"|\.(match|replace|split)\(/[^/\n]*( [a-z]{3,}|[a-z]{3,} )[^/\n]*/"
+    ),
+}
+TAKEN_APART = {"document.js: words in a pattern": "names of drafts, which this file makes itself"}
+"""Texts that scripts take apart, each with its reason; all others have fields (decision 21)."""
+
+
+def test_no_script_takes_english_apart() -> None:
+    found = {
+        f"{path.name}: {what}"
+        for folder in ASSETS
+        for path in folder.rglob("*.js")
+        if "vendor" not in path.parts
+        for what, pattern in TAKES_APART.items()
+        if pattern.search(path.read_text("utf-8"))
+    }
+    assert found == set(TAKEN_APART)
+
+
+def test_what_takes_english_apart_is_found() -> None:
+    samples = {
+        "a place as text": "fault.place.startsWith(`${place}.`)",
+        "a sentence split": 'heading.split(" (")[0]',
+        "words in a pattern": r"/^(\d+) robots$/.exec(what)",
+    }
+    assert {what for what, text in samples.items() if TAKES_APART[what].search(text)} == set(
+        TAKES_APART
+    )

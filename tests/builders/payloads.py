@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import json
 import random
 from collections.abc import Callable
 from dataclasses import replace
@@ -26,7 +27,16 @@ from rightofway.viz.page.schema import Payload
 from rightofway.viz.placement import plane_of
 from tests.builders.plans import counter, counter_late, counter_steady, crowd, door, loop, yard
 
-__all__ = ["FOLDER", "MADE", "cross", "in_metres", "template_in", "written"]
+__all__ = [
+    "FOLDER",
+    "MADE",
+    "cross",
+    "in_metres",
+    "payload_in",
+    "payload_text_in",
+    "template_in",
+    "written",
+]
 
 FOLDER = Path(__file__).parents[1] / "data" / "pages"
 
@@ -204,3 +214,14 @@ if __name__ == "__main__":
     FOLDER.mkdir(exist_ok=True)
     for each in MADE:
         (FOLDER / f"{each}.json").write_text(written(each), encoding="utf-8")
+
+
+def payload_text_in(page: str) -> str:
+    """Return the JSON that a page was written with."""
+    start = '<script type="application/json" id="payload">'
+    return page.split(start)[1].split("</script>", maxsplit=1)[0]
+
+
+def payload_in(page: str) -> Any:
+    """Return the data that a page was written with."""
+    return json.loads(payload_text_in(page))

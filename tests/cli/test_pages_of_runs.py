@@ -1,21 +1,17 @@
 """Pages of laps and of runs on the floor, from the command line."""
 
-import json
-import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from tests.builders.payloads import payload_in
 from tests.cli.conftest import EXAMPLES, Cli
 
 
 def told(page: str) -> Any:
     """Return what a page was told."""
-    text = Path(page).read_text("utf-8")
-    found = re.search(r'<script type="application/json" id="plan">(.*?)</script>', text, re.DOTALL)
-    assert found
-    return json.loads(found[1])
+    return payload_in(Path(page).read_text("utf-8"))
 
 
 @pytest.fixture

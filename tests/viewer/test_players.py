@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from rightofway.metrics import Site, inspect
+from rightofway.viz import inspection_page
 from rightofway.viz.page.document import payload_text, style_sheet
 from rightofway.viz.page.scripts import classic_script, scripts_of
 from rightofway.viz.page.widget import WIDGET_STYLE
 from tests.builders.browsers import expect
+from tests.builders.payloads import payload_text_in
 from tests.builders.plans import door, loop
 
 if TYPE_CHECKING:
@@ -92,3 +95,45 @@ def test_a_player_that_ends_leaves_its_element_empty_and_the_other_one_goes_on(p
     expect(first.get_by_text("0 of 10")).to_be_visible()
     first.get_by_role("slider").fill("4")
     expect(first.get_by_text("4 of 10")).to_be_visible()
+
+
+INSPECTIONS = """<!doctype html><title>two</title>
+<style>STYLE</style>
+<button>End the first</button>
+<section class="page" aria-label="first"></section>
+<section class="page" aria-label="second"></section>
+<script type="module">
+MODULES
+const [one, other] = document.querySelectorAll(".page");
+const first = createInspection(one, PAYLOAD);
+createInspection(other, PAYLOAD);
+document.querySelector("button").addEventListener("click", () => first.destroy());
+</script>"""
+
+
+def test_an_inspection_is_a_part_too(browser: Browser) -> None:
+    scenario = door().scenario
+    site = Site(roadmap=scenario.roadmap, robots=scenario.robots, rules=scenario.rules)
+    text = inspection_page([("", site, inspect(site))], title="door")
+    parts = {
+        "STYLE": re.sub(r":root|\bbody\b", ".page", style_sheet()) + WIDGET_STYLE,
+        "MODULES": "\n".join(classic_script(name) for name in scripts_of("inspection")),
+        "PAYLOAD": payload_text_in(text),
+    }
+    context = browser.new_context(viewport={"width": 1200, "height": 1500})
+    page = context.new_page()
+    complaints: list[str] = []
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.set_content(re.sub("|".join(parts), lambda found: parts[found[0]], INSPECTIONS))
+    first, second = (
+        page.get_by_role("region", name=name, exact=True) for name in ("first", "second")
+    )
+    expect(first.get_by_role("heading", name="door")).to_be_visible()
+    expect(second.get_by_role("heading", name="door")).to_be_visible()
+    ids = page.locator("[id]").evaluate_all("all => all.map(({ id }) => id)")
+    assert len(ids) == len(set(ids))
+    page.get_by_role("button", name="End the first").click()
+    expect(first).to_be_empty()
+    expect(second.get_by_role("heading", name="door")).to_be_visible()
+    assert complaints == []
+    context.close()

@@ -2,25 +2,16 @@
 
 from __future__ import annotations
 
-import json
-import re
 from fractions import Fraction
-from typing import Any
 
 from rightofway.metrics import Site, inspect
 from rightofway.model import Robot, Stop
 from rightofway.quantities import Units
 from rightofway.site import Edge, VertexId, roadmap_of_edges
 from rightofway.viz import inspection_page, site_data
+from tests.builders.payloads import payload_in
 
 EVIL = '</script><img src="x" onerror="alert(1)">'
-
-
-def payload_in(page: str) -> dict[str, Any]:
-    found = re.search(r'<script type="application/json" id="site">(.*?)</script>', page, re.DOTALL)
-    assert found is not None
-    data: dict[str, Any] = json.loads(found[1])
-    return data
 
 
 def yard() -> Site:

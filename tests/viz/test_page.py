@@ -15,7 +15,7 @@ from rightofway.errors import InputError
 from rightofway.quantities import Units
 from rightofway.viz import frame_of, page_of, payload_of, png_of, write_page
 from rightofway.viz.page.scripts import scripts_of
-from tests.builders.payloads import template_in
+from tests.builders.payloads import payload_in, template_in
 from tests.builders.plans import (
     counter,
     counter_late,
@@ -46,12 +46,6 @@ class Elements(HTMLParser):
 
     def handle_data(self, data: str) -> None:
         self.texts.setdefault(self.tags[-1] if self.tags else "", []).append(data)
-
-
-def payload_in(page: str) -> Any:
-    found = re.search(r'<script type="application/json" id="plan">(.*?)</script>', page, re.DOTALL)
-    assert found
-    return json.loads(found[1])
 
 
 def test_the_page_carries_the_payload() -> None:

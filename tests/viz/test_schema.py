@@ -20,6 +20,7 @@ from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.schema import InspectionPayload, Payload
 from tests.builders.closures import closed_fleet
 from tests.builders.fleets import grid_fleet
+from tests.builders.payloads import payload_text_in
 from tests.builders.plans import (
     counter,
     counter_late,
@@ -85,9 +86,7 @@ def test_the_payload_of_every_inspection_has_the_declared_types(name: str) -> No
     sites = read_sites(TESTS / "data" / "layouts" / name, Choice())
     levels = [(level, site, inspect(site)) for level, site in sites.sites]
     page = inspection_page(levels, title=name, what="a hall", notes=["one"])
-    start = page.index('id="site">') + len('id="site">')
-    text = page[start : page.index("</script>", start)]
-    INSPECTION.validate_json(text, strict=True, extra="forbid")
+    INSPECTION.validate_json(payload_text_in(page), strict=True, extra="forbid")
 
 
 def test_a_key_that_no_type_has_is_found() -> None:

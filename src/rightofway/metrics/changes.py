@@ -34,6 +34,8 @@ class Change:
     ----------
     what
         What has changed: a robot, several robots, ``map``, ``rules``, a place.
+    robots
+        The names of the robots that have changed in this way; empty where it is something else.
     key
         What of it: ``speed``, ``home``, ``headway``, ``added``, ``removed``, ``closed``, ``open``;
         empty for the size of a map.
@@ -45,6 +47,7 @@ class Change:
     key: str
     before: str = ""
     after: str = ""
+    robots: tuple[str, ...] = ()
 
     @property
     def text(self) -> str:
@@ -52,10 +55,10 @@ class Change:
         values = f"{self.before} → {self.after}" if self.before or self.after else ""
         return f"{self.what}: {' '.join(filter(None, (self.key, values)))}"
 
-    def as_dict(self) -> dict[str, str]:
+    def as_dict(self) -> dict[str, Any]:
         """Return the attributes and the text by name."""
         named = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {**named, "text": self.text}
+        return {**named, "robots": list(self.robots), "text": self.text}
 
 
 @checks_arguments
@@ -86,7 +89,7 @@ def changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
     for name in was:
         found.setdefault(("removed", "", ""), []).append(name)
     robots = [
-        Change(what=_named(names), key=key, before=old, after=new)
+        Change(what=_named(names), robots=tuple(names), key=key, before=old, after=new)
         for (key, old, new), names in found.items()
     ]
     return (*robots, *_map(before, after), *_rules(before, after), *_closures(before, after))
@@ -135,8 +138,8 @@ def _robot(
 def _time(scenario: Scenario, value: Fraction) -> str:
     """Return a time [time unit] as people read it."""
     quantities = scenario.quantities
-    text = Quantities(units=quantities.units, tick=Fraction(1)).duration(value)
-    return text.removesuffix(" time units").removesuffix(" time unit")
+    times = Quantities(units=quantities.units, tick=Fraction(1))
+    return times.cell(value) if quantities.units.seconds is None else times.duration(value)
 
 
 def _value(scenario: Scenario, attribute: Attribute, value: Any) -> str:

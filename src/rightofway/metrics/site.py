@@ -27,12 +27,26 @@ Kind = Literal[
 ]  # fmt: skip
 """What a finding is about."""
 
-HEADINGS: dict[Severity, str] = {
-    "error": Phrase("Errors (some work cannot be done)"),
-    "warning": Phrase("Warnings (robots will wait)"),
+SEVERITY_NAMES: dict[Severity, str] = {
+    "error": Phrase("Errors"),
+    "warning": Phrase("Warnings"),
     "note": Phrase("Notes"),
 }
 """What findings of each severity are called, the worst first."""
+
+HEADINGS: dict[Severity, str] = SEVERITY_NAMES | {
+    "error": Phrase(
+        "{severity} ({effect})",
+        severity=SEVERITY_NAMES["error"],
+        effect=Phrase("some work cannot be done"),
+    ),
+    "warning": Phrase(
+        "{severity} ({effect})",
+        severity=SEVERITY_NAMES["warning"],
+        effect=Phrase("robots will wait"),
+    ),
+}
+"""The same with what they mean for the work."""
 
 SEVERITIES = tuple(HEADINGS)
 

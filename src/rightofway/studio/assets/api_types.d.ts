@@ -28,6 +28,7 @@ export interface ByClock {
 /** Something in which a scenario differs from another one. */
 export interface ChangeData {
   what: string;
+  robots: Array<string>;
   key: string;
   before: string;
   after: string;

@@ -3,6 +3,7 @@
 import { Observable } from "../../viz/page/assets/observable.js";
 import { inAddress, post, put, remove } from "./api.js";
 import { Latest } from "./latest.js";
+import { liesAt, liesIn } from "./fault_place.js";
 import { later, present } from "./given.js";
 /** @import { Refusal } from "./api.js" */
 /** @import { Fault, SurveyData } from "./api_types.js" */
@@ -189,22 +190,18 @@ export class ScenarioStore extends Observable {
   }
 
   /**
-   * Faults at a place of the document and below it; an empty fleet is no fault while one draws.
-   * @param {string} place
+   * Faults at a place of the document and below it.
+   * @param {...(string | number)} path The keys and indices that lead to the place.
    * @returns {Fault[]}
    */
-  faultsAt(place) {
-    return this.faults.filter(
-      (fault) =>
-        fault.place === place ||
-        fault.place.startsWith(`${place}.`) ||
-        fault.place.startsWith(`${place}[`),
-    );
+  faultsAt(...path) {
+    return this.faults.filter((fault) => liesIn(fault, ...path));
   }
 
+  /** All faults; an empty fleet is no fault while one draws. */
   get faults() {
     const isEmpty = Array.isArray(this.document?.robots) && !this.document.robots.length;
-    return this.survey.faults.filter(({ place }) => !(isEmpty && place === "robots"));
+    return this.survey.faults.filter((fault) => !(isEmpty && liesAt(fault, "robots")));
   }
 
   /** Resolves when the library has looked at the present document. */
@@ -276,6 +273,7 @@ export class ScenarioStore extends Observable {
   }
 }
 
+/** The name of the draft of a document that has none. */
 const unnamedDraft = () => `new ${new Date().toISOString().slice(0, 23).replace(/[T.]/g, " ")}`;
 
 /**
@@ -284,3 +282,10 @@ const unnamedDraft = () => `new ${new Date().toISOString().slice(0, 23).replace(
  * @returns {number}
  */
 const sizeOf = (map) => ("rows" in map ? map.rows.length * map.rows[0].length : map.names.length);
+
+/**
+ * Whether a draft is one of a document without a name, and not that of a file like "new hall.yaml".
+ * @param {string} name
+ * @returns {boolean}
+ */
+export const isUnnamed = (name) => /^new \d{4}-\d\d-\d\d \d\d:\d\d:\d\d \d{3}$/.test(name);

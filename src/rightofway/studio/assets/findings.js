@@ -2,30 +2,13 @@
 
 import { html, useState } from "./vendor/htm-preact.js";
 import { languageOf, said } from "../../viz/page/assets/library.js";
+import { nameOf } from "./fault_place.js";
 import { words } from "./words.js";
 /** @import { Finding } from "./api_types.js" */
 /** @import { Studio } from "./studio.js" */
 /** @import { Props } from "./types.js" */
 
 const FIRST = 3; // findings, the worst first; the others on request
-
-/**
- * What a fault is about, for people: "R1: home", not "robots[0] (R1): home".
- * @param {{about?: string, place?: string}} fault
- * @returns {string}
- */
-export const nameOf = ({ about, place }) => about || place || "";
-
-/**
- * The index of the item of a list in which a fault lies; -1 where it lies elsewhere.
- * @param {{path?: (string | number)[]}} fault
- * @param {...string} list The keys that lead to the list.
- * @returns {number}
- */
-export function itemOf({ path = [] }, ...list) {
-  const index = path[list.length];
-  return list.every((key, i) => path[i] === key) && typeof index === "number" ? index : -1;
-}
 
 /** @param {Props} props */
 export function Findings({ studio }) {

@@ -1,6 +1,8 @@
 /** Files, drafts and examples: what there is, opened, dropped, saved. */
 
 import { get, inAddress, post, put, remove, sameAs, upload } from "./api.js";
+import { isUnnamed } from "./document.js";
+import { liesAt } from "./fault_place.js";
 import { words } from "./words.js";
 import { present } from "./given.js";
 /** @import { Refusal } from "./api.js" */
@@ -102,7 +104,7 @@ export class Shelf {
       this.studio.open({
         document,
         folder,
-        path: /^new /.test(name) ? "" : name,
+        path: isUnnamed(name) ? "" : name,
         revision: isFile ? null : "",
         draft: name,
         known,
@@ -168,7 +170,7 @@ export class Shelf {
       await this.#open(path);
     } catch (error) {
       const refusal = /** @type {Refusal} */ (error);
-      const isAlone = refusal.faults?.some(({ place }) => place === "image");
+      const isAlone = refusal.faults?.some((fault) => liesAt(fault, "image"));
       this.waiting = isAlone ? path : "";
       throw refusal;
     }

@@ -1,7 +1,8 @@
 /** How one begins: a new floor by its size, a file, what was left as a draft, an example. */
 
 import { html, useEffect, useRef, useState } from "./vendor/htm-preact.js";
-import { nameOf } from "./findings.js";
+import { isUnnamed } from "./document.js";
+import { nameOf } from "./fault_place.js";
 import { Gallery, ago } from "./gallery.js";
 import { words } from "./words.js";
 /** @import { DraftEntry, ExampleEntry, FileEntry } from "./api_types.js" */
@@ -89,7 +90,7 @@ const draftCard = ({ name, saved }) => ({
   source: "drafts",
   name,
   revision: saved,
-  title: /^new /.test(name) ? words.unnamed : name,
+  title: isUnnamed(name) ? words.unnamed : name,
   note: ago(saved),
 });
 

@@ -1,7 +1,7 @@
 /** A line below the map: the one thing to do next; and how the plan has changed by the last change. */
 
 import { html } from "./vendor/htm-preact.js";
-import { nameOf } from "./findings.js";
+import { nameOf } from "./fault_place.js";
 import { robotsOf } from "./robots/fleet.js";
 import { Change } from "./runs/change.js";
 import { doNotRun } from "./runs/faults.js";

@@ -6,7 +6,7 @@ import { Backdrop } from "./draw/backdrop.js";
 import { Clipboard } from "./draw/clipboard.js";
 import { Editor } from "./draw/editor.js";
 import { PlaceDrag } from "./draw/place_drag.js";
-import { itemOf } from "./findings.js";
+import { itemOf } from "./fault_place.js";
 import { Notices } from "./notices.js";
 import { PlaceInAddress } from "./place.js";
 import { FormerRoute } from "./runs/former.js";

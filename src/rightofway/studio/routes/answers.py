@@ -467,6 +467,7 @@ class ChangeData(TypedDict):
     """Something in which a scenario differs from another one."""
 
     what: str
+    robots: list[str]
     key: str
     before: str
     after: str

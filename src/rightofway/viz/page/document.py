@@ -88,17 +88,14 @@ def page_of(
         background=background,
         others=others,
     )
-    return document_of("template.html", about, payload, "main")
+    return document_of(about, payload, "main")
 
 
-def document_of(template: str, about: str, payload: Mapping[str, object], entry: str) -> str:
-    """Return a template filled with style, plain data and scripts, as one HTML document.
+def document_of(about: str, payload: Mapping[str, object], entry: str) -> str:
+    """Return a page of style, plain data and scripts, as one HTML document.
 
     Parameters
     ----------
-    template
-        A file under ``assets/`` with ``{{title}}``, ``{{policy}}``, ``{{style}}``, ``{{payload}}``
-        and ``{{scripts}}``.
     about
         The title of the document.
     payload
@@ -121,7 +118,7 @@ def document_of(template: str, about: str, payload: Mapping[str, object], entry:
         "scripts": "\n".join(f"<script>{script}</script>" for script in scripts),
     }
     # Each {{name}} is filled once; what is filled in is not looked at again.
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset(template))
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset("template.html"))
 
 
 def write_page(

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from rightofway.arguments import checks_arguments
 from rightofway.files import write_whole
 from rightofway.metrics import HEADINGS, Inspection, Site, sentences
+from rightofway.metrics.site import SEVERITY_NAMES
 from rightofway.phrases import parts_of
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.document import document_of
@@ -59,14 +60,15 @@ def inspection_page(
         "translations": {},
         "what": parts_of(what),
         "notes": [parts_of(note) for note in notes],
+        "names": {severity: parts_of(name) for severity, name in SEVERITY_NAMES.items()},
         "headings": {severity: parts_of(heading) for severity, heading in HEADINGS.items()},
         "levels": [_level(*level, background) for level in levels],
     }
     said = [(level["sentences"], level["findings"]) for level in payload["levels"]]
-    others = payload["what"], payload["notes"], payload["headings"]
+    others = payload["what"], payload["notes"], payload["names"], payload["headings"]
     payload["translations"] = translations_for(said, others)
     about = f"{title}: {what}" if what else title
-    return document_of("inspect.html", about, payload, "inspect_main")
+    return document_of(about, payload, "inspect_main")
 
 
 @checks_arguments

@@ -254,6 +254,7 @@ class ChangeData(TypedDict):
     """Something in which a scenario differs from another one; see `Change`."""
 
     what: str
+    robots: list[str]
     key: str
     before: str
     after: str
@@ -380,5 +381,6 @@ class InspectionPayload(TypedDict):
     translations: dict[str, dict[str, str]]
     what: PhraseData
     notes: list[PhraseData]
+    names: dict[Literal["error", "warning", "note"], PhraseData]
     headings: dict[Literal["error", "warning", "note"], PhraseData]
     levels: list[LevelData]

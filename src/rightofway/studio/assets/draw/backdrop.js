@@ -387,7 +387,7 @@ export function BackdropPanel({ studio }) {
     backdrop.rescale(present(points), distance);
     setPoints(null);
   };
-  const wrong = store.faultsAt("map.picture");
+  const wrong = store.faultsAt("map", "picture");
   return html`
     <section class="backdrop"><h2>${words.backdrop}</h2>
       ${

@@ -112,7 +112,7 @@ export function Times({ document, faults, closure, write, of = "" }) {
    * @param {TimeKey} key
    * @returns {boolean}
    */
-  const isWrong = (key) => faults.some(({ place }) => place.endsWith(`].${key}`));
+  const isWrong = (key) => faults.some(({ path }) => path?.[2] === key);
   /** @param {TimeKey} key */
   const field = (key) =>
     html`<label>${words[key]}<span>
@@ -130,7 +130,7 @@ export function ClosureFields({ studio, place }) {
   const { store, stage } = studio;
   const { closures = [] } = store.document;
   const index = closures.findIndex((each) => isAt(each, place, stage.plan.roadmap));
-  const faults = store.faultsAt(`closures[${index}]`);
+  const faults = store.faultsAt("closures", index);
   const isClosed = index >= 0;
   const toggle = () =>
     store.change((document) =>

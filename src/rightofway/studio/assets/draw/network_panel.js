@@ -67,7 +67,7 @@ export function LanePanel({ studio, lanes }) {
    * @returns {void}
    */
   const set = (key, value) => store.change((document) => changeLanes(document, known, key, value));
-  const wrong = known.flatMap((index) => store.faultsAt(`map.roadmap.edges[${index}]`));
+  const wrong = known.flatMap((index) => store.faultsAt("map", "roadmap", "edges", index));
   return html`
     <p class="hint">${known
       .slice(0, 4)

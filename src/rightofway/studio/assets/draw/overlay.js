@@ -1,7 +1,7 @@
 /** What an editor shows above the map: what is selected, and what the library says about places. */
 
 import { ring } from "../../../viz/page/assets/shapes.js";
-import { itemOf } from "../findings.js";
+import { itemOf } from "../fault_place.js";
 import { cellOf } from "./ground.js";
 import { present } from "../given.js";
 /** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */

@@ -1,5 +1,6 @@
 /** What is said about the map: what is selected, its size, what was found on it. */
 
+import { liesIn } from "../fault_place.js";
 import { AboutMap, Findings } from "../findings.js";
 import { PlanButton } from "../header.js";
 import { html } from "../vendor/htm-preact.js";
@@ -57,7 +58,7 @@ function Size({ studio }) {
   const hasCells = map.layout
     ? store.site !== null && ("rows" in store.site.map || Boolean(store.site.map.sides))
     : !map.roadmap;
-  const place = map.floor ? "map.floor" : "map";
+  const place = map.floor ? ["map", "floor"] : ["map"];
   /**
    * @param {string} text
    * @param {Numeral} value
@@ -69,7 +70,9 @@ function Size({ studio }) {
     set,
   ) => html`<label>${text}<span><${Field} type="number" min="0.01" step="any" value=${numberOf(value) || ""} placeholder=${Number.isNaN(numberOf(value, 0)) ? value : ""}
     onChange=${({ target }) => target.value && target.reportValidity() && set(Number(target.value))} /> ${unit}</span></label>`;
-  const wrong = store.faultsAt(place).concat(store.faultsAt("map.cell_size"));
+  const wrong = store.faults.filter(
+    (fault) => liesIn(fault, ...place) || liesIn(fault, "map", "cell_size"),
+  );
   return html`
     <section><h2>${words.size}</h2>
       <div class="fields">

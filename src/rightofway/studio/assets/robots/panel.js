@@ -1,5 +1,6 @@
 /** The robots beside the map: the table, how robots are placed and dealt out, which columns are shown. */
 
+import { liesAt } from "../fault_place.js";
 import { PlanButton } from "../header.js";
 import { html, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
@@ -31,7 +32,7 @@ export function RobotPanel({ studio }) {
     robots.some((robot) => column.text(robot));
   const columns = COLUMNS.filter(isShown);
   const others = COLUMNS.filter((column) => !isShown(column));
-  const faults = store.faults.filter(({ place }) => place === "robots");
+  const faults = store.faults.filter((fault) => liesAt(fault, "robots"));
   const isPlacing = editor.tool === editor.tools.get("robot");
   return html`
     <div class="scroll">

@@ -1,6 +1,6 @@
 /** The robots as a spreadsheet: typed, pasted, filled, sorted with the keyboard; faults stand at their cells and below. */
 
-import { itemOf, nameOf } from "../findings.js";
+import { itemOf, nameOf } from "../fault_place.js";
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
 import { words } from "../words.js";

@@ -29,7 +29,7 @@ export function Ask({ studio, children }) {
   const robots = robotsOf(store.document) ?? [];
   const name = (stage.isPlan && stage.choice.robot?.name) || null;
   const index = name === null ? -1 : robots.findIndex((robot) => robot.name === name);
-  const faults = store.faultsAt(`robots[${index}]`);
+  const faults = store.faultsAt("robots", index);
   /**
    * @param {Column} column
    * @returns {boolean}
@@ -111,13 +111,21 @@ function Close({ studio }) {
     if (places.length) close(places);
     return null;
   };
-  const isWrong = (/** @type {string[]} */ ...ends) =>
-    String(refused.some(({ place }) => ends.some((end) => place.endsWith(end))));
+  /**
+   * Whether something is wrong with the end of a lane that is closed, or with both; a place is the first one.
+   * @param {number} end
+   */
+  const isWrong = (end) =>
+    String(
+      refused.some(({ path: [, , key, at = end] = [] }) =>
+        key === "edge" ? at === end : key === "at" && !end,
+      ),
+    );
   return html`
     <form class="close-place" ref=${form} onSubmit=${submit}>
       <div class="fields">
-        <label>${words.closePlace}<input id="close-at" placeholder="N3" spellcheck="false" autocomplete="off" aria-invalid=${isWrong("].at", "].edge", ".edge[0]")} /></label>
-        <label>${words.closeTo}<input id="close-to" placeholder="–" spellcheck="false" autocomplete="off" aria-invalid=${isWrong("].edge", ".edge[1]")} /></label>
+        <label>${words.closePlace}<input id="close-at" placeholder="N3" spellcheck="false" autocomplete="off" aria-invalid=${isWrong(0)} /></label>
+        <label>${words.closeTo}<input id="close-to" placeholder="–" spellcheck="false" autocomplete="off" aria-invalid=${isWrong(1)} /></label>
       </div>
       <${Times} document=${store.document} faults=${refused} />
       ${refused.map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}
@@ -139,7 +147,7 @@ function Closed({ studio }) {
   if (!closures?.length) return null;
   return html`<ul class="closures">${closures.map((closure, index) => {
     const text = textOfClosure(closure);
-    const faults = studio.store.faultsAt(`closures[${index}]`);
+    const faults = studio.store.faultsAt("closures", index);
     const open = () => studio.whatIf((document) => withoutClosure(document, index));
     const write = (/** @type {TimeKey} */ key, /** @type {string} */ time) =>
       studio.whatIf((document) => changeTime(document, index, key, time));

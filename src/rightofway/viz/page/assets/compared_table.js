@@ -1,11 +1,13 @@
 import { element } from "./dom.js";
 import { texts } from "./language.js";
+import { joined } from "./words.js";
 
 /** @import { Compared, ComparedFigures } from "./compared.js" */
 /** @import { ChangeData } from "./payload.d.ts" */
 /** @import { Texts } from "./texts/en.js" */
 
 const MOST_CHANGES = 12; // that are listed of one plan
+const FEW_NAMES = 2; // robots with the same change
 const TIMES = /** @type {const} */ (["flowtime", "makespan", "lower_bound"]);
 const RATES_OF_PLANS = /** @type {const} */ (["gap", "seconds"]);
 
@@ -114,11 +116,11 @@ export class ComparedTable {
  *
  * @param {ChangeData} options
  */
-export function changeInWords({ what, key, before, after }) {
+export function changeInWords({ what, robots, key, before, after }) {
   /** @type {Record<"whats" | "keys", Partial<Record<string, string>>>} */
   const { whats, keys } = texts.compared;
-  const [, count] = /^(\d+) robots$/.exec(what) ?? [];
-  const whose = count ? texts.robots(Number(count)) : (whats[what] ?? what);
+  const named = robots.length > FEW_NAMES ? texts.robots(robots.length) : joined(robots).join("");
+  const whose = named || (whats[what] ?? what);
   const values = before || after ? `${before} → ${after}` : "";
   return `${whose}: ${[keys[key] ?? key, values].filter(Boolean).join(" ")}`;
 }

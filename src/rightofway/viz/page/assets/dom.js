@@ -10,6 +10,17 @@ export function isEmbedded(within) {
 }
 
 /**
+ * The data that a page was written with.
+ *
+ * @param {Document} page
+ */
+export function payloadOf(page) {
+  const data = page.getElementById("payload");
+  if (!data) throw new Error("page: there are no data (look at the template)");
+  return JSON.parse(data.textContent);
+}
+
+/**
  * All elements that a selector finds.
  *
  * @template {Element} E

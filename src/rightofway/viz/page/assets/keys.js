@@ -46,19 +46,22 @@ export function listenToKeys(root, clock, choice, viewport, modeSwitch, loop) {
   };
   root.part("help-open").addEventListener("click", () => help.showModal());
   root.part("about-open").addEventListener("click", () => about.showModal());
+  bindKeys(root, actions, () => help.open || about.open);
+}
+
+/**
+ * Call an action when its key is pressed, wherever no text is being written.
+ *
+ * @param {Root} root
+ * @param {Record<string, (event: KeyboardEvent) => unknown>} actions by their keys, letters in lower case
+ * @param {() => boolean} [isCovered] whether something else has the keys now
+ */
+export function bindKeys(root, actions, isCovered = () => false) {
   root.listen(root.isPart ? root.element : document, "keydown", (event) => {
     if (!(event instanceof KeyboardEvent)) return;
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    if (
-      !action ||
-      help.open ||
-      about.open ||
-      event.ctrlKey ||
-      event.metaKey ||
-      event.altKey ||
-      isTaken(event)
-    )
-      return;
+    const isControl = event.ctrlKey || event.metaKey || event.altKey;
+    if (!action || isControl || isCovered() || isTaken(event)) return;
     event.preventDefault();
     action(event);
   });

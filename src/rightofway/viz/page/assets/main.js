@@ -1,5 +1,4 @@
+import { payloadOf } from "./dom.js";
 import { createPlayer } from "./player.js";
 
-const data = document.getElementById("plan");
-if (!data) throw new Error("page: there is no plan (look at the template)");
-createPlayer(document.body, JSON.parse(data.textContent));
+createPlayer(document.body, payloadOf(document));

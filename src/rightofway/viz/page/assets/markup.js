@@ -1,5 +1,8 @@
 /** The parts that a player makes in its element; `data-…` are keys of texts, see `writeMarkup`. */
 
+/** What is below the pointer. */
+const HOVER = `<div id="hover" class="hover" aria-live="off" hidden></div>`;
+
 /** What lies on a map: legends, and what is below the pointer. */
 export const LEGENDS = `
   <div class="legends">
@@ -9,7 +12,7 @@ export const LEGENDS = `
     <div id="space-legend" class="space-legend" hidden></div>
     <div id="bottleneck-legend" class="lit-legend" hidden><span class="lit"></span><span class="name"></span></div>
   </div>
-  <div id="hover" class="hover" aria-live="off" hidden></div>
+  ${HOVER}
 `;
 
 /** What robots do now. */
@@ -99,34 +102,72 @@ export function toolButtons(names, { withKeys = false } = {}) {
     .join("\n");
 }
 
-/** All of a player. */
-export const MARKUP = `
+/**
+ * The head of a page: its title, figures, and what one does with the whole page.
+ *
+ * @param {string} actions
+ * @param {string} print the text that says what comes on paper
+ */
+const head = (actions, print) => `
 <header class="summary">
   <h1 id="headline"></h1>
   <dl id="figures"></dl>
   <div class="actions">
-    <button type="button" id="about-open" class="quiet" data-text="details" data-title="made"></button>
-    <button type="button" id="copy-link" class="quiet" aria-live="polite" data-text="link" data-title="linkAtLength"></button>
-    <button type="button" id="save-picture" class="quiet" data-text="picture" data-title="pictureAtLength"></button>
-    <button type="button" id="print" class="quiet" data-text="print" data-title="printAtLength"></button>
+    ${actions}
+    <button type="button" id="print" class="quiet" data-text="print" data-title="${print}"></button>
     <select id="language" data-label="language"></select>
   </div>
 </header>
+`;
 
+const CANVAS = `<canvas id="map" tabindex="0" role="img" aria-describedby="hover"></canvas>`;
+
+/**
+ * What stands below a map, and the tools that act on it.
+ *
+ * @param {string} left
+ * @param {string[]} tools
+ */
+const below = (left, tools) => `
+<div class="below">
+  ${left}
+  <div class="tools" role="toolbar" data-label="mapView">
+    ${toolButtons(tools, { withKeys: true })}
+  </div>
+</div>
+`;
+
+const CARD = `<section id="card" class="card" aria-live="polite" hidden></section>`;
+
+/**
+ * A field that finds something in a list, and the list.
+ *
+ * @param {{ item: string, label: string, hint: string, find: string, key?: string, more?: string }} options
+ */
+const foundList = ({ item, label, hint, find, key, more = "" }) => `
+    <div class="find">
+      <input type="search" id="find-${item}" data-hint="${hint}"${key ? ` data-key="${key}"` : ""} data-label="${find}" autocomplete="off" spellcheck="false">
+      ${more}
+    </div>
+    <div id="${item}-list" class="list" role="listbox" tabindex="0" data-label="${label}"></div>
+`;
+
+/** All of a player. */
+export const MARKUP = `
+${head(
+  `<button type="button" id="about-open" class="quiet" data-text="details" data-title="made"></button>
+    <button type="button" id="copy-link" class="quiet" aria-live="polite" data-text="link" data-title="linkAtLength"></button>
+    <button type="button" id="save-picture" class="quiet" data-text="picture" data-title="pictureAtLength"></button>`,
+  "printAtLength",
+)}
 <main>
 <div class="maps">
 <section class="map" data-label="map">
   <h2 id="map-title" class="map-title" hidden></h2>
-  <canvas id="map" tabindex="0" role="img" aria-describedby="hover"></canvas>
+  ${CANVAS}
 ${LEGENDS}</section>
 </div>
-
-<div class="below">
-  ${STATES}
-  <div class="tools" role="toolbar" data-label="mapView">
-    ${toolButtons(["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space", "heat"], { withKeys: true })}
-  </div>
-</div>
+${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space", "heat"])}
 
 <section class="time" data-label="time">
   <h2 id="diagram-title"></h2>
@@ -150,7 +191,7 @@ ${LEGENDS}</section>
 </main>
 
 <aside class="side" data-label="side">
-  <section id="card" class="card" aria-live="polite" hidden></section>
+  ${CARD}
   <div class="tabs" role="tablist">
     <button type="button" role="tab" id="tab-robots" aria-controls="robots" aria-selected="true"><span data-text="robots"></span> <b></b></button>
     <button type="button" role="tab" id="tab-decisions" aria-controls="decisions" aria-selected="false" tabindex="-1"><span data-text="decisions"></span> <b></b></button>
@@ -158,23 +199,19 @@ ${LEGENDS}</section>
     <button type="button" role="tab" id="tab-compared" aria-controls="compared" aria-selected="false" tabindex="-1"><span data-text="compared"></span> <b></b></button>
   </div>
   <div class="panel" id="robots" role="tabpanel" aria-labelledby="tab-robots">
-    <div class="find">
-      <input type="search" id="find-robot" data-hint="findRobot" data-label="findRobot" autocomplete="off" spellcheck="false">
-      <button type="button" id="sort" class="quiet" aria-pressed="false" data-text="sort" data-title="sortAtLength"></button>
-    </div>
-    <div id="robot-list" class="list" role="listbox" tabindex="0" data-label="robots"></div>
+    ${foundList({
+      item: "robot",
+      label: "robots",
+      hint: "findRobot",
+      find: "findRobot",
+      more: `<button type="button" id="sort" class="quiet" aria-pressed="false" data-text="sort" data-title="sortAtLength"></button>`,
+    })}
   </div>
   <div class="panel" id="decisions" role="tabpanel" aria-labelledby="tab-decisions" hidden>
-    <div class="find">
-      <input type="search" id="find-decision" data-hint="findPlace" data-label="findDecision" autocomplete="off" spellcheck="false">
-    </div>
-    <div id="decision-list" class="list" role="listbox" tabindex="0" data-label="decisions"></div>
+    ${foundList({ item: "decision", label: "decisions", hint: "findPlace", find: "findDecision" })}
   </div>
   <div class="panel" id="faults" role="tabpanel" aria-labelledby="tab-faults" hidden>
-    <div class="find">
-      <input type="search" id="find-fault" data-hint="findPlace" data-label="findFault" autocomplete="off" spellcheck="false">
-    </div>
-    <div id="fault-list" class="list" role="listbox" tabindex="0" data-label="faults"></div>
+    ${foundList({ item: "fault", label: "faults", hint: "findPlace", find: "findFault" })}
   </div>
   <div class="panel" id="compared" role="tabpanel" aria-labelledby="tab-compared" hidden>
     <div id="compared-figures" class="compared-wide figures-pane"></div>
@@ -217,4 +254,29 @@ ${LEGENDS}</section>
   </dl>
   <form method="dialog"><button type="submit" data-text="close"></button></form>
 </dialog>
+`;
+
+/** All of the page of an inspection. */
+export const INSPECTION = `
+${head(
+  `<label id="level-choice" class="speed" hidden><span data-text="level"></span> <select id="level"></select></label>`,
+  "printFindings",
+)}
+<main>
+<section class="map" data-label="map">
+  ${CANVAS}
+  ${HOVER}
+</section>
+${below(`<p id="size" class="states"></p>`, ["zoom-in", "zoom-out", "fit"])}
+</main>
+
+<aside class="side" data-label="findings">
+  ${CARD}
+  <details id="notes" class="notes" hidden><summary></summary><ul></ul></details>
+  <div class="panel">
+    ${foundList({ item: "finding", label: "findings", hint: "findWord", find: "findFinding", key: "/" })}
+  </div>
+</aside>
+
+<section class="paper" aria-hidden="true"><div id="paper-findings"></div></section>
 `;

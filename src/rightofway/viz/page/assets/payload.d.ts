@@ -22,6 +22,7 @@ export interface BestData {
 /** Something in which a scenario differs from another one; see `Change`. */
 export interface ChangeData {
   what: string;
+  robots: string[];
   key: string;
   before: string;
   after: string;
@@ -177,6 +178,7 @@ export interface InspectionPayload {
   translations: Record<string, Record<string, string>>;
   what: PhraseData;
   notes: PhraseData[];
+  names: Record<string, PhraseData>;
   headings: Record<string, PhraseData>;
   levels: LevelData[];
 }
