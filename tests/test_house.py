@@ -53,7 +53,6 @@ def test_includes_of_the_native_core_never_point_back() -> None:
 
 
 SLEEPS = {
-    "builders/broken_calls.py": "a call that is watched while it runs",
     "builders/browsers.py": "Viewer.poll, which has a deadline",
     "builders/suites.py": "soon, which has a deadline",
     "builders/odd_planners.py": "planners that are slow on purpose",

@@ -56,7 +56,7 @@ def test_without_its_closures_a_fleet_is_at_least_as_quick(seed: int) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", sorted(KINDS))
+@pytest.mark.parametrize("kind", sorted(KINDS.keys() - {"trips"}))  # the test of cbs has trips
 def test_auto_finds_the_optimum_of_tiny_fleets_or_proves_that_there_is_no_plan(kind: str) -> None:
     """Nineteen of twenty, because auto stops its search by steps; seeds 0 to 19 of each kind."""
     right = 0

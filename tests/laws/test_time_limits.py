@@ -26,6 +26,7 @@ from rightofway.planners.flip import flipped
 from rightofway.precedence import ActionDependencyGraph, DelayModel, TimedEventGraph
 from rightofway.search import (
     Bookings,
+    ConflictBasedSearch,
     Distances,
     FleetSearch,
     PeriodicBookings,
@@ -159,8 +160,13 @@ def runs(_: Scenario, limit: float) -> None:
     adg.runs(0, 0, 10**7, limit)
 
 
+def least_plan(scenario: Scenario, limit: float) -> None:
+    ConflictBasedSearch(scenario.problem).run(time_limit=limit)
+
+
 CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "ActionDependencyGraph.runs": runs,
+    "ConflictBasedSearch.run": least_plan,
     "CyclicSimulator.advance": lambda one, limit: rightofway.run_laps(one, time_limit=limit),
     "FleetSearch.alone": lambda one, limit: least_completions(one, time_limit=limit),
     "FleetSearch.resume": resume,

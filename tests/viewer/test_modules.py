@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from rightofway.io.sites import Choice, read_sites
-from rightofway.viz import page_of, site_data
+from rightofway.viz import site_data
+from rightofway.viz.page import document
 from rightofway.viz.page.document import style_sheet
 from tests.builders.canvases import Canvases
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
-ASSETS = Path(page_of.__code__.co_filename).parent / "assets"
+ASSETS = Path(document.__file__).parent / "assets"
 
 PAGE = """<!doctype html><title>editor</title><style>STYLE</style>
 <div class="map" style="height: 400px"><canvas id="plot" tabindex="0"></canvas>
