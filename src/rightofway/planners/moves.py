@@ -206,7 +206,7 @@ def _draft_of(task: Task, search: FleetSearch, floor: _Floor, timed: _Timed) -> 
         search.start(_at_times(floor, timed))
     task.has_plan()
     tracks = search.tracks()
-    # A spare tick of headway against rotations may cost a plan some ticks that the rules do not ask.
+    # A spare tick of headway against rotations may cost a plan ticks that the rules do not ask.
     is_spared = planning_headway(task.scenario) > task.scenario.problem.headway
     if not floor.is_proof or is_spared:
         return Draft(tracks=tracks, status="order of moves")
