@@ -200,14 +200,22 @@ def test_laps_that_are_late_keep_their_rights_of_way_without_contact(
     assert (replanned.collisions, replanned.deadlocks, replanned.stranded) == (0, 0, 0)
 
 
-@law(any_fleet(robots=(1, 2), without=LAPS_REFUSE, joined=True), st.integers(0, 2**32 - 1))
+@law(
+    any_fleet(robots=(1, 2), without=LAPS_REFUSE, joined=True, apart=True),
+    st.integers(0, 2**32 - 1),
+)
 def test_laps_keep_out_of_places_that_are_closed_for_ever(scenario: Scenario, chance: int) -> None:
     """The judge knows the closure, whatever laps make of it."""
     used = {place for one in scenario.robots for place in (one.home, *(at.at for at in one.stops))}
-    passed = [VertexId(v) for v in range(scenario.roadmap.n_vertices) if v not in used]
-    random.Random(chance).shuffle(passed)  # noqa: S311
-    for place in passed[:TRIES]:
-        closure = Closure(at=place)
+    roadmap = scenario.roadmap
+    closures = [Closure(at=VertexId(v)) for v in range(roadmap.n_vertices) if v not in used]
+    closures += [
+        Closure(edge=(VertexId(tail), VertexId(int(head))))
+        for tail in range(roadmap.n_vertices)
+        for head in roadmap.heads[roadmap.indptr[tail] : roadmap.indptr[tail + 1]]
+    ]
+    random.Random(chance).shuffle(closures)  # noqa: S311
+    for closure in closures[:TRIES]:
         try:
             result = run_laps(replace(scenario, closures=(closure,)), time_limit=3)
             plan = plan_of_laps(result, 2)
