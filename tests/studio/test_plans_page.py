@@ -74,7 +74,7 @@ def give(studio: StudioPage, column: str, text: str) -> None:
 
 def another(studio: StudioPage) -> None:
     """Draw another floor, a copy with another unit of time, which has no name."""
-    studio.draw({**studio.document, "units": {"time": "s"}}, "new floor")
+    studio.draw({**studio.document, "units": {"time": "s"}}, "new 2026-01-02 03:04:05 006")
 
 
 def row(studio: StudioPage, number: int) -> str:
