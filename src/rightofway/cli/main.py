@@ -13,6 +13,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 import traceback
@@ -139,6 +140,7 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
         The arguments; None for those of the process.
     """
     speak_utf8()
+    _start_quickly()
     try:
         code = run(args)
     except BrokenPipeError:  # no program reads the messages
@@ -149,6 +151,17 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
         for stream in (1, 2):
             os.dup2(nowhere, stream)
     sys.exit(code)
+
+
+def _start_quickly() -> None:
+    """Spare a command, before it imports anything large, what takes CPU and serves no command.
+
+    NumPy's linear algebra starts a thread for each core and keeps them busy for a while; products
+    of matrices are not what planning spends its time on. The garbage collector looks at all modules
+    again and again while they are imported; they stay.
+    """
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    gc.set_threshold(50_000, *gc.get_threshold()[1:])
 
 
 ENDINGS: dict[type[BaseException], tuple[int, str]] = {

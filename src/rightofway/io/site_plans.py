@@ -23,7 +23,7 @@ from typing import Any
 from rightofway.arguments import checks_arguments, value_of
 from rightofway.io.text import json_line
 from rightofway.metrics.events import events
-from rightofway.model import Plan, Stays, Track, stays_of
+from rightofway.model import Plan, Stays, Track
 
 FRAME = "map"
 """The frame of a site in ROS."""
@@ -129,7 +129,7 @@ class _Site:
         self.metre = scenario.units.metres or Fraction(1)
         self.second = (scenario.units.seconds or Fraction(1)) * scenario.problem.clock.tick
         self.down = -1 if y_up and not self.roadmap.frame.y_up else 1
-        self.stays = stays_of(scenario, plan.tracks)
+        self.stays = plan.stays
 
     def point(self, vertex: int) -> tuple[Fraction, Fraction]:
         """Return where a vertex is [m]."""

@@ -63,7 +63,7 @@ def free_running(plan: Plan) -> tuple[Track, ...]:
             vertices=track.vertices,
             enter=np.append(0, np.cumsum((stay.dwell + stay.drive)[:-1])),
         )
-        for track, stay in zip(plan.tracks, stays_of(plan.scenario, plan.tracks), strict=True)
+        for track, stay in zip(plan.tracks, plan.stays, strict=True)
     )
 
 

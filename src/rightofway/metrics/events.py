@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
 from rightofway.metrics.lost_time import joined_waits, lost_time
-from rightofway.model import Loss, Plan, Scenario, Stays, Tick, stays_of
+from rightofway.model import Loss, Plan, Scenario, Stays, Tick
 from rightofway.site import VertexId
 
 
@@ -65,7 +65,7 @@ def events(plan: Plan) -> tuple[Event, ...]:
     plan
         A plan that keeps the rules; of others, what the tracks claim.
     """
-    stays = stays_of(plan.scenario, plan.tracks)
+    stays = plan.stays
     try:
         losses = [loss for lost in lost_time(plan) for loss in lost.losses]
     except NoPlanExists:  # a robot has no way, so nothing is known but its waits

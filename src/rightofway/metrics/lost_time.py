@@ -33,7 +33,6 @@ from rightofway.model import (
     Tick,
     Track,
     least_dwell,
-    stays_of,
 )
 from rightofway.model.given import checked_plan
 from rightofway.model.turning import Turning
@@ -70,7 +69,7 @@ def lost_time(plan: Plan) -> tuple[LostTime, ...]:
 
 def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
     scenario, tracks, alone = plan.scenario, plan.tracks, measure(plan).alone
-    stays = stays_of(scenario, tracks)
+    stays = plan.stays
     bookings = bookings_of(scenario, tracks, stays)
     losses: defaultdict[int, list[Loss]] = defaultdict(list)
     for loss in joined_waits(scenario, tracks, stays):

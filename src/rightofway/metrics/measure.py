@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from rightofway.metrics.alone import alone_completions
-from rightofway.model import Plan, Tick, stays_of
+from rightofway.model import Plan, Tick
 from rightofway.model.given import checked_plan
 
 
@@ -78,7 +78,7 @@ def measure(plan: Plan) -> Metrics:
 
 
 def _measured(plan: Plan) -> Metrics:
-    stays = stays_of(plan.scenario, plan.tracks)
+    stays = plan.stays
     completions = tuple(stay.completion for stay in stays)
     alone = plan.run.alone or alone_completions(plan.scenario)
     return Metrics(

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import NEVER, Plan, Route, Scenario, Stays, Tick, Track, Wait, stays_of
+from rightofway.model import NEVER, Plan, Route, Scenario, Stays, Tick, Track, Wait
 from rightofway.model.given import checked_plan
 from rightofway.native import BookedRows
 from rightofway.precedence import PrecedenceGraph, order_of
@@ -30,7 +30,7 @@ def waits(plan: Plan) -> tuple[Wait, ...]:
         A plan that keeps the rules.
     """
     scenario, tracks = checked_plan(plan).scenario, plan.tracks
-    return plan.once("waits", lambda: waits_in(scenario, tracks, stays_of(scenario, tracks)))
+    return plan.once("waits", lambda: waits_in(scenario, tracks, plan.stays))
 
 
 def waits_in(

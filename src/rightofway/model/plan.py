@@ -15,7 +15,7 @@ from rightofway.model.outcome import Outcome
 from rightofway.model.robot import Robot
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
-from rightofway.model.stays import completions_of
+from rightofway.model.stays import Stays, stays_of
 from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick
 from rightofway.site import VertexId
@@ -300,9 +300,14 @@ class Plan:
         return kept
 
     @property
+    def stays(self) -> tuple[Stays, ...]:
+        """The parts of each robot's visits: waits, work, turns; computed once."""
+        return self.once("stays", lambda: stays_of(self.scenario, self.tracks))
+
+    @property
     def completions(self) -> tuple[Tick, ...]:
         """When each robot has done its work and is at its last vertex [ticks]."""
-        return self.once("completions", lambda: completions_of(self.scenario, self.tracks))
+        return tuple(stay.completion for stay in self.stays)
 
     @property
     def flowtime(self) -> Tick:

@@ -16,7 +16,7 @@ from rightofway.metrics import (
     outcome_of,
     swaps,
 )
-from rightofway.model import Loss, LostTime, Objective, Plan, stays_of
+from rightofway.model import Loss, LostTime, Objective, Plan
 from rightofway.quantities import Quantities, decimal
 from rightofway.report.lines import COLUMNS, counted, further, row, short, wrapped
 from rightofway.report.sentences import (
@@ -171,7 +171,7 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[str]:
     has yet to come through.
     """
     scenario, tracks = words.plan.scenario, words.plan.tracks
-    stays = stays_of(scenario, tracks)
+    stays = words.plan.stays
     found: dict[int, dict[int, int]] = {}
     for loss in losses:
         if loss.for_robot is None or loss.kind == "follows":

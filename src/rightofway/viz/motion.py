@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from rightofway.model import NEVER, Plan, Stage, Tick, stays_of
+from rightofway.model import NEVER, Plan, Stage, Tick
 
 
 class Activity(Enum):
@@ -90,7 +90,7 @@ class Trip:
 def trips_of(plan: Plan) -> tuple[Trip, ...]:
     """Return the trip of each robot."""
     trips = []
-    stays_of_all = stays_of(plan.scenario, plan.tracks)
+    stays_of_all = plan.stays
     itineraries = plan.scenario.problem.itineraries
     for track, stays, itinerary in zip(plan.tracks, stays_of_all, itineraries, strict=True):
         missed = len(itinerary.stages) - len(stays.serves)

@@ -29,7 +29,6 @@ from rightofway.model import (
     SteadyState,
     Tick,
     Track,
-    stays_of,
 )
 from rightofway.model.closures import Closure
 from rightofway.model.given import checked_plan
@@ -377,7 +376,7 @@ def _execution(
     still = actual.stoppages or ((),) * len(trips)
     stays = tuple(map(_executed_stays, actual.tracks, actual.dwell, actual.drive, still))
     driven = trips_of(replace(plan, tracks=actual.tracks, steady=()))
-    waits = [stay.waits for stay in stays_of(plan.scenario, plan.tracks)]
+    waits = [stay.waits for stay in plan.stays]
 
     def unplanned(loss: Loss) -> int:
         robot = loss.robot
