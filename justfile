@@ -161,22 +161,22 @@ bench:
     pytest benchmarks -o python_files='bench_*.py' --benchmark-columns=median,iqr,rounds --benchmark-sort=name
     benchmarks/start_up.sh
 
-# How far planners are from the best right of way on their routes: tables and plot of docs/improvement.md
+# How far planners are from the best right of way on their routes: tables and plot of docs/results/improvement.md
 gaps:
     python -m benchmarks.gaps
 
-# Two-level beside priorities: tables and plots of docs/priorities.md (an hour)
+# Two-level beside priorities: tables and plots of docs/results/priorities.md (an hour)
 priorities: (suite "priorities") (suite "priorities_aisles")
     python -m benchmarks.pages priorities build/priorities.csv build/priorities_aisles.csv
 
-# How soon random fleets repeat themselves: tables and plots of docs/laps.md (minutes)
+# How soon random fleets repeat themselves: tables and plots of docs/results/second-lap.md (minutes)
 laps: (suite "cyclic")
     python -m benchmarks.pages laps build/cyclic.csv
 
-# How much a chosen timetable gains over rules: the table of benchmarks/README.md (minutes)
+# How much a chosen timetable gains over rules: a table of docs/results/second-lap.md (minutes)
 timetables: (suite "timetables")
     python -m benchmarks.pages timetables build/timetables.csv
 
-# Plans of every planner on late floors: the tables of benchmarks/README.md, the plot of docs/execution.md
+# Plans of every planner on late floors: the tables of docs/results/late-floors.md, the plot of docs/execution.md
 late-floors *args:
     python -m benchmarks.late_floors {{ args }}

@@ -18,13 +18,13 @@ from rightofway.bench.report import markdown_table
 from rightofway.model import Scenario
 
 __all__ = [
-    "DOCS", "IMAGES", "README", "SEEDS", "grouped", "movingai_fleet", "option", "percent",
+    "DOCS", "IMAGES", "RESULTS", "SEEDS", "grouped", "movingai_fleet", "option", "percent",
     "place_of", "plain_axes", "save_figure", "table", "tables_in", "write_tables",
 ]  # fmt: skip
 
-README = Path(__file__).with_name("README.md")
-DOCS = README.parents[1] / "docs"
+DOCS = Path(__file__).parents[1] / "docs"
 IMAGES = DOCS / "images"
+RESULTS = DOCS / "results"
 
 mpl.rcParams.update({"font.size": 9, "axes.axisbelow": True})
 

@@ -1,7 +1,7 @@
 """How good a right of way is on fixed routes: the gaps of planners to the proven optimum.
 
-`just gaps` writes the tables between the marks in `docs/improvement.md`, and the plot in it: which
-part of the fleets has a gap of at most a given size. They do not depend on the machine.
+`just gaps` writes the tables between the marks in `docs/results/improvement.md`, and the plot in
+it: which part of the fleets has a gap of at most a given size. They do not depend on the machine.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
 import rightofway
-from benchmarks.common import DOCS, IMAGES, plain_axes, save_figure
+from benchmarks.common import IMAGES, RESULTS, plain_axes, save_figure
 from rightofway.errors import GaveUp
 from rightofway.metrics import alone_completions, measure
 from rightofway.model import Plan, Route, Rules, Scenario
@@ -25,7 +25,7 @@ from rightofway.search import Distances
 from tests.builders.fleets import random_fleet
 from tests.oracles.fixed_routes import Optimum, best_on, routes_of
 
-PAGE = DOCS / "improvement.md"
+PAGE = RESULTS / "improvement.md"
 BEGIN, END = "<!-- written by `just gaps`: -->\n", "<!-- up to here -->\n"
 
 TIME_LIMIT = 300

@@ -1,6 +1,6 @@
 """Plans of every planner on late floors: what collides, how late robots are, and how fast it runs.
 
-``python -m benchmarks.late_floors`` measures and writes the tables of README.md beside this file
+``python -m benchmarks.late_floors`` measures and writes the tables of docs/results/late-floors.md
 and the plot of docs/execution.md: how soon a plan collides by the clock, and how late its fleet is
 with its order kept, switched, or replanned. Arguments (``runs``, ``policies``, ``plot``) choose
 parts.
@@ -20,7 +20,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
 import rightofway
-from benchmarks.common import IMAGES, README, plain_axes, save_figure, table, write_tables
+from benchmarks.common import IMAGES, RESULTS, plain_axes, save_figure, table, write_tables
 from rightofway.model import Plan, Rules
 from rightofway.planners import Feature, registered
 from tests.builders.fleets import random_fleet
@@ -172,7 +172,7 @@ def main(*parts: str) -> None:
     """Measure, and write what was measured."""
     for name, made in (("runs", runs_table), ("policies", policies_table)):
         if not parts or name in parts:
-            write_tables(README, "late floors", {name: made()})
+            write_tables(RESULTS / "late-floors.md", "late floors", {name: made()})
     if not parts or "plot" in parts:
         save_figure(plot(), IMAGES / "late-floors.png")
 

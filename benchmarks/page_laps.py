@@ -1,4 +1,4 @@
-"""Tables and plots of docs/laps.md: work that repeats, under each rule."""
+"""Tables and plots of docs/results/second-lap.md: work that repeats, under each rule."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def groups_of(rows: Sequence[Row]) -> list[Group]:
 
 
 def laps_tables(rows: Sequence[Row]) -> dict[str, str]:
-    """Return every table of docs/laps.md by its name in the page."""
+    """Return every table of docs/results/second-lap.md by its name in the page."""
     kinds = grouped(groups_of(rows), lambda one: (one.fleet, one.rule))
     how_long, where = [], []
     for fleet, rule in sorted(
@@ -172,7 +172,7 @@ def _waits(run: CyclicResult, waits: Sequence[LapWait]) -> str:
 
 
 def laps_plots(rows: Sequence[Row]) -> Iterator[tuple[str, Figure]]:
-    """Yield the plots of docs/laps.md."""
+    """Yield the plots of docs/results/second-lap.md."""
     for name in ("door-2", "cross-2"):
         yield f"laps-{name}", _first_laps(name)
     figure = Figure(figsize=(8, 5.4), layout="constrained")

@@ -1,4 +1,4 @@
-"""Tables and plots of docs/priorities.md: two-level right of way beside other orders."""
+"""Tables and plots of docs/results/priorities.md: two-level beside other orders."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def condition_of(row: Row) -> str:
 
 
 def priorities_tables(rows: Sequence[Row]) -> dict[str, str]:
-    """Return every table of docs/priorities.md by its name in the page."""
+    """Return every table of docs/results/priorities.md by its name in the page."""
     planners = (OURS, *OTHERS)
     rows = sorted(rows, key=lambda row: (option(row, "routes"), planners.index(row["planner"])))
 
@@ -166,7 +166,7 @@ def _later(found: Sequence[tuple[Row, Row]]) -> str:
 
 
 def priorities_plots(rows: Sequence[Row]) -> Iterator[tuple[str, Figure]]:
-    """Yield the plots of docs/priorities.md, a panel for each kind of routes."""
+    """Yield the plots of docs/results/priorities.md, a panel for each kind of routes."""
     plots: dict[str, tuple[Callable[[Axes, list[Row]], None], str]] = {
         "priorities-ratio": (_draw_ratios, "flowtime / lower bound"),
         "priorities-conditions": (_draw_later, "flowtime above that of two-level [%]"),

@@ -1,4 +1,4 @@
-"""The table of README.md beside this file: chosen timetables beside the rules of laps."""
+"""A table of docs/results/second-lap.md: chosen timetables beside the rules of laps."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from rightofway.bench import Row
 
 
 def timetable_tables(rows: Sequence[Row]) -> dict[str, str]:
-    """Return the table of README.md: laps under a chosen timetable by those under each rule."""
+    """Return the table: laps under a chosen timetable by those under each rule."""
     heads = (
         "robots", "rule", "how it ends", "least ratio", "median", "greatest", "its fairness",
         "ours",

@@ -1,8 +1,8 @@
 """Tables and plots of the documentation, from the results of the suites.
 
 ``python -m benchmarks.pages priorities build/priorities.csv build/priorities_aisles.csv`` writes
-docs/priorities.md, ``laps build/cyclic.csv`` docs/laps.md, ``timetables build/timetables.csv`` the
-table of README.md beside this file.
+docs/results/priorities.md, ``laps build/cyclic.csv`` docs/results/second-lap.md, and ``timetables
+build/timetables.csv`` a table of it.
 """
 
 from __future__ import annotations
@@ -11,9 +11,8 @@ import sys
 from collections.abc import Iterable
 
 from benchmarks.common import (
-    DOCS,
     IMAGES,
-    README,
+    RESULTS,
     save_figure,
     write_tables,
 )
@@ -36,15 +35,15 @@ def main(page: str, *paths: str) -> None:
     """Write the tables and plots of a page."""
     rows = read(paths)
     if page == "timetables":
-        write_tables(README, "timetables", timetable_tables(rows))
+        write_tables(RESULTS / "second-lap.md", "timetables", timetable_tables(rows))
         return
-    tables, plots = {
-        "priorities": (priorities_tables, priorities_plots),
-        "laps": (laps_tables, laps_plots),
+    name, tables, plots = {
+        "priorities": ("priorities", priorities_tables, priorities_plots),
+        "laps": ("second-lap", laps_tables, laps_plots),
     }[page]
-    write_tables(DOCS / f"{page}.md", "table", tables(rows))
-    for name, figure in plots(rows):
-        save_figure(figure, IMAGES / f"{name}.png")
+    write_tables(RESULTS / f"{name}.md", "table", tables(rows))
+    for picture, figure in plots(rows):
+        save_figure(figure, IMAGES / f"{picture}.png")
 
 
 if __name__ == "__main__":

@@ -1,10 +1,10 @@
 """The studio with 1000 robots in a real browser: how soon it answers, how smoothly it plays.
 
 ``python -m benchmarks.studio`` opens the warehouse of the examples in a headless Chromium of 1280 x
-800 pixels and writes the table of docs/studio.md; it takes less than a minute. Figures of requests
-are what a client waits, the median of three. *Longest task* is the longest time in which the page
-answers nobody, from the press on; the browser reports those of 50 ms and more. Frames are counted
-while a plan plays at eight times its usual speed.
+800 pixels and writes the table of docs/results/studio.md; it takes less than a minute. Figures of
+requests are what a client waits, the median of three. *Longest task* is the longest time in which
+the page answers nobody, from the press on; the browser reports those of 50 ms and more. Frames are
+counted while a plan plays at eight times its usual speed.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from benchmarks.common import DOCS, table, write_tables
+from benchmarks.common import RESULTS, table, write_tables
 from tests.builders.browsers import Viewer, chromium
 from tests.builders.drawing import StudioPage
 from tests.builders.studios import Command, command, over, planned
@@ -237,7 +237,7 @@ def main() -> None:
         Path(folder, f"{MAP}.scen").write_text("\n".join(lines) + "\n")
         with command(Path(folder), "--no-history") as studio:
             figures = table((f"{ROBOTS} robots", "figure"), rows(studio, browser))
-    write_tables(DOCS / "studio.md", "studio", {"figures": figures})
+    write_tables(RESULTS / "studio.md", "studio", {"figures": figures})
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """What a plan of a changed scenario gains by starting from the old plan.
 
 ``python -m benchmarks.warm_start`` plans three fleets, changes one thing, and plans again from the
-old plan and from nothing. It writes the table of README.md beside this file: how soon there is a
+old plan and from nothing. It writes a table of docs/results/fleets.md: how soon there is a
 first valid plan, and how far from the lower bound the plan is after a second. Seconds are those of
 the processor, of all threads, so a busy machine gives the same figures.
 """
@@ -15,7 +15,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 import rightofway
-from benchmarks.common import README, table, write_tables
+from benchmarks.common import DOCS, RESULTS, table, write_tables
 from rightofway.io import scenario_of
 from rightofway.model import Closure, Plan, Robot, Scenario
 from rightofway.site import VertexId
@@ -23,7 +23,7 @@ from rightofway.site import VertexId
 LIMIT, CUT = 10, 1.0
 """The limit for each plan [s], and the processor time after which plans are compared [s]."""
 
-WAREHOUSE = README.parents[1] / "examples" / "maps" / "warehouse-10-20-10-2-1-random-1.scen"
+WAREHOUSE = DOCS.parent / "examples" / "maps" / "warehouse-10-20-10-2-1-random-1.scen"
 SPEEDS = (Fraction(1), Fraction(1, 2), Fraction(3, 4))
 COLUMNS, ROWS, LANE = 12, 9, 3
 """Size of the roadmap in crossings, and how long each lane is [length unit]."""
@@ -130,4 +130,4 @@ def warm_start_table() -> str:
 
 
 if __name__ == "__main__":
-    write_tables(README, "warm start", {"changes": warm_start_table()})
+    write_tables(RESULTS / "fleets.md", "warm start", {"changes": warm_start_table()})

@@ -3,7 +3,8 @@
 A generated part stands in its page as plain Markdown, so that it can be read without a build. It
 stands between ``<!-- generated: MAKER ARGUMENTS -->`` and ``<!-- end -->``. `MAKERS` lists the
 makers. They read the program itself: help texts, the registry of planners, the JSON Schemas of the
-formats, ``__all__`` and docstrings, and the comments that C++ headers begin with.
+formats, the OpenAPI document of the studio, ``__all__`` and docstrings, and the comments that C++
+headers begin with.
 """  # noqa: INP001 (a script, run by its path)
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ import ast
 import inspect
 import re
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cache
 from importlib import import_module
 from itertools import chain, pairwise, takewhile
 from pathlib import Path
@@ -28,6 +30,8 @@ from rightofway.io import schema
 from rightofway.model import Robot, Rules, Stop
 from rightofway.planners import Option, find
 from rightofway.planners.registry import PLANNERS
+from rightofway.studio.app import API, create_app
+from rightofway.studio.guard import Access
 
 ROOT = Path(__file__).parents[1]
 PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
@@ -35,6 +39,8 @@ PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
 PART = re.compile(
     r"^<!-- generated: (?P<words>[^\n]*?) -->$(?P<text>.*?)^<!-- end -->$", re.MULTILINE | re.DOTALL
 )
+
+PARAMETER = re.compile(r"\{(\w+)\}")
 
 Row = Sequence[str]
 
@@ -159,6 +165,71 @@ def _text(value: dict[str, Any], whole: dict[str, Any]) -> str:
     return str(whole["$defs"].get(name, {}).get("description", ""))
 
 
+@cache
+def openapi() -> dict[str, Any]:
+    """Return the OpenAPI document of the studio; no studio is started for it."""
+    return create_app(None, Access(hosts=None)).openapi()  # type: ignore[arg-type]
+
+
+def studio_requests() -> Iterable[str]:
+    """Return a table of requests for each tag of the API, in the order of the document."""
+    rows: dict[str, list[Row]] = {}
+    for path, operations in openapi()["paths"].items():
+        for method, operation in operations.items():
+            place = PARAMETER.sub(lambda match: match[1].upper(), path.removeprefix(API) or "/")
+            request = f"`{method.upper()} {place}`"
+            row = (request, _first_sentence(operation), _query(operation), _body(operation))
+            rows.setdefault(operation["tags"][0], []).append(row)
+    for tag, requests in rows.items():
+        yield from (f"**{tag.capitalize()}**", "")
+        yield from table(("request", "what it does", "query", "body"), requests)
+        yield ""
+
+
+def _first_sentence(operation: Mapping[str, Any]) -> str:
+    return str(operation["description"]).split("\n\n")[0].replace("``", "`")
+
+
+def _query(operation: Mapping[str, Any]) -> str:
+    parameters = (each for each in operation.get("parameters", ()) if each["in"] == "query")
+    return ", ".join(_marked(each["name"], each["required"]) for each in parameters)
+
+
+def _body(operation: Mapping[str, Any]) -> str:
+    """Return the names of the models that a body may fit; one without a model is a file."""
+    if "requestBody" not in operation:
+        return ""
+    body = next(iter(operation["requestBody"]["content"].values()))["schema"]
+    models = [
+        each["$ref"].rpartition("/")[2] for each in body.get("oneOf", [body]) if "$ref" in each
+    ]
+    return " or ".join(f"`{name}`" for name in models) or "a file"
+
+
+def studio_bodies() -> Iterable[str]:
+    """Return a table of keys for each model that a body may fit."""
+    document = openapi()
+    operations = chain.from_iterable(each.values() for each in document["paths"].values())
+    bodies = dict.fromkeys(re.findall(r"`(\w+)`", " ".join(map(_body, operations))))
+    for name in bodies:
+        model = document["components"]["schemas"][name]
+        rows = (
+            (
+                _marked(key, key in model.get("required", ())),
+                str(value.get("description", "")),
+                _default(key, value, {}) or (f"`{value['const']}`" if "const" in value else ""),
+            )
+            for key, value in model["properties"].items()
+        )
+        yield from (f"`{name}`: {model['description']}", "")
+        yield from table(("key", "what", "default"), rows)
+        yield ""
+
+
+def _marked(key: str, is_required: bool) -> str:
+    return f"**`{key}`**" if is_required else f"`{key}`"
+
+
 def result_columns() -> Iterable[str]:
     """Return the columns of the results of a benchmark."""
     return table(("column", "what"), ((f"`{each.name}`", each.meaning) for each in COLUMNS))
@@ -242,6 +313,8 @@ MAKERS: dict[str, Callable[..., Iterable[str]]] = {
     "planner-list": planner_list,
     "planner-options": planner_options,
     "document-keys": document_keys,
+    "studio-requests": studio_requests,
+    "studio-bodies": studio_bodies,
     "result-columns": result_columns,
     "delay-causes": delay_causes,
     "decisions": decisions,

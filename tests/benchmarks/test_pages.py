@@ -10,16 +10,16 @@ from typing import Any
 import jsonschema
 import pytest
 
-from benchmarks.common import README, tables_in, write_tables
+from benchmarks.common import RESULTS, tables_in, write_tables
 from benchmarks.page_laps import laps_plots, laps_tables, paper_table
 from benchmarks.page_priorities import OTHERS, later, pairs, priorities_plots, priorities_tables
 from benchmarks.page_timetables import timetable_tables
 from rightofway.bench import Row, read_suite
 from rightofway.bench.run import run
 from rightofway.io import schema
-from tests.builders.pages import DOCS
+from tests.builders.pages import DOCS, ROOT
 
-SUITES = README.parent / "suites"
+SUITES = ROOT / "benchmarks" / "suites"
 
 
 def row(planner: str, ratio: float | None, **values: Any) -> Row:
@@ -77,7 +77,7 @@ def heads(tables: dict[str, str]) -> dict[str, str]:
 
 def test_the_page_on_priorities_gets_each_of_its_tables(compared: list[Row]) -> None:
     made = priorities_tables(compared)
-    assert heads(made) == heads(tables_in(DOCS / "priorities.md", "table"))
+    assert heads(made) == heads(tables_in(RESULTS / "priorities.md", "table"))
     assert made["routes"].splitlines()[2] == (
         "| `clear` | 2 | +10.0 ± 0.0 % | +10.0 ± 0.0 % | +10.0 ± 0.0 % | 0 %, 0 %, 100 % |"
     )
@@ -88,7 +88,7 @@ def test_the_page_on_priorities_gets_each_of_its_tables(compared: list[Row]) -> 
 
 def test_the_page_on_priorities_gets_each_of_its_plots(compared: list[Row]) -> None:
     names = [name for name, _ in priorities_plots(compared)]
-    text = (DOCS / "priorities.md").read_text(encoding="utf-8")
+    text = (RESULTS / "priorities.md").read_text(encoding="utf-8")
     assert len(names) == 3
     assert all(f"images/{name}.png" in text for name in names)
 
@@ -112,23 +112,24 @@ def laps(tmp_path: Path) -> list[Row]:
 def test_the_page_on_laps_gets_each_of_its_tables_and_plots(laps: list[Row]) -> None:
     rules = laps[:3]
     made = laps_tables(rules)
-    assert heads(made) == heads(tables_in(DOCS / "laps.md", "table"))
+    assert heads(made) == heads(tables_in(RESULTS / "second-lap.md", "table"))
     assert len(made["how long"].splitlines()) == 2 + 3
     assert "3 robots, 8 x 8, equal speeds" in made["where"]
-    text = (DOCS / "laps.md").read_text(encoding="utf-8")
+    pages = (RESULTS / "second-lap.md", DOCS / "laps.md")
+    text = "".join(page.read_text(encoding="utf-8") for page in pages)
     assert all(f"images/{name}.png" in text for name, _ in laps_plots(rules))
 
 
 def test_laps_under_a_timetable_are_compared_with_those_under_each_rule(laps: list[Row]) -> None:
     made = timetable_tables(laps)
-    assert heads(made) == heads(tables_in(README, "timetables"))
+    assert heads(made) == heads(tables_in(RESULTS / "second-lap.md", "timetables"))
     assert [line.split(" | ")[1] for line in made["rivals"].splitlines()[2:]] == [
         "`first-come`", "`fixed-order`", "`two-level`",
     ]  # fmt: skip
 
 
 def test_the_published_table_of_the_papers_cases_is_what_laps_give() -> None:
-    assert tables_in(DOCS / "laps.md", "table")["paper"] == paper_table()
+    assert tables_in(RESULTS / "second-lap.md", "table")["paper"] == paper_table()
 
 
 def test_a_table_replaces_the_one_under_its_mark_and_nothing_else(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 """The studio as somebody new uses it, with a stop-watch: a floor, a ROS map, a LIF file.
 
-With ``RIGHTOFWAY_PICTURES=docs/images`` the pictures of docs/studio.md are written anew.
+With ``RIGHTOFWAY_PICTURES=docs/images`` the pictures of docs/studio/index.md are written again.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Laps and delays on the page of the studio: sliders that answer at once, runs that are replayed.
 
-With ``RIGHTOFWAY_PICTURES=docs/images`` the pictures of docs/studio.md are written anew.
+With ``RIGHTOFWAY_PICTURES=docs/images`` the pictures of docs/studio/index.md are written again.
 """
 
 from __future__ import annotations
