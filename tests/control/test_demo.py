@@ -8,16 +8,12 @@ import pytest
 
 import rightofway
 from rightofway.control.demo import DemoResult, drive_demo
-from rightofway.control.endpoints import ControlEnd, Identity, Letter
-from rightofway.control.fleet_control import FleetControl
+from rightofway.control.endpoints import Letter
+from rightofway.control.identities import VERSIONS
 from rightofway.control.report import report
-from rightofway.control.routes import routes_to_drive
-from rightofway.control.vda5050 import VERSIONS
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
 from rightofway.model import Tick
-from rightofway.precedence import ReleaseGraph
-from tests.builders.chaos import MemoryJournal
 from tests.builders.plans import door, door_shifted
 from tests.builders.schemas import validator
 
@@ -142,25 +138,3 @@ def test_a_plan_with_faults_is_refused() -> None:
 def test_a_robot_that_breaks_down_for_ever_is_refused() -> None:
     with pytest.raises(InputError, match=r"delays: R. would never complete.*delays that end"):
         drive_demo(door(), "stop:R2@2")
-
-
-@pytest.mark.parametrize(
-    ("key", "value"), [("serial_number", "a/b"), ("manufacturer", ""), ("version", "1.1")]
-)
-def test_an_identity_that_cannot_be_a_topic_is_refused(key: str, value: str) -> None:
-    with pytest.raises(InputError, match=f"^{key}: "):
-        Identity(**{"manufacturer": "maker", "serial_number": "R1", key: value})
-
-
-def test_a_broken_state_proves_nothing_and_is_reported_once() -> None:
-    plan, said = door(), list[str]()
-    control = FleetControl(MemoryJournal())
-    control.begin("run", routes_to_drive(plan), ReleaseGraph.of(plan.scenario, plan.tracks))
-    identities = [Identity(manufacturer="maker", serial_number=name) for name in ("R1", "R2")]
-    end = ControlEnd(control, identities, lambda: "2026-01-31T12:00:00.000Z", said.append)
-    end.letters(control.start())
-    for payload in (b"{", b"{", b"[]", b"{}", b"\xff", b'{"orderId": 1}'):
-        assert end.receive(Letter("uagv/v2/maker/R2/state", payload)) == []
-    assert len(said) == 5
-    assert all(sentence.startswith("robot 1: ") for sentence in said)
-    assert control.ledger.arrived == [0, 0]

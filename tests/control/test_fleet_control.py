@@ -77,16 +77,17 @@ def test_a_robot_on_hold_gets_nothing_more_until_it_is_let_go() -> None:
 
 
 def test_a_robot_with_an_order_of_others_is_faulty_until_a_person_has_looked() -> None:
-    told: list[str] = []
+    told: list[tuple[int, str]] = []
     plan = door()
-    control = FleetControl(MemoryJournal(), report=told.append)
+    control = FleetControl(MemoryJournal(), report=lambda *said: told.append((said[0], said[1])))
     graph = ReleaseGraph.of(plan.scenario, plan.tracks)
     control.begin("run", routes_to_drive(plan), graph)
     control.start()
     for _ in range(3):
         control.receive(1, state("another", 0, "N2", 0, ()))
     assert len(told) == 1
-    assert "robot 1 is faulty" in told[0]
+    assert told[0][0] == 1
+    assert "is faulty" in told[0][1]
     assert orders(control.receive(1, state("run-1-0", 0, "N2", 0, ()))) == []
     assert orders(control.clear(1)) == [(1, 1, ["N2", "N1", "N4", "N7", "N8"])]
 

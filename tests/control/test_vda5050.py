@@ -2,15 +2,41 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import pytest
 
-from rightofway.control import FleetControl, InstantAction, Message, Order, SimulatedRobot
+from rightofway.control import (
+    Condition,
+    FleetControl,
+    InstantAction,
+    Message,
+    Order,
+    OrderNode,
+    RobotError,
+    RobotState,
+    SimulatedRobot,
+)
+from rightofway.control.identities import VERSIONS, Identity
+from rightofway.control.order_map import OrderMap
 from rightofway.control.routes import routes_to_drive
-from rightofway.control.vda5050 import VERSIONS, Header, read_state, written
+from rightofway.control.vda5050 import (
+    ConnectionMessage,
+    Header,
+    InstantActions,
+    OrderMessage,
+    StateMessage,
+    read,
+    written,
+)
 from rightofway.errors import InputError
+from rightofway.io import scenario_of
+from rightofway.model import Scenario
 from rightofway.precedence import ReleaseGraph
+from rightofway.site.geometry import Frame
 from tests.builders.chaos import MemoryJournal
 from tests.builders.plans import door
 from tests.builders.schemas import validator
@@ -25,6 +51,17 @@ def header(version: str) -> Header:
         manufacturer="maker",
         serialNumber="R1",
     )
+
+
+def map_of(scenario: Scenario, **identity: Any) -> OrderMap:
+    """Return the map of the first robot."""
+    return OrderMap(scenario, 0, Identity(manufacturer="maker", serial_number="R1", **identity))
+
+
+def order_over(*places: str) -> Order:
+    """Return a new order over places."""
+    nodes = tuple(OrderNode(place=p, sequence_id=2 * k) for k, p in enumerate(places))
+    return Order(robot=0, order_id="run-0-0", update_id=0, nodes=nodes)
 
 
 def all_sent() -> list[Message]:
@@ -53,16 +90,19 @@ def all_sent() -> list[Message]:
 @pytest.mark.parametrize("version", VERSIONS)
 def test_every_message_is_valid_by_the_official_schemas(version: str) -> None:
     orders, actions = validator(version, "order"), validator(version, "instantActions")
-    sent = all_sent()
+    sent, order_map = all_sent(), map_of(door().scenario, deviation=0.1)
     assert {type(message) for message in sent} == {Order, InstantAction}
     for message in sent:
-        schema = orders if isinstance(message, Order) else actions
-        schema.validate(written(message, header(version)))
+        if isinstance(message, Order):
+            orders.validate(written(OrderMessage.of(message, order_map), header(version)))
+        else:
+            actions.validate(written(InstantActions.of(message), header(version)))
 
 
 def test_work_at_a_stop_is_an_action_that_nothing_else_happens_beside() -> None:
+    order_map = map_of(door().scenario)
     document = next(
-        written(message, header("2.1.0"))
+        written(OrderMessage.of(message, order_map), header("2.1.0"))
         for message in all_sent()
         if isinstance(message, Order) and message.nodes[-1].actions
     )
@@ -70,6 +110,104 @@ def test_work_at_a_stop_is_an_action_that_nothing_else_happens_beside() -> None:
     assert action["blockingType"] == "HARD"
     edges = [(edge["sequenceId"], edge["released"]) for edge in document["edges"]]
     assert edges == [(node["sequenceId"] - 1, True) for node in document["nodes"][1:]]
+
+
+def site(**extra: Any) -> Scenario:
+    """Return a site in centimetres, with a bend, a split lane and a slow lane; y upwards."""
+    return scenario_of(
+        {
+            "format": "rightofway-scenario/1",
+            "units": {"length": "cm", "time": "s"},
+            "map": {
+                "roadmap": {
+                    "vertices": {"A": [100, 200], "B": [300, 200], "C": [300, 600]},
+                    "edges": [
+                        {"from": "A", "to": "B", "max_speed": 50, "both_ways": True},
+                        {"from": "B", "to": "C", "both_ways": True},
+                    ],
+                },
+                "y": "up",
+                **extra,
+            },
+            "robots": [{"name": "R1", "home": "A", "target": "C", "speed": 100}],
+        }
+    )
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_nodes_have_their_position_in_the_frame_of_the_robot(version: str) -> None:
+    """The origin of the robot's map is at (1, 2) m of the site and turned to the left: A is its
+    origin; B, 2 m to the east, lies 2 m to its right."""
+    frame = Frame(x=Fraction(1), y=Fraction(2), yaw=Fraction(math.pi / 2))
+    order_map = map_of(site(), frame=frame, map_id="hall", deviation=0.05)
+    document = written(OrderMessage.of(order_over("A", "B"), order_map), header(version))
+    validator(version, "order").validate(document)
+    first, second = (node["nodePosition"] for node in document["nodes"])
+    assert (first["x"], first["y"], first["mapId"]) == (0, 0, "hall")
+    assert (second["x"], second["y"]) == pytest.approx((0, -2))
+    deviations: dict[str, dict[str, Any]] = {
+        "2.0.0": {"allowedDeviationXy": 0.05},
+        "2.1.0": {"allowedDeviationXY": 0.05},
+        "3.0.0": {"allowedDeviationXY": {"a": 0.05, "b": 0.05, "theta": 0.0}},
+    }
+    assert deviations[version].items() <= first.items()
+    speed = "maximumSpeed" if version == "3.0.0" else "maxSpeed"
+    assert (document["edges"][0][speed], document["edges"][0]["length"]) == (0.5, 2.0)
+
+
+def test_a_site_whose_y_grows_downwards_is_mirrored() -> None:
+    """N4 of the door is the middle cell: its centre is 1.5 to the right and 1.5 down."""
+    place = map_of(door().scenario).place("N4")
+    assert place is not None
+    assert place.point == (1.5, -1.5)
+
+
+def test_the_deviation_is_half_the_clearance() -> None:
+    """Two robots that are both off by that much towards each other do not touch."""
+    assert map_of(door().scenario).deviation is None
+    scenario = door().scenario
+    robots = tuple(replace(robot, radius=Fraction(1, 4)) for robot in scenario.robots)
+    rules = replace(scenario.rules, clearance=Fraction(1, 5), occupancy="both")
+    assert map_of(replace(scenario, robots=robots, rules=rules)).deviation == 0.1
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_pieces_of_a_lane_keep_to_its_way(version: str) -> None:
+    """A piece is a straight line of degree 1; a whole straight lane leaves its way to the robot."""
+    order_map = map_of(site(spacing=200))
+    document = written(OrderMessage.of(order_over("A", "B", "B-C/1"), order_map), header(version))
+    validator(version, "order").validate(document)
+    whole, piece = document["edges"]
+    assert "trajectory" not in whole
+    points = [(point["x"], point["y"]) for point in piece["trajectory"]["controlPoints"]]
+    assert points == [(3.0, 2.0), (3.0, 4.0)]
+    assert piece["trajectory"]["degree"] == 1
+    assert piece["trajectory"]["knotVector"] == [0, 0, 1, 1]
+
+
+def test_a_curve_is_sent_as_it_is_drawn() -> None:
+    """A Bézier curve with two control points between its ends is a NURBS of degree 3."""
+    scenario = scenario_of(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {
+                "roadmap": {
+                    "vertices": {"A": [0, 0], "B": [4, 4]},
+                    "edges": [
+                        {"from": "A", "to": "B", "length": 7, "curve": [[4, 0], [4, 1]]},
+                    ],
+                }
+            },
+            "rules": {"return": "none"},
+            "robots": [{"name": "R1", "home": "A", "target": "B"}],
+        }
+    )
+    document = written(OrderMessage.of(order_over("A", "B"), map_of(scenario)), header("2.1.0"))
+    trajectory = document["edges"][0]["trajectory"]
+    assert trajectory["degree"] == 3
+    assert trajectory["knotVector"] == [0, 0, 0, 0, 1, 1, 1, 1]
+    points = [(point["x"], point["y"]) for point in trajectory["controlPoints"]]
+    assert points == [(0, 0), (4, 0), (4, -1), (4, -4)]
 
 
 STATE: dict[str, Any] = {
@@ -88,7 +226,7 @@ STATE: dict[str, Any] = {
 
 def test_a_state_is_read_with_its_instant_actions() -> None:
     """Version 3.0 has instant actions in a list of their own."""
-    state = read_state(STATE)
+    state = read(StateMessage, STATE, "state").robot_state()
     assert (state.order_id, state.update_id, state.last_place) == ("run-0-0", 1, "N0")
     assert (state.nodes, state.edges, state.is_driving) == ((2,), (1,), True)
     assert state.actions == {"a": "RUNNING", "token": "FINISHED"}
@@ -99,10 +237,45 @@ def test_a_state_is_read_with_its_instant_actions() -> None:
     [
         ("orderUpdateId", -1, "state.orderUpdateId"),
         ("lastNodeSequenceId", "2", "state.lastNodeSequenceId"),
-        ("nodeStates", [{"nodeId": "N1"}], r"state.nodeStates.0.sequenceId"),
+        ("nodeStates", [{"nodeId": "N1"}], r"state.nodeStates\[0\].sequenceId"),
         ("driving", None, "state.driving"),
     ],
 )
 def test_a_broken_state_is_refused_with_its_place(key: str, value: object, place: str) -> None:
     with pytest.raises(InputError, match=place):
-        read_state({**STATE, key: value})
+        read(StateMessage, {**STATE, key: value}, "state")
+
+
+CONDITION = Condition(
+    mode="MANUAL",
+    is_paused=True,
+    emergency_stop="REMOTE",
+    errors=(RobotError(kind="laser", level="FATAL", description="dirty"),),
+    wants_more=True,
+)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_condition_of_a_robot_comes_back_as_it_was_sent(version: str) -> None:
+    sent = RobotState(
+        order_id="run-0-0",
+        update_id=0,
+        last_place="N0",
+        last_sequence_id=0,
+        nodes=(2,),
+        edges=(1,),
+        actions={"a": "WAITING", "b": "FINISHED"},
+        is_driving=True,
+        condition=CONDITION,
+    )
+    document = written(StateMessage.of(sent, ["N1"], frozenset("b")), header(version))
+    validator(version, "state").validate(document)
+    assert read(StateMessage, document, "state").robot_state() == sent
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("state", ["ONLINE", "OFFLINE", "CONNECTION_BROKEN"])
+def test_connections_are_written_and_read(version: str, state: str) -> None:
+    document = written(ConnectionMessage(connectionState=state), header(version))
+    validator(version, "connection").validate(document)
+    assert read(ConnectionMessage, document, "connection").is_online == (state == "ONLINE")

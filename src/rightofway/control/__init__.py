@@ -3,10 +3,19 @@
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.journal import Entry, Journal, JournalFailed, SqliteJournal
 from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive
-from rightofway.control.messages import InstantAction, Message, Order, OrderNode, RobotState
+from rightofway.control.messages import (
+    Condition,
+    InstantAction,
+    Message,
+    Order,
+    OrderNode,
+    RobotError,
+    RobotState,
+)
 from rightofway.control.simulated_robot import SimulatedRobot
 
 __all__ = [
+    "Condition",
     "Entry",
     "FleetControl",
     "InstantAction",
@@ -16,6 +25,7 @@ __all__ = [
     "Message",
     "Order",
     "OrderNode",
+    "RobotError",
     "RobotLedger",
     "RobotState",
     "RouteToDrive",

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import heapq
 from collections import Counter, deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from typing import Any
@@ -16,9 +16,12 @@ from typing import Any
 import numpy as np
 
 from rightofway.check import check
-from rightofway.control.endpoints import ControlEnd, Identity, Letter, RobotEnd
+from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
 from rightofway.control.fleet_control import FleetControl
+from rightofway.control.identities import Identity, simulated_identities
 from rightofway.control.journal import Entry
+from rightofway.control.notices import Notices
+from rightofway.control.order_map import OrderMap
 from rightofway.control.routes import routes_to_drive
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.control.story import Story
@@ -80,6 +83,7 @@ def drive_demo(
     seed: int = 0,
     *,
     version: str = "2.1.0",
+    identities: Sequence[Identity] = (),
     report: Report = lambda *_: None,
     wait_until: Callable[[Tick], None] = lambda _: None,
     watch: Callable[[Letter], None] = lambda _: None,
@@ -97,6 +101,8 @@ def drive_demo(
         Of the delays.
     version
         Of VDA 5050, for all robots.
+    identities
+        Of the robots; by default made for the version.
     report
         Receives each sentence of the story, with its time.
     wait_until
@@ -120,7 +126,8 @@ def drive_demo(
             message = f"{name} would never complete, and a demo ends when all jobs are done"
             raise InputError.at("delays", f"{message} (give delays that end)")
     control = FleetControl(_NothingKept())
-    return _Demo(plan, durations, control, version, watch).run(report, wait_until)
+    identities = identities or simulated_identities(names, version)
+    return _Demo(plan, durations, control, identities, watch=watch, report=report).run(wait_until)
 
 
 class _NothingKept:
@@ -142,18 +149,19 @@ class _Demo:
         plan: Plan,
         durations: ExecutionTrace,
         control: FleetControl,
-        version: str,
+        identities: Sequence[Identity],
+        *,
         watch: Callable[[Letter], None],
+        report: Report,
     ) -> None:
         routes = routes_to_drive(plan)
         control.begin("demo", routes, ReleaseGraph.of(plan.scenario, plan.tracks))
         self._plan, self._control, self._watch = plan, control, watch
-        self._now = 0
-        identities = [
-            Identity(manufacturer="rightofway", serial_number=f"robot{k}", version=version)
-            for k in range(len(routes))
-        ]
-        self._end = ControlEnd(control, identities, self._timestamp)
+        self._now, self._report = 0, report
+        maps = [OrderMap(plan.scenario, *numbered) for numbered in enumerate(identities)]
+        names = [robot.name for robot in plan.scenario.robots]
+        notices = Notices(names, lambda sentence: self._report(Tick(self._now), sentence))
+        self._end = ControlEnd(control, maps, self._timestamp, notices)
         self._robots = [
             _DemoRobot(
                 RobotEnd(SimulatedRobot(route.places[0]), number, identity, self._timestamp),
@@ -164,7 +172,7 @@ class _Demo:
             for number, (route, identity) in enumerate(zip(routes, identities, strict=True))
         ]
         self._listens = {topic: robot for robot in self._robots for topic in robot.end.topics}
-        self._story = Story(control.ledger, [robot.name for robot in plan.scenario.robots])
+        self._story = Story(control.ledger, names)
         self._sent = Counter[str]()
 
     def _timestamp(self) -> str:
@@ -173,7 +181,7 @@ class _Demo:
         moment = datetime.fromtimestamp(0, UTC) + timedelta(seconds=seconds)
         return f"{moment:%Y-%m-%dT%H:%M:%S}.{moment.microsecond // 1000:03d}Z"
 
-    def run(self, report: Report, wait_until: Callable[[Tick], None]) -> DemoResult:
+    def run(self, wait_until: Callable[[Tick], None]) -> DemoResult:
         """Go from step to step until no robot has anything to do."""
         agenda: list[tuple[int, int]] = []  # when the next step of a robot ends
         self._exchange(self._end.letters(self._control.start()))
@@ -183,7 +191,7 @@ class _Demo:
                     heapq.heappush(agenda, (end, number))
             if not agenda or agenda[0][0] > self._now:
                 for sentence in self._story.go_on():
-                    report(Tick(self._now), sentence)
+                    self._report(Tick(self._now), sentence)
             if not agenda:
                 return self._result()
             moment, number = heapq.heappop(agenda)
@@ -198,7 +206,7 @@ class _Demo:
         queue = deque(letters)
         while queue:
             letter = queue.popleft()
-            self._sent[letter.topic.rpartition("/")[2]] += 1
+            self._sent[letter.name] += 1
             self._watch(letter)
             robot = self._listens.get(letter.topic)
             if robot is None:

@@ -8,20 +8,56 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from math import hypot
 from typing import Any, NamedTuple
 
 from rightofway.control import vda5050
 from rightofway.control.fleet_control import FleetControl
-from rightofway.control.messages import Message, Order
+from rightofway.control.identities import Identity
+from rightofway.control.messages import Condition, InstantAction, Message, Order
+from rightofway.control.notices import Notices
+from rightofway.control.order_map import Lane, OrderMap, Place
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.errors import InputError, shown
 
-__all__ = ["ControlEnd", "Identity", "Letter", "RobotEnd"]
+__all__ = ["ControlEnd", "Letter", "RobotEnd"]
 
-FORBIDDEN = frozenset("/+#$")
-"""Characters that may not be in a part of a topic."""
+READ = ("state", "connection", "factsheet")
+"""Topics that a control listens to."""
+
+ROUNDING = 1e-3
+"""By how much a factsheet may miss the plan [m, m/s]: its numbers are rounded."""
+
+FACTSHEET = {
+    "typeSpecification": {
+        "seriesName": "simulated",
+        "agvKinematic": "DIFF",
+        "agvClass": "CARRIER",
+        "maxLoadMass": 100.0,
+        "localizationTypes": ["NATURAL"],
+        "navigationTypes": ["VIRTUAL_LINE_GUIDED"],
+    },
+    "physicalParameters": {
+        "speedMin": 0.0,
+        "speedMax": 100.0,
+        "accelerationMax": 100.0,
+        "decelerationMax": 100.0,
+        "heightMin": 0.1,
+        "heightMax": 0.1,
+        "width": 0.1,
+        "length": 0.1,
+    },
+    "protocolLimits": {
+        "maxStringLens": {},
+        "maxArrayLens": {},
+        "timing": {"minOrderInterval": 0.0, "minStateInterval": 0.0},
+    },
+    "protocolFeatures": {"optionalParameters": [], "agvActions": []},
+    "agvGeometry": {},
+    "loadSpecification": {},
+}
+"""What a simulated robot is: small, and faster than any plan."""
 
 
 class Letter(NamedTuple):
@@ -30,54 +66,10 @@ class Letter(NamedTuple):
     topic: str
     payload: bytes
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Identity:
-    """A robot as messages name it.
-
-    Attributes
-    ----------
-    manufacturer, serial_number
-        Which robot it is; neither has ``/``, ``+``, ``#`` or ``$``, because topics have both.
-    version
-        Of the norm, one of `vda5050.VERSIONS`.
-    interface
-        The first part of its topics; by default ``uagv``, from 3.0 on ``vda5050``.
-
-    Raises
-    ------
-    InputError
-        If a part of a topic is empty or has a forbidden character, or the version is unknown.
-    """
-
-    manufacturer: str
-    serial_number: str
-    version: str = "2.1.0"
-    interface: str = ""
-
-    def __post_init__(self) -> None:
-        if self.version not in vda5050.VERSIONS:
-            known = ", ".join(vda5050.VERSIONS)
-            message = f"{shown(self.version)} is no version of VDA 5050 (one of {known})"
-            raise InputError.at("version", message)
-        if not self.interface:
-            object.__setattr__(self, "interface", "uagv" if self.version < "3" else "vda5050")
-        for key in ("interface", "manufacturer", "serial_number"):
-            value = getattr(self, key)
-            if not value or FORBIDDEN & set(value):
-                message = f"{shown(value)} cannot be part of a topic (leave out / + # $)"
-                raise InputError.at(key, message)
-
-    def topic(self, name: str) -> str:
-        """Return a topic of this robot.
-
-        Parameters
-        ----------
-        name
-            Its last part: ``order``, ``instantActions``, ``state``.
-        """
-        major = f"v{self.version[0]}"
-        return f"{self.interface}/{major}/{self.manufacturer}/{self.serial_number}/{name}"
+    @property
+    def name(self) -> str:
+        """The last part of its topic."""
+        return self.topic.rpartition("/")[2]
 
 
 class _Writer:
@@ -86,19 +78,24 @@ class _Writer:
     def __init__(self, now: Callable[[], str]) -> None:
         self._now, self._sent = now, Counter[str]()
 
-    def letter(
-        self, identity: Identity, name: str, written: Callable[[vda5050.Header], dict[str, Any]]
-    ) -> Letter:
+    def header(self, identity: Identity, name: str) -> vda5050.Header:
         topic = identity.topic(name)
-        header = vda5050.Header(
-            headerId=self._sent[topic],
+        number = self._sent[topic]
+        self._sent[topic] += 1
+        return vda5050.Header(
+            headerId=number,
             timestamp=self._now(),
             version=identity.version,  # type: ignore[arg-type]  # an identity has a known one
             manufacturer=identity.manufacturer,
             serialNumber=identity.serial_number,
         )
-        self._sent[topic] += 1
-        return Letter(topic, json.dumps(written(header), separators=(",", ":")).encode())
+
+    def letter(
+        self, identity: Identity, name: str, body: vda5050.Body | Mapping[str, Any]
+    ) -> Letter:
+        document = vda5050.written(body, self.header(identity, name))
+        payload = json.dumps(document, separators=(",", ":")).encode()
+        return Letter(identity.topic(name), payload)
 
 
 class ControlEnd:
@@ -108,49 +105,109 @@ class ControlEnd:
     ----------
     control
         Takes states and returns what is to be sent.
-    identities
-        The robots, in the order of the plan.
+    maps
+        The map of each robot, in the order of the plan.
     now
         Returns the time as messages have it.
-    report
-        Receives a sentence on each kind of state that cannot be read, once for a robot.
+    notices
+        Receives what is wrong with robots and their messages.
     """
 
     def __init__(
         self,
         control: FleetControl,
-        identities: Sequence[Identity],
+        maps: Sequence[OrderMap],
         now: Callable[[], str],
-        report: Callable[[str], None] = lambda _: None,
+        notices: Notices,
     ) -> None:
-        self.control = control
-        self._identities, self._report, self._reported = identities, report, set[str]()
+        self.control, self.notices = control, notices
+        self._maps = maps
         self._writer = _Writer(now)
-        self._robots = {one.topic("state"): robot for robot, one in enumerate(identities)}
+        self._robots = {
+            order_map.identity.topic(name): (robot, name)
+            for robot, order_map in enumerate(maps)
+            for name in READ
+        }
 
     @property
     def topics(self) -> tuple[str, ...]:
-        """The topics of the states of all robots."""
+        """The topics that control listens to."""
         return tuple(self._robots)
 
+    def robot_of(self, topic: str) -> int | None:
+        """Return the robot of a topic, None for a topic of nobody.
+
+        Parameters
+        ----------
+        topic
+            Of a message that came.
+        """
+        robot, _ = self._robots.get(topic, (None, ""))
+        return robot
+
     def receive(self, letter: Letter) -> list[Letter]:
-        """Take a state in; return what is to be sent because of it.
+        """Take a message of a robot in; return what is to be sent because of it.
 
         Parameters
         ----------
         letter
-            A state of a robot, which may be broken: then it proves nothing.
+            A state, a connection or a factsheet, which may be broken: then it proves nothing.
         """
-        robot = self._robots[letter.topic]
+        robot, name = self._robots[letter.topic]
         try:
-            state = vda5050.read_state(_document(letter.payload))
+            document = _document(letter.payload)
+            if name == "state":
+                state = vda5050.read(vda5050.StateMessage, document, "state").robot_state()
+                self.notices.take(robot, state.condition)
+                return self.letters(self.control.receive(robot, state))
+            if name == "connection":
+                connection = vda5050.read(vda5050.ConnectionMessage, document, "connection")
+                return self.connect(robot, is_connected=connection.is_online)
+            self._compare(robot, vda5050.read(vda5050.Factsheet, document, "factsheet"))
         except InputError as error:
-            sentence = f"robot {robot}: {error}"
-            if sentence not in self._reported:
-                self._reported.add(sentence)
-                self._report(sentence)
-            return []
-        return self.letters(self.control.receive(robot, state))
+            path = ".".join(step for step in error.faults[0].path if isinstance(step, str))
+            self.notices.once(robot, f"message {path}", f"sent what cannot be read: {error}")
+        return []
+
+    def connect(self, robot: int, *, is_connected: bool, why: str = "") -> list[Letter]:
+        """Note whether messages reach a robot; return what is to be sent because of it.
+
+        Parameters
+        ----------
+        robot
+            The robot.
+        is_connected
+            Whether it is there.
+        why
+            How it is known that it is not.
+        """
+        was_connected = robot not in self.control.lost
+        messages = self.control.connect(robot, is_connected=is_connected)
+        if was_connected and not is_connected:
+            reason = why or "is not connected"
+            self.notices.once(
+                robot, "lost", f"{reason}: it keeps what it holds and gets nothing more"
+            )
+        return self.letters(messages)
+
+    def _compare(self, robot: int, sheet: vda5050.Factsheet) -> None:
+        """Report where a robot is slower or larger than the plan takes it to be."""
+        scenario, physical = self._maps[robot].scenario, sheet.physicalParameters
+        own = scenario.robots[robot]
+        metre, second = scenario.units.metres or 1, scenario.units.seconds or 1
+        speed, radius = float(own.speed * metre / second), float(own.radius * metre)
+        top = physical.speedMax
+        if top is not None and top < speed - ROUNDING:
+            sentence = f"drives at most {top:g} m/s, and the plan takes {speed:g} m/s"
+            self.notices.once(robot, "speed", f"{sentence}: it will be late")
+        if radius and physical.length is not None and physical.width is not None:
+            needed = hypot(physical.length, physical.width) / 2
+            if needed > radius + ROUNDING:
+                size = f"{physical.length:g} m long and {physical.width:g} m wide"
+                sentence = f"is {size}, and the plan takes a radius of {radius:g} m"
+                remedy = f"plan with a radius of {needed:.3g} m"
+                self.control.refuse(robot)
+                self.notices.once(robot, "size", f"{sentence}: it gets nothing more ({remedy})")
 
     def letters(self, messages: Iterable[Message]) -> list[Letter]:
         """Return messages of the control as they are sent.
@@ -162,14 +219,21 @@ class ControlEnd:
         """
         letters = []
         for message in messages:
-            name = "order" if isinstance(message, Order) else "instantActions"
-            identity = self._identities[message.robot]
-
-            def written(header: vda5050.Header, message: Message = message) -> dict[str, Any]:
-                return vda5050.written(message, header)
-
-            letters.append(self._writer.letter(identity, name, written))
+            order_map = self._maps[message.robot]
+            if isinstance(message, Order):
+                body: vda5050.Body = vda5050.OrderMessage.of(message, order_map)
+                name = "order"
+            else:
+                body, name = vda5050.InstantActions.of(message), "instantActions"
+            letters.append(self._writer.letter(order_map.identity, name, body))
         return letters
+
+    def ask_for_factsheets(self) -> list[Letter]:
+        """Return what asks each robot how fast and how large it is."""
+        return self.letters(
+            InstantAction(robot=robot, action_id=f"factsheet{robot}", kind="factsheetRequest")
+            for robot in range(len(self._maps))
+        )
 
 
 class RobotEnd:
@@ -185,12 +249,22 @@ class RobotEnd:
         As messages name it.
     now
         Returns the time as messages have it.
+
+    Attributes
+    ----------
+    condition
+        What its states say beside its order.
+    lanes
+        How the edges of its orders are driven, by their ends.
     """
 
     def __init__(
         self, robot: SimulatedRobot, number: int, identity: Identity, now: Callable[[], str]
     ) -> None:
         self.robot, self._number, self._identity = robot, number, identity
+        self.condition = Condition()
+        self.lanes: dict[tuple[str, str], Lane] = {}
+        self._places: dict[str, Place] = {}
         self._writer = _Writer(now)
 
     @property
@@ -198,8 +272,8 @@ class RobotEnd:
         """The topics that it listens to."""
         return self._identity.topic("order"), self._identity.topic("instantActions")
 
-    def receive(self, letter: Letter) -> None:
-        """Take an order or instant actions in.
+    def receive(self, letter: Letter) -> list[Letter]:
+        """Take an order or instant actions in; return what is answered beside its state.
 
         Parameters
         ----------
@@ -213,25 +287,65 @@ class RobotEnd:
         """
         document = _document(letter.payload)
         if letter.topic == self._identity.topic("order"):
-            self.robot.take_order(vda5050.read_order(document, self._number))
-        else:
-            for action in vda5050.read_instant_actions(document, self._number):
-                self.robot.take_action(action)
+            message = vda5050.read(vda5050.OrderMessage, document, "order")
+            self._learn(message)
+            self.robot.take_order(message.order(self._number))
+            return []
+        asked = vda5050.read(vda5050.InstantActions, document, "instantActions")
+        actions = asked.instant_actions(self._number)
+        for action in actions:
+            self.robot.take_action(action)
+        return [self.factsheet() for action in actions if action.kind == "factsheetRequest"]
+
+    def _learn(self, message: vda5050.OrderMessage) -> None:
+        """Keep how long and how fast the edges of an order are, and where its nodes are."""
+        names = {node.sequenceId: node.nodeId for node in message.nodes}
+        for node in message.nodes:
+            if node.nodePosition is not None:
+                at = node.nodePosition
+                self._places[node.nodeId] = Place(point=(at.x, at.y), map_id=at.mapId)
+        for edge in message.edges:
+            tail, head = names.get(edge.sequenceId - 1), names.get(edge.sequenceId + 1)
+            is_known = edge.length is not None and edge.maxSpeed is not None
+            if is_known and tail is not None and head is not None:
+                length, speed = edge.length or 0.0, edge.maxSpeed or 1.0
+                self.lanes[tail, head] = Lane(length=length, max_speed=speed)
 
     def state(self) -> Letter:
         """Return its state as it is sent."""
-        return self._writer.letter(
-            self._identity, "state", lambda header: vda5050.written_state(self.robot, header)
+        robot = self.robot
+        body = vda5050.StateMessage.of(
+            robot.state(self.condition),
+            [node.place for node in robot.ahead],
+            frozenset(robot.instant_actions),
+            self._places.get(robot.place),
         )
+        return self._writer.letter(self._identity, "state", body)
+
+    def connection(self, state: str) -> Letter:
+        """Return whether it is connected, as it is sent.
+
+        Parameters
+        ----------
+        state
+            ``ONLINE``, ``OFFLINE`` or ``CONNECTION_BROKEN``.
+        """
+        body = vda5050.ConnectionMessage(connectionState=state)
+        return self._writer.letter(self._identity, "connection", body)
+
+    def factsheet(self) -> Letter:
+        """Return what it is, as it is sent."""
+        return self._writer.letter(self._identity, "factsheet", FACTSHEET)
 
 
 def _document(payload: bytes) -> dict[str, Any]:
     """Return a payload as JSON has it."""
     try:
         document = json.loads(payload)
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         message = (
-            f"{shown(payload.decode(errors='replace'))} is no JSON (the sender has to send it)"
+            f"{shown(payload[:200].decode(errors='replace'))} is no JSON"
+            " (the sender has to send it)"
         )
         raise InputError.at("message", message) from error
     if not isinstance(document, dict):

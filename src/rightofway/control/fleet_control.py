@@ -14,7 +14,14 @@ from collections.abc import Callable, Iterator, Sequence
 
 from rightofway.control.journal import Entry, Journal
 from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive, plan_entry
-from rightofway.control.messages import InstantAction, Message, Order, OrderNode, RobotState
+from rightofway.control.messages import (
+    Condition,
+    InstantAction,
+    Message,
+    Order,
+    OrderNode,
+    RobotState,
+)
 from rightofway.errors import InputError
 from rightofway.precedence import Part, ReleaseGraph
 
@@ -32,12 +39,19 @@ class FleetControl:
     look_ahead
         How many parts are released beyond the vertex last arrived at, at most.
     report
-        Receives sentences on faults and on jobs that failed.
+        Receives a robot and a sentence on its fault, or on a job that failed.
 
     Attributes
     ----------
     ledger
         What the journal says.
+    conditions
+        How robots are, by their last states since the start. Conditions are not kept: they hold
+        releases back, and never let one go.
+    lost
+        Robots that no message reaches.
+    refused
+        Robots that the plan does not fit.
     """
 
     def __init__(
@@ -45,10 +59,12 @@ class FleetControl:
         journal: Journal,
         *,
         look_ahead: int = LOOK_AHEAD,
-        report: Callable[[str], None] = lambda _: None,
+        report: Callable[[int, str], None] = lambda *_: None,
     ) -> None:
         self._journal, self._look_ahead, self._report = journal, look_ahead, report
         self.ledger = Ledger()
+        self.conditions: dict[int, Condition] = {}
+        self.lost, self.refused = set[int](), set[int]()
         for entry in journal.entries():
             self.ledger.apply(entry)
 
@@ -169,9 +185,37 @@ class FleetControl:
         state
             Its state.
         """
+        self.conditions[robot] = state.condition
+        self.lost.discard(robot)
         self._commit(*self._facts(robot, state))
         self._commit(*self._answers(robot, state))
         return self._go_on()
+
+    def connect(self, robot: int, *, is_connected: bool) -> list[Message]:
+        """Note whether messages reach a robot. A robot that is lost keeps what it holds.
+
+        Parameters
+        ----------
+        robot
+            A robot of the plan.
+        is_connected
+            Whether they do; each of its states says so, too.
+        """
+        if is_connected:
+            self.lost.discard(robot)
+        else:
+            self.lost.add(robot)
+        return self._go_on()
+
+    def refuse(self, robot: int) -> None:
+        """Release nothing more to a robot that the plan does not fit, as long as we run.
+
+        Parameters
+        ----------
+        robot
+            A robot of the plan.
+        """
+        self.refused.add(robot)
 
     def remind(self) -> list[Message]:
         """Return again what robots have not answered; call it every few seconds."""
@@ -200,14 +244,14 @@ class FleetControl:
             if status == "FINISHED":
                 yield {"kind": "finished", "robot": robot, "job": job}
             elif status == "FAILED" and self._is_failure(own, action_id, job):
-                self._report(f"robot {robot}: {job} failed; it goes no further")
+                self._report(robot, f"has failed in {job}: it goes no further")
                 yield {"kind": "failed", "robot": robot, "job": job}
         visit = self._proven(own, state)
         if visit is not None and visit > own.arrived:
             yield {"kind": "arrived", "robot": robot, "visit": visit}
         fault = None if own.fault else self._fault(own, state)
         if fault is not None:
-            self._report(f"robot {robot} is faulty: {fault}; a person has to look after it")
+            self._report(robot, f"is faulty: {fault}; a person has to look after it")
             place = state.last_place or None
             yield {"kind": "fault", "robot": robot, "fault": fault, "place": place}
 
@@ -287,7 +331,7 @@ class FleetControl:
                 yield self._new_order(robot, stands_at, own.released)
             elif own.fault is None:
                 fault = f"it stands at {state.last_place!r}, which it does not hold"
-                self._report(f"robot {robot} is faulty: {fault}; a person has to look after it")
+                self._report(robot, f"is faulty: {fault}; a person has to look after it")
                 place = state.last_place or None
                 yield {"kind": "fault", "robot": robot, "fault": fault, "place": place}
 
@@ -393,12 +437,25 @@ class FleetControl:
             part < len(places)
             and not own.is_on_hold
             and own.fault is None
-            and part - own.arrived <= self._look_ahead
+            and self._is_fit(robot)
+            and part - own.arrived <= self._ahead(robot)
             and own.finished.issuperset(own.route.jobs[part - 1])
             and places[part] not in places[own.arrived : part]
             and not any(places[part] == other.strays_at for other in self.ledger.robots)
             and self.ledger.graph.may_go(Part(robot, part), self.ledger.arrived)
         )
+
+    def _is_fit(self, robot: int) -> bool:
+        """Return whether nothing that the robot says of itself holds a release back."""
+        if robot in self.lost or robot in self.refused:
+            return False
+        condition = self.conditions.get(robot)
+        return condition is None or condition.is_fit
+
+    def _ahead(self, robot: int) -> int:
+        """Return how far ahead a robot may be released: twice as far if it asks for more."""
+        condition = self.conditions.get(robot)
+        return self._look_ahead * (2 if condition and condition.wants_more else 1)
 
     def _committed(self, own: RobotLedger) -> int:
         """Return the last part that a splice has to keep."""

@@ -69,10 +69,71 @@ class InstantAction:
 
     robot: int
     action_id: str
-    kind: Literal["stateRequest", "cancelOrder"]
+    kind: Literal["stateRequest", "cancelOrder", "factsheetRequest"]
 
 
 Message = Order | InstantAction
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotError:
+    """An error that a robot reports.
+
+    Attributes
+    ----------
+    kind
+        As the robot names it.
+    level
+        ``WARNING``, ``URGENT``, ``CRITICAL`` or ``FATAL``.
+    description
+        In words; may be empty.
+    """
+
+    kind: str
+    level: str
+    description: str = ""
+
+
+AUTOMATIC = frozenset({"AUTOMATIC", "SEMIAUTOMATIC"})
+"""Operating modes in which a robot drives what it is sent."""
+
+HARMLESS = frozenset({"WARNING", "URGENT"})
+"""Levels of errors with which a robot goes on driving."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Condition:
+    """How a robot is, by its own words. It holds releases back and never lets one go.
+
+    Attributes
+    ----------
+    mode
+        Its operating mode.
+    is_paused
+        Whether it stands still until it is let go.
+    emergency_stop
+        Which emergency stop is pressed; ``NONE`` for none.
+    errors
+        What is wrong with it.
+    wants_more
+        Whether it will soon have driven all that it may, and asks for more.
+    """
+
+    mode: str = "AUTOMATIC"
+    is_paused: bool = False
+    emergency_stop: str = "NONE"
+    errors: tuple[RobotError, ...] = ()
+    wants_more: bool = False
+
+    @property
+    def is_fit(self) -> bool:
+        """Whether more may be released."""
+        return (
+            self.mode in AUTOMATIC
+            and not self.is_paused
+            and self.emergency_stop in {"NONE", ""}
+            and all(error.level in HARMLESS for error in self.errors)
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,6 +152,8 @@ class RobotState:
         The status of actions by their ids, instant ones too.
     is_driving
         Whether it drives.
+    condition
+        Whether it is fit to drive on.
     """
 
     order_id: str
@@ -101,6 +164,7 @@ class RobotState:
     edges: tuple[int, ...] = ()
     actions: Mapping[str, str] = field(default_factory=dict)
     is_driving: bool = False
+    condition: Condition = Condition()
 
     @property
     def is_idle(self) -> bool:

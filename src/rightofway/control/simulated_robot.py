@@ -11,10 +11,13 @@ from __future__ import annotations
 
 from typing import Literal
 
-from rightofway.control.messages import InstantAction, Order, OrderNode, RobotState
+from rightofway.control.messages import Condition, InstantAction, Order, OrderNode, RobotState
 
 Step = Literal["begin to drive", "arrive", "begin work", "end work"]
 """What a robot does next."""
+
+AS_USUAL = Condition()
+"""The condition of a robot that is fit."""
 
 
 class SimulatedRobot:
@@ -68,8 +71,14 @@ class SimulatedRobot:
             return "begin work" if is_new else "end work"
         return "begin to drive" if self.ahead else None
 
-    def state(self) -> RobotState:
-        """Return what the robot says of itself."""
+    def state(self, condition: Condition = AS_USUAL) -> RobotState:
+        """Return what the robot says of itself.
+
+        Parameters
+        ----------
+        condition
+            Whether it is fit to drive on; its owner knows.
+        """
         numbers = tuple(node.sequence_id for node in self.ahead)
         return RobotState(
             order_id=self._order_id,
@@ -80,6 +89,7 @@ class SimulatedRobot:
             edges=tuple(number - 1 for number in numbers),
             actions=dict(self._actions),
             is_driving=self.is_driving,
+            condition=condition,
         )
 
     def take_order(self, order: Order) -> bool:
@@ -121,10 +131,10 @@ class SimulatedRobot:
         Parameters
         ----------
         action
-            A request for a state, or the withdrawal of the order.
+            A request for a state or a factsheet, or the withdrawal of the order.
         """
         self.instant_actions.add(action.action_id)
-        if action.kind == "stateRequest":
+        if action.kind != "cancelOrder":
             self._actions[action.action_id] = "FINISHED"
             return True
         known = self._withdrawals.get(action.action_id)

@@ -1,46 +1,50 @@
 """Messages of VDA 5050 (2.0, 2.1 and 3.0), written and read.
 
-Control writes orders and instant actions and reads states; simulated robots do the reverse. A
-message that is read may have more keys than are looked at; one that lacks a key that counts is
-refused with its place.
+There is one model for each kind of message, in both directions, with the names of version 2.1.
+`written` gives keys and values the names of another version; a reader takes both. A message that is
+read may have more keys than are looked at; one that lacks a key that counts is refused with its
+place.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from itertools import pairwise
 from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
-from rightofway.control.messages import InstantAction, Message, Order, OrderNode, RobotState
-from rightofway.control.simulated_robot import SimulatedRobot
-from rightofway.errors import InputError, shown
+from rightofway.control.messages import (
+    Condition,
+    InstantAction,
+    Order,
+    OrderNode,
+    RobotError,
+    RobotState,
+)
+from rightofway.control.order_map import Lane, OrderMap, Place, Work
+from rightofway.errors import InputError, InputFault, shown
 
 __all__ = [
-    "VERSIONS",
+    "ActionState",
+    "ConnectionMessage",
+    "ErrorState",
+    "Factsheet",
     "Header",
-    "read_instant_actions",
-    "read_order",
-    "read_state",
+    "InstantActions",
+    "OrderMessage",
+    "StateMessage",
+    "read",
     "written",
-    "written_state",
 ]
 
-VERSIONS = ("2.0.0", "2.1.0", "3.0.0")
-"""Versions of the norm that a robot may speak."""
-
-JOB = "rightofway.job"
-"""The type of the action at a stop."""
+# The names of fields are the norm's.
+# ruff: noqa: N815
 
 Sequence = Annotated[int, Field(ge=0, le=2**32 - 1)]
 
 
-class _Written(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Header(_Written):
+class Header(BaseModel):
     """The head of each message.
 
     Attributes
@@ -55,317 +59,514 @@ class Header(_Written):
         The robot.
     """
 
-    headerId: Annotated[int, Field(ge=0)]  # noqa: N815 (the norm's names)
+    model_config = ConfigDict(frozen=True)
+
+    headerId: Annotated[int, Field(ge=0)]
     timestamp: str
     version: Literal["2.0.0", "2.1.0", "3.0.0"]
     manufacturer: str
-    serialNumber: str  # noqa: N815
+    serialNumber: str
 
 
-class _Action(_Written):
-    actionId: str  # noqa: N815
-    actionType: str  # noqa: N815
-    blockingType: Literal["NONE", "HARD"]  # noqa: N815
-    # The schema of instant actions of 2.0 asks for the type under another name than its text.
-    actionName: str | None = None  # noqa: N815
-
-
-class _Node(_Written):
-    nodeId: str  # noqa: N815
-    sequenceId: Sequence  # noqa: N815
-    released: bool
-    actions: tuple[_Action, ...]
-
-
-class _Edge(_Written):
-    edgeId: str  # noqa: N815
-    sequenceId: Sequence  # noqa: N815
-    released: bool
-    startNodeId: str  # noqa: N815
-    endNodeId: str  # noqa: N815
-    actions: tuple[_Action, ...] = ()
-
-
-class _OrderMessage(Header):
-    orderId: str  # noqa: N815
-    orderUpdateId: Sequence  # noqa: N815
-    nodes: tuple[_Node, ...]
-    edges: tuple[_Edge, ...]
-
-
-class _InstantActions(Header):
-    actions: tuple[_Action, ...]
-
-
-def _edge_id(tail: str, head: str) -> str:
-    return f"{tail}-{head}"
-
-
-def written(message: Message, header: Header) -> dict[str, Any]:
-    """Return a message as JSON has it.
-
-    Parameters
-    ----------
-    message
-        An order, an update or an instant action.
-    header
-        The head of the message.
-    """
-    head = header.model_dump()
-    if not isinstance(message, Order):
-        action = _Action(
-            actionId=message.action_id,
-            actionType=message.kind,
-            blockingType="NONE",
-            actionName=message.kind if header.version == "2.0.0" else None,
-        )
-        actions = _InstantActions(**head, actions=(action,))
-        return actions.model_dump(mode="json", exclude_none=True)
-    nodes = tuple(
-        _Node(
-            nodeId=node.place,
-            sequenceId=node.sequence_id,
-            released=True,
-            actions=tuple(
-                _Action(actionId=action, actionType=JOB, blockingType="HARD")
-                for action in node.actions
-            ),
-        )
-        for node in message.nodes
-    )
-    edges = tuple(
-        _Edge(
-            edgeId=_edge_id(tail.nodeId, head_.nodeId),
-            sequenceId=head_.sequenceId - 1,
-            released=True,
-            startNodeId=tail.nodeId,
-            endNodeId=head_.nodeId,
-        )
-        for tail, head_ in pairwise(nodes)
-    )
-    order = _OrderMessage(
-        **head,
-        orderId=message.order_id,
-        orderUpdateId=message.update_id,
-        nodes=nodes,
-        edges=edges,
-    )
-    return order.model_dump(mode="json", exclude_none=True)
-
-
-def written_state(robot: SimulatedRobot, header: Header) -> dict[str, Any]:
-    """Return the state of a simulated robot as JSON has it.
-
-    Parameters
-    ----------
-    robot
-        The robot.
-    header
-        The head of the message.
-    """
-    state = robot.state()
-    places = [node.place for node in robot.ahead]
-    actions, instant = list[_ActionState](), list[_ActionState]()
-    is_new = header.version >= "3"
-    for action_id, status in state.actions.items():
-        is_apart = is_new and action_id in robot.instant_actions
-        kept = instant if is_apart else actions
-        kept.append(_ActionState(actionId=action_id, actionStatus=status))
-    power = {"stateOfCharge" if is_new else "batteryCharge": 100.0, "charging": False}
-    emergency = "activeEmergencyStop" if is_new else "eStop"
-    message = _WrittenState(
-        **header.model_dump(),
-        orderId=state.order_id,
-        orderUpdateId=state.update_id,
-        lastNodeId=state.last_place,
-        lastNodeSequenceId=state.last_sequence_id,
-        nodeStates=tuple(
-            _NodeState(nodeId=place, sequenceId=number)
-            for place, number in zip(places, state.nodes, strict=True)
-        ),
-        edgeStates=tuple(
-            _EdgeState(edgeId=_edge_id(tail, head), sequenceId=number)
-            for (tail, head), number in zip(
-                pairwise((state.last_place, *places)), state.edges, strict=True
-            )
-        ),
-        actionStates=tuple(actions),
-        instantActionStates=tuple(instant) if is_new else None,
-        driving=state.is_driving,
-        powerSupply=power if is_new else None,
-        batteryState=None if is_new else power,
-        safetyState={emergency: "NONE", "fieldViolation": False},
-    )
-    return message.model_dump(mode="json", exclude_none=True)
-
-
-class _Read(BaseModel):
+class _Model(BaseModel):
+    # Readers take any number as a float: Python's JSON has 1 for 1.0.
     model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
 
 
-class _Ahead(_Read):
-    sequenceId: Sequence  # noqa: N815
+class _Parameter(_Model):
+    key: str
+    value: Any
 
 
-class _ActionState(_Read):
-    actionId: str  # noqa: N815
-    actionStatus: str  # noqa: N815
+class _Action(_Model):
+    actionId: str
+    actionType: str
+    blockingType: str = "HARD"
+    actionParameters: tuple[_Parameter, ...] | None = Field(default=None, strict=False)
 
 
-class _State(_Read):
-    orderId: str  # noqa: N815
-    orderUpdateId: Sequence  # noqa: N815
-    lastNodeId: str  # noqa: N815
-    lastNodeSequenceId: Sequence  # noqa: N815
-    nodeStates: list[_Ahead]  # noqa: N815
-    edgeStates: list[_Ahead]  # noqa: N815
-    actionStates: list[_ActionState]  # noqa: N815
-    instantActionStates: list[_ActionState] = []  # noqa: N815 (3.0 keeps them apart)
-    driving: bool
+class _NodePosition(_Model):
+    x: float
+    y: float
+    mapId: str
+    # A circle's radius, which 3.0 writes as an ellipse.
+    allowedDeviationXY: Any = None
 
 
-class _NodeState(_Written):
-    nodeId: str  # noqa: N815
-    sequenceId: Sequence  # noqa: N815
-    released: Literal[True] = True
-
-
-class _EdgeState(_Written):
-    edgeId: str  # noqa: N815
-    sequenceId: Sequence  # noqa: N815
-    released: Literal[True] = True
-
-
-class _WrittenState(Header):
-    orderId: str  # noqa: N815
-    orderUpdateId: Sequence  # noqa: N815
-    lastNodeId: str  # noqa: N815
-    lastNodeSequenceId: Sequence  # noqa: N815
-    nodeStates: tuple[_NodeState, ...]  # noqa: N815
-    edgeStates: tuple[_EdgeState, ...]  # noqa: N815
-    actionStates: tuple[_ActionState, ...]  # noqa: N815
-    instantActionStates: tuple[_ActionState, ...] | None  # noqa: N815
-    driving: bool
-    powerSupply: dict[str, float | bool] | None  # noqa: N815
-    batteryState: dict[str, float | bool] | None  # noqa: N815
-    operatingMode: Literal["AUTOMATIC"] = "AUTOMATIC"  # noqa: N815
-    errors: tuple[()] = ()
-    safetyState: dict[str, str | bool]  # noqa: N815
-
-
-class _ReadAction(_Read):
-    actionId: str  # noqa: N815
-    actionType: str  # noqa: N815
-
-
-class _ReadNode(_Read):
-    nodeId: str  # noqa: N815
-    sequenceId: Sequence  # noqa: N815
+class _Node(_Model):
+    nodeId: str
+    sequenceId: Sequence
     released: bool
-    actions: list[_ReadAction]
+    nodePosition: _NodePosition | None = None
+    actions: tuple[_Action, ...] = Field(strict=False)
 
 
-class _ReadOrder(_Read):
-    orderId: str  # noqa: N815
-    orderUpdateId: Sequence  # noqa: N815
-    nodes: Annotated[list[_ReadNode], Field(min_length=1)]
+class _ControlPoint(_Model):
+    x: float
+    y: float
+    weight: float = 1.0
 
 
-class _ReadInstantAction(_Read):
-    actionId: str  # noqa: N815
-    actionType: Literal["stateRequest", "cancelOrder"]  # noqa: N815
+class _Trajectory(_Model):
+    degree: int
+    knotVector: tuple[float, ...] = Field(strict=False)
+    controlPoints: tuple[_ControlPoint, ...] = Field(strict=False)
 
 
-class _ReadInstantActions(_Read):
-    actions: list[_ReadInstantAction]
+class _Edge(_Model):
+    edgeId: str
+    sequenceId: Sequence
+    released: bool
+    startNodeId: str | None = None  # 3.0 does without
+    endNodeId: str | None = None
+    maxSpeed: float | None = Field(
+        default=None, validation_alias=AliasChoices("maxSpeed", "maximumSpeed")
+    )
+    length: float | None = None
+    trajectory: _Trajectory | None = None
+    actions: tuple[_Action, ...] = Field(default=(), strict=False)
 
 
-_Model = TypeVar("_Model", bound=_Read)
+class OrderMessage(_Model):
+    """An order or an update."""
+
+    orderId: str
+    orderUpdateId: Sequence
+    nodes: Annotated[tuple[_Node, ...], Field(min_length=1, strict=False)]
+    edges: tuple[_Edge, ...] = Field(default=(), strict=False)
+
+    @classmethod
+    def of(cls, order: Order, order_map: OrderMap) -> OrderMessage:
+        """Return the message of an order.
+
+        Parameters
+        ----------
+        order
+            An order or update.
+        order_map
+            Where places and lanes lie for the robot, and what its work is.
+        """
+        nodes = tuple(
+            _Node(
+                nodeId=node.place,
+                sequenceId=node.sequence_id,
+                released=True,
+                nodePosition=_position(order_map.place(node.place)),
+                actions=tuple(_work(action, order_map.work) for action in node.actions),
+            )
+            for node in order.nodes
+        )
+        edges = tuple(
+            _edge(tail.place, head.place, head.sequence_id - 1, order_map)
+            for tail, head in pairwise(order.nodes)
+        )
+        return cls(orderId=order.order_id, orderUpdateId=order.update_id, nodes=nodes, edges=edges)
+
+    def order(self, robot: int) -> Order:
+        """Return what is released of the order.
+
+        Parameters
+        ----------
+        robot
+            The robot that it was sent to.
+        """
+        nodes = tuple(
+            OrderNode(
+                place=node.nodeId,
+                sequence_id=node.sequenceId,
+                actions=tuple(action.actionId for action in node.actions),
+            )
+            for node in self.nodes
+            if node.released
+        )
+        return Order(robot=robot, order_id=self.orderId, update_id=self.orderUpdateId, nodes=nodes)
 
 
-def _read(model: type[_Model], document: Mapping[str, Any], name: str) -> _Model:
-    """Return a message that has all keys that count, or refuse it with the place of the fault."""
+def _position(place: Place | None) -> _NodePosition | None:
+    if place is None:
+        return None
+    x, y = place.point
+    return _NodePosition(x=x, y=y, mapId=place.map_id, allowedDeviationXY=place.deviation)
+
+
+def _work(action_id: str, work: Work) -> _Action:
+    parameters = tuple(_Parameter(key=key, value=value) for key, value in work.parameters.items())
+    return _Action(
+        actionId=action_id,
+        actionType=work.action,
+        blockingType="HARD",
+        actionParameters=parameters or None,
+    )
+
+
+def _edge(tail: str, head: str, sequence_id: int, order_map: OrderMap) -> _Edge:
+    lane = order_map.lane(tail, head)
+    return _Edge(
+        edgeId=edge_id(tail, head),
+        sequenceId=sequence_id,
+        released=True,
+        startNodeId=tail,
+        endNodeId=head,
+        maxSpeed=None if lane is None else lane.max_speed,
+        length=None if lane is None else lane.length,
+        trajectory=_trajectory(lane),
+    )
+
+
+def _trajectory(lane: Lane | None) -> _Trajectory | None:
+    """Return the shape of a lane as a clamped NURBS: straight pieces, or one Bézier curve."""
+    if lane is None or not lane.points:
+        return None
+    degree = len(lane.points) - 1 if lane.is_bezier else 1
+    inner = len(lane.points) - degree
+    knots = (*[0.0] * degree, *(k / inner for k in range(inner + 1)), *[1.0] * degree)
+    return _Trajectory(
+        degree=degree,
+        knotVector=knots,
+        controlPoints=tuple(_ControlPoint(x=x, y=y) for x, y in lane.points),
+    )
+
+
+def edge_id(tail: str, head: str) -> str:
+    """Return the id of the edge between two places.
+
+    Parameters
+    ----------
+    tail, head
+        The names of the vertices.
+    """
+    return f"{tail}-{head}"
+
+
+class _InstantAction(_Model):
+    actionId: str
+    actionType: Literal["stateRequest", "cancelOrder", "factsheetRequest"]
+    blockingType: str = "NONE"
+    # The schema of instant actions of 2.0 asks for the type under another name than its text.
+    actionName: str | None = None
+
+
+class InstantActions(_Model):
+    """What is to be done at once."""
+
+    actions: tuple[_InstantAction, ...] = Field(strict=False)
+
+    @classmethod
+    def of(cls, action: InstantAction) -> InstantActions:
+        """Return the message of an instant action.
+
+        Parameters
+        ----------
+        action
+            What is to be done.
+        """
+        kind = action.kind
+        return cls(
+            actions=(_InstantAction(actionId=action.action_id, actionType=kind, actionName=kind),)
+        )
+
+    def instant_actions(self, robot: int) -> tuple[InstantAction, ...]:
+        """Return what is to be done.
+
+        Parameters
+        ----------
+        robot
+            The robot that it was sent to.
+        """
+        return tuple(
+            InstantAction(robot=robot, action_id=action.actionId, kind=action.actionType)
+            for action in self.actions
+        )
+
+
+class _NodeState(_Model):
+    nodeId: str = ""
+    sequenceId: Sequence
+    released: bool = True
+
+
+class _EdgeState(_Model):
+    edgeId: str = ""
+    sequenceId: Sequence
+    released: bool = True
+
+
+class ActionState(_Model):
+    """What has become of an action."""
+
+    actionId: str
+    actionStatus: str
+
+
+class ErrorState(_Model):
+    """An error of a robot."""
+
+    errorType: str
+    errorLevel: str
+    errorDescription: str | None = None
+
+
+class _Position(_Model):
+    x: float
+    y: float
+    theta: float = 0.0
+    mapId: str
+    positionInitialized: bool = Field(
+        default=True, validation_alias=AliasChoices("positionInitialized", "localized")
+    )
+
+
+class _Battery(_Model):
+    batteryCharge: float = Field(
+        default=100.0, validation_alias=AliasChoices("batteryCharge", "stateOfCharge")
+    )
+    charging: bool = False
+
+
+class _Safety(_Model):
+    eStop: str = Field(
+        default="NONE", validation_alias=AliasChoices("eStop", "activeEmergencyStop")
+    )
+    fieldViolation: bool = False
+
+
+class StateMessage(_Model):
+    """The state of a robot; its keys without a default are those that count."""
+
+    orderId: str
+    orderUpdateId: Sequence
+    lastNodeId: str
+    lastNodeSequenceId: Sequence
+    nodeStates: tuple[_NodeState, ...] = Field(strict=False)
+    edgeStates: tuple[_EdgeState, ...] = Field(strict=False)
+    actionStates: tuple[ActionState, ...] = Field(strict=False)
+    instantActionStates: tuple[ActionState, ...] = Field(default=(), strict=False)
+    driving: bool
+    paused: bool = False
+    newBaseRequest: bool = False
+    operatingMode: str = "AUTOMATIC"
+    errors: tuple[ErrorState, ...] = Field(default=(), strict=False)
+    safetyState: _Safety = _Safety()
+    # These are only written: no release depends on them, and a robot may send anything.
+    agvPosition: Any = None
+    batteryState: Any = _Battery()
+
+    @classmethod
+    def of(
+        cls,
+        state: RobotState,
+        places: Iterable[str],
+        instant: frozenset[str],
+        position: Place | None = None,
+    ) -> StateMessage:
+        """Return the message of a state.
+
+        Parameters
+        ----------
+        state
+            What the robot says of itself.
+        places
+            The places of the nodes that are still to be driven.
+        instant
+            Ids of instant actions, which 3.0 keeps apart.
+        position
+            Where the robot is, if that is to be said.
+        """
+        ahead = tuple(places)
+        actions = {
+            action_id: ActionState(actionId=action_id, actionStatus=status)
+            for action_id, status in state.actions.items()
+        }
+        condition = state.condition
+        return cls(
+            orderId=state.order_id,
+            orderUpdateId=state.update_id,
+            lastNodeId=state.last_place,
+            lastNodeSequenceId=state.last_sequence_id,
+            nodeStates=tuple(
+                _NodeState(nodeId=place, sequenceId=number)
+                for place, number in zip(ahead, state.nodes, strict=True)
+            ),
+            edgeStates=tuple(
+                _EdgeState(edgeId=edge_id(tail, head), sequenceId=number)
+                for (tail, head), number in zip(
+                    pairwise((state.last_place, *ahead)), state.edges, strict=True
+                )
+            ),
+            actionStates=tuple(actions[key] for key in actions if key not in instant),
+            instantActionStates=tuple(actions[key] for key in actions if key in instant),
+            driving=state.is_driving,
+            paused=condition.is_paused,
+            newBaseRequest=condition.wants_more,
+            operatingMode=condition.mode,
+            errors=tuple(
+                ErrorState(
+                    errorType=error.kind,
+                    errorLevel=error.level,
+                    errorDescription=error.description,
+                )
+                for error in condition.errors
+            ),
+            safetyState=_Safety(eStop=condition.emergency_stop),
+            agvPosition=position
+            and _Position(x=position.point[0], y=position.point[1], mapId=position.map_id),
+        )
+
+    def robot_state(self) -> RobotState:
+        """Return what the robot says of itself."""
+        actions = (*self.actionStates, *self.instantActionStates)
+        return RobotState(
+            order_id=self.orderId,
+            update_id=self.orderUpdateId,
+            last_place=self.lastNodeId,
+            last_sequence_id=self.lastNodeSequenceId,
+            nodes=tuple(node.sequenceId for node in self.nodeStates),
+            edges=tuple(edge.sequenceId for edge in self.edgeStates),
+            actions={action.actionId: action.actionStatus for action in actions},
+            is_driving=self.driving,
+            condition=Condition(
+                mode=self.operatingMode,
+                is_paused=self.paused,
+                emergency_stop=self.safetyState.eStop,
+                errors=tuple(
+                    RobotError(
+                        kind=error.errorType,
+                        level=error.errorLevel,
+                        description=error.errorDescription or "",
+                    )
+                    for error in self.errors
+                ),
+                wants_more=self.newBaseRequest,
+            ),
+        )
+
+
+class ConnectionMessage(_Model):
+    """Whether a robot is connected."""
+
+    connectionState: str
+
+    @property
+    def is_online(self) -> bool:
+        """Whether messages reach it."""
+        return self.connectionState == "ONLINE"
+
+
+class _Physical(_Model):
+    speedMax: float | None = Field(
+        default=None, validation_alias=AliasChoices("speedMax", "maximumSpeed")
+    )
+    width: float | None = None
+    length: float | None = None
+
+
+class Factsheet(_Model):
+    """What a robot is: how fast and how large [m/s, m]."""
+
+    physicalParameters: _Physical = _Physical()
+
+
+Body = OrderMessage | InstantActions | StateMessage | ConnectionMessage
+
+_NAMES: dict[str, dict[str, str]] = {
+    "2.0.0": {"allowedDeviationXY": "allowedDeviationXy"},
+    "2.1.0": {},
+    "3.0.0": {
+        "accelerationMax": "maximumAcceleration",
+        "agvActions": "mobileRobotActions",
+        "agvClass": "mobileRobotClass",
+        "agvGeometry": "mobileRobotGeometry",
+        "agvKinematic": "mobileRobotKinematics",
+        "agvPosition": "mobileRobotPosition",
+        "batteryCharge": "stateOfCharge",
+        "batteryState": "powerSupply",
+        "decelerationMax": "maximumDeceleration",
+        "eStop": "activeEmergencyStop",
+        "heightMax": "maximumHeight",
+        "heightMin": "minimumHeight",
+        "maxArrayLens": "maximumArrayLengths",
+        "maxLoadMass": "maximumLoadMass",
+        "maxSpeed": "maximumSpeed",
+        "maxStringLens": "maximumStringLengths",
+        "minOrderInterval": "minimumOrderInterval",
+        "minStateInterval": "minimumStateInterval",
+        "positionInitialized": "localized",
+        "speedMax": "maximumSpeed",
+        "speedMin": "minimumSpeed",
+    },
+}
+"""How versions name keys of 2.1."""
+
+_LEFT_OUT = {
+    "2.0.0": {"instantActionStates"},
+    "2.1.0": {"instantActionStates", "actionName"},
+    "3.0.0": {"actionName", "startNodeId", "endNodeId"},
+}
+"""Keys that a version does not have."""
+
+
+def written(body: Body | Mapping[str, Any], header: Header) -> dict[str, Any]:
+    """Return a message as JSON has it, in the words of the version of its head.
+
+    Parameters
+    ----------
+    body
+        What is said; a mapping has the names of version 2.1.
+    header
+        The head of the message.
+    """
+    document = (
+        body.model_dump(mode="json", exclude_none=True)
+        if isinstance(body, BaseModel)
+        else dict(body)
+    )
+    if header.version < "3":
+        if isinstance(body, StateMessage):  # the lists of 3.0 are one before
+            document["actionStates"] += document["instantActionStates"]
+        if isinstance(body, ConnectionMessage):
+            document["connectionState"] = body.connectionState.replace("_", "")
+    names, left_out = _NAMES[header.version], _LEFT_OUT[header.version]
+    is_new = header.version >= "3"
+
+    def renamed(value: Any) -> Any:
+        if isinstance(value, list):
+            return [renamed(item) for item in value]
+        if not isinstance(value, dict):
+            return value
+        return {
+            names.get(key, key): {"a": item, "b": item, "theta": 0.0}
+            if is_new and key == "allowedDeviationXY"
+            else renamed(item)
+            for key, item in value.items()
+            if key not in left_out
+        }
+
+    return {**header.model_dump(), **renamed(document)}
+
+
+_AnyModel = TypeVar("_AnyModel", bound=_Model)
+
+
+def read(model: type[_AnyModel], document: Mapping[str, Any], name: str) -> _AnyModel:
+    """Return a message that has all keys that count.
+
+    Parameters
+    ----------
+    model
+        The kind of message.
+    document
+        The message as JSON has it, of any of `VERSIONS`.
+    name
+        How a fault names the message.
+
+    Raises
+    ------
+    InputError
+        If a key that counts is missing or has a wrong value; the place says which.
+    """
     try:
         return model.model_validate(document)
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
-        place = ".".join(map(str, (name, *first["loc"])))
         message = f"{first['msg'].lower()}: {shown(first['input'])} (the sender has to send it)"
-        raise InputError.at(place, message) from error
-
-
-def read_order(document: Mapping[str, Any], robot: int) -> Order:
-    """Return the released part of an order that a simulated robot is sent.
-
-    Parameters
-    ----------
-    document
-        The message as JSON has it, of any of `VERSIONS`.
-    robot
-        The robot that it was sent to.
-
-    Raises
-    ------
-    InputError
-        If a key that counts is missing or has a wrong value; the place says which.
-    """
-    order = _read(_ReadOrder, document, "order")
-    nodes = tuple(
-        OrderNode(
-            place=node.nodeId,
-            sequence_id=node.sequenceId,
-            actions=tuple(action.actionId for action in node.actions),
-        )
-        for node in order.nodes
-        if node.released
-    )
-    return Order(robot=robot, order_id=order.orderId, update_id=order.orderUpdateId, nodes=nodes)
-
-
-def read_instant_actions(document: Mapping[str, Any], robot: int) -> tuple[InstantAction, ...]:
-    """Return the instant actions that a simulated robot is sent.
-
-    Parameters
-    ----------
-    document
-        The message as JSON has it, of any of `VERSIONS`.
-    robot
-        The robot that it was sent to.
-
-    Raises
-    ------
-    InputError
-        If a key that counts is missing or has a wrong value; the place says which.
-    """
-    actions = _read(_ReadInstantActions, document, "instantActions").actions
-    return tuple(
-        InstantAction(robot=robot, action_id=action.actionId, kind=action.actionType)
-        for action in actions
-    )
-
-
-def read_state(document: Mapping[str, Any]) -> RobotState:
-    """Return the state that a robot has sent.
-
-    Parameters
-    ----------
-    document
-        The message as JSON has it, of any of `VERSIONS`.
-
-    Raises
-    ------
-    InputError
-        If a key that counts is missing or has a wrong value; the place says which.
-    """
-    state = _read(_State, document, "state")
-    actions = (*state.actionStates, *state.instantActionStates)
-    return RobotState(
-        order_id=state.orderId,
-        update_id=state.orderUpdateId,
-        last_place=state.lastNodeId,
-        last_sequence_id=state.lastNodeSequenceId,
-        nodes=tuple(node.sequenceId for node in state.nodeStates),
-        edges=tuple(edge.sequenceId for edge in state.edgeStates),
-        actions={action.actionId: action.actionStatus for action in actions},
-        is_driving=state.driving,
-    )
+        raise InputError([InputFault((name, *first["loc"]), message)]) from error

@@ -1,0 +1,284 @@
+"""Who the robots of a plan are: the file of identities, and topics.
+
+A file names each robot of the plan as messages do. Keys beside ``robots`` hold for all robots that
+do not have them themselves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from decimal import Decimal
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, Field
+
+from rightofway.errors import InputError, in_file, nearest, shown
+from rightofway.io.faults import Faults, validate
+from rightofway.io.fields import Angle, Document, NotNegative, optional
+from rightofway.io.scenario.writer import yaml_of
+from rightofway.io.text import parse_document, read_text
+from rightofway.site.geometry import Frame
+
+__all__ = [
+    "VERSIONS",
+    "Identity",
+    "Work",
+    "identities_text",
+    "load_identities",
+    "simulated_identities",
+]
+
+VERSIONS = ("2.0.0", "2.1.0", "3.0.0")
+"""Versions of the norm that a robot may speak."""
+
+FORBIDDEN = frozenset("/+#$")
+"""Characters that may not be in a part of a topic."""
+
+IDENTITIES_FORMAT = "rightofway-identities/1"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Work:
+    """What a robot does at a stop, in words of its own.
+
+    Attributes
+    ----------
+    action
+        The type of the action.
+    parameters
+        Its parameters.
+    """
+
+    action: str = "rightofway.job"
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Identity:
+    """A robot as messages name it, and as it sees the site.
+
+    Attributes
+    ----------
+    manufacturer, serial_number
+        Which robot it is; neither has ``/``, ``+``, ``#`` or ``$``, because topics have both.
+    version
+        Of the norm, one of `VERSIONS`.
+    interface
+        The first part of its topics; by default ``uagv``, from 3.0 on ``vda5050``.
+    map_id
+        The name of its map.
+    frame
+        Where the frame of that map lies in the site's frame, y upwards in both [m, rad].
+    deviation
+        How far from a vertex it may call itself arrived [m]; None for half the clearance.
+    work
+        What it does at a stop.
+
+    Raises
+    ------
+    InputError
+        If a part of a topic is empty or has a forbidden character, or the version is unknown.
+    """
+
+    manufacturer: str
+    serial_number: str
+    version: str = "2.1.0"
+    interface: str = ""
+    map_id: str = "map"
+    frame: Frame = field(default_factory=Frame)
+    deviation: float | None = None
+    work: Work = field(default_factory=Work)
+
+    def __post_init__(self) -> None:
+        if self.version not in VERSIONS:
+            known = ", ".join(VERSIONS)
+            message = f"{shown(self.version)} is no version of VDA 5050 (one of {known})"
+            raise InputError.at("version", message)
+        if not self.interface:
+            object.__setattr__(self, "interface", "uagv" if self.version < "3" else "vda5050")
+        for key in ("interface", "manufacturer", "serial_number"):
+            value = getattr(self, key)
+            if not value or FORBIDDEN & set(value):
+                message = f"{shown(value)} cannot be part of a topic (leave out / + # $)"
+                raise InputError.at(key, message)
+
+    def topic(self, name: str) -> str:
+        """Return a topic of this robot.
+
+        Parameters
+        ----------
+        name
+            Its last part: ``order``, ``instantActions``, ``state``, ``connection``, ``factsheet``.
+        """
+        major = f"v{self.version[0]}"
+        return f"{self.interface}/{major}/{self.manufacturer}/{self.serial_number}/{name}"
+
+
+def _topic_part(value: str) -> str:
+    if not value or FORBIDDEN & set(value):
+        raise ValueError(f"{shown(value)} cannot be part of a topic (leave out / + # $)")
+    return value
+
+
+TopicPart = Annotated[str, AfterValidator(_topic_part)]
+
+
+class _FrameDocument(Document):
+    """Where the frame of a robot's map lies in the site's frame."""
+
+    x: Angle = optional("its origin in the site's frame [m]")
+    y: Angle = optional("its origin in the site's frame, upwards [m]")
+    yaw: Angle = optional("the angle by which it is turned, counterclockwise [rad]")
+
+
+class _WorkDocument(Document):
+    """What a robot does at a stop."""
+
+    action: str = Field(min_length=1, description="the type of the action")
+    parameters: dict[str, Any] = optional("parameters of the action")
+
+
+class _SharedDocument(Document):
+    """What holds for all robots, or for one."""
+
+    manufacturer: TopicPart = optional("the maker of the robot, as topics have it")
+    version: Literal["2.0.0", "2.1.0", "3.0.0"] = optional(
+        f"the version of VDA 5050: {', '.join(VERSIONS)}; 2.1.0 by default"
+    )
+    interface: TopicPart = optional(
+        "the first part of topics; uagv by default, vda5050 from 3.0.0 on"
+    )
+    map: str = optional("the name of the robot's map; map by default")
+    frame: _FrameDocument = optional("{x, y, yaw} of the frame of that map in the site's frame")
+    deviation: NotNegative = optional(
+        "how far from a place the robot may call itself arrived [m]; half the clearance by default"
+    )
+    work: _WorkDocument = optional("{action, parameters} of what a robot does at a stop")
+
+
+class _RobotDocument(_SharedDocument):
+    """A robot of the plan."""
+
+    serial: TopicPart = Field(description="the serial number of the robot, as topics have it")
+
+
+class IdentitiesDocument(_SharedDocument):
+    """The robots of a plan as messages name them."""
+
+    format: Literal["rightofway-identities/1"] = Field(
+        description="the format of the file: rightofway-identities/1"
+    )
+    robots: dict[str, _RobotDocument] = Field(
+        description="the robots of the plan by their names, each with a serial number"
+    )
+
+
+def load_identities(path: Path | str, names: Sequence[str]) -> list[Identity]:
+    """Return the identities of robots, in their order.
+
+    Parameters
+    ----------
+    path
+        A YAML or JSON file.
+    names
+        The robots of the plan.
+
+    Raises
+    ------
+    InputError
+        With every fault: a robot without an identity, one that the plan does not have, two robots
+        of one serial number, keys that are unknown.
+    """
+    with in_file(str(path)):
+        document = validate(IdentitiesDocument, parse_document(read_text(Path(path)), Path(path)))
+        faults = Faults()
+        for name in document.robots:
+            if name not in names:
+                near = nearest(name, names)
+                remedy = f"did you mean {near!r}?" if near else "take it out"
+                faults.note(("robots", name), f"the plan has no robot of this name ({remedy})")
+        owners = dict[str, str]()
+        identities = list[Identity]()
+        for name in names:
+            own = document.robots.get(name)
+            if own is None:
+                faults.note("robots", f"{name} is missing (give its manufacturer and serial)")
+                continue
+            identity = faults.attempt(("robots", name), _identity, own, document)
+            if identity is None:
+                continue
+            identities.append(identity)
+            other = owners.setdefault(identity.topic(""), name)
+            if other != name:
+                message = f"{shown(own.serial)} is the serial number of {other}, too (correct one)"
+                faults.note(("robots", name, "serial"), message)
+        faults.stop(["robots"])
+        return identities
+
+
+def _identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
+    keys = ("manufacturer", "version", "interface", "map", "frame", "deviation", "work")
+    given = {**shared.given(*keys), **own.given(*keys)}
+    if "manufacturer" not in given:
+        raise InputError.at("manufacturer", "is missing (give it here, or for all robots)")
+    frame, work = given.pop("frame", None), given.pop("work", None)
+    if frame is not None:
+        given["frame"] = Frame(**frame.given("x", "y", "yaw"))
+    if work is not None:
+        given["work"] = Work(
+            action=work.action, parameters=_as_json(work.given("parameters").get("parameters", {}))
+        )
+    if "map" in given:
+        given["map_id"] = given.pop("map")
+    if "deviation" in given:
+        given["deviation"] = float(given["deviation"])
+    return Identity(serial_number=own.serial, **given)
+
+
+def _as_json(value: Any) -> Any:
+    """Return plain data with numbers as JSON has them."""
+    if isinstance(value, dict):
+        return {key: _as_json(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_as_json(item) for item in value]
+    return float(value) if isinstance(value, Decimal) else value
+
+
+def simulated_identities(names: Sequence[str], version: str = "2.1.0") -> list[Identity]:
+    """Return identities for simulated robots.
+
+    Parameters
+    ----------
+    names
+        The robots of the plan.
+    version
+        Of the norm.
+    """
+    return [
+        Identity(manufacturer="rightofway", serial_number=f"robot{number}", version=version)
+        for number in range(len(names))
+    ]
+
+
+def identities_text(names: Sequence[str], identities: Sequence[Identity]) -> str:
+    """Return the file of identities of simulated robots.
+
+    Parameters
+    ----------
+    names
+        The robots of the plan.
+    identities
+        Theirs, all of one manufacturer and version.
+    """
+    document = {
+        "format": IDENTITIES_FORMAT,
+        "manufacturer": identities[0].manufacturer,
+        "version": identities[0].version,
+        "robots": {
+            name: {"serial": identity.serial_number}
+            for name, identity in zip(names, identities, strict=True)
+        },
+    }
+    return yaml_of(document)
