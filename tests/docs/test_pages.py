@@ -171,6 +171,18 @@ def test_the_page_on_the_model_has_every_kind_of_fault() -> None:
     assert re.findall(r"^\| `([a-z ]+)` \|", judge, re.MULTILINE) == list(get_args(FaultKind))
 
 
+PAGE = 60
+"""Lines that a decision may have."""
+
+
+@pytest.mark.parametrize("page", sorted((DOCS / "decisions").glob("0*.md")), ids=title_of)
+def test_a_decision_is_a_page_with_context_decision_and_consequences(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    parts = re.findall(r"^(?:\*\*|## )(Context|Decision|Consequences)\b", text, re.MULTILINE)
+    assert list(dict.fromkeys(parts)) == ["Context", "Decision", "Consequences"]
+    assert len(text.splitlines()) <= PAGE
+
+
 def test_the_quick_start_of_the_readme_is_two_commands() -> None:
     """`.ci/run` takes its first and second line."""
     starts = [block for block in blocks(ROOT / "README.md") if block.info == ("sh", "quick-start")]
