@@ -4,7 +4,7 @@ A generated part stands in its page as plain Markdown, so that it can be read wi
 stands between ``<!-- generated: MAKER ARGUMENTS -->`` and ``<!-- end -->``. `MAKERS` lists the
 makers. They read the program itself: help texts, the registry of planners, the JSON Schemas of the
 formats, the OpenAPI document of the studio, ``__all__`` and docstrings, and the comments that C++
-headers begin with.
+headers begin with. Notebooks are run, and their results are written below their cells.
 """  # noqa: INP001 (a script, run by its path)
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from typing import Any
 
 import click
 from click.testing import CliRunner
+from notebooks import run_notebook
 
 from rightofway.bench import COLUMNS
 from rightofway.cli.main import commands
@@ -35,6 +36,7 @@ from rightofway.studio.guard import Access
 
 ROOT = Path(__file__).parents[1]
 PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
+NOTEBOOKS = sorted((ROOT / "docs").glob("*.ipynb"))
 
 PART = re.compile(
     r"^<!-- generated: (?P<words>[^\n]*?) -->$(?P<text>.*?)^<!-- end -->$", re.MULTILINE | re.DOTALL
@@ -52,9 +54,9 @@ def main(arguments: Sequence[str]) -> int:
     """Bring every page up to date, or name the stale ones."""
     check = list(arguments) == ["--check"]
     stale = []
-    for page in PAGES:
+    for page in [*PAGES, *NOTEBOOKS]:
         written = page.read_text(encoding="utf-8")
-        fresh = PART.sub(part, written)
+        fresh = run_notebook(page) if page in NOTEBOOKS else PART.sub(part, written)
         if fresh != written:
             stale.append(page.relative_to(ROOT).as_posix())
             if not check:
