@@ -11,7 +11,10 @@ from functools import cache
 from string import Formatter
 from typing import Any, Self
 
-__all__ = ["Phrase", "PhraseBook", "counted", "joined", "parts_of"]
+MAX_TEXT = 100_000
+"""Characters of a text that is read as template and values: values may be phrases of phrases."""
+
+__all__ = ["Phrase", "PhraseBook", "counted", "joined", "parts_of", "phrase_of"]
 
 
 class Phrase(str):
@@ -57,17 +60,55 @@ def names_in(template: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def parts_of(text: str) -> Any:
-    """Return a phrase as plain data for JSON: its template and its values; other text as it is.
+def parts_of(data: Any) -> Any:
+    """Return plain data for JSON with each phrase as its template and its values.
 
     Parameters
     ----------
-    text
-        Text for people.
+    data
+        Text for people, or lists and mappings with such text; all else stays as it is.
     """
-    if not isinstance(text, Phrase):
-        return text
-    return [text.template, {name: parts_of(value) for name, value in text.values.items()}]
+    if isinstance(data, Phrase):
+        return [data.template, parts_of(data.values)]
+    if isinstance(data, dict):
+        return {key: parts_of(value) for key, value in data.items()}
+    return [parts_of(value) for value in data] if isinstance(data, list) else data
+
+
+def phrase_of(data: Any) -> str:
+    """Return the text that `parts_of` turned into plain data.
+
+    Parameters
+    ----------
+    data
+        Text, or a list of a template and its values.
+
+    Raises
+    ------
+    ValueError
+        If the data are neither, the template names no such value, or the text is too long.
+    """
+    if isinstance(data, str):
+        return data
+    match data:
+        case [str(template), dict(values)]:
+            texts = {str(name): phrase_of(value) for name, value in values.items()}
+        case _:
+            remedy = "give text, or a template and a mapping of its values"
+            raise ValueError(f"{data!r:.60} is no text ({remedy})")
+    try:
+        parts = [*Formatter().parse(template)]
+    except ValueError as error:
+        raise ValueError(f"{template!r:.60} is no template ({error})") from None
+    size = 0
+    for literal, name, spec, conversion in parts:
+        is_plain = name is None or (name.isidentifier() and name in texts)
+        if not is_plain or spec or conversion:
+            raise ValueError(f"{template!r:.60} has no value for {name!r:.60} (give each a text)")
+        size += len(literal) + len(texts[name] if name else "")
+    if size > MAX_TEXT:
+        raise ValueError(f"the text has {size} characters (give {MAX_TEXT} at most)")
+    return Phrase(template, **texts)
 
 
 class PhraseBook:

@@ -253,6 +253,28 @@ def _set(*path: str | int) -> Callable[[dict[str, Any], Any], None]:
         (_set("planner", "seed"), "x", ["planner.seed: 'x' is not a whole number"]),
         (_set("planner", "seconds"), -1, ["planner.seconds: -1 is negative"]),
         (_set("planner", "status"), "a\nb", ["planner.status: 'a\\nb' cannot be shown"]),
+        (_set("planner", "status"), 3, ["planner.status: 3 is no text (give text, or a template"]),
+        (
+            _set("planner", "status"),
+            ["{robot} waits", {}],
+            ["planner.status: '{robot} waits' has no value for 'robot' (give each a text)"],
+        ),
+        (
+            _set("planner", "status"),
+            ["{robot.__class__}", {"robot": "R1"}],
+            ["planner.status: '{robot.__class__}' has no value for 'robot.__class__'"],
+        ),
+        (
+            _set("planner", "status"),
+            ["{robot:>9999999}", {"robot": "R1"}],
+            ["planner.status: '{robot:>9999999}' has no value for 'robot'"],
+        ),
+        (
+            _set("planner", "status"),
+            ["{a" + "}{a" * 999 + "}", {"a": "x" * 999}],
+            ["planner.status: the text has 999000 characters (give 100000 at most)"],
+        ),
+        (_set("planner", "status"), ["{", {}], ["planner.status: '{' is no template"]),
         (
             _set("planner", "decisions", 0, "waits"),
             "R9",

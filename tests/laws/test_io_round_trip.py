@@ -41,6 +41,7 @@ from rightofway.model import (
 )
 from rightofway.model.attributes import Attribute
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
+from rightofway.phrases import Phrase, parts_of
 from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
 from rightofway.values import exact, written
 from tests.builders.any_fleet import any_fleet
@@ -122,6 +123,11 @@ options = st.recursive(
 )
 
 
+def _phrase(text: str) -> Phrase:
+    """Return a phrase of a phrase; a brace in its template stays one."""
+    return Phrase("first {one}; {other}", one=text, other=Phrase("{{ {value}", value=text))
+
+
 @st.composite
 def plans(draw: st.DrawFn) -> Plan:
     scenario = draw(scenarios())
@@ -144,15 +150,18 @@ def plans(draw: st.DrawFn) -> Plan:
         completion_sums=st.one_of(st.none(), counts),
     )
     words = st.text(max_size=8).filter(str.isprintable)
+    sentences = st.one_of(words, words.map(_phrase))
     run = PlannerRun(
         name=draw(names),
         options=draw(st.dictionaries(st.text(), options, max_size=2)),
         seed=draw(st.integers(0, 2**64)),
-        status=draw(words),
+        status=draw(sentences),
         seconds=draw(st.one_of(st.none(), st.integers(0, 99), st.sampled_from([0.25, 1e-6]))),
         decisions=tuple(draw(st.lists(decision, max_size=2))),
         outcome=draw(st.one_of(st.none(), OUTCOMES)),
-        reroutes=tuple(draw(st.lists(st.builds(Reroute, robot=robots, because=words), max_size=2))),
+        reroutes=tuple(
+            draw(st.lists(st.builds(Reroute, robot=robots, because=sentences), max_size=2))
+        ),
     )
     track = st.lists(st.tuples(vertices, ticks), min_size=1, max_size=6)
     tracks = tuple(Track.of(*zip(*draw(track), strict=True)) for _ in scenario.robots)
@@ -299,5 +308,6 @@ def test_plans(plan: Plan) -> None:
         write_plan(plan, one, seconds=True)
         loaded = load_plan(one)
         assert loaded == plan
+        assert parts_of(loaded.run.status) == parts_of(plan.run.status)
         write_plan(loaded, other, seconds=True)
         assert one.read_bytes() == other.read_bytes()

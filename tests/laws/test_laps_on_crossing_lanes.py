@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from dataclasses import replace
 from fractions import Fraction
 
@@ -10,11 +11,12 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
-from rightofway.cyclic import CyclicResult, best_timetable, in_words, run_laps
+from rightofway.cyclic import CyclicResult, best_timetable, run_laps
 from rightofway.cyclic.route import CyclicRoute, GroupContext, cyclic_routes, independent_groups
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Lap, Robot, Rules, Scenario, Stop, Tick
 from rightofway.precedence import CyclicSchedule
+from rightofway.report.circuits import circuit_in_words
 from rightofway.search import PeriodicBookings, RowsOfLaps
 from rightofway.site import Edge, roadmap_of_edges
 from tests.builders.laws import law
@@ -149,7 +151,8 @@ def test_waits_and_the_bottleneck_name_both_places() -> None:
     assert all({one, other} & set("AB") and {one, other} & set("CD") for one, other in beside)
     bottleneck = group.bottleneck()
     assert bottleneck is not None
-    assert " beside " in in_words(bottleneck, scenario)
+    text = circuit_in_words(bottleneck.pieces, scenario)
+    assert re.search(r"enters (\w) once R\d has left (?!\1)", text)
 
 
 def test_groups_are_connected_by_what_excludes_each_other() -> None:

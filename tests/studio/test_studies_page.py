@@ -102,7 +102,8 @@ def test_laps_say_their_period_and_light_the_bottleneck(studio: StudioPage) -> N
     assert studio.text(".pace .figure output") == str(group["period"]) == "32"
     assert studio.page.locator("#bottleneck-legend").is_visible()
     steps = studio.page.locator(".circle .watch")
-    assert steps.first.inner_text().split("\n") == ["R3 drives from N7 to N17", "2"]
+    texts = [step.split("\n") for step in steps.all_inner_texts()]
+    assert texts[:2] == [["R3 enters N7 once R1 has left N7"], ["R3 drives to N17", "2"]]
     studio.button("Show 6 more steps").click()
     times = [Fraction(text) for text in steps.locator("small").all_inner_texts()]
     assert sum(times) == 32  # what the steps take is the period

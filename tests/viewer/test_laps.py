@@ -107,7 +107,7 @@ def test_the_bottleneck_is_lit_in_every_period(steady: Player) -> None:
 def test_the_bottleneck_is_lit_on_the_map_until_switched_off(steady: Player) -> None:
     x, y = steady.on_map((2, 0.62))  # between N1 and N2, 0.12 below the middle
     assert pixel(steady, "map", x, y) == lit(steady)
-    assert steady.text("#bottleneck-legend") == "Bottleneck: R1 and R2, 10 a period"
+    assert steady.text("#bottleneck-legend") == "Bottleneck: R1 and R2, 10 time units a period"
     steady.page.keyboard.press("b")
     steady.painted()
     assert pixel(steady, "map", x, y) != lit(steady)

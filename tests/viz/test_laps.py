@@ -11,6 +11,7 @@ import pytest
 from rightofway.cyclic import excerpt, run_laps
 from rightofway.errors import InputError
 from rightofway.model import SteadyState, Tick
+from rightofway.phrases import names_in
 from rightofway.viz import page_of, payload_of
 from tests.builders.fleets import grid_fleet
 from tests.builders.payloads import template_in
@@ -28,15 +29,33 @@ def told(*groups: SteadyState, laps: int = 4) -> Any:
 
 
 def test_a_group_is_told_with_its_circuit() -> None:
-    assert told(counter_steady())["steady"] == [
-        {
-            "robots": [0, 1],
-            "start": 6,
-            "period": 10,
-            "until": 36,
-            "critical": [[0, 3], [0, 2], [1, 1], [1, 2]],
-        }
-    ]
+    payload = told(counter_steady())
+    (group,) = payload["steady"]
+    short, at_length = (said(payload["phrases"], text) for text in group.pop("bottleneck"))
+    assert group == {
+        "robots": [0, 1],
+        "start": 6,
+        "period": 10,
+        "until": 36,
+        "critical": [[0, 3], [0, 2], [1, 1], [1, 2]],
+    }
+    assert short == "Bottleneck: R1 and R2, 10 time units a period"
+    assert at_length == (
+        "R1 enters N1 once R2 has left N1, works at N1, drives home;"
+        " R2 enters N1 once R1 has left N1, works at N1, drives home"
+    )
+
+
+def said(entries: list[Any], index: int) -> str:
+    """Return a text of the phrases of a page."""
+    match entries[index]:
+        case str(text):
+            return text
+        case [template, *values]:
+            names = names_in(entries[template])
+            texts = (said(entries, value) for value in values)
+            return str(entries[template]).format(**dict(zip(names, texts, strict=True)))
+    raise AssertionError(entries[index])
 
 
 def test_the_repetition_ends_with_the_last_lap() -> None:

@@ -5,7 +5,7 @@ from rightofway.cyclic.bottleneck import (
     Piece,
     bottleneck_along,
     bottleneck_of,
-    in_words,
+    pieces_of_plan,
 )
 from rightofway.cyclic.parameter_curves import CurvePiece, ParameterCurve, parameter_curves
 from rightofway.cyclic.pattern import Pattern
@@ -38,9 +38,9 @@ __all__ = [
     "bottleneck_of",
     "cyclic_routes",
     "excerpt",
-    "in_words",
     "parameter_curves",
     "parameter_effects",
+    "pieces_of_plan",
     "plan_of_laps",
     "run_laps",
     "visits_along",

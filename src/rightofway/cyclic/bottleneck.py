@@ -6,15 +6,14 @@ with the second robot, and returns to the first visit some periods later.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import groupby
+from itertools import pairwise
 from typing import Literal
 
 from rightofway.arguments import checks_arguments
-from rightofway.model import Scenario, Tick
-from rightofway.model.place_names import PlaceNames
+from rightofway.model import Plan, SteadyState, Tick, stays_of
 from rightofway.precedence import TimedEventGraph
 from rightofway.site import VertexId
 
@@ -26,7 +25,8 @@ class Piece:
     Attributes
     ----------
     kind
-        ``work`` (with turning) at a vertex, a ``way``, or the ``right of way`` at a vertex.
+        ``work`` (with turning) at a vertex, a ``way`` that ends at home at the latest, or the
+        ``right of way`` at a vertex.
     robot
         The robot that works, drives, or waits for the right of way.
     places
@@ -96,16 +96,20 @@ def bottleneck_along(graph: TimedEventGraph, circuit: Sequence[int]) -> Bottlene
     circuit
         The numbers of its arcs, in order.
     """
-    arcs = _from_the_longest_run(graph, list(circuit))
+    arcs = begin_with_longest_run(graph, list(circuit))
     periods = int(graph.arcs.height[arcs].sum())
+    homes = {
+        robot: VertexId(int(graph.vertex[first]))
+        for robot, first in zip(graph.timetable.robots, graph.first[:-1], strict=True)
+    }
     return Bottleneck(
         cycle_time=Fraction(int(graph.arcs.length[arcs].sum()), periods),
         periods=periods,
-        pieces=tuple(_joined(_pieces(graph, arcs))),
+        pieces=tuple(_joined(_pieces(graph, arcs), homes)),
     )
 
 
-def _from_the_longest_run(graph: TimedEventGraph, circuit: list[int]) -> list[int]:
+def begin_with_longest_run(graph: TimedEventGraph, circuit: list[int]) -> list[int]:
     """Rotate the circuit to begin with the longest run of visits of one robot."""
     starts = [k for k, arc in enumerate(circuit) if graph.arcs.first[arc] >= 0]
     if not starts:
@@ -139,77 +143,58 @@ def _pieces(graph: TimedEventGraph, circuit: Sequence[int]) -> Iterator[Piece]:
         yield Piece(kind="way", robot=robot, places=(start, goal), ticks=ticks)
 
 
-def _joined(pieces: Iterator[Piece]) -> Iterator[Piece]:
-    """Join consecutive ways of a robot."""
-    for (kind, robot), group in groupby(pieces, lambda piece: (piece.kind, piece.robot)):
-        run = list(group)
-        if kind != "way":
-            yield from run
+def _joined(pieces: Iterable[Piece], homes: Mapping[int, VertexId]) -> Iterator[Piece]:
+    """Join consecutive ways of a robot, each up to where it is home."""
+    places: list[VertexId] = []
+    ticks = 0
+    for piece, following in pairwise((*pieces, None)):
+        if piece is None or piece.kind != "way":
+            if piece:
+                yield piece
             continue
-        places = (run[0].places[0], *(piece.places[1] for piece in run))
-        ticks = Tick(sum(piece.ticks for piece in run))
-        yield Piece(kind="way", robot=robot, places=places, ticks=ticks)
+        places.extend(piece.places[1:] if places else piece.places)
+        ticks += piece.ticks
+        is_last = following is None or (following.kind, following.robot) != ("way", piece.robot)
+        if is_last or piece.places[1] == homes[piece.robot]:
+            yield replace(piece, places=tuple(places), ticks=Tick(ticks))
+            places, ticks = [], 0
 
 
-@checks_arguments
-def in_words(bottleneck: Bottleneck, scenario: Scenario, *, most: int = 12) -> str:
-    """Describe a bottleneck: ``R2 enters N4, drives to N8, works, drives home; R1 enters N4``.
+def pieces_of_plan(plan: Plan, steady: SteadyState) -> tuple[Piece, ...]:
+    """Return the critical circuit of a steady state in pieces; empty if it is unknown.
 
     Parameters
     ----------
-    bottleneck
-        The bottleneck to describe.
-    scenario
-        The scenario, for names of robots and places.
-    most
-        Number of steps to name; further steps are counted.
+    plan
+        The plan, of whole laps.
+    steady
+        The steady state of some of its robots.
     """
-    if len(bottleneck.robots) == 1:
-        name = scenario.robots[bottleneck.robots[0]].name
-        return f"{name}'s own lap: it waits for no robot"
-    pieces = list(bottleneck.pieces)
-    while pieces[-1].kind == "right of way":  # how the first robot comes to its first piece
-        pieces.insert(0, pieces.pop())
-    parts, left = [], most
-    for robot, run in groupby(pieces, lambda piece: piece.robot):
-        steps = list(_steps(list(run), scenario))
-        if left > 0:
-            parts.append(f"{scenario.robots[robot].name} {', '.join(steps[:left])}")
-        left -= len(steps)
-    if left < 0:
-        parts.append(f"and {-left} more step{'s' * (left < -1)}")
-    return "; ".join(parts)
-
-
-def _steps(run: Sequence[Piece], scenario: Scenario) -> Iterator[str]:
-    """Yield what one robot does without waiting for others; whole laps in between are counted."""
-    robot, place = scenario.robots[run[0].robot], PlaceNames(scenario)
-    home, works_at = robot.home, {stop.at for stop in robot.stops} - {robot.home}
-    steps: list[str] = []
-    arrivals: list[int] = []  # how many steps have been made when the robot is home
-    for piece in run:
-        if piece.kind == "right of way":
-            steps.append(f"enters {' beside '.join(map(place, piece.places))}")
-        elif piece.kind == "work":
-            (vertex,) = piece.places
-            steps.append("works" if vertex in works_at else f"turns at {place(vertex)}")
-        else:
-            for last in _split_at(piece.places[1:], home):
-                steps.append("drives home" if last == home else f"drives to {place(last)}")
-                if last == home:
-                    arrivals.append(len(steps))
-    laps = len(arrivals) - 1
-    if laps < 1:
-        yield from steps
-        return
-    yield from steps[: arrivals[0]]
-    yield f"makes {laps} lap{'s' * (laps > 1)} of its own"
-    yield from steps[arrivals[-1] :]
-
-
-def _split_at(places: Sequence[VertexId], home: VertexId) -> Iterator[VertexId]:
-    """Yield where each part of a way ends: at home, and at the last vertex."""
-    for place in places[:-1]:
-        if place == home:
-            yield place
-    yield places[-1]
+    tracks, stays = plan.tracks, stays_of(plan.scenario, plan.tracks)
+    pieces = list[Piece]()
+    for (robot, visit), (following, visit_after) in pairwise(
+        (*steady.critical, *steady.critical[:1])
+    ):
+        start, goal = (
+            VertexId(int(tracks[one].vertices[at]))
+            for one, at in ((robot, visit), (following, visit_after))
+        )
+        if robot != following:
+            # The begin of a visit ends the one before, of the first visit the last one at home.
+            left = VertexId(int(tracks[robot].vertices[visit - 1 if visit else -2]))
+            wait = tracks[following].enter[visit_after] - tracks[robot].enter[visit]
+            pieces.append(
+                Piece(
+                    kind="right of way",
+                    robot=following,
+                    places=(goal,) if left == goal else (goal, left),
+                    ticks=Tick(int(wait) % steady.period),
+                )
+            )
+            continue
+        dwell, drive = (Tick(int(part[visit])) for part in (stays[robot].dwell, stays[robot].drive))
+        if dwell:
+            pieces.append(Piece(kind="work", robot=robot, places=(start,), ticks=dwell))
+        pieces.append(Piece(kind="way", robot=robot, places=(start, goal), ticks=drive))
+    homes = {robot: plan.scenario.robots[robot].home for robot in steady.robots}
+    return tuple(_joined(pieces, homes))

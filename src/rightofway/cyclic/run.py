@@ -20,7 +20,9 @@ from rightofway.errors import GaveUp, kernel_limits
 from rightofway.model import Scenario, checked_time_limit
 from rightofway.model.given import checked_functions, checked_scenario
 from rightofway.model.place_names import PlaceNames
+from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
+from rightofway.planners.conflict_resolution import deadlock_in_words
 from rightofway.values import at, word_of
 
 Simulation = CyclicSimulator | RollingHorizon
@@ -138,7 +140,7 @@ def advance(simulation: Simulation, deadline: Deadline) -> GroupResult:
         return GroupResult(
             context=context,
             ends="open",
-            why="no state came again within the time limit",
+            why=Phrase("no state came again within the time limit"),
             history=tuple(simulation.history),
         )
     pattern = pattern_of(simulation.history, [len(lap) for lap in context.laps], recurrence)
@@ -149,9 +151,5 @@ def _explain(deadlock: Deadlock, context: GroupContext) -> str:
     names, place = context.names, PlaceNames(context.scenario)
     i, j = (names[robot] for robot in deadlock.robots)
     moment = context.scenario.quantities.moment(deadlock.tick)
-    where = f"at {place(deadlock.vertex)} ({moment})"
-    why = f"waiting cannot keep {i} and {j} apart {where}"
-    if len(deadlock.circle) < 3:  # noqa: PLR2004 (the two themselves)
-        return why
-    circle = ", ".join(names[robot] for robot in deadlock.circle)
-    return f"{why}: in a circle, {circle} would each wait for the next"
+    where = Phrase("{name} ({what})", name=place(deadlock.vertex), what=moment)
+    return deadlock_in_words((i, j), where, [names[robot] for robot in deadlock.circle])

@@ -11,6 +11,7 @@ import numpy as np
 
 from rightofway.arguments import checks_arguments
 from rightofway.check import check
+from rightofway.cyclic.bottleneck import begin_with_longest_run
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.errors import GaveUp, InputError, shown
@@ -217,7 +218,8 @@ def visits_along(
     circuit
         Numbers of arcs of the graph, in order.
     """
-    visits = graph.arcs.tail[list(circuit)].tolist()
+    arcs = begin_with_longest_run(graph, list(circuit))
+    visits = graph.arcs.tail[arcs].tolist()
     firsts = [
         pattern.visits(robot).start - int(graph.first[robot]) for robot in range(len(group.robots))
     ]

@@ -26,6 +26,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from rightofway.errors import is_printable, shown
 from rightofway.model.attributes import attributes_of
+from rightofway.phrases import phrase_of
 from rightofway.site import VertexId
 from rightofway.values import COORDINATE_DIGITS, PATTERN, coordinate, exact
 
@@ -190,6 +191,10 @@ def _words(value: str) -> str:
     return value
 
 
+def _sentence(value: object) -> str:
+    return _words(phrase_of(value))
+
+
 def _place(value: object, info: ValidationInfo) -> Any:
     """Return the vertex at a place of the map in the context; without one, the place as written."""
     return info.context.find(value) if info.context else value
@@ -207,10 +212,17 @@ _SPOT: Schema = {
     "required": ["x", "y"],
     "additionalProperties": False,
 }
+_SENTENCE: Schema = {
+    "anyOf": [
+        {"type": "string"},
+        {"type": "array", "prefixItems": [{"type": "string"}, {"type": "object"}], "minItems": 2},
+    ]
+}
 _TEXTS: Schema = {"type": "array", "items": {"type": "string"}}
 
 Name = Annotated[str, AfterValidator(_name), WithJsonSchema(_TEXT)]
 Words = Annotated[str, AfterValidator(_words)]
+Sentence = Annotated[str, Kind(_sentence, _SENTENCE)]
 Place = Annotated[
     VertexId, PlainValidator(_place), WithJsonSchema({"anyOf": [_TEXT, _CELL, _SPOT]})
 ]

@@ -20,6 +20,7 @@ import numpy as np
 
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Reroute, Route, Tick, Track
+from rightofway.phrases import Phrase
 from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.prioritized import fleet_search, plan_in_turn
 from rightofway.planners.routing import shortest_route
@@ -127,18 +128,15 @@ class PartialPlan:
         scenario, segment = self.task.scenario, self.segment_of(meeting)
         names = [scenario.robots[robot].name for robot in meeting.robots]
         place = scenario.roadmap.name(self.graph.vertex(meeting.visits[0]))
-        why = f"waiting cannot keep {names[0]} and {names[1]} apart at {place}"
         mark = self.graph.checkpoint()
         for waits in (0, 1):
             possible = self.graph.give_all(rights_if_waits(self.graph, meeting, segment, waits))
             self.graph.rollback(mark)
             cycle = [] if possible else self.graph.deadlocked()
-            if len(cycle) > 2:  # noqa: PLR2004 (more than the two themselves)
-                others = ", ".join(scenario.robots[robot].name for robot in cycle)
-                return f"{why}: in a circle, {others} would each wait for the next"
             if cycle:
-                break
-        return why
+                circle = [scenario.robots[robot].name for robot in cycle]
+                return deadlock_in_words(names, place, circle)
+        return deadlock_in_words(names, place)
 
     def decide(self, meeting: Meeting, segment: Segment, waits: int, delay: Tick) -> Decision:
         """Record that one of two robots (0: i, 1: j) waits; rules add their reasons."""
@@ -176,7 +174,8 @@ def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule
         hurried = replace(task, deadline=task.deadline.sooner(SHARE))
         return plan_on_routes(hurried, distances, PartialPlan(hurried, routes), rule)
     except GaveUp:
-        return _plan_together(task, "time was short, so all were planned together")
+        because = Phrase("time was short, so all were planned together")
+        return _plan_together(task, because)
 
 
 def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Rule) -> Draft:
@@ -185,7 +184,7 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
     tracks = {r: t for r, t in enumerate(plan.graph.tracks()) if r not in plan.deferred}
     made_way = reroute(task, distances, tracks, list(plan.deferred))
     if made_way is None:
-        because = "one robot at a time finds no way, so all were planned together"
+        because = Phrase("one robot at a time finds no way, so all were planned together")
         return _plan_together(task, because)
     ordered = [track for _, track in sorted(tracks.items())]
     status, names = "waits only", [robot.name for robot in task.scenario.robots]
@@ -210,8 +209,37 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
     )
 
 
+def deadlock_in_words(names: Sequence[str], place: str, circle: Sequence[str] = ()) -> Phrase:
+    """Return which two robots no waiting keeps apart, and the circle that a wait would close.
+
+    Parameters
+    ----------
+    names
+        The two robots.
+    place
+        Where they meet.
+    circle
+        The robots that would each wait for the next; at least three if these are not the two.
+    """
+    pair = Phrase(
+        "waiting cannot keep {one} and {other} apart at {place}",
+        one=names[0],
+        other=names[1],
+        place=place,
+    )
+    if len(circle) < 3:  # noqa: PLR2004 (the two themselves)
+        return pair
+    return Phrase(
+        "{deadlock}: in a circle, {robots} would each wait for the next",
+        deadlock=pair,
+        robots=", ".join(circle),
+    )
+
+
 def _for(names: Sequence[str], robot: int | None) -> str:
-    return f"it makes way for {'another robot' if robot is None else names[robot]}"
+    if robot is None:
+        return Phrase("it makes way for another robot")
+    return Phrase("it makes way for {robot}", robot=names[robot])
 
 
 def _plan_together(task: Task, because: str) -> Draft:

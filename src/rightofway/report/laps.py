@@ -16,12 +16,12 @@ from rightofway.cyclic import (
     GroupResult,
     LapWait,
     ParameterEffect,
-    in_words,
     parameter_effects,
 )
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
 from rightofway.quantities import Quantities, decimal
+from rightofway.report.circuits import circuit_in_words
 from rightofway.report.laps_data import (
     HOUR,
     MAX_VISITS,
@@ -103,7 +103,7 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
     yield from _wait_lines(scenario, quantities, group)
     bottleneck = group.bottleneck()
     if bottleneck:
-        yield from wrapped(f"bottleneck: {in_words(bottleneck, scenario)}")
+        yield from wrapped(f"bottleneck: {circuit_in_words(bottleneck.pieces, scenario)}")
         yield from _sensitivity_lines(scenario, group)
 
 

@@ -18,6 +18,8 @@ from rightofway.cyclic import (
 )
 from rightofway.errors import GaveUp
 from rightofway.model import Scenario
+from rightofway.phrases import Phrase
+from rightofway.report.circuits import circuit_steps
 from rightofway.report.plan_data import measures
 from rightofway.values import written
 
@@ -114,7 +116,7 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
         data |= {
             "conflicts": waits_data(group.waits(), "offset"),
             "first_lap": waits_data(group.first_waits(), "time"),
-            "bottleneck": _pieces_data(scenario, bottleneck),
+            "bottleneck": _steps_data(scenario, bottleneck),
             "sensitivity": _sensitivity_data(scenario, group),
             "curves": _curves_data(scenario, group),
         }
@@ -150,16 +152,19 @@ def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, 
     ]
 
 
-def _pieces_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
+def _steps_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
     place, clock = scenario.roadmap.name, scenario.problem.clock
     return [
         {
-            "kind": piece.kind,
-            "robot": scenario.robots[piece.robot].name,
-            "vertices": [place(vertex) for vertex in piece.places],
-            "for": written(clock.time(piece.ticks)),
+            "kind": step.kind,
+            "robot": scenario.robots[step.robot].name,
+            "vertices": [place(vertex) for vertex in step.places],
+            "for": written(clock.time(step.ticks)),
+            "text": Phrase(
+                "{robot} {steps}", robot=scenario.robots[step.robot].name, steps=step.text
+            ),
         }
-        for piece in (bottleneck.pieces if bottleneck else ())
+        for step in circuit_steps(bottleneck.pieces if bottleneck else (), scenario)
     ]
 
 
@@ -205,6 +210,6 @@ def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | Non
             continue
         bottleneck = bottleneck_along(graph, arcs)
         visits = [list(visit) for visit in visits_along(group, pattern, graph, arcs)]
-        pieces = _pieces_data(scenario, bottleneck)
+        pieces = _steps_data(scenario, bottleneck)
         listed.append({"periods": bottleneck.periods, "pieces": pieces, "visits": visits})
     return data | {"curves": curves, "circuits": listed}

@@ -23,6 +23,7 @@ from rightofway.report.sentences import (
     Words,
     decision_in_words,
     explanation_of,
+    improvement_in_words,
     proof_in_words,
     sentence_on,
 )
@@ -70,12 +71,7 @@ def planning(plan: Plan, quantities: Quantities) -> str:
     if metrics.flowtime == metrics.lower_bound:
         pass  # nothing was to be improved
     elif run.improvement is not None:
-        made, saved = run.improvement, run.improvement.saved
-        found = f"saved {words.time(saved)}" if saved > 0 else "found no better plan"
-        number = "" if made.tries is None else f"{made.tries} "
-        tries = "attempt" if made.tries == 1 else "attempts"
-        ended = "interrupted: " if made.interrupted else ""
-        parts.append(f"{ended}{number}{tries} to improve the first plan {found}")
+        parts.append(improvement_in_words(run.improvement, quantities))
     if run.start is not None:
         kept, fleet = run.start, counted(len(plan.tracks), "robot")
         parts.append(f"{kept.routes} of {fleet} keep their old route, {kept.tracks} also its times")

@@ -11,9 +11,18 @@ from functools import cache, cached_property
 from math import ceil, floor
 
 from rightofway.metrics import measure, outcome_of
-from rightofway.model import Closure, Decision, Loss, Objective, OutcomeKind, Plan, Scenario
+from rightofway.model import (
+    Closure,
+    Decision,
+    Improvement,
+    Loss,
+    Objective,
+    OutcomeKind,
+    Plan,
+    Scenario,
+)
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase
+from rightofway.phrases import Phrase, counted
 from rightofway.quantities import Quantities
 from rightofway.values import written
 
@@ -116,6 +125,19 @@ def proof_in_words(plan: Plan) -> str:
             "at most {factor} times the least {objective}", factor=factor, objective=objective
         )
     return ""
+
+
+def improvement_in_words(improvement: Improvement, quantities: Quantities) -> Phrase:
+    """Return what a search gained over its first plan, and in how many attempts."""
+    gain = Phrase("found no better plan")
+    if improvement.saved > 0:
+        gain = Phrase("saved {time}", time=quantities.duration(improvement.saved))
+    attempts: Phrase = Phrase("attempts")
+    if improvement.tries is not None:
+        attempts = counted(improvement.tries, "attempt", "attempts")
+    if improvement.interrupted:
+        attempts = Phrase("interrupted: {attempts}", attempts=attempts)
+    return Phrase("{attempts} to improve the first plan {gain}", attempts=attempts, gain=gain)
 
 
 def loss_in_words(words: Words, loss: Loss) -> Phrase:

@@ -2,13 +2,15 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { setLanguage } from "../../../src/rightofway/viz/page/assets/language.js";
+import { LANGUAGES, setLanguage, texts } from "../../../src/rightofway/viz/page/assets/language.js";
 import { Phrases, learn, said } from "../../../src/rightofway/viz/page/assets/library.js";
+import { ENGLISH } from "../../../src/rightofway/viz/page/assets/texts/en.js";
 import { Plan } from "../../../src/rightofway/viz/page/assets/plan.js";
 import { Words } from "../../../src/rightofway/viz/page/assets/words.js";
 import { Use } from "../../../src/rightofway/viz/page/assets/use.js";
 import { made, planOf } from "../made.js";
 
+/** @import { Texts } from "../../../src/rightofway/viz/page/assets/texts/en.js" */
 /** @import { Theme } from "../../../src/rightofway/viz/page/assets/theme.js" */
 
 const MEASURED = made("measured");
@@ -54,6 +56,22 @@ test("a phrase by index is said with its values, in the language that is spoken"
     ["de", "en"],
   );
   setLanguage("en", /** @type {HTMLElement} */ ({}));
+});
+
+test("a third language is a line of its own, and a sentence in it a line of one table", () => {
+  const phrase =
+    /** @type {import("../../../src/rightofway/viz/page/assets/payload.d.ts").PhraseData} */ ([
+      "works at {place}",
+      { place: ["station {name}", { name: "Dock" }] },
+    ]);
+  LANGUAGES.fr = { name: "Français", texts: /** @type {Texts} */ ({}) };
+  learn({ fr: { "works at {place}": "travaille à {place}" } });
+  setLanguage("fr", /** @type {HTMLElement} */ ({}));
+  assert.equal(said(phrase), "travaille à station Dock"); // what it lacks is English
+  assert.equal(texts.home, ENGLISH.home);
+  setLanguage("en", /** @type {HTMLElement} */ ({}));
+  delete LANGUAGES.fr;
+  assert.equal(said(phrase), "works at station Dock");
 });
 
 test("homes and stops are called after their robots, stations keep their names", () => {

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from rightofway.io.fields import Document, Name, NotNegative, TickLength, Ticks, Words, optional
+from rightofway.io.fields import Document, Name, NotNegative, Sentence, TickLength, Ticks, optional
 from rightofway.io.scenario.shape import ScenarioDocument
 
 PairOfNames = Annotated[list[Name], Field(min_length=2, max_length=2)]
@@ -40,7 +40,7 @@ class RerouteDocument(Document):
     """A robot that was sent another way."""
 
     robot: Name = Field(description="the name of the robot")
-    because: Words = Field(description="a sentence")
+    because: Sentence = Field(description="a sentence, or its template and values")
 
 
 class StartDocument(Document):
@@ -74,7 +74,7 @@ class PlannerDocument(Document):
     name: Name = Field(description="the name of the planner")
     options: dict[str, Any] = Field(default={}, description="a mapping of options to values")
     seed: int = Field(default=0, description="a whole number")
-    status: Words = Field(default="", description="a sentence")
+    status: Sentence = Field(default="", description="a sentence, or its template and values")
     seconds: NotNegative | None = Field(default=None, description="how long it took, or null")
     decisions: list[DecisionDocument] = Field(default=[], description="a list of decisions")
     reroutes: list[RerouteDocument] = Field(default=[], description="a list of {robot, because}")

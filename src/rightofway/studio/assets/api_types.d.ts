@@ -54,6 +54,7 @@ export interface CirclePiece {
   robot: string;
   vertices: Array<string>;
   for: number | string;
+  text: PhraseData;
 }
 
 /** A circle that sets the pace for some values. */
@@ -341,7 +342,7 @@ export interface LapConflict {
 /** Robots that share places, and how they repeat themselves; null where they do not. */
 export interface LapGroup {
   robots: Array<string>;
-  why: string;
+  why: PhraseData | string;
   period: number | string | null;
   laps_per_period: Record<string, number>;
   mean_lap: Record<string, number | string | null>;

@@ -395,14 +395,6 @@ export interface ParameterPiece {
 }
 
 /** A step of the critical circle, with its time; several laps of one robot are one step. */
-export interface Step {
-  kind: string;
-  robot: string;
-  vertices: string[];
-  time: Fraction;
-  laps?: number;
-}
-
 /** Laps in a new order: asked for, reached, or why not. */
 export interface OtherOrder {
   isAsked?: boolean;

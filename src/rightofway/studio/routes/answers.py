@@ -505,7 +505,8 @@ class Compared(TypedDict):
 
 
 CirclePiece = TypedDict(
-    "CirclePiece", {"kind": str, "robot": str, "vertices": list[str], "for": Exact}
+    "CirclePiece",
+    {"kind": str, "robot": str, "vertices": list[str], "for": Exact, "text": Phrase},
 )
 """A step of the circle that sets the pace of laps."""
 
@@ -549,7 +550,7 @@ class LapGroup(TypedDict):
     """Robots that share places, and how they repeat themselves; null where they do not."""
 
     robots: list[str]
-    why: str
+    why: Phrase | str
     period: Exact | None
     laps_per_period: dict[str, int]
     mean_lap: dict[str, Exact | None]

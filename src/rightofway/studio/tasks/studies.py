@@ -13,6 +13,7 @@ from rightofway.errors import GaveUp, InputError
 from rightofway.io import plan_of, plan_text
 from rightofway.io.text import parse_json
 from rightofway.model import Scenario
+from rightofway.phrases import parts_of
 from rightofway.report.execution import report as simulation_report
 from rightofway.report.laps import laps_report
 from rightofway.report.laps_data import laps_data
@@ -76,7 +77,8 @@ def laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: A
     shown, steady = excerpt(run)
     payload = compact_json(payload_of(shown, steady=steady)).encode()
     text = laps_report(run, scenario.quantities)
-    result: dict[str, Any] = {"report": {**laps_data(run), "text": text}, "has_payload": True}
+    report = parts_of({**laps_data(run), "text": text})
+    result: dict[str, Any] = {"report": report, "has_payload": True}
     try:
         whole = plan_of_laps(run)
     except GaveUp as reason:  # a robot that is home for ever blocks others: only laps are shown
@@ -109,8 +111,8 @@ def laps_if(
     except ValueError as error:
         raise InputError.at("value", str(error)) from None
     run = _repeated(_changed(scenario, kind, robot, stop, wanted), emit, **settings)
-    found = laps_data(run, by_visit=False)
-    return ({key: found[key] for key in ("groups", "throughput_per_hour")},)
+    answer = parts_of(laps_data(run, by_visit=False))
+    return ({key: answer[key] for key in ("groups", "throughput_per_hour")},)
 
 
 def _changed(

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.check import Report
+from rightofway.cyclic import pieces_of_plan
 from rightofway.errors import InputError, NoPlanExists, shown
 from rightofway.metrics import Metrics, compare, joined_waits, lost_time, measure
 from rightofway.model import (
@@ -34,6 +35,7 @@ from rightofway.model.closures import Closure
 from rightofway.model.given import checked_plan
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.phrases import PhraseBook, parts_of
+from rightofway.report.circuits import circuit_in_short, circuit_in_words
 from rightofway.report.sentences import (
     FAULT_NAMES,
     Words,
@@ -43,6 +45,7 @@ from rightofway.report.sentences import (
     decision_in_short,
     decision_in_words,
     executed_loss_in_words,
+    improvement_in_words,
     loss_in_words,
     proof_in_words,
     reason_in_words,
@@ -128,7 +131,10 @@ def payload_of(
         "faults": _faults(plan, verdict_on(plan), book),
         "planner": _planner(plan),
         "decisions": [_decision(decision, words, book) for decision in run.decisions],
-        "reroutes": [{"robot": one.robot, "because": one.because} for one in run.reroutes],
+        "reroutes": [
+            {"robot": reroute.robot, "because": parts_of(reroute.because)}
+            for reroute in run.reroutes
+        ],
         "metrics": {
             "flowtime": metrics.flowtime,
             "makespan": metrics.makespan,
@@ -136,7 +142,7 @@ def payload_of(
         },
     }
     if steady:
-        payload["steady"] = _steady(plan, steady)
+        payload["steady"] = _steady(plan, steady, book)
         payload["laps"] = [robot.laps or scenario.rules.laps for robot in scenario.robots]
     if steady and actual is None:
         payload["end"] = _last_tick_of_all(trips, payload["steady"])
@@ -149,7 +155,7 @@ def payload_of(
     if no_plan is not None:
         payload["noPlan"] = True
         payload["faults"] = _blockages(scenario, no_plan, book)
-    said = book.entries, payload["planner"], payload.get("closures")
+    said = book.entries, payload["planner"], payload["reroutes"], payload.get("closures")
     payload["translations"] = translations_for(*said)
     if others:
         _compare(plan, title, others, payload)
@@ -248,12 +254,13 @@ def closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
 
 def _planner(plan: Plan) -> PlannerData:
     run = plan.run
-    found: PlannerData = {"name": run.name, "status": run.status}
-    if proven := proof_in_words(plan):
-        found["proven"] = parts_of(proven)
+    method = run.status
     if run.improvement is not None:
-        found |= {"saved": run.improvement.saved, "tries": run.improvement.tries}
-    return found
+        method = improvement_in_words(run.improvement, plan.scenario.quantities)
+    data: PlannerData = {"name": run.name, "method": parts_of(method)}
+    if proven := proof_in_words(plan):
+        data["proven"] = parts_of(proven)
+    return data
 
 
 def _line(plan: Plan, others: Sequence[Plan]) -> list[tuple[int, float]]:
@@ -323,19 +330,25 @@ def _decision(decision: Decision, words: Words, book: PhraseBook) -> DecisionDat
     }
 
 
-def _steady(plan: Plan, steady: Sequence[SteadyState]) -> list[SteadyData]:
-    names = [robot.name for robot in plan.scenario.robots]
+def _steady(plan: Plan, steady: Sequence[SteadyState], book: PhraseBook) -> list[SteadyData]:
+    names, groups = [robot.name for robot in plan.scenario.robots], list[SteadyData]()
     refuse_unknown_robots(steady, names, list(map(len, plan.tracks)))
-    return [
-        {
+    for group in steady:
+        data: SteadyData = {
             "robots": list(group.robots),
             "start": group.start,
             "period": group.period,
             "until": min(_until(group, plan.tracks[robot]) for robot in group.robots),
             "critical": list(group.critical),
         }
-        for group in steady
-    ]
+        if pieces := pieces_of_plan(plan, group):
+            short = circuit_in_short(pieces, plan.scenario, group.period)
+            data["bottleneck"] = (
+                book.add(short),
+                book.add(circuit_in_words(pieces, plan.scenario)),
+            )
+        groups.append(data)
+    return groups
 
 
 def _last_tick_of_all(trips: Sequence[Trip], groups: Sequence[SteadyData]) -> int:

@@ -177,12 +177,10 @@ class FaultsData(TypedDict):
 
 
 class PlannerData(TypedDict):
-    """How the plan came about."""
+    """How the plan came about: the planner, what it did or gained, what is proven."""
 
     name: str
-    status: str
-    saved: NotRequired[int]
-    tries: NotRequired[int | None]
+    method: PhraseData
     proven: NotRequired[PhraseData]
 
 
@@ -209,7 +207,7 @@ class RerouteData(TypedDict):
     """A robot that was rerouted."""
 
     robot: int
-    because: str
+    because: PhraseData
 
 
 class MetricsData(TypedDict):
@@ -221,13 +219,17 @@ class MetricsData(TypedDict):
 
 
 class SteadyData(TypedDict):
-    """Robots that repeat themselves together; critical visits are pairs of robot and visit."""
+    """Robots that repeat themselves together; critical visits are pairs of robot and visit.
+
+    The bottleneck has two texts: in short, and its steps.
+    """
 
     robots: list[int]
     start: int
     period: int
     until: int
     critical: list[tuple[int, int]]
+    bottleneck: NotRequired[tuple[int, int]]
 
 
 class DrivenData(TypedDict):

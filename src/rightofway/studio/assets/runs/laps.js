@@ -4,6 +4,7 @@ import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { post } from "../api.js";
 import { changeRobots, robotsOf, stopsOf, withStops, writtenIn } from "../robots/fleet.js";
 import { decimal, fraction, Quantities } from "../../../viz/page/assets/quantities.js";
+import { said as phraseText } from "../../../viz/page/assets/library.js";
 import { several } from "../../../viz/page/assets/words.js";
 import { words } from "../words.js";
 import { Circle } from "./circle.js";
@@ -42,7 +43,7 @@ function largest(groups) {
 }
 
 /** Times and speeds in the units of the scenario; the report has exact times, not ticks. */
-export class Said {
+class Said {
   /** @param {Units} units */
   constructor(units) {
     this.units = units;
@@ -114,7 +115,7 @@ export function Laps({ studio, report }) {
   const open = own?.period === null ? own : largest(groups.filter(({ period }) => period === null));
   const isAlone = groups.length === 1;
   return html`
-    ${open && html`<p class="open-group">${words.openGroup(several(open.robots), open.robots.length, open.why)}</p>`}
+    ${open && html`<p class="open-group">${words.openGroup(several(open.robots), open.robots.length, phraseText(open.why))}</p>`}
     ${group && !isAlone && html`<p class="hint">${words.groupOf(several(group.robots), groups.length)}</p>`}
     ${group && group.period !== null && html`<${Pace} key=${`${studio.runs.shown} ${group.robots[0]}`} studio=${studio} report=${report} group=${group} chosen=${chosen} />`}`;
 }
@@ -194,7 +195,7 @@ function Pace({ studio, report, group, chosen }) {
       </div>
     </div>
     <h3>${robots.length ? words.setsThePace(several(robots)) : words.circleTooLong}</h3>
-    <${Circle} studio=${studio} pieces=${pieces} said=${said} isNow=${!moved} />
+    <${Circle} studio=${studio} pieces=${pieces} short=${(/** @type {Fraction} */ time) => said.short(time)} isNow=${!moved} />
     <${Robots} said=${said} group=${group} studio=${studio} />
     <h3>${words.whatHelps}</h3>
     ${shown.map(
@@ -264,7 +265,7 @@ const leaders = ({ bottleneck }) =>
 function answerOf(answer, { robots }) {
   if ("message" in answer) return { why: answer.message };
   const found = present(answer.groups.find((each) => each.robots.includes(robots[0])));
-  if (found.period === null) return { why: found.why };
+  if (found.period === null) return { why: phraseText(found.why) };
   return { period: fraction(found.period), laps: lapsIn(found) };
 }
 

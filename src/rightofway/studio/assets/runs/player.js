@@ -47,7 +47,7 @@ export class Player {
     time.innerHTML = TIME;
     writeMarkup();
     this.use = new Use(plan);
-    this.bottleneck = new Bottleneck(root, plan, clock, choice, theme, said);
+    this.bottleneck = new Bottleneck(root, plan, clock, choice, theme);
   }
 
   /**

@@ -327,18 +327,6 @@ export const GERMAN = {
   fasterSaves: (saved, flat) =>
     `10 % schneller: ${saved} weniger${flat ? `; über ${flat} nichts mehr` : ""}.`,
   moreSteps: (count) => `${count} weitere Schritte zeigen`,
-  steps: {
-    laps: (name, laps) =>
-      `${name} macht ${laps === 1 ? "einen eigenen Umlauf" : `${laps} eigene Umläufe`}`,
-    way: (name, from, to, isHome) =>
-      `${name} fährt von ${from} ${isHome ? "zurück" : `nach ${to}`}`,
-    work: (name, place) => `${name} arbeitet in ${place}`,
-    turn: (name, place) => `${name} dreht in ${place}`,
-    right: (name, place, other) =>
-      other && other !== name
-        ? `${name} fährt in ${place} ein, wenn ${other} es verlassen hat`
-        : `${name} fährt in ${place} ein`,
-  },
   cause: "Grund der Verspätung",
   anotherCause: "Noch ein Grund",
   causes: {

@@ -342,27 +342,6 @@ export const ENGLISH = {
   fasterSaves: (/** @type {string} */ saved, /** @type {string | undefined} */ flat) =>
     `10 % faster: ${saved} less${flat ? `; above ${flat} nothing more` : ""}.`,
   moreSteps: (/** @type {number} */ count) => `Show ${counted(count, "more step")}`,
-  steps: {
-    laps: (/** @type {string} */ name, /** @type {number} */ laps) =>
-      `${name} makes ${counted(laps, "lap")} of its own`,
-    way: (
-      /** @type {string} */ name,
-      /** @type {string} */ from,
-      /** @type {string} */ to,
-      /** @type {boolean} */ isHome,
-    ) => `${name} drives from ${from} ${isHome ? "home" : `to ${to}`}`,
-    work: (/** @type {string} */ name, /** @type {string | number} */ place) =>
-      `${name} works at ${place}`,
-    turn: (/** @type {string} */ name, /** @type {string} */ place) => `${name} turns at ${place}`,
-    right: (
-      /** @type {string} */ name,
-      /** @type {string} */ place,
-      /** @type {string | undefined} */ other,
-    ) =>
-      other && other !== name
-        ? `${name} enters ${place} when ${other} has left`
-        : `${name} enters ${place}`,
-  },
   cause: "Cause of delay",
   anotherCause: "Another cause",
   /** @type {Record<string, {name: string, fields: string[]}>} */

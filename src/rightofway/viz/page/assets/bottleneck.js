@@ -9,7 +9,6 @@ import { NARROWEST_PERIOD } from "./steady_band.js";
 /** @import { Plan } from "./plan.js" */
 /** @import { Step } from "./steady.js" */
 /** @import { Theme } from "./theme.js" */
-/** @import { Words } from "./words.js" */
 
 /** @typedef {{ top: number, height: number }} SpanRow Where the row of a visit is. */
 
@@ -21,15 +20,13 @@ export class Bottleneck {
    * @param {Moments} clock
    * @param {Choice} choice
    * @param {Theme} theme
-   * @param {Words} words
    */
-  constructor(root, plan, clock, choice, theme, words) {
+  constructor(root, plan, clock, choice, theme) {
     this.root = root;
     this.plan = plan;
     this.clock = clock;
     this.choice = choice;
     this.theme = theme;
-    this.words = words;
     this.button = root.part("bottleneck");
     this.legend = root.part("bottleneck-legend");
     this.button.hidden = !plan.steady?.groups.some(({ circuit }) => circuit.length);
@@ -206,8 +203,8 @@ export class Bottleneck {
     button.setAttribute("aria-pressed", String(this.choice.bottleneck));
     legend.hidden = !circuit.length || !this.group.isCritical;
     if (legend.hidden) return;
-    if (legend.lastElementChild)
-      legend.lastElementChild.textContent = this.words.bottleneck(this.group);
-    legend.title = this.words.bottleneckAtLength(this.group);
+    const [short, atLength] = this.group.bottleneck.map((text) => this.plan.phrases.said(text));
+    if (legend.lastElementChild) legend.lastElementChild.textContent = short;
+    legend.title = atLength;
   }
 }

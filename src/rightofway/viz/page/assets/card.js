@@ -1,6 +1,7 @@
-import { element, english, facts, goTo, link, swatch } from "./dom.js";
+import { element, facts, goTo, link, swatch } from "./dom.js";
 import { FloorRobot } from "./floor.js";
 import { texts, withKey } from "./language.js";
+import { spoken } from "./library.js";
 import { BROKEN, WAIT } from "./phases.js";
 import { joined, upperFirst } from "./words.js";
 
@@ -93,7 +94,7 @@ export class Card {
         [texts.speed, this.plan.quantities.speed(robot.speed)],
         [texts.radius, robot.radius ? this.plan.quantities.length(robot.radius) : ""],
         [texts.home, words.where(robot.home)],
-        [texts.anotherWay, english(rerouted?.because ?? "")],
+        [texts.anotherWay, spoken(rerouted?.because ?? "")],
       ]),
       element("h3", {}, texts.trip),
       this.#lines(robot.stages, (stage) => this.#stage(robot, stage)),

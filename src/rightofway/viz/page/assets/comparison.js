@@ -138,7 +138,7 @@ export class Comparison {
     const clock = new Follower(this.clock, 1 / scale);
     const choice = new Choice(plan);
     const [motion, words, use] = [new Motion(choice), new Words(plan), new Use(choice)];
-    const bottleneck = new Bottleneck(this.root, plan, clock, choice, theme, words);
+    const bottleneck = new Bottleneck(this.root, plan, clock, choice, theme);
     const title = element("h2", { className: "map-title" });
     const canvas = element("canvas", { tabIndex: 0 });
     canvas.setAttribute("role", "img");

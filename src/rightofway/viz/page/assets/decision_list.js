@@ -1,6 +1,7 @@
 import { element } from "./dom.js";
 import { connectFind, matches } from "./find.js";
 import { language, texts } from "./language.js";
+import { languageOf, said } from "./library.js";
 import { VirtualList } from "./virtual_list.js";
 
 /** @import { Root } from "./root.js" */
@@ -82,8 +83,8 @@ export class DecisionList {
   #reroute(reroute) {
     return {
       head: texts.rerouted(this.words.robot(reroute.robot)),
-      detail: reroute.because,
-      isEnglish: true,
+      detail: said(reroute.because),
+      isEnglish: languageOf(reroute.because) === "en",
       isChosen: () => this.choice.decisionIndex < 0 && this.choice.robotIndex === reroute.robot,
       choose: () => this.choice.chooseRobot(reroute.robot),
     };

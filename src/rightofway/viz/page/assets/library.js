@@ -1,3 +1,4 @@
+import { element } from "./dom.js";
 import { language } from "./language.js";
 
 /** @import { PhraseData, PhraseEntry } from "./payload.d.ts" */
@@ -47,6 +48,15 @@ function filled(english, values) {
     VALUE,
     (/** @type {string} */ whole, /** @type {string} */ name) => values[name] ?? whole,
   );
+}
+
+/**
+ * A phrase as an element, marked with its language so that it is read out rightly.
+ *
+ * @param {PhraseData} phrase
+ */
+export function spoken(phrase) {
+  return phrase ? element("span", { lang: languageOf(phrase) }, said(phrase)) : "";
 }
 
 /** The phrases of a plan, as `PhraseBook` of phrases.py hands them over: each text once, by index. */

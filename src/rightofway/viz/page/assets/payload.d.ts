@@ -290,19 +290,17 @@ export type PhraseData = string | [string, Record<string, PhraseData>];
 
 export type PhraseEntry = string | number[];
 
-/** How the plan came about. */
+/** How the plan came about: the planner, what it did or gained, what is proven. */
 export interface PlannerData {
   name: string;
-  status: string;
-  saved?: number;
-  tries?: number | null;
+  method: PhraseData;
   proven?: PhraseData;
 }
 
 /** A robot that was rerouted. */
 export interface RerouteData {
   robot: number;
-  because: string;
+  because: PhraseData;
 }
 
 /** A robot and what it does; ``vertices`` and ``enter`` are first differences. */
@@ -325,13 +323,14 @@ export interface RobotData {
 
 export type StageRow = [number, number, number, number];
 
-/** Robots that repeat themselves together; critical visits are pairs of robot and visit. */
+/** Robots that repeat themselves together; critical visits are pairs of robot and visit. The bottleneck has two texts: in short, and its steps. */
 export interface SteadyData {
   robots: number[];
   start: number;
   period: number;
   until: number;
   critical: [number, number][];
+  bottleneck?: [number, number];
 }
 
 export type TurnRow = [number, number];

@@ -56,7 +56,7 @@ export function createPlayer(element, payload) {
   const motion = new Motion(choice);
   const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap }); // as planned, whatever is shown
   const use = new Use(choice);
-  const bottleneck = new Bottleneck(root, plan, clock, choice, theme, words);
+  const bottleneck = new Bottleneck(root, plan, clock, choice, theme);
 
   const mapView = new MapView(root.part("map", HTMLCanvasElement), plan, theme, {
     motion,

@@ -113,6 +113,7 @@ export class Group {
     this.period = raw.period;
     this.until = raw.until;
     this.critical = raw.critical;
+    this.bottleneck = raw.bottleneck ?? [];
     this.members = new Set(raw.robots);
     this.light(null, robots);
   }

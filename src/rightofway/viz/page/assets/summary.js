@@ -1,6 +1,6 @@
 import { element, english, facts, link } from "./dom.js";
 import { texts } from "./language.js";
-import { said } from "./library.js";
+import { said, spoken } from "./library.js";
 import { DONE, WAIT } from "./phases.js";
 import { several, upperFirst } from "./words.js";
 
@@ -281,14 +281,6 @@ export class Summary {
     return link(robot.name, () => this.choice.chooseRobot(robot.index));
   }
 
-  /** What a search gained over its first plan; of other planners, what they report. */
-  #method() {
-    const { status, saved, tries } = this.plan.planner;
-    if (saved === undefined) return english(status);
-    const gain = saved > 0 ? texts.saved(this.words.duration(saved)) : texts.savedNothing;
-    return texts.improvement(tries ?? null, gain);
-  }
-
   /** @returns {[string, string | Node | null][]} */
   #made() {
     const {
@@ -301,7 +293,7 @@ export class Summary {
     /** @type {[string, string | Node][]} */
     const origin = [
       [texts.planner, english(planner.name)],
-      [texts.method, this.#method()],
+      [texts.method, spoken(planner.method)],
     ];
     if (this.plan.faultCount) return origin; // its times are worth nothing
     return [

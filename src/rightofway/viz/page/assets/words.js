@@ -4,7 +4,6 @@ import { BROKEN } from "./phases.js";
 /** @import { DecisionData } from "./payload.d.ts" */
 /** @import { Site } from "./site.js" */
 /** @import { Robot } from "./robot.js" */
-/** @import { Group } from "./steady.js" */
 
 /**
  * "R1, R2 and R3"; the first few of many.
@@ -183,28 +182,6 @@ export class Words {
     if (ticks === null) return elsewhere;
     if (!ticks) return onTime;
     return ticks > 0 ? late(this.time(ticks)) : early(this.time(-ticks));
-  }
-
-  /**
-   * What keeps a group from repeating itself sooner, in a line.
-   *
-   * @param {Group} options
-   */
-  bottleneck({ circuit, period }) {
-    const names = [...new Set(circuit.map(({ robot }) => robot.name))];
-    return texts.bottleneck(several(names), names.length === 1, this.time(period));
-  }
-
-  /**
-   * The same with its places.
-   *
-   * @param {Group} group
-   */
-  bottleneckAtLength(group) {
-    const steps = group.circuit.map(({ robot, vertex }) =>
-      texts.isIn(robot.name, this.vertex(vertex)),
-    );
-    return texts.bottleneckSteps(this.bottleneck(group), steps.join(", "));
   }
 
   /**

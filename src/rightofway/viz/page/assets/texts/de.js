@@ -152,12 +152,6 @@ export const GERMAN = {
   asPlanned: (time) => `${time}, wie geplant`,
   insteadOf: (time, planned) => `${time} statt ${planned}`,
 
-  improvement: (attempts, gain) =>
-    attempts === null
-      ? `Versuche, den ersten Plan zu verbessern: ${gain}`
-      : `${counted(attempts, "Versuch", "Versuche")}, den ersten Plan zu verbessern: ${gain}`,
-  saved: (time) => `${time} gespart`,
-  savedNothing: "keinen besseren Plan gefunden",
   planner: "Verfahren",
   method: "Vorgehen",
   proven: "Bewiesen",
@@ -310,11 +304,6 @@ export const GERMAN = {
   vertices: (count) => counted(count, "Knoten", "Knoten"),
   mapOf: (what) => `Karte mit ${what}`,
   usualLimit: (speed) => `Höchstgeschwindigkeit ${speed}, wo kein Schild steht`,
-  bottleneck: (names, isAlone, period) =>
-    `Engpass: ${names}${isAlone ? " allein, der auf keinen Roboter wartet" : ""}, Periode ${period}`,
-  bottleneckSteps: (bottleneck, steps) =>
-    `${bottleneck}. Jeder dieser Besuche beginnt, sobald der vorige es zulässt, der erste wieder eine Periode später: ${steps}`,
-  isIn: (name, place) => `${name} in ${place}`,
 
   pause: "Anhalten",
   of: (time, all) => [time, ` von ${all}`],

@@ -183,12 +183,6 @@ export const ENGLISH = {
 
   /** How the plan was made. */
 
-  /** @param {number | null} attempts @param {string} gain */
-  improvement: (attempts, gain) =>
-    `${attempts === null ? "attempts" : counted(attempts, "attempt", "attempts")} to improve the first plan ${gain}`,
-  /** @param {string} time */
-  saved: (time) => `saved ${time}`,
-  savedNothing: "found no better plan",
   planner: "Planner",
   method: "Method",
   proven: "Proven",
@@ -392,14 +386,6 @@ export const ENGLISH = {
   mapOf: (what) => `Map with ${what}`,
   /** @param {string} speed */
   usualLimit: (speed) => `speed limit ${speed} without a sign`,
-  /** @param {string} names @param {boolean} isAlone @param {string} period */
-  bottleneck: (names, isAlone, period) =>
-    `Bottleneck: ${names}${isAlone ? " alone, which waits for no robot" : ""}, ${period} a period`,
-  /** @param {string} bottleneck @param {string} steps */
-  bottleneckSteps: (bottleneck, steps) =>
-    `${bottleneck}. Each of these visits begins as soon as the one before allows, the first again a period later: ${steps}`,
-  /** @param {string} name @param {string} place */
-  isIn: (name, place) => `${name} in ${place}`,
 
   /** Time and its diagram. */
   pause: "Pause",

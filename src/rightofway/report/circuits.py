@@ -1,0 +1,160 @@
+"""The bottleneck of laps in words: what the robots of a critical circuit do, step by step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Literal
+
+from rightofway.cyclic import Piece
+from rightofway.model import Scenario, Tick
+from rightofway.model.place_names import PlaceNames
+from rightofway.phrases import Phrase, counted, joined
+from rightofway.site import VertexId
+
+MAX_STEPS = 12
+"""Steps of a circuit that a sentence names; further ones are counted."""
+
+MAX_ROBOTS = 4
+"""Robots of a circuit that are named in short."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CircuitStep:
+    """What one robot does on a critical circuit until the next step can begin.
+
+    Attributes
+    ----------
+    kind
+        That of a `Piece`, or ``laps`` for whole laps that a robot makes without waiting.
+    robot
+        The robot, by index.
+    places
+        The vertices where that is, each once for laps.
+    ticks
+        How long it takes [ticks].
+    text
+        What the robot does; the sentence goes on from its name.
+    """
+
+    kind: Literal["work", "way", "right of way", "laps"]
+    robot: int
+    places: tuple[VertexId, ...]
+    ticks: Tick
+    text: Phrase
+
+
+def circuit_steps(pieces: Sequence[Piece], scenario: Scenario) -> list[CircuitStep]:
+    """Return a critical circuit in steps, the first of a robot at the start; laps are one step."""
+    # The right of way by which the first robot comes to its first piece may stand at the end.
+    turn = next((k for k, piece in enumerate(reversed(pieces)) if piece.kind != "right of way"), 0)
+    rotated = [*pieces[len(pieces) - turn :], *pieces[: len(pieces) - turn]]
+    place, steps = PlaceNames(scenario, numbered=True), list[CircuitStep]()
+    for _, run in groupby(rotated, lambda piece: piece.robot):
+        awaited = steps[-1].robot if steps else rotated[-1].robot
+        steps.extend(_steps_of_robot(list(run), awaited, scenario, place))
+    return steps
+
+
+def _steps_of_robot(
+    run: Sequence[Piece], awaited: int, scenario: Scenario, place: PlaceNames
+) -> Iterator[CircuitStep]:
+    """Yield what one robot does without waiting for others."""
+    home = scenario.robots[run[0].robot].home
+    arrivals = [
+        k for k, piece in enumerate(run) if piece.kind == "way" and piece.places[-1] == home
+    ]
+    first, last = (arrivals[0] + 1, arrivals[-1] + 1) if arrivals else (0, 0)
+    for piece in run[:first]:
+        yield _step(piece, awaited, scenario, place)
+    if first < last:
+        laps = counted(len(arrivals) - 1, "lap", "laps")
+        between = run[first:last]
+        yield CircuitStep(
+            kind="laps",
+            robot=run[0].robot,
+            places=tuple(dict.fromkeys(vertex for piece in between for vertex in piece.places)),
+            ticks=Tick(sum(piece.ticks for piece in between)),
+            text=Phrase("makes {laps} of its own", laps=laps),
+        )
+    for piece in run[last:]:
+        yield _step(piece, awaited, scenario, place)
+
+
+def _step(piece: Piece, awaited: int, scenario: Scenario, place: PlaceNames) -> CircuitStep:
+    robot, names = scenario.robots[piece.robot], [place(vertex) for vertex in piece.places]
+    match piece.kind:
+        case "way" if piece.places[-1] == robot.home:
+            text = Phrase("drives home")
+        case "way":
+            text = Phrase("drives to {place}", place=names[-1])
+        case "work" if piece.places[0] in {stop.at for stop in robot.stops} - {robot.home}:
+            text = Phrase("works at {place}", place=names[0])
+        case "work":
+            text = Phrase("turns at {place}", place=names[0])
+        case _ if awaited == piece.robot:
+            text = Phrase("enters {place}", place=names[0])
+        case _:
+            other = scenario.robots[awaited].name
+            text = Phrase(
+                "enters {place} once {other} has left {left}",
+                place=names[0],
+                other=other,
+                left=names[-1],
+            )
+    return CircuitStep(
+        kind=piece.kind, robot=piece.robot, places=piece.places, ticks=piece.ticks, text=text
+    )
+
+
+def circuit_in_words(
+    pieces: Sequence[Piece], scenario: Scenario, *, most: int = MAX_STEPS
+) -> Phrase:
+    """Return what the robots of a critical circuit do, in one sentence.
+
+    That is ``R2 enters N4 once R1 has left N4, drives to N8, works at N8, drives home; …``.
+
+    Parameters
+    ----------
+    pieces
+        The pieces of the circuit, at least one.
+    scenario
+        The scenario, for names of robots and places.
+    most
+        Number of steps to name; further steps are counted.
+    """
+    names = [robot.name for robot in scenario.robots]
+    steps = circuit_steps(pieces, scenario)
+    if len({step.robot for step in steps}) == 1:
+        return Phrase("{robot}'s own lap: it waits for no robot", robot=names[steps[0].robot])
+    parts = []
+    for robot, run in groupby(steps[:most], lambda step: step.robot):
+        first, *rest = (step.text for step in run)
+        for text in rest:
+            first = Phrase("{first}, {second}", first=first, second=text)
+        parts.append(Phrase("{robot} {steps}", robot=names[robot], steps=first))
+    if len(steps) > most:
+        further = counted(len(steps) - most, "more step", "more steps")
+        parts.append(Phrase("and {steps}", steps=further))
+    sentence, *others = parts
+    for part in others:
+        sentence = Phrase("{first}; {second}", first=sentence, second=part)
+    return sentence
+
+
+def circuit_in_short(pieces: Sequence[Piece], scenario: Scenario, period: Tick) -> Phrase:
+    """Return which robots set the pace, and the period."""
+    robots = list(dict.fromkeys(piece.robot for piece in pieces))
+    names = [scenario.robots[robot].name for robot in robots]
+    time = scenario.quantities.duration(period)
+    if len(names) == 1:
+        return Phrase(
+            "Bottleneck: {robot} alone, which waits for no robot, {time} a period",
+            robot=names[0],
+            time=time,
+        )
+    if len(names) > MAX_ROBOTS:
+        more = Phrase("{number} more", number=str(len(names) - MAX_ROBOTS + 1))
+        names = [*names[: MAX_ROBOTS - 1], more]
+    return Phrase("Bottleneck: {robots}, {time} a period", robots=joined(names), time=time)
