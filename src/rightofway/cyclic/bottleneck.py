@@ -160,6 +160,7 @@ def _joined(pieces: Iterable[Piece], homes: Mapping[int, VertexId]) -> Iterator[
             places, ticks = [], 0
 
 
+@checks_arguments
 def pieces_of_plan(plan: Plan, steady: SteadyState) -> tuple[Piece, ...]:
     """Return the critical circuit of a steady state in pieces; empty if it is unknown.
 
