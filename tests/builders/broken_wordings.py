@@ -35,7 +35,7 @@ class AnyOrderId(FleetControl):
     """Sequence ids count in the current order, whatever order a state names."""
 
     def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
-        sent = own.orders.get(own.order_id, SentOrder(0, [0]))
+        sent = own.orders.get(own.order_id, SentOrder(0))
         visit = sent.offset + state.last_sequence_id // 2
         return visit if visit <= own.released else None
 
@@ -63,7 +63,7 @@ class SplicedBehindAcknowledged(FleetControl):
         if own.is_acknowledged or own.message is None:
             return own.released
         sent = own.orders[own.order_id]
-        return sent.ends[-2] if len(sent.ends) > 1 else own.released
+        return sent.ends[sent.updates - 2] if sent.updates > 1 else own.released
 
 
 class SplicedBehindArrived(FleetControl):

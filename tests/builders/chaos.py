@@ -7,6 +7,7 @@ a commit, and starts again on its journal, perhaps with another plan of the rest
 
 from __future__ import annotations
 
+import json
 import random
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
@@ -22,19 +23,33 @@ from rightofway.control import (
     InstantAction,
     Message,
     Order,
+    RobotLedger,
     RobotState,
     RouteToDrive,
     SimulatedRobot,
 )
-from rightofway.control.routes import routes_to_drive
+from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.laps import LapsToDrive
+from rightofway.cyclic import excerpt, plan_of_laps, run_laps
+from rightofway.cyclic.result import CyclicResult
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Rules, Scenario
+from rightofway.model.steady_state import within
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 from rightofway.site import Roadmap
 from tests.builders.fleets import random_fleet
 from tests.oracles.space import Shape, incompatible, zones_around, zones_with
 
-__all__ = ["KINDS", "Chaos", "Fault", "MemoryJournal", "chaotic_plan", "run_chaos"]
+__all__ = [
+    "KINDS",
+    "Chaos",
+    "Fault",
+    "MemoryJournal",
+    "chaotic_plan",
+    "knows",
+    "laps_plan",
+    "run_chaos",
+]
 
 
 class Fault(AssertionError):
@@ -67,6 +82,8 @@ class Chaos:
         Share of starts with another plan of the rest.
     look_ahead
         Of the control.
+    laps
+        How many laps each robot makes after the faults; 0 where the plan is driven once.
     """
 
     events: int = 500
@@ -78,6 +95,7 @@ class Chaos:
     cancels: float = 0.0
     splices: float = 0.5
     look_ahead: int = 4
+    laps: int = 0
 
 
 KINDS = {
@@ -92,6 +110,9 @@ KINDS = {
     "cancels and resets": Chaos(cancels=0.02, resets=0.02),
     "wrong fields": Chaos(wrong=0.2),
     "all": Chaos(kills=0.03, resets=0.01, wrong=0.1, cancels=0.02, splices=1.0),
+    "laps": Chaos(laps=2, splices=0.0),
+    "laps, replanned": Chaos(laps=2, kills=0.02, splices=0.5),
+    "laps, all": Chaos(laps=2, kills=0.03, resets=0.01, wrong=0.1, cancels=0.02),
 }
 """Kinds of chaos by name."""
 
@@ -99,18 +120,55 @@ CALM = 20_000
 """Events without faults after which a run counts as stuck."""
 
 
-def chaotic_plan(seed: int) -> Plan:
-    """Return a plan of two to five robots on a random grid, of the first seed that has one."""
+def chaotic_plan(seed: int, kind: str = "plain") -> Plan:
+    """Return a plan of two to five robots on a random grid, of the first seed that has one.
+
+    For laps it is repeated as a whole, or one of a rule of laps with a steady state.
+    """
     draw = random.Random(seed)  # noqa: S311
     while True:
         rules = Rules(rotations=False)
-        fleet = random_fleet(
-            draw.getrandbits(32), size=draw.choice([4, 5]), robots=draw.randint(2, 5), rules=rules
-        )
+        number, size, robots = draw.getrandbits(32), draw.choice([4, 5]), draw.randint(2, 5)
+        fleet = random_fleet(number, size=size, robots=robots, rules=rules, apart=True)
         try:
+            if KINDS[kind].laps and draw.random() < 0.7:
+                return laps_plan(fleet)
             return rightofway.solve(fleet, "prioritized")
-        except (NoPlanExists, GaveUp):
+        except (NoPlanExists, GaveUp, InputError):
             continue
+
+
+def first_come(fleet: Scenario) -> CyclicResult:
+    """Return the laps of the rule first-come."""
+    return run_laps(fleet, "first-come", time_limit=None)
+
+
+def knows(kind: str, plan: Plan) -> bool:
+    """Tell whether a plan can be driven in a kind of chaos: laps need robots that return home."""
+    if not KINDS[kind].laps:
+        return True
+    try:
+        LapsToDrive(plan)
+    except InputError:
+        return False
+    return True
+
+
+def laps_plan(fleet: Scenario, maker: Callable[[Scenario], CyclicResult] = first_come) -> Plan:
+    """Return whole laps, with their steady state.
+
+    Raises
+    ------
+    GaveUp, InputError
+        If robots end in a deadlock, or one at home is in the way of others.
+    """
+    result = maker(fleet)
+    if any(group.ends != "repeats" for group in result.groups):
+        raise GaveUp("robots wait for each other")
+    plan, steady = plan_of_laps(result), excerpt(result)[1]
+    plan = replace(plan, steady=within(steady, list(map(len, plan.tracks))))
+    LapsToDrive(plan)
+    return plan
 
 
 class MemoryJournal:
@@ -129,6 +187,14 @@ class MemoryJournal:
         if self.kill():
             raise Killed
         self.written += entries
+        if self.kill():
+            raise Killed
+
+    def begin_again(self, snapshot: Entry) -> None:
+        """Keep a snapshot only; the process may end before or after."""
+        if self.kill():
+            raise Killed
+        self.written = [json.loads(json.dumps(snapshot))]
         if self.kill():
             raise Killed
 
@@ -166,6 +232,7 @@ class _World:
         self.actions: list[InstantAction] = []  # in any order
         self.journal = MemoryJournal()
         self.journal.kill = lambda: self._happens(self.chaos.kills / 4)
+        self.laps = LapsToDrive(plan) if chaos.laps else None
         self.is_calm = False
         self.observer = Observer(plan.scenario, self.robots)
         self._begin()
@@ -176,9 +243,9 @@ class _World:
         while True:
             try:
                 control = self._new_control()
+                dispatcher = Dispatcher(control, self.plan, self.laps)
                 if not self.journal.written:
-                    graph = ReleaseGraph.of(self.scenario, self.plan.tracks)
-                    control.begin("run", routes_to_drive(self.plan), graph)
+                    dispatcher.begin("run")
                 self.control = control
                 if len(self.journal.written) > 1 and self._chance(self.chaos.splices):
                     self._splice(control)
@@ -189,7 +256,7 @@ class _World:
                 return
 
     def _new_control(self) -> FleetControl:
-        return self.kind(self.journal, look_ahead=self.chaos.look_ahead)
+        return self.kind(self.journal, look_ahead=self.chaos.look_ahead, snapshot_every=200)
 
     def call(self, step: Callable[[], list[Message]]) -> None:
         """Have the control do something; where it is killed, it starts again."""
@@ -227,9 +294,10 @@ class _World:
             self._event()
             self.observer.look(self.control)
         self.is_calm = True
+        self.goals = [own.laps_done + self.chaos.laps for own in self.control.ledger.robots]
         for k in range(CALM):
             if self._is_done():
-                self.observer.look_at_the_end(self.control)
+                self.observer.look_at_the_end(self.control, is_endless=self.chaos.laps > 0)
                 return
             if k % 200 == 0:
                 self._ask_a_person()
@@ -241,18 +309,23 @@ class _World:
         """Return where each robot stands, and why it does not go on."""
         ledger = self.control.ledger
         return [
-            f"{own.arrived}/{own.released}/{len(own.route.places) - 1} ack={own.is_acknowledged} "
+            f"{own.arrived}/{own.released}/{own.route.end - 1} ack={own.is_acknowledged} "
             f"token={own.token} cancel={own.cancel} fault={own.fault} failed={own.failed} "
-            f"job={own.route.jobs[own.released]} finished={own.finished} "
+            f"job={own.route.jobs_at(own.released)} finished={own.finished} "
             f"missing={ledger.graph.missing(Part(robot, own.released + 1), ledger.arrived)}"
             for robot, own in enumerate(ledger.robots)
         ]
 
     def _is_done(self) -> bool:
+        robots = self.control.ledger.robots
+        if self.chaos.laps:
+            return all(
+                own.laps_done >= goal or own.route.end - own.route.first == 1
+                for own, goal in zip(robots, self.goals, strict=True)
+            )
         return all(
-            own.arrived == len(own.route.places) - 1
-            and own.finished.issuperset(job for jobs in own.route.jobs for job in jobs)
-            for own in self.control.ledger.robots
+            own.arrived == own.route.end - 1 and own.finished >= own.route.all_jobs()
+            for own in robots
         )
 
     def _event(self) -> None:
@@ -356,6 +429,9 @@ class Observer:
         self._excludes = _excludes(scenario)
         self._contents: dict[tuple[str, int], Order] = {}
         self._arrived = [0 for _ in robots]
+        self._job_of: list[dict[str, str]] = [{} for _ in robots]  # by the id of its action
+        self._looked_at: list[object] = [None for _ in robots]
+        self._open: list[set[str]] = [set() for _ in robots]  # jobs that are not known to be done
         self._vertex = {scenario.roadmap.name(k): k for k in range(scenario.roadmap.n_vertices)}
         self._shapes = cache(self._shapes_along)
         self._seen: list[tuple[object, ...]] = []
@@ -372,7 +448,7 @@ class Observer:
         bases, booked = [], []
         for robot, (own, real) in enumerate(zip(control.ledger.robots, self.robots, strict=True)):
             base = (real.place, *(node.place for node in real.ahead))
-            held = own.route.places[own.arrived : own.released + 1]
+            held = own.held
             if not self._arrived[robot] <= own.arrived <= own.released:
                 raise Fault(f"robot {robot} has arrived at {own.arrived} of {own.released}")
             self._arrived[robot] = own.arrived
@@ -380,6 +456,7 @@ class Observer:
                 raise Fault(f"robot {robot} has base {base}, but the journal says {held}")
             bases.append(base)
             booked.append(held)
+            self._look_at_jobs(robot, own)
         self._compare(bases, "drive")
         self._compare(booked, "are booked")
 
@@ -405,24 +482,46 @@ class Observer:
         zones |= {zone for edge in edges for zone in zones_with(roadmap, edge)}
         return frozenset([*((v,) for v in vertices), *edges, *((-1 - zone,) for zone in zones)])
 
+    def _look_at_jobs(self, robot: int, own: RobotLedger) -> None:
+        """Tell whether a job is lost: neither done nor in the route (I6)."""
+        key = (id(own.route), len(own.jobs_of), own.jobs_done)
+        if key == self._looked_at[robot]:
+            return
+        self._looked_at[robot] = key
+        jobs = own.route.all_jobs()
+        self._job_of[robot] |= own.jobs_of
+        gone = self._open[robot] - jobs
+        if gone - self._done(robot).keys():
+            raise Fault(f"robot {robot} has lost {sorted(gone)}")
+        self._open[robot] = jobs - own.finished
+
+    def _done(self, robot: int) -> Counter[str]:
+        """Return how often each job was done."""
+        done = self.robots[robot].done
+        return Counter(
+            job for action, job in self._job_of[robot].items() for _ in range(done.get(action, 0))
+        )
+
     def look_at_jobs(self, control: FleetControl) -> None:
         """Count how often each job was done."""
-        for robot, (own, real) in enumerate(zip(control.ledger.robots, self.robots, strict=True)):
-            done = Counter(
-                job for action, job in own.jobs_of.items() for _ in range(real.done.get(action, 0))
-            )
-            for job, count in done.items():
+        for robot, own in enumerate(control.ledger.robots):
+            self._look_at_jobs(robot, own)
+            for job, count in self._done(robot).items():
                 if count > 1:
                     raise Fault(f"robot {robot} has done {job} {count} times")
 
-    def look_at_the_end(self, control: FleetControl) -> None:
+    def look_at_the_end(self, control: FleetControl, *, is_endless: bool) -> None:
         """Tell whether each job was done exactly once, and each robot is at its end."""
         self.look_at_jobs(control)
         for robot, (own, real) in enumerate(zip(control.ledger.robots, self.robots, strict=True)):
-            done = {job for action, job in own.jobs_of.items() if real.done.get(action)}
-            wanted = {job for jobs in own.route.jobs for job in jobs}
-            if not wanted <= done:
-                raise Fault(f"robot {robot} has not done {sorted(wanted - done)}")
+            done = self._done(robot)
+            if own.jobs_done > done.total():
+                raise Fault(f"robot {robot} has done {done.total()} jobs, not {own.jobs_done}")
+            if is_endless:
+                continue
+            wanted = own.route.all_jobs()
+            if not wanted <= done.keys():
+                raise Fault(f"robot {robot} has not done {sorted(wanted - done.keys())}")
             if real.place != own.route.places[-1]:
                 raise Fault(f"robot {robot} ends at {real.place}")
 
@@ -447,45 +546,64 @@ def another_plan(
     Robots get random ways to their next places. Then one after another moves on a part at random,
     wherever nobody is in its way, until all are at their ends: that is the order of the new plan.
     """
-    ledger = control.ledger
-    ends = [control._committed(own) for own in ledger.robots]
+    robots = control.ledger.robots
+    firsts = [own.arrived for own in robots]
+    kept = [own.route.since(own.arrived) for own in robots]
+    ends = [end - first for end, first in zip(control.committed(), firsts, strict=True)]
     detour = partial(_detour, scenario, draw)
     for attempt in range(6):
         routes = [
-            own.route if attempt % 2 or draw.random() < 0.5 else detour(own.route, end)
-            for own, end in zip(ledger.robots, ends, strict=True)
+            route if attempt % 2 or draw.random() < 0.5 else detour(route, end)
+            for route, end in zip(kept, ends, strict=True)
         ]
-        order = _played(scenario, routes, [own.arrived for own in ledger.robots], ends, draw)
+        order = _played(scenario, routes, ends, draw)
         if order is not None:
             graph = graph_of_order(scenario, routes, ends, order)
-            try:
-                if graph.rotation():
-                    continue
-            except InputError:
+            if graph.rotation():
                 continue
-            return routes, graph
+            return [
+                _timed(route, robot, end, order)
+                for robot, (route, end) in enumerate(zip(routes, ends, strict=True))
+            ], graph
     return None
 
 
+def _timed(route: RouteToDrive, robot: int, end: int, order: Sequence[Part]) -> RouteToDrive:
+    """Return a route whose visits begin in the order of parts."""
+    ticks = {part.number: 2 * tick for tick, part in enumerate(order, 1) if part.robot == robot}
+    n_visits = len(route.places)
+    enter = tuple(ticks.get(k, k - end) for k in range(n_visits))
+    return replace(route, enter=enter, in_step=False)
+
+
 def _vertices(scenario: Scenario, route: RouteToDrive) -> list[int]:
-    return [int(scenario.roadmap.vertex(place)) for place in route.places]
+    return [int(scenario.roadmap.vertex(place)) for place in route.places]  # from its first
 
 
 def _detour(scenario: Scenario, draw: random.Random, route: RouteToDrive, end: int) -> RouteToDrive:
     """Return the route with random ways between the places of its later jobs, and its end."""
     roadmap, vertices = scenario.roadmap, _vertices(scenario, route)
     last = len(vertices) - 1
-    goals = [k for k in range(end + 1, last + 1) if route.jobs[k] or k == last]
+    laps = {lap_end - route.first for lap_end in route.lap_ends}
+    goals = [k for k in range(end + 1, last + 1) if route.jobs[k] or k in {*laps, last}]
     path, jobs = vertices[: end + 1], list(route.jobs[: end + 1])
+    lap_ends = [lap_end for lap_end in laps if lap_end <= end]
     for goal in goals:
         way = _random_way(roadmap, path[-1], vertices[goal], draw)
-        if way is None or (len(way) == 1 and route.jobs[goal]):
+        if way is None or (len(way) == 1 and (route.jobs[goal] or goal in laps)):
             return route
         path += way[1:]
         jobs += [()] * (len(way) - 1)
         if way[1:]:
             jobs[-1] = route.jobs[goal]
-    return RouteToDrive(places=tuple(map(roadmap.name, path)), jobs=tuple(jobs))
+        if goal in laps:
+            lap_ends.append(len(path) - 1)
+    return replace(
+        route,
+        places=tuple(map(roadmap.name, path)),
+        jobs=tuple(jobs),
+        lap_ends=tuple(lap_end + route.first for lap_end in sorted(lap_ends)),
+    )
 
 
 def _random_way(roadmap: Roadmap, start: int, goal: int, draw: random.Random) -> list[int] | None:
@@ -521,14 +639,16 @@ def _part(scenario: Scenario, vertices: Sequence[int], k: int) -> list[Shape]:
 def _played(
     scenario: Scenario,
     routes: Sequence[RouteToDrive],
-    arrived: Sequence[int],
     ends: Sequence[int],
     draw: random.Random,
 ) -> list[Part] | None:
-    """Return an order in which all parts behind what is committed can be driven; None if stuck."""
+    """Return an order in which all parts behind what is committed can be driven; None if stuck.
+
+    Numbers count from where robots have arrived.
+    """
     excludes = _excludes(scenario)
     ways = [_vertices(scenario, route) for route in routes]
-    at, order = list(arrived), list[Part]()
+    at, order = [0] * len(routes), list[Part]()
     held = [
         {shape for k in range(at[r], end + 1) for shape in _part(scenario, ways[r], k)}
         for r, end in enumerate(ends)
@@ -567,7 +687,11 @@ def _played(
 def graph_of_order(
     scenario: Scenario, routes: Sequence[RouteToDrive], ends: Sequence[int], order: Sequence[Part]
 ) -> ReleaseGraph:
-    """Return who waits for whom where the parts behind the committed ones go in an order."""
+    """Return who waits for whom where the parts behind the committed ones go in an order.
+
+    Numbers count from where robots have arrived; those of the graph are the routes' own.
+    """
+    firsts = [route.first for route in routes]
     excludes = _excludes(scenario)
     ways = [_vertices(scenario, route) for route in routes]
     before = [Part(r, k) for r, end in enumerate(ends) for k in range(end + 1)]
@@ -583,6 +707,8 @@ def graph_of_order(
                         is_edge = len(theirs) == 2
                         left = other.number + (not is_edge)
                         latest[other.robot] = max(latest.get(other.robot, 0), left)
-        waits[part] = [Arrival(*arrival) for arrival in sorted(latest.items())]
+        waits[Part(part.robot, firsts[part.robot] + part.number)] = [
+            Arrival(other, firsts[other] + visit) for other, visit in sorted(latest.items())
+        ]
         before.append(part)
-    return ReleaseGraph([len(way) for way in ways], waits)
+    return ReleaseGraph([route.end for route in routes], waits, firsts)

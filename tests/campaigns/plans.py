@@ -29,6 +29,7 @@ from rightofway.precedence import ReleaseGraph
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import ALL, QUICK, STRICT, broken, by_both_judges, knows
 from tests.builders.chaos import KINDS, Fault, run_chaos
+from tests.builders.chaos import knows as can_be_driven
 from tests.builders.executions import any_delays, wrong_in
 
 FLEETS = 20
@@ -183,6 +184,8 @@ def chaos(scenario: Scenario, chance: int, into: Round) -> None:
             into.counts["rotations, refused"] += 1
             return
         for kind, how in KINDS.items():
+            if not can_be_driven(kind, plan):
+                continue
             into.counts["judged"] += 1
             try:
                 into.counts += run_chaos(plan, chance, how)

@@ -14,7 +14,7 @@ SEEDS = 5
 @pytest.mark.parametrize("kind", KINDS)
 def test_robots_hold_nothing_together_and_do_each_job_once(kind: str) -> None:
     for seed in range(SEEDS):
-        run_chaos(chaotic_plan(seed), seed, KINDS[kind])
+        run_chaos(chaotic_plan(seed, kind), seed, KINDS[kind])
 
 
 def test_chaos_does_what_it_says() -> None:
@@ -30,7 +30,7 @@ def test_a_broken_wording_is_found(wording: str) -> None:
     control, kind = WORDINGS[wording]
     for seed in range(40):
         try:
-            run_chaos(chaotic_plan(seed), seed, KINDS[kind], control)
+            run_chaos(chaotic_plan(seed, kind), seed, KINDS[kind], control)
         except Exception:  # noqa: BLE001 (some wordings end in a contradiction within control)
             return
     pytest.fail(f"nobody noticed: {control.__doc__}")

@@ -139,5 +139,5 @@ def test_a_rotation_is_refused_with_the_way_out() -> None:
     routes = routes_to_drive(door())
     circle = {Part(0, 1): [Arrival(1, 1)], Part(1, 1): [Arrival(0, 1)]}
     graph = ReleaseGraph([len(route.places) for route in routes], circle)
-    with pytest.raises(InputError, match=r"robots 0, 1 move round .* rotations: false"):
+    with pytest.raises(InputError, match=r"robot 0, robot 1 move round .* rotations: false"):
         FleetControl(MemoryJournal()).begin("run", routes, graph)

@@ -140,6 +140,9 @@ class _NothingKept:
     def commit(self, entries: Iterable[Entry]) -> None:
         """Keep nothing."""
 
+    def begin_again(self, snapshot: Entry) -> None:
+        """Keep nothing."""
+
 
 class _Demo:
     """One run."""
@@ -217,9 +220,8 @@ class _Demo:
 
     def _result(self) -> DemoResult:
         for own in self._control.ledger.robots:
-            jobs = {job for jobs in own.route.jobs for job in jobs}
-            assert own.arrived == len(own.route.places) - 1, "a robot has not arrived"
-            assert own.finished == jobs, "a job is not done"
+            assert own.arrived == own.route.end - 1, "a robot has not arrived"
+            assert own.finished == own.route.all_jobs(), "a job is not done"
         tracks = tuple(
             Track.of(track.vertices.tolist(), robot.enter)
             for track, robot in zip(self._plan.tracks, self._robots, strict=True)
@@ -234,7 +236,7 @@ class _Demo:
         return DemoResult(
             plan=self._plan,
             trace=trace,
-            jobs=tuple(len(own.finished) for own in self._control.ledger.robots),
+            jobs=tuple(own.jobs_done for own in self._control.ledger.robots),
             waits=tuple(self._story.waits),
             messages=dict(sorted(self._sent.items())),
         )

@@ -28,6 +28,9 @@ from rightofway.precedence import Part, ReleaseGraph
 LOOK_AHEAD = 4
 """Released parts that a robot has not reached yet, at most: re-planning keeps the rest free."""
 
+SNAPSHOT_EVERY = 5_000
+"""Entries after which the journal gets a snapshot, so that a start need not read those before."""
+
 
 class FleetControl:
     """The control of a fleet, without a network.
@@ -38,6 +41,8 @@ class FleetControl:
         Empty, or of an earlier start; `begin` gives an empty one its plan.
     look_ahead
         How many parts are released beyond the vertex last arrived at, at most.
+    snapshot_every
+        Entries after which the journal gets a snapshot, with the next splice.
     report
         Receives a robot and a sentence on its fault, or on a job that failed.
 
@@ -52,6 +57,9 @@ class FleetControl:
         Robots that no message reaches.
     refused
         Robots that the plan does not fit.
+    dispatch
+        Is called after whatever comes in, and returns what is to be sent because there is more to
+        do; a dispatcher sets it.
     """
 
     def __init__(
@@ -59,18 +67,29 @@ class FleetControl:
         journal: Journal,
         *,
         look_ahead: int = LOOK_AHEAD,
+        snapshot_every: int = SNAPSHOT_EVERY,
         report: Callable[[int, str], None] = lambda *_: None,
     ) -> None:
         self._journal, self._look_ahead, self._report = journal, look_ahead, report
+        self._snapshot_every = snapshot_every
         self.ledger = Ledger()
         self.conditions: dict[int, Condition] = {}
         self.lost, self.refused = set[int](), set[int]()
+        self.dispatch: Callable[[], list[Message]] = list
+        self._since_snapshot = 0
         for entry in journal.entries():
             self.ledger.apply(entry)
+            self._since_snapshot += 1
 
     # --- what starts and changes the work --------------------------------------------------------
 
-    def begin(self, run: str, routes: Sequence[RouteToDrive], graph: ReleaseGraph) -> None:
+    def begin(
+        self,
+        run: str,
+        routes: Sequence[RouteToDrive],
+        graph: ReleaseGraph,
+        names: Sequence[str] = (),
+    ) -> None:
         """Give an empty journal its plan.
 
         Parameters
@@ -79,14 +98,18 @@ class FleetControl:
             A name that no other journal has; the ids of orders and actions begin with it.
         routes, graph
             The routes of all robots, and who waits for whom.
+        names
+            Of the robots; left out, reports give their numbers.
 
         Raises
         ------
         InputError
             If robots of the plan move round a circle at one instant.
         """
-        _refuse_rotation(graph)
-        self._commit(plan_entry("plan", run, routes, graph, [0] * len(routes)))
+        names = tuple(names) or tuple(f"robot {number}" for number in range(len(routes)))
+        _refuse_rotation(graph, names)
+        entry = plan_entry("plan", run, routes, graph, committed=[0] * len(routes), names=names)
+        self._commit(entry)
 
     def start(self) -> list[Message]:
         """Return what is to be sent after a start: all that is unanswered, requests for states."""
@@ -104,7 +127,8 @@ class FleetControl:
         Parameters
         ----------
         routes
-            Routes that begin with all that is released, sent or not, acknowledged or not.
+            Routes that begin with all that is released, sent or not, acknowledged or not. Visits
+            before the one that a robot has last arrived at may be left out.
         graph
             Who waits for whom on them; parts that are released are no longer looked at.
 
@@ -113,18 +137,24 @@ class FleetControl:
         InputError
             If a route changes what is released, a job is lost, or robots move round a circle.
         """
-        committed = [self._committed(own) for own in self.ledger.robots]
-        _refuse_rotation(graph)
-        for robot, (own, new, end) in enumerate(
-            zip(self.ledger.robots, routes, committed, strict=True)
-        ):
-            kept = slice(end + 1)
-            if own.route.places[kept] != new.places[kept] or own.route.jobs[kept] != new.jobs[kept]:
+        robots, names = self.ledger.robots, self.ledger.names
+        committed = self.committed()
+        _refuse_rotation(graph, names)
+        for robot, (own, new, end) in enumerate(zip(robots, routes, committed, strict=True)):
+            old, begin = own.route, max(own.route.first, new.first)
+            kept = range(begin, end + 1)
+            if begin > own.arrived or any(
+                (old.place(visit), old.jobs_at(visit)) != (new.place(visit), new.jobs_at(visit))
+                for visit in kept
+            ):
                 message = "the route changes what is released (begin it with the released parts)"
                 raise InputError.at(("routes", robot), message)
-            if lost := sorted(_jobs(own.route) - own.finished - _jobs(new)):
+            if lost := sorted(old.all_jobs() - own.finished - new.all_jobs()):
                 raise InputError.at(("routes", robot), f"{lost[0]} is in no visit (keep each job)")
-        self._commit(plan_entry("splice", self.ledger.run, routes, graph, committed))
+        self._commit(plan_entry("splice", self.ledger.run, routes, graph, committed=committed))
+        if self._since_snapshot >= self._snapshot_every:
+            self._journal.begin_again(self.ledger.snapshot())
+            self._since_snapshot = 0
         return self._go_on()
 
     def cancel(self, robot: int) -> list[Message]:
@@ -189,7 +219,7 @@ class FleetControl:
         self.lost.discard(robot)
         self._commit(*self._facts(robot, state))
         self._commit(*self._answers(robot, state))
-        return self._go_on()
+        return [*self._go_on(), *self.dispatch()]
 
     def connect(self, robot: int, *, is_connected: bool) -> list[Message]:
         """Note whether messages reach a robot. A robot that is lost keeps what it holds.
@@ -219,7 +249,9 @@ class FleetControl:
 
     def remind(self) -> list[Message]:
         """Return again what robots have not answered; call it every few seconds."""
-        return [message for own in range(len(self.ledger.robots)) for message in self._open(own)]
+        robots = range(len(self.ledger.robots))
+        messages = [message for robot in robots for message in self._open(robot)]
+        return [*messages, *self.dispatch()]
 
     def _open(self, robot: int) -> Iterator[Message]:
         own = self.ledger.robots[robot]
@@ -249,11 +281,15 @@ class FleetControl:
         visit = self._proven(own, state)
         if visit is not None and visit > own.arrived:
             yield {"kind": "arrived", "robot": robot, "visit": visit}
-        fault = None if own.fault else self._fault(own, state)
+        fault = None if own.fault else self._fault(robot, state)
         if fault is not None:
-            self._report(robot, f"is faulty: {fault}; a person has to look after it")
-            place = state.last_place or None
-            yield {"kind": "fault", "robot": robot, "fault": fault, "place": place}
+            yield self._fault_entry(robot, fault, state)
+
+    def _fault_entry(self, robot: int, fault: str, state: RobotState) -> Entry:
+        """Report a fault; return its entry."""
+        self._report(robot, f"is faulty: {fault}; a person has to look after it")
+        place = state.last_place or None
+        return {"kind": "fault", "robot": robot, "fault": fault, "place": place}
 
     @staticmethod
     def _is_failure(own: RobotLedger, action_id: str, job: str) -> bool:
@@ -266,36 +302,40 @@ class FleetControl:
         sent = own.orders.get(state.order_id)
         if sent is None or state.last_sequence_id % 2:
             return None
-        if not 0 <= state.update_id < len(sent.ends):
+        end = sent.ends.get(state.update_id)
+        if end is None:  # never sent, or so old that it proves nothing new
             return None
-        end = sent.ends[state.update_id]
+        begin = max(sent.offset, own.route.first)
         visit = sent.offset + state.last_sequence_id // 2
-        if not sent.offset <= visit <= min(end, own.released):
+        if not begin <= visit <= min(end, own.released):
             return None
-        if own.route.places[visit] != state.last_place:
+        if own.route.place(visit) != state.last_place:
             return None
         if not state.nodes:
             # A state from before the update, after a withdrawal or a reset has no nodes either.
             return visit if visit == end else None
         ahead = [sent.offset + (number + 1) // 2 for number in (*state.nodes, *state.edges)]
         visit = min(visit, min(ahead) - 1)
-        return visit if visit >= sent.offset else None
+        return visit if visit >= begin else None
 
-    @staticmethod
-    def _fault(own: RobotLedger, state: RobotState) -> str | None:
+    def _fault(self, robot: int, state: RobotState) -> str | None:
         """Return how a state contradicts all that was sent (rule 11)."""
-        if not state.order_id:
-            return None
+        own = self.ledger.robots[robot]
         sent = own.orders.get(state.order_id)
         if sent is None:
-            return f"it has order {state.order_id!r}, which is not ours"
-        if state.update_id >= len(sent.ends):
-            return f"it has update {state.update_id} of an order with {len(sent.ends)}"
-        base = range(sent.offset, max(sent.ends) + 1)
+            is_known = not state.order_id or self.ledger.owns(robot, state.order_id)
+            return None if is_known else f"it has order {state.order_id!r}, which is not ours"
+        if state.update_id >= sent.updates:
+            return f"it has update {state.update_id} of an order with {sent.updates}"
+        visit = sent.offset + state.last_sequence_id // 2
+        if state.update_id not in sent.ends or visit < own.route.first:
+            return None  # of long ago: where it was is not kept
+        end = max(sent.ends.values())
+        base = range(sent.offset, end + 1)
         beyond = [number for number in state.nodes if sent.offset + number // 2 not in base]
         if beyond:
             return f"it drives to node {beyond[0]}, which was not released"
-        places = own.route.places[sent.offset : max(sent.ends) + 1]
+        places = own.route.stretch(sent.offset, end + 1)
         if state.order_id == own.order_id and state.last_place not in {*places, ""}:
             return f"it is at {state.last_place!r}, off its way"
         return None
@@ -316,7 +356,7 @@ class FleetControl:
             elif self._has_stopped(own, state) and stands_at is not None:
                 order = self._new_order(robot, stands_at, stands_at)
                 yield {**order, "stands_at": stands_at}
-        elif not state.order_id or state.order_id in own.orders:
+        elif not state.order_id or self.ledger.owns(robot, state.order_id):
             yield from self._settle_doubt(robot, state)
 
     def _settle_doubt(self, robot: int, state: RobotState) -> Iterator[Entry]:
@@ -331,9 +371,7 @@ class FleetControl:
                 yield self._new_order(robot, stands_at, own.released)
             elif own.fault is None:
                 fault = f"it stands at {state.last_place!r}, which it does not hold"
-                self._report(robot, f"is faulty: {fault}; a person has to look after it")
-                place = state.last_place or None
-                yield {"kind": "fault", "robot": robot, "fault": fault, "place": place}
+                yield self._fault_entry(robot, fault, state)
 
     @staticmethod
     def _acknowledges(own: RobotLedger, state: RobotState) -> bool:
@@ -354,7 +392,7 @@ class FleetControl:
     def _new_order(self, robot: int, begin: int, end: int) -> Entry:
         """Return the entry of a new order over some parts."""
         own = self.ledger.robots[robot]
-        order_id = f"{self.ledger.run}-{robot}-{len(own.orders)}"
+        order_id = f"{self.ledger.run}-{robot}-{own.order_count}"
         parts = range(begin, end + 1)
         nodes, actions = self._nodes(robot, parts, begin)
         order = Order(robot=robot, order_id=order_id, update_id=0, nodes=tuple(nodes))
@@ -373,7 +411,7 @@ class FleetControl:
         order = Order(
             robot=robot,
             order_id=own.order_id,
-            update_id=len(sent.ends),
+            update_id=sent.updates,
             nodes=(own.message.nodes[-1], *nodes),
         )
         return _order_entry(order, sent.offset, actions)
@@ -389,14 +427,14 @@ class FleetControl:
         own, actions, nodes = self.ledger.robots[robot], [], []
         for part in parts:
             ids = list[str]()
-            for job in own.route.jobs[part]:
+            for job in own.route.jobs_at(part):
                 if job in own.finished:
                     continue
                 last = own.attempts.get(job, 0)
                 attempt = max(last, 1)
                 ids.append(f"{self.ledger.run}-{robot}-{job}-{attempt}")
                 actions.append((ids[-1], job, attempt))
-            place, number = own.route.places[part], 2 * (part - offset)
+            place, number = own.route.place(part), 2 * (part - offset)
             nodes.append(OrderNode(place=place, sequence_id=number, actions=tuple(ids)))
         return nodes, actions
 
@@ -432,16 +470,16 @@ class FleetControl:
 
     def _may_release(self, robot: int, own: RobotLedger, part: int) -> bool:
         """Return whether a part may be released after those before it (rule 4)."""
-        places = own.route.places
+        route = own.route
         return (
-            part < len(places)
+            part < route.end
             and not own.is_on_hold
             and own.fault is None
             and self._is_fit(robot)
             and part - own.arrived <= self._ahead(robot)
-            and own.finished.issuperset(own.route.jobs[part - 1])
-            and places[part] not in places[own.arrived : part]
-            and not any(places[part] == other.strays_at for other in self.ledger.robots)
+            and own.finished.issuperset(route.jobs_at(part - 1))
+            and route.place(part) not in route.stretch(own.arrived, part)
+            and not any(route.place(part) == other.strays_at for other in self.ledger.robots)
             and self.ledger.graph.may_go(Part(robot, part), self.ledger.arrived)
         )
 
@@ -457,6 +495,10 @@ class FleetControl:
         condition = self.conditions.get(robot)
         return self._look_ahead * (2 if condition and condition.wants_more else 1)
 
+    def committed(self) -> list[int]:
+        """Return the last part of each robot that a splice has to keep."""
+        return [self._committed(own) for own in self.ledger.robots]
+
     def _committed(self, own: RobotLedger) -> int:
         """Return the last part that a splice has to keep."""
         return own.released
@@ -465,6 +507,7 @@ class FleetControl:
         """Write entries to the disk, then take them in."""
         if entries:
             self._journal.commit(entries)
+            self._since_snapshot += len(entries)
             for entry in entries:
                 self.ledger.apply(entry)
 
@@ -481,14 +524,8 @@ def _order_entry(order: Order, offset: int, actions: list[tuple[str, str, int]])
     }
 
 
-def _jobs(route: RouteToDrive) -> set[str]:
-    return {job for jobs in route.jobs for job in jobs}
-
-
-def _refuse_rotation(graph: ReleaseGraph) -> None:
+def _refuse_rotation(graph: ReleaseGraph, names: Sequence[str]) -> None:
     if cycle := graph.rotation():
-        robots = ", ".join(str(robot) for robot in sorted({part.robot for part in cycle}))
-        message = (
-            f"robots {robots} move round a circle at one instant, which orders cannot make safe"
-        )
+        robots = ", ".join(names[robot] for robot in sorted({part.robot for part in cycle}))
+        message = f"{robots} move round a circle at one instant, which orders cannot make safe"
         raise InputError.at("plan", f"{message} (plan with rotations: false)")

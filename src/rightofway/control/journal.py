@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -26,7 +27,7 @@ class Journal(Protocol):
     """What is only ever appended to."""
 
     def entries(self) -> Iterable[Entry]:
-        """Return all entries in their order."""
+        """Return all entries in their order, from the last snapshot on."""
 
     def commit(self, entries: Iterable[Entry]) -> None:
         """Append entries, all or none; on return they outlive the process and the machine.
@@ -35,6 +36,17 @@ class Journal(Protocol):
         ------
         JournalFailed
             If they could not be written.
+        """
+
+    def begin_again(self, snapshot: Entry) -> None:
+        """Append a snapshot, which says all that the entries before it say together.
+
+        Entries from before the last snapshot but one may go, so that a journal stays small.
+
+        Raises
+        ------
+        JournalFailed
+            If it could not be written.
         """
 
 
@@ -64,6 +76,7 @@ class SqliteJournal:
             self._database.execute(
                 "CREATE TABLE IF NOT EXISTS entries (number INTEGER PRIMARY KEY, entry TEXT)"
             )
+            self._database.execute("CREATE TABLE IF NOT EXISTS snapshots (number INTEGER)")
             self._database.execute("BEGIN IMMEDIATE")  # takes the lock, which is kept
             self._database.execute("COMMIT")
         except sqlite3.Error as error:
@@ -76,8 +89,19 @@ class SqliteJournal:
         return InputError.at(str(path), f"cannot be used as a journal: {error} ({remedy})")
 
     def entries(self) -> Iterator[Entry]:
-        """Yield all entries in their order."""
-        for number, text in self._database.execute("SELECT number, entry FROM entries ORDER BY 1"):
+        """Yield all entries in their order, from the last snapshot on."""
+        last = self._database.execute("SELECT max(number) FROM snapshots").fetchone()[0]
+        return self._entries(last or 0)
+
+    def history(self) -> Iterator[Entry]:
+        """Yield all entries that are still kept, in their order."""
+        return self._entries(0)
+
+    def _entries(self, first: int) -> Iterator[Entry]:
+        rows = self._database.execute(
+            "SELECT number, entry FROM entries WHERE number >= ? ORDER BY 1", (first,)
+        )
+        for number, text in rows:
             try:
                 yield json.loads(text)
             except ValueError as error:
@@ -86,11 +110,27 @@ class SqliteJournal:
 
     def commit(self, entries: Iterable[Entry]) -> None:
         """Append entries in one transaction."""
-        rows = [(json.dumps(entry, separators=(",", ":")),) for entry in entries]
+        with self._transaction() as database:
+            rows = [(_text_of(entry),) for entry in entries]
+            database.executemany("INSERT INTO entries (entry) VALUES (?)", rows)
+
+    def begin_again(self, snapshot: Entry) -> None:
+        """Append a snapshot; drop the entries from before the last snapshot but one."""
+        with self._transaction() as database:
+            query = "INSERT INTO entries (entry) VALUES (?)"
+            number = database.execute(query, (_text_of(snapshot),)).lastrowid
+            last = database.execute("SELECT max(number) FROM snapshots").fetchone()[0] or 0
+            database.execute("DELETE FROM entries WHERE number < ?", (last,))
+            database.execute("DELETE FROM snapshots WHERE number < ?", (last,))
+            database.execute("INSERT INTO snapshots VALUES (?)", (number,))
+
+    @contextmanager
+    def _transaction(self) -> Iterator[sqlite3.Connection]:
+        """Write all that is executed, or nothing of it."""
         try:
             self._database.execute("BEGIN IMMEDIATE")
             try:
-                self._database.executemany("INSERT INTO entries (entry) VALUES (?)", rows)
+                yield self._database
                 self._database.execute("COMMIT")
             except BaseException:
                 if self._database.in_transaction:
@@ -102,3 +142,7 @@ class SqliteJournal:
     def close(self) -> None:
         """Give the file free."""
         self._database.close()
+
+
+def _text_of(entry: Entry) -> str:
+    return json.dumps(entry, separators=(",", ":"))

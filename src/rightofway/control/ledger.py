@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from rightofway.control.journal import Entry
@@ -13,7 +13,7 @@ from rightofway.precedence import Arrival, Part, ReleaseGraph
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RouteToDrive:
-    """The route of a robot as orders have it.
+    """The route of a robot as orders have it; visits keep their numbers when the first ones go.
 
     Attributes
     ----------
@@ -21,10 +21,86 @@ class RouteToDrive:
         The name of the vertex of each visit.
     jobs
         For each visit the names of what is to be done there; each name is in one visit.
+    first
+        The number of the first visit that is kept.
+    enter
+        When each visit is planned to begin [ticks]: only the order of these times counts. Empty
+        where nobody plans.
+    lap_ends
+        Numbers of the visits at which a lap ends.
+    in_step
+        Whether the end is that of a lap of the plan, so that its next lap may follow.
     """
 
     places: tuple[str, ...]
     jobs: tuple[tuple[str, ...], ...]
+    first: int = 0
+    enter: tuple[int, ...] = ()
+    lap_ends: tuple[int, ...] = ()
+    in_step: bool = True
+
+    @property
+    def end(self) -> int:
+        """The number after that of the last visit."""
+        return self.first + len(self.places)
+
+    def place(self, visit: int) -> str:
+        """Return the name of the vertex of a visit.
+
+        Parameters
+        ----------
+        visit
+            The number of a visit that is kept.
+        """
+        return self.places[self._index(visit)]
+
+    def jobs_at(self, visit: int) -> tuple[str, ...]:
+        """Return what is to be done in a visit.
+
+        Parameters
+        ----------
+        visit
+            The number of a visit that is kept.
+        """
+        return self.jobs[self._index(visit)]
+
+    def stretch(self, begin: int, end: int) -> tuple[str, ...]:
+        """Return the places of visits, those before ``end``.
+
+        Parameters
+        ----------
+        begin, end
+            Numbers of visits; what is not kept is left out.
+        """
+        return self.places[max(begin - self.first, 0) : max(end - self.first, 0)]
+
+    def since(self, visit: int) -> RouteToDrive:
+        """Return the route without the visits before one.
+
+        Parameters
+        ----------
+        visit
+            The number of a visit that is kept.
+        """
+        index = self._index(visit)
+        return replace(
+            self,
+            first=visit,
+            places=self.places[index:],
+            jobs=self.jobs[index:],
+            enter=self.enter[index:],
+            lap_ends=tuple(end for end in self.lap_ends if end >= visit),
+        )
+
+    def all_jobs(self) -> set[str]:
+        """Return the names of all that is to be done."""
+        return {job for jobs in self.jobs for job in jobs}
+
+    def _index(self, visit: int) -> int:
+        index = visit - self.first
+        if index < 0:
+            raise IndexError(f"visit {visit} is not kept, the first is {self.first}")
+        return index
 
     @classmethod
     def of_document(cls, document: Mapping[str, Any]) -> RouteToDrive:
@@ -33,17 +109,37 @@ class RouteToDrive:
         Parameters
         ----------
         document
-            The places and jobs.
+            The route as `asdict` has it.
         """
-        return cls(places=tuple(document["places"]), jobs=tuple(map(tuple, document["jobs"])))
+        return cls(
+            **{
+                **document,
+                "places": tuple(document["places"]),
+                "jobs": tuple(map(tuple, document["jobs"])),
+                "enter": tuple(document["enter"]),
+                "lap_ends": tuple(document["lap_ends"]),
+            }
+        )
 
 
 @dataclass(slots=True)
 class SentOrder:
-    """An order of ours: the part of its sequence id 0, and where the base of each update ends."""
+    """An order of ours.
+
+    Attributes
+    ----------
+    offset
+        The part of its sequence id 0.
+    ends
+        The last part of the base of each update, by its id; of old ones, which can prove nothing
+        new, there are none.
+    updates
+        The number of all updates.
+    """
 
     offset: int
-    ends: list[int]
+    ends: dict[int, int] = field(default_factory=dict)
+    updates: int = 0
 
 
 @dataclass(slots=True)
@@ -61,7 +157,8 @@ class RobotLedger:
     route: RouteToDrive
     arrived: int = 0
     released: int = 0
-    orders: dict[str, SentOrder] = field(default_factory=dict)
+    orders: dict[str, SentOrder] = field(default_factory=dict)  # without old ones
+    order_count: int = 0  # of all
     message: Order | None = None  # the last order or update
     is_acknowledged: bool = False
     token: str | None = None  # of a doubt
@@ -74,20 +171,82 @@ class RobotLedger:
     is_off: bool = False  # taken off the floor
     jobs_of: dict[str, str] = field(default_factory=dict)  # action id: job
     attempts: dict[str, int] = field(default_factory=dict)  # job: number of its last action
-    finished: set[str] = field(default_factory=set)
+    finished: set[str] = field(default_factory=set)  # jobs of the route
     failed: set[str] = field(default_factory=set)
+    next_job: int = 0  # the number of the next new job: no name comes twice
+    jobs_done: int = 0  # of all
+    laps_done: int = 0
 
     @property
     def order_id(self) -> str:
         """The current order; empty before the first one."""
         return self.message.order_id if self.message else ""
 
+    @property
+    def held(self) -> tuple[str, ...]:
+        """The vertices that it holds: the one last arrived at, and all that are released."""
+        return self.route.stretch(self.arrived, self.released + 1)
+
     def held_at(self, place: str) -> int | None:
         """Return the held part whose vertex is a place, None if there is none."""
-        for part in range(self.arrived, self.released + 1):
-            if self.route.places[part] == place:
-                return part
-        return None
+        held = self.held
+        return self.arrived + held.index(place) if place in held else None
+
+    def take_route(self, route: RouteToDrive) -> None:
+        """Go on along another route; drop what is known of jobs and orders before it.
+
+        Parameters
+        ----------
+        route
+            What is released, and what follows.
+        """
+        self.route, jobs = route, route.all_jobs()
+        numbers = (int(job.removeprefix("job")) for job in jobs)
+        self.next_job = max(self.next_job, max(numbers, default=-1) + 1)
+        self.finished &= jobs
+        self.failed &= jobs
+        self.attempts = {job: number for job, number in self.attempts.items() if job in jobs}
+        self.jobs_of = {action: job for action, job in self.jobs_of.items() if job in jobs}
+        for sent in self.orders.values():
+            ends = sent.ends.items()
+            sent.ends = {update: end for update, end in ends if end >= self.route.first}
+        self.orders = {
+            name: sent for name, sent in self.orders.items() if sent.ends or name == self.order_id
+        }
+
+    def to_document(self) -> dict[str, Any]:
+        """Return all of it for a journal."""
+        return {**asdict(self), "finished": sorted(self.finished), "failed": sorted(self.failed)}
+
+    @classmethod
+    def of_document(cls, document: Mapping[str, Any]) -> RobotLedger:
+        """Return what a journal has.
+
+        Parameters
+        ----------
+        document
+            What `to_document` has returned.
+        """
+        message, cancel = document["message"], document["cancel"]
+        orders = {
+            name: SentOrder(
+                sent["offset"],
+                {int(update): end for update, end in sent["ends"].items()},
+                sent["updates"],
+            )
+            for name, sent in document["orders"].items()
+        }
+        return cls(
+            **{
+                **document,
+                "route": RouteToDrive.of_document(document["route"]),
+                "orders": orders,
+                "message": Order.of_document(message) if message else None,
+                "cancel": Cancel(**cancel) if cancel else None,
+                "finished": set(document["finished"]),
+                "failed": set(document["failed"]),
+            }
+        )
 
 
 class Ledger:
@@ -96,13 +255,31 @@ class Ledger:
     def __init__(self) -> None:
         self.run = ""
         self.starts = 0
+        self.names: tuple[str, ...] = ()
         self.robots: list[RobotLedger] = []
         self.graph = ReleaseGraph((), {})
 
     @property
     def arrived(self) -> list[int]:
         """The visit at whose vertex each robot has arrived; past the last one once it is off."""
-        return [len(own.route.places) if own.is_off else own.arrived for own in self.robots]
+        return [own.route.end if own.is_off else own.arrived for own in self.robots]
+
+    def owns(self, robot: int, order_id: str) -> bool:
+        """Return whether an order is one of ours for a robot, however old.
+
+        Parameters
+        ----------
+        robot
+            Its number.
+        order_id
+            As a state names it.
+        """
+        known = self.robots[robot]
+        if order_id in known.orders:
+            return True
+        start, _, number = order_id.rpartition("-")
+        is_number = number.isdecimal() and number == str(int(number))
+        return start == f"{self.run}-{robot}" and is_number and int(number) < known.order_count
 
     def apply(self, entry: Entry) -> None:
         """Take in an entry.
@@ -117,28 +294,52 @@ class Ledger:
             self.starts += 1
         elif kind in {"plan", "splice"}:
             self._apply_plan(entry)
+        elif kind == "snapshot":
+            self._apply_snapshot(entry)
         else:
             _APPLY[kind](self.robots[entry["robot"]], entry)
 
+    def snapshot(self) -> Entry:
+        """Return an entry that says all that the entries before it say together."""
+        robots = [own.to_document() for own in self.robots]
+        waits = _written_waits(self.graph, [own.released for own in self.robots])
+        return {
+            "kind": "snapshot",
+            "run": self.run,
+            "starts": self.starts,
+            "names": self.names,
+            "robots": robots,
+            "waits": waits,
+        }
+
     def _apply_plan(self, entry: Entry) -> None:
         routes = [RouteToDrive.of_document(route) for route in entry["routes"]]
-        self.graph = ReleaseGraph(
-            [len(route.places) for route in routes],
-            {
-                Part(*part): [Arrival(*arrival) for arrival in arrivals]
-                for part, arrivals in entry["waits"]
-            },
-        )
+        self.graph = _graph_of(routes, entry["waits"])
         if entry["kind"] == "plan":
-            self.run = entry["run"]
+            self.run, self.names = entry["run"], tuple(entry["names"])
             self.robots = [RobotLedger(route) for route in routes]
-            return
         for own, route in zip(self.robots, routes, strict=True):
-            own.route = route
+            own.take_route(route)
+
+    def _apply_snapshot(self, entry: Entry) -> None:
+        self.run, self.starts = entry["run"], entry["starts"]
+        self.names = tuple(entry["names"])
+        self.robots = [RobotLedger.of_document(robot) for robot in entry["robots"]]
+        self.graph = _graph_of([own.route for own in self.robots], entry["waits"])
+
+
+Waits = list[list[list[Any]]]
+"""A release graph in a journal: for each part that waits, the part and its arrivals."""
 
 
 def plan_entry(
-    kind: str, run: str, routes: Sequence[RouteToDrive], graph: ReleaseGraph, committed: list[int]
+    kind: str,
+    run: str,
+    routes: Sequence[RouteToDrive],
+    graph: ReleaseGraph,
+    *,
+    committed: Sequence[int],
+    names: Sequence[str] = (),
 ) -> Entry:
     """Return the entry of routes and their release graph.
 
@@ -152,33 +353,50 @@ def plan_entry(
         The routes of all robots, and who waits for whom.
     committed
         The last released part of each robot; parts up to it wait for nothing any more.
+    names
+        Of the robots, for people.
     """
-    waits = [
-        [[robot, number], [list(arrival) for arrival in arrivals]]
-        for robot, route in enumerate(routes)
-        for number in range(committed[robot] + 1, len(route.places))
-        if (arrivals := graph.waits(Part(robot, number)))
+    documents = [asdict(route) for route in routes]
+    waits = _written_waits(graph, committed)
+    return {"kind": kind, "run": run, "names": names, "routes": documents, "waits": waits}
+
+
+def _written_waits(graph: ReleaseGraph, committed: Sequence[int]) -> Waits:
+    """Return who waits for whom behind what is released."""
+    return [
+        [list(part), [list(arrival) for arrival in graph.waits(part)]]
+        for part in graph.waiting_parts()
+        if part.number > committed[part.robot]
     ]
-    documents = [{"places": route.places, "jobs": route.jobs} for route in routes]
-    return {"kind": kind, "run": run, "routes": documents, "waits": waits}
+
+
+def _graph_of(routes: Sequence[RouteToDrive], waits: Waits) -> ReleaseGraph:
+    return ReleaseGraph(
+        [route.end for route in routes],
+        {Part(*part): [Arrival(*arrival) for arrival in arrivals] for part, arrivals in waits},
+        [route.first for route in routes],
+    )
 
 
 def _arrive(own: RobotLedger, entry: Entry) -> None:
-    own.arrived = max(own.arrived, entry["visit"])
+    before, own.arrived = own.arrived, max(own.arrived, entry["visit"])
+    own.laps_done += sum(before < visit <= own.arrived for visit in own.route.lap_ends)
 
 
 def _order(own: RobotLedger, entry: Entry) -> None:
     order = Order.of_document(entry["order"])
     if order.update_id == 0:
-        own.orders[order.order_id] = SentOrder(entry["offset"], [])
+        own.orders[order.order_id] = SentOrder(entry["offset"])
+        own.order_count += 1
         own.token = None
         stands_at = entry.get("stands_at")
         if own.cancel is not None:  # a new order drops a cancel under way: it is asked anew
             own.cancel = Cancel(stands_at=stands_at)
     sent = own.orders[order.order_id]
-    sent.ends.append(sent.offset + order.nodes[-1].sequence_id // 2)
+    end = sent.offset + order.nodes[-1].sequence_id // 2
+    sent.ends[order.update_id], sent.updates = end, sent.updates + 1
     own.message, own.is_acknowledged = order, False
-    own.released = max(own.released, sent.ends[-1])
+    own.released = max(own.released, end)
     for action_id, job, attempt in entry["actions"]:
         own.jobs_of[action_id] = job
         own.attempts[job] = attempt
@@ -208,6 +426,7 @@ def _ask_cancel(own: RobotLedger, entry: Entry) -> None:
 
 
 def _finish(own: RobotLedger, entry: Entry) -> None:
+    own.jobs_done += entry["job"] not in own.finished
     own.finished.add(entry["job"])
     own.failed.discard(entry["job"])
 

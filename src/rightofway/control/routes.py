@@ -27,6 +27,12 @@ def routes_to_drive(plan: Plan) -> list[RouteToDrive]:
         for stage, visit in enumerate(route.serves):
             if stage % stages_of_lap < len(robot.stops):  # the rest of a lap is the way home
                 jobs[visit].append(f"job{stage}")
-        places = tuple(map(scenario.roadmap.name, route.vertices))
-        routes.append(RouteToDrive(places=places, jobs=tuple(map(tuple, jobs))))
+        routes.append(
+            RouteToDrive(
+                places=tuple(map(scenario.roadmap.name, route.vertices)),
+                jobs=tuple(map(tuple, jobs)),
+                enter=tuple(track.enter.tolist()),
+                lap_ends=tuple(route.serves[stages_of_lap - 1 :: stages_of_lap]),
+            )
+        )
     return routes

@@ -51,27 +51,25 @@ class Story:
             yield from self._of_robot(robot, own, self._chapters[robot])
 
     def _of_robot(self, robot: int, own: RobotLedger, chapter: _Chapter) -> Iterator[str]:
-        name, place = self._names[robot], own.route.places[own.arrived]
-        if len(own.finished) > chapter.finished:
-            chapter.finished = len(own.finished)
-            jobs = sum(map(len, own.route.jobs))
+        name, place = self._names[robot], own.route.place(own.arrived)
+        if own.jobs_done > chapter.finished:
+            chapter.finished = own.jobs_done
+            jobs = own.jobs_done + len(own.route.all_jobs() - own.finished)
             yield f"{name} has done its work at {place} ({chapter.finished} of {jobs})"
         waited = chapter.waits_for is not None and own.released >= chapter.waits_for
         if waited or (own.released > own.arrived and not chapter.has_set_out):
             verb = "goes on" if chapter.has_set_out else "sets out"
             chapter.waits_for, chapter.has_set_out = None, True
-            yield f"{name} {verb} from {place} to {own.route.places[own.released]}"
+            yield f"{name} {verb} from {place} to {own.route.place(own.released)}"
         next_part = own.released + 1
-        if next_part == len(own.route.places):
-            has_ended = own.arrived == own.released and own.finished.issuperset(
-                job for jobs in own.route.jobs for job in jobs
-            )
+        if next_part == own.route.end:
+            has_ended = own.arrived == own.released and own.finished >= own.route.all_jobs()
             if has_ended and not chapter.has_ended:
                 chapter.has_ended = True
                 yield f"{name} is at the end of its way, {place}"
             return
         is_at_end = own.arrived == own.released and own.finished.issuperset(
-            own.route.jobs[own.arrived]
+            own.route.jobs_at(own.arrived)
         )
         missing = self._ledger.graph.missing(Part(robot, next_part), self._ledger.arrived)
         if is_at_end and missing and chapter.waits_for is None:
@@ -84,4 +82,4 @@ class Story:
             yield f"{name} waits at {place} until {others}"
 
     def _place(self, robot: int, visit: int) -> str:
-        return self._ledger.robots[robot].route.places[visit]
+        return self._ledger.robots[robot].route.place(visit)

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from rightofway.model import Scenario, Track
@@ -42,18 +42,26 @@ class ReleaseGraph:
 
     Parameters
     ----------
-    lengths
-        The number of parts of each robot's route.
+    ends
+        The number after that of the last part of each robot's route.
     waits
         The arrivals that a part waits for; parts that wait for none may be left out.
+    firsts
+        The number of the first part of each route that is looked at, 0 if left out: robots have
+        arrived there.
 
     Notes
     -----
     A part does not list arrivals that follow from others that it lists, at the same vertex.
     """
 
-    def __init__(self, lengths: Sequence[int], waits: Mapping[Part, Sequence[Arrival]]) -> None:
-        self.lengths = tuple(lengths)
+    def __init__(
+        self,
+        ends: Sequence[int],
+        waits: Mapping[Part, Sequence[Arrival]],
+        firsts: Sequence[int] = (),
+    ) -> None:
+        self.ends, self.firsts = tuple(ends), tuple(firsts or [0] * len(ends))
         self._waits = {part: tuple(arrivals) for part, arrivals in waits.items() if arrivals}
         self._after = defaultdict[Arrival, list[Part]](list)
         for part, arrivals in self._waits.items():
@@ -61,7 +69,9 @@ class ReleaseGraph:
                 self._after[arrival].append(part)
 
     @classmethod
-    def of(cls, scenario: Scenario, tracks: Sequence[Track]) -> ReleaseGraph:
+    def of(
+        cls, scenario: Scenario, tracks: Sequence[Track], firsts: Sequence[int] = ()
+    ) -> ReleaseGraph:
         """Return the release graph of a plan.
 
         Parameters
@@ -70,6 +80,8 @@ class ReleaseGraph:
             The problem.
         tracks
             A plan that keeps the rules. Its times say which robot goes first, and nothing else.
+        firsts
+            The number of the first visit of each track, 0 if left out.
         """
         uses = [_uses_of(scenario, robot, track) for robot, track in enumerate(tracks)]
         order = defaultdict[int, list[_Use]](list)  # the uses of each row, by begin
@@ -77,12 +89,20 @@ class ReleaseGraph:
             order[use.row].append(use)
         for by_row in order.values():
             by_row.sort()
+        firsts = firsts or [0] * len(tracks)
         waits = {
-            Part(robot, number): arrivals
+            Part(robot, firsts[robot] + number): [
+                Arrival(other, firsts[other] + visit) for other, visit in arrivals
+            ]
             for robot, own in enumerate(uses)
             for number, arrivals in _waits_of(scenario, robot, own, order).items()
         }
-        return cls([len(track) for track in tracks], waits)
+        ends = [first + len(track) for first, track in zip(firsts, tracks, strict=True)]
+        return cls(ends, waits, firsts)
+
+    def waiting_parts(self) -> Iterator[Part]:
+        """Yield the parts that wait for arrivals."""
+        yield from self._waits
 
     def waits(self, part: Part) -> tuple[Arrival, ...]:
         """Return the arrivals that a part waits for, by robot.
@@ -136,8 +156,8 @@ class ReleaseGraph:
         """
         before = {
             Part(robot, number): self._released_before(Part(robot, number))
-            for robot, length in enumerate(self.lengths)
-            for number in range(length)
+            for robot, (first, end) in enumerate(zip(self.firsts, self.ends, strict=True))
+            for number in range(first, end)
         }
         following = defaultdict[Part, list[Part]](list)
         for part, earlier in before.items():
@@ -163,8 +183,10 @@ class ReleaseGraph:
 
     def _released_before(self, part: Part) -> set[Part]:
         """Return the parts that are released before a part: its own last one, and arrivals' own."""
-        own = [Part(part.robot, part.number - 1)] if part.number else []
-        return {*own, *(Part(*arrival) for arrival in self.waits(part))}
+        first = self.firsts[part.robot]
+        own = [Part(part.robot, part.number - 1)] if part.number > first else []
+        arrivals = (one for one in self.waits(part) if one.visit > self.firsts[one.robot])
+        return {*own, *(Part(*arrival) for arrival in arrivals)}
 
 
 class _Use(NamedTuple):

@@ -1,0 +1,193 @@
+"""Laps without end: the next laps of a plan are appended to the routes of robots that drive.
+
+A plan repeats in *groups* of robots with one period each: those of its steady state, as chosen
+timetables have them; without a steady state all robots repeat the whole plan. Before a robot comes
+to the end of its route, its group gets the visits of one more period. Visits that robots have left
+are dropped at the same time, so that what a control knows does not grow.
+
+Where the rest was replanned, robots come home out of step. Then their group begins again with
+the first visit of the plan, after all that is planned until then.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rightofway.control.ledger import RobotLedger, RouteToDrive
+from rightofway.control.routes import routes_to_drive
+from rightofway.errors import InputError
+from rightofway.model import Plan, Scenario, Track
+from rightofway.precedence import ReleaseGraph
+
+__all__ = ["LapsToDrive", "graph_behind_released"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Group:
+    """Robots that repeat their visits together.
+
+    Attributes
+    ----------
+    robots
+        Their numbers.
+    period
+        After how long their visits come again [ticks].
+    visits
+        For each of them how many of its last visits are a period.
+    """
+
+    robots: tuple[int, ...]
+    period: int
+    visits: tuple[int, ...]
+
+
+class LapsToDrive:
+    """The laps of a plan, as many as are wanted.
+
+    Parameters
+    ----------
+    plan
+        A plan that keeps the rules, whose robots end where they have begun.
+
+    Raises
+    ------
+    InputError
+        If a robot ends elsewhere, or the visits of a period do not repeat.
+    """
+
+    def __init__(self, plan: Plan) -> None:
+        self._scenario, self._routes = plan.scenario, routes_to_drive(plan)
+        names = [robot.name for robot in plan.scenario.robots]
+        for name, route in zip(names, self._routes, strict=True):
+            if route.places[0] != route.places[-1]:
+                message = f"{name} ends at {route.places[-1]}, not at {route.places[0]}"
+                raise InputError.at("plan", f"{message} (laps need robots that return home)")
+        self._groups = [*self._steady_groups(plan, names)] if plan.steady else [self._whole()]
+        robots = [RobotLedger(route) for route in self._routes]
+        for own, route in zip(robots, self._routes, strict=True):
+            own.take_route(route)
+        extended = self.extended(robots, ahead=10**9)
+        if extended is None:
+            raise InputError.at("plan", "no robot moves (laps need stops away from home)")
+        if cycle := graph_behind_released(plan.scenario, extended, [0] * len(names)).rotation():
+            those = ", ".join(names[robot] for robot in sorted({part.robot for part in cycle}))
+            message = f"{those} move round a circle at one instant from one lap to the next"
+            raise InputError.at("plan", f"{message} (plan with rotations: false)")
+
+    def _whole(self) -> _Group:
+        moving = [robot for robot, route in enumerate(self._routes) if route.end > 1]
+        return _Group(
+            robots=tuple(moving),
+            period=max(route.enter[-1] for route in self._routes) + 1,
+            visits=tuple(self._routes[robot].end - 1 for robot in moving),
+        )
+
+    def _steady_groups(self, plan: Plan, names: Sequence[str]) -> list[_Group]:
+        groups = []
+        for group in plan.steady:
+            visits = []
+            for robot in group.robots:
+                route, enter = self._routes[robot], plan.tracks[robot].enter
+                again = int(np.searchsorted(enter, enter[-1] - group.period))
+                if (
+                    enter[again] != enter[-1] - group.period
+                    or route.places[again] != (route.places[-1])
+                ):
+                    message = f"{names[robot]} makes less than a period, {group.period} ticks"
+                    raise InputError.at("plan", f"{message} (give a plan with more laps)")
+                visits.append(route.end - 1 - again)
+            groups.append(
+                _Group(robots=group.robots, period=int(group.period), visits=tuple(visits))
+            )
+        return groups
+
+    def extended(self, robots: Sequence[RobotLedger], ahead: int = 0) -> list[RouteToDrive] | None:
+        """Return all routes with the next period of each group that needs one; None if none does.
+
+        Parameters
+        ----------
+        robots
+            What is known of each robot.
+        ahead
+            Visits that shall be left to each robot beyond what is released, if more than a period.
+
+        Returns
+        -------
+        list of RouteToDrive
+            Routes from the visits on at which robots have arrived.
+        """
+        routes = [own.route for own in robots]
+        needy = [
+            group
+            for group in self._groups
+            if any(
+                robots[robot].route.end - 1 - robots[robot].released < max(visits, ahead)
+                for robot, visits in zip(group.robots, group.visits, strict=True)
+            )
+            and not any(robots[robot].is_off for robot in group.robots)
+        ]
+        if not needy:
+            return None
+        latest = max(route.enter[-1] for route in routes)
+        for group in needy:
+            in_step = all(routes[robot].in_step for robot in group.robots)
+            for robot, visits in zip(group.robots, group.visits, strict=True):
+                route, lap = routes[robot], self._routes[robot]
+                if in_step:
+                    later = route.enter[-1] - lap.enter[-1] + group.period
+                    begin = lap.end - 1 - visits
+                else:
+                    later, begin = latest + 1, 0
+                routes[robot] = _appended(route, lap, begin, later, robots[robot].next_job)
+        return [route.since(own.arrived) for own, route in zip(robots, routes, strict=True)]
+
+
+def _appended(
+    route: RouteToDrive, lap: RouteToDrive, begin: int, later: int, next_job: int
+) -> RouteToDrive:
+    """Return a route followed by the visits of a lap behind one, each some ticks later."""
+    numbers = itertools.count(next_job)
+    jobs = (tuple(f"job{next(numbers)}" for _ in names) for names in lap.jobs[begin + 1 :])
+    shift = route.end - 1 - begin
+    return replace(
+        route,
+        places=(*route.places, *lap.places[begin + 1 :]),
+        jobs=(*route.jobs, *jobs),
+        enter=(*route.enter, *(tick + later for tick in lap.enter[begin + 1 :])),
+        lap_ends=(*route.lap_ends, *(end + shift for end in lap.lap_ends if end > begin)),
+        in_step=True,
+    )
+
+
+def graph_behind_released(
+    scenario: Scenario, routes: Sequence[RouteToDrive], released: Sequence[int]
+) -> ReleaseGraph:
+    """Return who waits for whom: for all that is released, then in the order of planned times.
+
+    Parameters
+    ----------
+    scenario
+        The problem: which robots exclude each other where.
+    routes
+        Where robots go, from the visits on at which they have arrived.
+    released
+        The last released part of each robot; all up to it goes first.
+    """
+    roadmap = scenario.roadmap
+    begins = min(route.enter[0] for route in routes)
+    span = max(route.enter[-1] for route in routes) - begins + 1
+    tracks = [
+        Track.of(
+            [int(roadmap.vertex(place)) for place in route.places],
+            [
+                tick - begins + span * (route.first + index > end)
+                for index, tick in enumerate(route.enter)
+            ],
+        )
+        for route, end in zip(routes, released, strict=True)
+    ]
+    return ReleaseGraph.of(scenario, tracks, [route.first for route in routes])
