@@ -602,6 +602,7 @@ def _detour(scenario: Scenario, draw: random.Random, route: RouteToDrive, end: i
         route,
         places=tuple(map(roadmap.name, path)),
         jobs=tuple(jobs),
+        work=tuple((0,) * len(names) for names in jobs),
         lap_ends=tuple(lap_end + route.first for lap_end in sorted(lap_ends)),
     )
 

@@ -27,6 +27,7 @@ Examples:
   rightofway drive plan.json --demo
   rightofway drive plan.json --demo --delays exponential:0.5 --time-scale 1
   rightofway drive plan.json --demo --time-scale inf --json
+  rightofway drive laps.json --demo --laps inf
   rightofway drive plan.json --demo --delays stop:R1@5+20 --page driven.html
 """
 
@@ -35,6 +36,17 @@ def _factor(_context: click.Context, _parameter: click.Parameter, given: float) 
     if not given > 0:
         raise click.BadParameter(f"{given:g} is not positive (give a factor, or inf for no pause)")
     return given
+
+
+def _count(_context: click.Context, _parameter: click.Parameter, given: str | None) -> int | None:
+    """Return a number of laps, 0 for laps without end, None where the plan is driven once."""
+    if given is None:
+        return None
+    if given == "inf":
+        return 0
+    if not given.isdecimal() or not int(given):
+        raise click.BadParameter(f"{given!r} is no number of laps (give 1 or more, or inf)")
+    return int(given)
 
 
 @click.command(
@@ -54,6 +66,9 @@ def _factor(_context: click.Context, _parameter: click.Parameter, given: float) 
               " inf for no pause.")  # fmt: skip
 @delays_option("none")
 @seed_option
+@click.option("--laps", metavar="COUNT", callback=_count,
+              help="Repeat the laps of the plan until each robot has made so many; inf: until"
+              " interrupted.")  # fmt: skip
 @page_option("what robots did beside the plan")
 @ticks_option
 @as_json_option("outcome")
@@ -64,6 +79,7 @@ def drive(
     time_scale: float,
     delays: tuple[str, ...],
     seed: int,
+    laps: int | None,
     page: str | None,
     in_ticks: bool,
     as_json: bool,
@@ -74,6 +90,8 @@ def drive(
     clock. A late robot makes others wait; nothing collides. What happens goes to standard error,
     the report to standard output. A PLAN of - is standard input.
     """
+    if laps is not None and page:
+        raise click.UsageError("laps without end fill no page (leave out --page or --laps)")
     if not demo:
         raise click.UsageError("robots over a network are not there yet (give --demo)")
     from rightofway.control.demo import drive_demo
@@ -93,7 +111,9 @@ def drive(
     def narrate(tick: int, sentence: str) -> None:
         say(f"{quantities.cell(tick):>8}  {sentence}")
 
-    outcome = drive_demo(opened, delay_texts(delays), seed, report=narrate, wait_until=wait_until)
+    outcome = drive_demo(
+        opened, delay_texts(delays), seed, laps=laps, report=narrate, wait_until=wait_until
+    )
     if as_json:
         put_json({**measures(opened.scenario), "seed": seed, **outcome.as_dict()})
     else:

@@ -8,18 +8,22 @@ from __future__ import annotations
 
 import heapq
 from collections import Counter, deque
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
 
 from rightofway.check import check
+from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity, simulated_identities
 from rightofway.control.journal import Entry
+from rightofway.control.laps import LapsToDrive
+from rightofway.control.ledger import RobotLedger, RouteToDrive
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderMap
 from rightofway.control.routes import routes_to_drive
@@ -28,7 +32,7 @@ from rightofway.control.story import Story
 from rightofway.errors import InputError
 from rightofway.execution import replay
 from rightofway.model import ExecutionTrace, Plan, Tick, Track
-from rightofway.precedence import ReleaseGraph
+from rightofway.model.route import drives_along
 
 __all__ = ["DemoResult", "drive_demo"]
 
@@ -44,9 +48,13 @@ class DemoResult:
     plan
         The plan.
     trace
-        Where robots were, and how long each visit and drive took.
+        Where robots were, and how long each visit and drive took; None of laps.
     jobs
         How many jobs each robot has done.
+    laps
+        How many laps each robot has made.
+    now
+        When the run ended [ticks].
     waits
         How often each robot stood at the end of what was released to it, until others had left.
     messages
@@ -54,27 +62,30 @@ class DemoResult:
     """
 
     plan: Plan
-    trace: ExecutionTrace
+    trace: ExecutionTrace | None
     jobs: tuple[int, ...]
+    laps: tuple[int, ...]
+    now: Tick
     waits: tuple[int, ...]
     messages: dict[str, int]
 
     def as_dict(self) -> dict[str, Any]:
         """Return the result as JSON has it, times in ticks."""
-        planned, actual = self.plan.completions, self.trace.completion
-        robots = [
-            {
-                "name": robot.name,
-                "jobs": jobs,
-                "waits": waits,
-                "planned": int(expected),
-                "completion": completion,
-            }
-            for robot, jobs, waits, expected, completion in zip(
-                self.plan.scenario.robots, self.jobs, self.waits, planned, actual, strict=True
-            )
+        names = [robot.name for robot in self.plan.scenario.robots]
+        robots: list[dict[str, Any]] = [
+            {"name": name, "jobs": jobs, "waits": waits}
+            for name, jobs, waits in zip(names, self.jobs, self.waits, strict=True)
         ]
-        return {"robots": robots, "jobs": sum(self.jobs), "messages": self.messages}
+        if self.trace is None:
+            for row, laps in zip(robots, self.laps, strict=True):
+                row["laps"] = laps
+        else:
+            times = zip(robots, self.plan.completions, self.trace.completion, strict=True)
+            for row, planned, completion in times:
+                row |= {"planned": int(planned), "completion": completion}
+        totals = {"jobs": sum(self.jobs), "messages": self.messages}
+        duration = {"ticks": int(self.now)} if self.trace is None else {}
+        return {"robots": robots, **totals, **duration}
 
 
 def drive_demo(
@@ -84,6 +95,7 @@ def drive_demo(
     *,
     version: str = "2.1.0",
     identities: Sequence[Identity] = (),
+    laps: int | None = None,
     report: Report = lambda *_: None,
     wait_until: Callable[[Tick], None] = lambda _: None,
     watch: Callable[[Letter], None] = lambda _: None,
@@ -103,6 +115,9 @@ def drive_demo(
         Of VDA 5050, for all robots.
     identities
         Of the robots; by default made for the version.
+    laps
+        Robots repeat the laps of the plan until each has made so many, 0 for ever: an interrupt
+        (Ctrl-C) ends them. None: they drive the plan once.
     report
         Receives each sentence of the story, with its time.
     wait_until
@@ -114,20 +129,23 @@ def drive_demo(
     ------
     InputError
         If the plan has faults or rotations, the delays cannot be read, or a robot would break down
-        for ever.
+        for ever; with laps, also if robots do not return home.
     """
     judged = check(plan)
     if not judged.ok:
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be driven)")
-    durations = replay(plan, delays, 0, seed)
     names = [robot.name for robot in plan.scenario.robots]
-    for name, completion in zip(names, durations.completion, strict=True):
+    repeated = None if laps is None else LapsToDrive(plan)
+    durations = _Durations(plan, delays, seed, repeated)
+    for name, completion in zip(names, durations.round(0).completion, strict=True):
         if completion is None:
             message = f"{name} would never complete, and a demo ends when all jobs are done"
             raise InputError.at("delays", f"{message} (give delays that end)")
     control = FleetControl(_NothingKept())
     identities = identities or simulated_identities(names, version)
-    return _Demo(plan, durations, control, identities, watch=watch, report=report).run(wait_until)
+    dispatcher = Dispatcher(control, plan, repeated)
+    demo = _Demo(dispatcher, durations, identities, watch=watch, report=report)
+    return demo.run(wait_until, laps)
 
 
 class _NothingKept:
@@ -144,35 +162,83 @@ class _NothingKept:
         """Keep nothing."""
 
 
+class _Durations:
+    """How long what robots do takes them: as planned, and longer by delays of a seed.
+
+    Each time that robots come to the end of the plan, the next run of the seed has the delays.
+    """
+
+    def __init__(
+        self, plan: Plan, delays: str | Iterable[str], seed: int, laps: LapsToDrive | None
+    ) -> None:
+        self._plan, self._delays, self._seed, self._laps = plan, delays, seed, laps
+        self._routes, self._roadmap = routes_to_drive(plan), plan.scenario.roadmap
+        self.round = lru_cache(maxsize=4)(self._round)
+
+    def _round(self, number: int) -> ExecutionTrace:
+        return replay(self._plan, self._delays, number, self._seed)
+
+    def stay(self, robot: int, own: RobotLedger, visit: int) -> int:
+        """Return how long a robot works and turns in a visit [ticks]."""
+        number, planned = self._planned(robot, visit)
+        sample, lap = self.round(number).dwell[robot], self._routes[robot]
+        more = int(sample[planned]) - sum(lap.work_at(planned))
+        if planned == lap.end - 1 and self._laps:  # it goes on, and turns for that
+            more += self._plan.scenario.problem.itineraries[robot].stages[-1].turn
+        return sum(own.route.work_at(visit)) + max(more, 0)
+
+    def drive(self, robot: int, own: RobotLedger, visit: int) -> int:
+        """Return how long a robot drives into a visit [ticks]."""
+        number, planned = self._planned(robot, visit)
+        sample, lap = self.round(number).drive[robot], self._routes[robot]
+        more = int(sample[planned]) - self._ticks(robot, lap, planned) if planned else 0
+        return self._ticks(robot, own.route, visit) + max(more, 0)
+
+    def _ticks(self, robot: int, route: RouteToDrive, visit: int) -> int:
+        """Return how long the drive into a visit lasts without delays [ticks]."""
+        ends = (self._roadmap.vertex(route.place(at)) for at in (visit - 1, visit))
+        itinerary = self._plan.scenario.problem.itineraries[robot]
+        return drives_along(self._roadmap, itinerary, list(map(int, ends)))[0]
+
+    def _planned(self, robot: int, visit: int) -> tuple[int, int]:
+        """Return the run that has the delays of a visit, and a visit of the plan."""
+        if self._laps:
+            return self._laps.planned_visit(robot, visit)
+        return divmod(visit, self._routes[robot].end)
+
+
 class _Demo:
     """One run."""
 
     def __init__(
         self,
-        plan: Plan,
-        durations: ExecutionTrace,
-        control: FleetControl,
+        dispatcher: Dispatcher,
+        durations: _Durations,
         identities: Sequence[Identity],
         *,
         watch: Callable[[Letter], None],
         report: Report,
     ) -> None:
-        routes = routes_to_drive(plan)
-        control.begin("demo", routes, ReleaseGraph.of(plan.scenario, plan.tracks))
+        plan, control = dispatcher.plan, dispatcher.control
+        dispatcher.begin("demo")
         self._plan, self._control, self._watch = plan, control, watch
         self._now, self._report = 0, report
         maps = [OrderMap(plan.scenario, *numbered) for numbered in enumerate(identities)]
         names = [robot.name for robot in plan.scenario.robots]
         notices = Notices(names, lambda sentence: self._report(Tick(self._now), sentence))
         self._end = ControlEnd(control, maps, self._timestamp, notices)
+        stoppages = durations.round(0).stoppages or ((),) * len(identities)
         self._robots = [
             _DemoRobot(
-                RobotEnd(SimulatedRobot(route.places[0]), number, identity, self._timestamp),
-                durations.dwell[number].tolist(),
-                durations.drive[number].tolist(),
-                durations.stoppages[number] if durations.stoppages else (),
+                RobotEnd(SimulatedRobot(own.route.places[0]), number, identity, self._timestamp),
+                partial(durations.stay, number, own),
+                partial(durations.drive, number, own),
+                stoppages[number],
+                kept=1 if dispatcher.is_endless else None,
             )
-            for number, (route, identity) in enumerate(zip(routes, identities, strict=True))
+            for number, (own, identity) in enumerate(
+                zip(control.ledger.robots, identities, strict=True)
+            )
         ]
         self._listens = {topic: robot for robot in self._robots for topic in robot.end.topics}
         self._story = Story(control.ledger, names)
@@ -184,8 +250,20 @@ class _Demo:
         moment = datetime.fromtimestamp(0, UTC) + timedelta(seconds=seconds)
         return f"{moment:%Y-%m-%dT%H:%M:%S}.{moment.microsecond // 1000:03d}Z"
 
-    def run(self, wait_until: Callable[[Tick], None]) -> DemoResult:
-        """Go from step to step until no robot has anything to do."""
+    def run(self, wait_until: Callable[[Tick], None], laps: int | None) -> DemoResult:
+        """Go from step to step until no robot has anything to do, or all laps are made."""
+        robots = self._control.ledger.robots
+        try:
+            for _ in self._steps(wait_until):
+                if laps and all(own.laps_done >= laps for own in robots if own.route.end > 1):
+                    break
+        except KeyboardInterrupt:
+            if laps is None:
+                raise
+        return self._result(is_endless=laps is not None)
+
+    def _steps(self, wait_until: Callable[[Tick], None]) -> Iterator[None]:
+        """Have robots do one thing after another, as long as there is something."""
         agenda: list[tuple[int, int]] = []  # when the next step of a robot ends
         self._exchange(self._end.letters(self._control.start()))
         while True:
@@ -196,13 +274,14 @@ class _Demo:
                 for sentence in self._story.go_on():
                     self._report(Tick(self._now), sentence)
             if not agenda:
-                return self._result()
+                return
             moment, number = heapq.heappop(agenda)
             if moment > self._now:
                 wait_until(Tick(moment))
             self._now = moment
             self._robots[number].end_step(moment)
             self._exchange([self._robots[number].end.state()])
+            yield
 
     def _exchange(self, letters: list[Letter]) -> None:
         """Deliver letters, and all that is answered, in their order."""
@@ -218,27 +297,32 @@ class _Demo:
                 robot.end.receive(letter)
                 queue.append(robot.end.state())
 
-    def _result(self) -> DemoResult:
+    def _result(self, *, is_endless: bool) -> DemoResult:
+        robots = self._control.ledger.robots
+        return DemoResult(
+            plan=self._plan,
+            trace=None if is_endless else self._trace(),
+            jobs=tuple(own.jobs_done for own in robots),
+            laps=tuple(own.laps_done for own in robots),
+            now=Tick(self._now),
+            waits=tuple(self._story.waits),
+            messages=dict(sorted(self._sent.items())),
+        )
+
+    def _trace(self) -> ExecutionTrace:
         for own in self._control.ledger.robots:
             assert own.arrived == own.route.end - 1, "a robot has not arrived"
             assert own.finished == own.route.all_jobs(), "a job is not done"
         tracks = tuple(
-            Track.of(track.vertices.tolist(), robot.enter)
+            Track.of(track.vertices.tolist(), list(robot.enter))
             for track, robot in zip(self._plan.tracks, self._robots, strict=True)
         )
-        trace = ExecutionTrace(
+        return ExecutionTrace(
             tracks=tracks,
             dwell=tuple(np.array(robot.dwell, np.int64) for robot in self._robots),
             drive=tuple(np.array(robot.drive, np.int64) for robot in self._robots),
             completion=tuple(Tick(robot.since) for robot in self._robots),
             stoppages=tuple(robot.stoppages for robot in self._robots),
-        )
-        return DemoResult(
-            plan=self._plan,
-            trace=trace,
-            jobs=tuple(own.jobs_done for own in self._control.ledger.robots),
-            waits=tuple(self._story.waits),
-            messages=dict(sorted(self._sent.items())),
         )
 
 
@@ -249,24 +333,30 @@ class _DemoRobot:
     ----------
     end
         The robot with its messages.
-    dwell, drive
-        How long work and turning of each visit take, and the drive into it [ticks].
+    stay, drive_into
+        How long work and turning of a visit take, and the drive into it [ticks].
     stoppages
         When it stands still, in order: first tick and length [ticks].
+    kept
+        How many visits have their times kept; None for all.
     """
 
     def __init__(
         self,
         end: RobotEnd,
-        dwell: list[int],
-        drive: list[int],
+        stay: Callable[[int], int],
+        drive_into: Callable[[int], int],
         stoppages: tuple[tuple[Tick, Tick | None], ...],
+        kept: int | None,
     ) -> None:
-        self.end, self.dwell, self.drive, self.stoppages = end, dwell, drive, stoppages
-        self.enter = [0]  # when each visit began
+        self.end, self._stay, self._drive_into, self.stoppages = end, stay, drive_into, stoppages
+        self.visit = 0  # the number of the last one
+        self.enter = deque([0], kept)  # when each visit began
+        self.dwell = deque([stay(0)], kept)
+        self.drive = deque([0], kept)
         self.since = 0  # when its last step ended
         self.is_busy = False
-        self._left = dwell[0]  # what is left of work and turning of this visit
+        self._left = self.dwell[0]  # what is left of work and turning of this visit
 
     def begin_step(self, now: int) -> int | None:
         """Begin the next step, if there is one; return when it ends."""
@@ -274,7 +364,8 @@ class _DemoRobot:
             case None:
                 return None
             case "arrive":
-                lasts = self.drive[len(self.enter)]
+                lasts = self._drive_into(self.visit + 1)
+                self.drive.append(lasts)
             case "begin work":
                 lasts = 0
             case "end work" | "begin to drive":
@@ -290,7 +381,9 @@ class _DemoRobot:
     def end_step(self, now: int) -> None:
         """End the step."""
         if self.end.robot.next_step == "arrive":
-            self._left = self.dwell[len(self.enter)]
+            self.visit += 1
+            self._left = self._stay(self.visit)
             self.enter.append(now)
+            self.dwell.append(self._left)
         self.end.robot.step()
         self.is_busy, self.since = False, now

@@ -39,6 +39,11 @@ class Dispatcher:
         """What the journal says."""
         return self.control.ledger
 
+    @property
+    def is_endless(self) -> bool:
+        """Whether robots repeat laps for ever."""
+        return self._laps is not None
+
     def begin(self, run: str) -> None:
         """Give an empty journal the plan.
 

@@ -145,6 +145,26 @@ class LapsToDrive:
                 routes[robot] = _appended(route, lap, begin, later, robots[robot].next_job)
         return [route.since(own.arrived) for own, route in zip(robots, routes, strict=True)]
 
+    def planned_visit(self, robot: int, visit: int) -> tuple[int, int]:
+        """Return how often a robot in step has come to the end of the plan, and a visit of it.
+
+        Parameters
+        ----------
+        robot
+            Its number.
+        visit
+            The number of a visit, from the begin of all on.
+        """
+        last = self._routes[robot].end - 1
+        if visit <= last:
+            return 0, visit
+        for group in self._groups:
+            if robot in group.robots:
+                visits = group.visits[group.robots.index(robot)]
+                rounds, index = divmod(visit - last - 1, visits)
+                return rounds + 1, last - visits + 1 + index
+        raise AssertionError("a robot without laps has no visits beyond the plan")
+
 
 def _appended(
     route: RouteToDrive, lap: RouteToDrive, begin: int, later: int, next_job: int
@@ -157,6 +177,7 @@ def _appended(
         route,
         places=(*route.places, *lap.places[begin + 1 :]),
         jobs=(*route.jobs, *jobs),
+        work=(*route.work, *lap.work[begin + 1 :]),
         enter=(*route.enter, *(tick + later for tick in lap.enter[begin + 1 :])),
         lap_ends=(*route.lap_ends, *(end + shift for end in lap.lap_ends if end > begin)),
         in_step=True,

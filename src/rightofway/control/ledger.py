@@ -23,6 +23,9 @@ class RouteToDrive:
         For each visit the names of what is to be done there; each name is in one visit.
     first
         The number of the first visit that is kept.
+    work
+        For each job of each visit how long it lasts with its turn [ticks]; empty where nobody
+        plans.
     enter
         When each visit is planned to begin [ticks]: only the order of these times counts. Empty
         where nobody plans.
@@ -35,6 +38,7 @@ class RouteToDrive:
     places: tuple[str, ...]
     jobs: tuple[tuple[str, ...], ...]
     first: int = 0
+    work: tuple[tuple[int, ...], ...] = ()
     enter: tuple[int, ...] = ()
     lap_ends: tuple[int, ...] = ()
     in_step: bool = True
@@ -64,6 +68,16 @@ class RouteToDrive:
         """
         return self.jobs[self._index(visit)]
 
+    def work_at(self, visit: int) -> tuple[int, ...]:
+        """Return how long each job of a visit lasts [ticks].
+
+        Parameters
+        ----------
+        visit
+            The number of a visit that is kept.
+        """
+        return self.work[self._index(visit)]
+
     def stretch(self, begin: int, end: int) -> tuple[str, ...]:
         """Return the places of visits, those before ``end``.
 
@@ -88,6 +102,7 @@ class RouteToDrive:
             first=visit,
             places=self.places[index:],
             jobs=self.jobs[index:],
+            work=self.work[index:],
             enter=self.enter[index:],
             lap_ends=tuple(end for end in self.lap_ends if end >= visit),
         )
@@ -116,6 +131,7 @@ class RouteToDrive:
                 **document,
                 "places": tuple(document["places"]),
                 "jobs": tuple(map(tuple, document["jobs"])),
+                "work": tuple(map(tuple, document["work"])),
                 "enter": tuple(document["enter"]),
                 "lap_ends": tuple(document["lap_ends"]),
             }

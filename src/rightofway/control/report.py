@@ -28,27 +28,40 @@ def report(result: DemoResult, quantities: Quantities) -> str:
 
 
 def _totals(result: DemoResult, quantities: Quantities) -> Iterator[str]:
-    planned, sent = max(result.plan.completions), result.messages
-    makespan = max(completion or 0 for completion in result.trace.completion)
+    sent = result.messages
     actions = counted(sent.get("instantActions", 0), "instant action")
     messages = f"{counted(sent['order'], 'order')}, {actions}, {counted(sent['state'], 'state')}"
     yield row("jobs", f"{sum(result.jobs)} done", 10)
-    yield row(
-        "makespan", f"{quantities.duration(makespan)}; planned {quantities.duration(planned)}", 10
-    )
+    if result.trace is None:
+        time = quantities.duration(result.now)
+        yield row("laps", f"{sum(result.laps)} in {time}", 10)
+    else:
+        planned = quantities.duration(max(result.plan.completions))
+        makespan = max(completion or 0 for completion in result.trace.completion)
+        yield row("makespan", f"{quantities.duration(makespan)}; planned {planned}", 10)
     yield row("messages", messages, 10)
 
 
 def _robots(result: DemoResult, quantities: Quantities) -> Iterator[str]:
     robots = result.plan.scenario.robots
-    cells = [("robot", "jobs", "waits", "planned", "actual")]
+    if result.trace is None:
+        yield "laps of each robot"
+        cells = [("robot", "jobs", "waits", "laps", "mean lap")]
+        times = [
+            (str(laps), quantities.cell(round(result.now / laps)) if laps else "-")
+            for laps in result.laps
+        ]
+    else:
+        yield quantities.heading("completion of each robot")
+        cells = [("robot", "jobs", "waits", "planned", "actual")]
+        pairs = zip(result.plan.completions, result.trace.completion, strict=True)
+        times = [
+            (quantities.cell(planned), quantities.cell(actual or 0)) for planned, actual in pairs
+        ]
     for robot in range(min(len(robots), MAX_ROBOTS)):
-        name = short(robots[robot].name)
-        times = (result.plan.completions[robot], result.trace.completion[robot] or 0)
         counts = (str(result.jobs[robot]), str(result.waits[robot]))
-        cells.append((name, *counts, quantities.cell(times[0]), quantities.cell(times[1])))
+        cells.append((short(robots[robot].name), *counts, *times[robot]))
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    yield quantities.heading("completion of each robot")
     for name, *others in cells:
         right = (f"{cell:>{width}}" for cell, width in zip(others, widths[1:], strict=True))
         yield "  ".join((f"{name:{widths[0]}}", *right))

@@ -23,14 +23,17 @@ def routes_to_drive(plan: Plan) -> list[RouteToDrive]:
     ):
         route = route_of(scenario.roadmap, itinerary, track)
         jobs: list[list[str]] = [[] for _ in route.vertices]
+        work: list[list[int]] = [[] for _ in route.vertices]
         stages_of_lap = len(itinerary.stages) // (robot.laps or scenario.rules.laps)
         for stage, visit in enumerate(route.serves):
             if stage % stages_of_lap < len(robot.stops):  # the rest of a lap is the way home
                 jobs[visit].append(f"job{stage}")
+                work[visit].append(itinerary.stages[stage].work + itinerary.stages[stage].turn)
         routes.append(
             RouteToDrive(
                 places=tuple(map(scenario.roadmap.name, route.vertices)),
                 jobs=tuple(map(tuple, jobs)),
+                work=tuple(map(tuple, work)),
                 enter=tuple(track.enter.tolist()),
                 lap_ends=tuple(route.serves[stages_of_lap - 1 :: stages_of_lap]),
             )
