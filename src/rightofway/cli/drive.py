@@ -67,8 +67,8 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @delays_option("none")
 @seed_option
 @click.option("--laps", metavar="COUNT", callback=_count,
-              help="Repeat the laps of the plan until each robot has made so many; inf: until"
-              " interrupted.")  # fmt: skip
+              help="Repeat the plan until each robot has made COUNT laps; inf: until interrupted.",
+              )  # fmt: skip
 @page_option("what robots did beside the plan")
 @ticks_option
 @as_json_option("outcome")
