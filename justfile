@@ -133,6 +133,11 @@ stub-is-fresh:
 docs:
     sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
+# The documentation with the pages of the wall, each made by its command (a minute or two)
+gallery *args:
+    sphinx-build -W --keep-going -q -t wall -b html docs docs/_build/html
+    python -m tests.builders.gallery docs/_build/html/gallery {{ args }}
+
 # Write the generated parts of the pages: help texts, tables of keys, options and names
 docs-refresh:
     python docs/refresh.py

@@ -2,7 +2,8 @@
 
 A comment that begins with ``<!-- sphinx`` on a line of its own holds Markdown for Sphinx; code
 hosts do not show it. Sphinx leaves out what stands between ``<!-- not sphinx -->`` and
-``<!-- end -->``. An equation is a block of the language ``math``, which both draw.
+``<!-- end -->``. An equation is a block of the language ``math``, which both draw. With the tag
+``wall`` a link to the page that a command of the wall has made stands below the command.
 """  # noqa: INP001 (a Sphinx extension, found by its path)
 
 from __future__ import annotations
@@ -17,14 +18,17 @@ FOR_SPHINX = re.compile(r"^<!-- sphinx\n(.*?)^-->$", re.MULTILINE | re.DOTALL)
 FOR_CODE_HOSTS = re.compile(r"^<!-- not sphinx -->$.*?^<!-- end -->$", re.MULTILINE | re.DOTALL)
 ROOT_PAGE = re.compile(r"\]\(((?:\.\./)*)\.\./(CONTRIBUTING|CHANGELOG)\.md")
 OUTSIDE = re.compile(r"\[([^\]]*)\]\((?:\.\./)+(benchmarks/README\.md)\)")
+MADE = re.compile(r"^```sh gallery\n(?:.*\n)*?.*\b([\w-]+\.html)\n```$", re.MULTILINE)
 EQUATION = re.compile(r"^( *)```math$", re.MULTILINE)
 
 
-def reveal(_app: Sphinx, _page: str, source: list[str]) -> None:
+def reveal(app: Sphinx, _page: str, source: list[str]) -> None:
     """Give Sphinx its own Markdown, and links to the pages that include those of the root."""
     text = FOR_SPHINX.sub(r"\1", FOR_CODE_HOSTS.sub("", source[0]))
     text = ROOT_PAGE.sub(lambda link: f"]({link[1]}{link[2].lower()}.md", text)
     text = OUTSIDE.sub(r"\1 (`\2`)", text)
+    if app.tags.has("wall"):
+        text = MADE.sub(r'\g<0>\n\n<p><a href="\1">Play it</a></p>', text)
     source[0] = EQUATION.sub(r"\1```{math}", text)
 
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import runpy
+from types import SimpleNamespace
 
 from tests.builders.pages import DOCS
 
 REVEAL = runpy.run_path(str(DOCS / "_ext" / "code_host.py"))["reveal"]
 
 
-def read(text: str) -> str:
+def read(text: str, *tags: str) -> str:
     source = [text]
-    REVEAL(None, "page", source)
+    app = SimpleNamespace(tags=SimpleNamespace(has=lambda tag: tag in tags))
+    REVEAL(app, "page", source)
     return source[0]
 
 
@@ -36,3 +38,11 @@ def test_links_to_the_root_lead_to_the_pages_that_include_it() -> None:
 
 def test_an_equation_of_a_code_host_is_one_of_sphinx() -> None:
     assert read("```math\nx\n```\n") == "```{math}\nx\n```\n"
+
+
+def test_a_page_of_the_wall_is_linked_where_it_was_made() -> None:
+    text = (
+        "```sh gallery\nrightofway plan a.yaml -o a.json\nrightofway show a.json -o a.html\n```\n"
+    )
+    assert read(text) == text
+    assert read(text, "wall") == text + '\n<p><a href="a.html">Play it</a></p>\n'

@@ -190,5 +190,5 @@ def test_the_quick_start_of_the_readme_is_two_commands() -> None:
 
 
 def test_pictures_of_the_documentation_are_small() -> None:
-    for picture in (DOCS / "images").iterdir():
+    for picture in (DOCS / "images").rglob("*.*"):
         assert picture.stat().st_size < 200_000, picture.name
