@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/reject.hpp"
+#include "core/reverse_graph.hpp"
 
 namespace rightofway {
 namespace {
@@ -42,11 +43,7 @@ Congestion::Congestion(const Problem& problem, std::int64_t shares,
     cost_.assign(station_.size(), never);
     cheapest_way_.assign(station_.size(), none);
     is_marked_.assign(station_.size(), 0);
-    for (VertexId v = 0; v < n_vertices(); ++v) {
-        for (const VertexId head : graph.heads(v)) {
-            opposite_.push_back(graph.edge(head, v));
-        }
-    }
+    opposite_ = find_opposite_edges(graph);
 }
 
 std::int64_t Congestion::cost_of(EdgeId edge, VertexId target, Tick ticks) const {

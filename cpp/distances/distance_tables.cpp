@@ -26,39 +26,20 @@ std::int32_t narrow(Tick distance, VertexId vertex, VertexId target) {
     return static_cast<std::int32_t>(distance);
 }
 
+Graph checked(const Graph& graph) {
+    require_graph(graph);
+    return graph;
+}
+
 }  // namespace
 
-DistanceTables::DistanceTables(std::span<const EdgeId> indptr, std::span<const VertexId> indices) {
-    require_graph({indptr, indices});
-    reverse(indptr, indices);
-}
-
-// A counting sort of the edges by head.
-void DistanceTables::reverse(std::span<const EdgeId> indptr, std::span<const VertexId> indices) {
-    const auto n_vertices = static_cast<VertexId>(indptr.size() - 1);
-    arriving_.assign(indptr.size(), 0);
-    source_.resize(indices.size());
-    edge_.resize(indices.size());
-    for (const VertexId end : indices) {
-        ++arriving_[index(end + 1)];
-    }
-    for (VertexId v = 0; v < n_vertices; ++v) {
-        arriving_[index(v + 1)] += arriving_[index(v)];
-    }
-    std::vector<EdgeId> next(arriving_.begin(), arriving_.end() - 1);
-    for (VertexId v = 0; v < n_vertices; ++v) {
-        for (EdgeId e = indptr[index(v)]; e < indptr[index(v + 1)]; ++e) {
-            const EdgeId place = next[index(indices[index(e)])]++;
-            source_[index(place)] = v;
-            edge_[index(place)] = e;
-        }
-    }
-}
+DistanceTables::DistanceTables(std::span<const EdgeId> indptr, std::span<const VertexId> indices)
+    : reverse_(checked({indptr, indices})) {}
 
 void DistanceTables::check_request(VertexId target,
                                    std::span<const std::int32_t> edge_ticks) const {
     require_id("target", target, n_vertices());
-    require_length("edge_ticks", edge_ticks.size(), edge_.size());
+    require_length("edge_ticks", edge_ticks.size(), reverse_.n_edges());
     for (std::size_t e = 0; e < edge_ticks.size(); ++e) {
         if (edge_ticks[e] <= 0 && edge_ticks[e] != barred) {
             reject_entry("edge_ticks", e, edge_ticks[e], "is neither positive nor -1");
@@ -99,8 +80,7 @@ bool DistanceTables::steps_to(VertexId target, std::vector<std::uint16_t>& count
         if (farther == DistanceView::no_way) {
             return false;
         }
-        for (EdgeId k = arriving_[index(*next)]; k < arriving_[index(*next + 1)]; ++k) {
-            const VertexId from = source_[index(k)];
+        for (const VertexId from : reverse_.tails(*next)) {
             if (counts[index(from)] == DistanceView::no_way) {
                 counts[index(from)] = farther;
                 *end++ = from;
@@ -126,14 +106,17 @@ std::vector<std::int32_t> DistanceTables::dijkstra(VertexId target,
         }
         // Overflow is checked for least distances only; longer paths may exceed int32.
         distance[index(v)] = narrow(ticks, v, target);
-        for (EdgeId k = arriving_[index(v)]; k < arriving_[index(v + 1)]; ++k) {
-            if (edge_ticks[index(edge_[index(k)])] == barred) {
+        const auto edges = reverse_.edges(v);
+        const auto tails = reverse_.tails(v);
+        for (std::size_t k = 0; k < edges.size(); ++k) {
+            const std::int32_t drive = edge_ticks[index(edges[k])];
+            if (drive == barred) {
                 continue;
             }
-            const Tick through = ticks + edge_ticks[index(edge_[index(k)])];
-            if (through < best[index(source_[index(k)])]) {
-                best[index(source_[index(k)])] = through;
-                open.emplace(through, source_[index(k)]);
+            const Tick through = ticks + drive;
+            if (through < best[index(tails[k])]) {
+                best[index(tails[k])] = through;
+                open.emplace(through, tails[k]);
             }
         }
     }

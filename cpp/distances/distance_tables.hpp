@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/reverse_graph.hpp"
 #include "core/types.hpp"
 
 namespace rightofway {
@@ -48,7 +49,7 @@ class DistanceTables {
     // std::invalid_argument if the arrays form no graph.
     DistanceTables(std::span<const EdgeId> indptr, std::span<const VertexId> indices);
 
-    VertexId n_vertices() const { return static_cast<VertexId>(arriving_.size() - 1); }
+    VertexId n_vertices() const { return reverse_.n_vertices(); }
 
     // The least ticks from each vertex to the target, -1 if no path exists. Throws
     // std::invalid_argument for an unknown target or an edge of 0 ticks or less, and
@@ -60,16 +61,11 @@ class DistanceTables {
     bool steps_to(VertexId target, std::vector<std::uint16_t>& counts) const;
 
   private:
-    void reverse(std::span<const EdgeId> indptr, std::span<const VertexId> indices);
     void check_request(VertexId target, std::span<const std::int32_t> edge_ticks) const;
     std::vector<std::int32_t> dijkstra(VertexId target,
                                        std::span<const std::int32_t> edge_ticks) const;
 
-    // The reversed graph: the edges into v are edge_[k], with tail source_[k], for k in
-    // arriving_[v] .. arriving_[v + 1] - 1.
-    std::vector<EdgeId> arriving_;
-    std::vector<VertexId> source_;
-    std::vector<EdgeId> edge_;
+    ReverseGraph reverse_;
 };
 
 }  // namespace rightofway

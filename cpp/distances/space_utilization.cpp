@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/reverse_graph.hpp"
+
 namespace rightofway {
 namespace {
 
@@ -31,25 +33,12 @@ constexpr std::int64_t legs_between_questions = 32;
 SpaceUtilization::SpaceUtilization(const Problem& problem, StepTables& tables)
     : problem_(problem),
       tables_(tables),
-      tail_(problem.graph().indices.size()),
-      back_(problem.graph().indices.size(), none),
       ended_from_(static_cast<std::size_t>(problem.graph().n_vertices()), never),
       edge_cost_(problem.graph().indices.size(), cost_of_edge),
       into_cost_(ended_from_.size(), 0),
       first_hop_(problem.n_stages(), 0),
       end_hop_(problem.n_stages(), 0),
       best_(ended_from_.size(), {0, 0, none, 0}) {}
-
-void SpaceUtilization::pair_edges() {
-    const Graph& graph = problem_.graph();
-    for (VertexId v = 0; v < graph.n_vertices(); ++v) {
-        std::fill(tail_.begin() + graph.indptr[index(v)],
-                  tail_.begin() + graph.indptr[index(v + 1)], v);
-    }
-    for (EdgeId e = 0; e < static_cast<EdgeId>(tail_.size()); ++e) {
-        back_[index(e)] = graph.edge(graph.indices[index(e)], tail_[index(e)]);
-    }
-}
 
 // The vertex of each last stage and the enter of its robot without waits.
 void SpaceUtilization::find_ends() {
@@ -73,7 +62,8 @@ bool SpaceUtilization::choose(const StopCondition& is_over) {
     if (n_legs * least_for_a_leg > most_opened) {
         return true;
     }
-    pair_edges();
+    tail_ = list_tails(problem_.graph());
+    opposite_ = find_opposite_edges(problem_.graph());
     find_ends();
     Poll poll(is_over);
     std::int64_t n_chosen = 0;
@@ -193,9 +183,9 @@ void SpaceUtilization::keep(const Leg& leg) {
     for (VertexId at = problem_.stage_vertex(leg.stage); at != leg.start;) {
         const EdgeId edge = best_[index(at)].by;
         into_cost_[index(at)] = std::min(into_cost_[index(at)] + cost_shared, most_shared);
-        if (const EdgeId back = back_[index(edge)]; back != none) {
-            edge_cost_[index(back)] =
-                std::min(edge_cost_[index(back)] + cost_against, cost_of_edge + most_against);
+        if (const EdgeId opposite = opposite_[index(edge)]; opposite != none) {
+            edge_cost_[index(opposite)] =
+                std::min(edge_cost_[index(opposite)] + cost_against, cost_of_edge + most_against);
         }
         hops_.push_back({tail_[index(edge)], at});
         at = tail_[index(edge)];

@@ -57,7 +57,6 @@ class SpaceUtilization {
         std::int32_t round;
     };
 
-    void pair_edges();
     void find_ends();
     Tick choose_leg(const Leg& leg, Tick when, Poll& poll);
     bool search(const Leg& leg, Tick when, Poll& poll);
@@ -68,7 +67,7 @@ class SpaceUtilization {
     const Problem& problem_;
     StepTables& tables_;
     std::vector<VertexId> tail_;           // of each edge
-    std::vector<EdgeId> back_;             // of each edge: the opposite edge, or -1
+    std::vector<EdgeId> opposite_;         // of each edge, -1 if the edge is one-way
     std::vector<Tick> ended_from_;         // of each vertex: earliest end of a trip there
     std::vector<std::int64_t> edge_cost_;  // of each edge: cost against earlier paths
     std::vector<std::int64_t> into_cost_;  // of each vertex: cost of earlier paths

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/reject.hpp"
+#include "core/reverse_graph.hpp"
 #include "core/thread_group.hpp"
 
 namespace rightofway {
@@ -30,14 +31,8 @@ constexpr std::size_t least_for_a_thread = 16;
 
 // Whether some edge has no opposite edge.
 bool has_one_way(const Graph& graph) {
-    for (VertexId v = 0; v < graph.n_vertices(); ++v) {
-        for (const VertexId head : graph.heads(v)) {
-            if (graph.edge(head, v) < 0) {
-                return true;
-            }
-        }
-    }
-    return false;
+    const std::vector<EdgeId> opposite = find_opposite_edges(graph);
+    return std::find(opposite.begin(), opposite.end(), none) != opposite.end();
 }
 
 // Reads scatter over all tables; with small pages, page lookups take most of the time.
@@ -62,15 +57,16 @@ StepTables::StepTables(const Graph& graph)
       by_target_(place_.size(), none) {
     find_places(graph);
     arriving_.assign(static_cast<std::size_t>(size_) + 1, 0);
-    for (const VertexId head : graph.indices) {
-        ++arriving_[index(place_[index(head)] + 1)];
+    const ReverseGraph reverse(graph);
+    for (VertexId v = 0; v < graph.n_vertices(); ++v) {
+        arriving_[index(place_[index(v)] + 1)] = static_cast<EdgeId>(reverse.tails(v).size());
     }
     std::partial_sum(arriving_.begin(), arriving_.end(), arriving_.begin());
-    std::vector<EdgeId> next(arriving_.begin(), arriving_.end() - 1);
     for (VertexId v = 0; v < graph.n_vertices(); ++v) {
-        for (const VertexId head : graph.heads(v)) {
-            source_[index(next[index(place_[index(head)])]++)] = place_[index(v)];
-        }
+        const auto tails = reverse.tails(v);
+        std::transform(tails.begin(), tails.end(),
+                       source_.begin() + arriving_[index(place_[index(v)])],
+                       [this](VertexId tail) { return place_[index(tail)]; });
     }
 }
 

@@ -10,34 +10,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/reverse_graph.hpp"
+
 namespace rightofway {
 namespace {
 
 constexpr Tick largest = std::numeric_limits<std::int32_t>::max();
-
-// The edges into vertex v are edge[k] for k in first[v] .. first[v + 1] - 1.
-struct EdgesInto {
-    explicit EdgesInto(const Graph& graph)
-        : first(graph.indptr.size(), 0), edge(graph.indices.size()), tail(graph.indices.size()) {
-        for (const VertexId head : graph.indices) {
-            ++first[index(head + 1)];
-        }
-        for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-            first[v + 1] += first[v];
-        }
-        std::vector<EdgeId> next(first.begin(), first.end() - 1);
-        for (VertexId v = 0; v < graph.n_vertices(); ++v) {
-            for (EdgeId e = graph.indptr[index(v)]; e < graph.indptr[index(v + 1)]; ++e) {
-                tail[index(e)] = v;
-                edge[index(next[index(graph.indices[index(e)])]++)] = e;
-            }
-        }
-    }
-
-    std::vector<EdgeId> first;
-    std::vector<EdgeId> edge;
-    std::vector<VertexId> tail;
-};
 
 }  // namespace
 
@@ -46,7 +24,8 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
     using Key = std::pair<Tick, EdgeId>;  // total order: ties by edge
     const Graph& graph = problem.graph();
     const Itinerary itinerary = problem.itinerary(robot);
-    const EdgesInto into(graph);
+    const ReverseGraph reverse(graph);
+    const std::vector<VertexId> tails = list_tails(graph);
     const std::size_t n_stages = itinerary.n_stages();
     const std::size_t first_last = itinerary.first_stage_at_end();
     least_.assign(n_stages * n_places_, -1);
@@ -66,8 +45,7 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
         };
         std::vector<Tick> best(graph.indices.size(), never);
         std::priority_queue<Key, std::vector<Key>, std::greater<>> open;
-        for (EdgeId k = into.first[index(target)]; k < into.first[index(target + 1)]; ++k) {
-            const EdgeId edge = into.edge[index(k)];
+        for (const EdgeId edge : reverse.edges(target)) {
             best[index(edge)] = served(edge);
             if (best[index(edge)] < never) {
                 open.emplace(best[index(edge)], edge);
@@ -88,13 +66,12 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
             if (problem.drive(robot, edge) < 0) {
                 continue;  // barred
             }
-            const VertexId tail = into.tail[index(edge)];
             const Tick before = ticks + problem.drive(robot, edge);
-            for (EdgeId k = into.first[index(tail)]; k < into.first[index(tail + 1)]; ++k) {
-                const Tick through = before + itinerary.turns.between(into.edge[index(k)], edge);
-                if (through < best[index(into.edge[index(k)])]) {
-                    best[index(into.edge[index(k)])] = through;
-                    open.emplace(through, into.edge[index(k)]);
+            for (const EdgeId previous : reverse.edges(tails[index(edge)])) {
+                const Tick through = before + itinerary.turns.between(previous, edge);
+                if (through < best[index(previous)]) {
+                    best[index(previous)] = through;
+                    open.emplace(through, previous);
                 }
             }
         }
