@@ -6,9 +6,11 @@ south (N7); the door (N4) is in the middle. R1 goes in and comes out, then R2.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.cyclic.bottleneck import bottleneck_of
+from rightofway.cyclic.route import cyclic_routes
 from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects, stages_at
 from rightofway.model import Lap, Rules, Scenario, Tick
 from rightofway.precedence import TimedEventGraph
@@ -132,3 +134,25 @@ def test_stages_are_found_in_the_visits_that_serve_them() -> None:
     stop, home = itinerary.stages
     assert stages_at(scenario.roadmap, itinerary, lap) == [[(1, home)], [], [(0, stop)], []]
     assert lap.vertices[2] == VertexId(scenario.roadmap.vertex("N1"))
+
+
+def test_a_first_stop_at_home_and_the_end_of_a_lap_are_served_in_one_visit() -> None:
+    """R1 works for 3 at home, then in the north: its visit at home serves stages 0 and 2."""
+    scenario = crossing(rules=Rules(turn=Fraction(5)))
+    robot = scenario.robots[0]
+    at_home = replace(robot.stops[0], at=robot.home, work=Fraction(3))
+    scenario = replace(
+        scenario,
+        robots=(replace(robot, stops=(at_home, *robot.stops)), *scenario.robots[1:]),
+    )
+    itinerary = scenario.problem.itineraries[0]
+    first, north, end = itinerary.stages
+    lap = next(route.lap for route in cyclic_routes(scenario) if route.robot == 0)
+    tick = scenario.problem.clock.tick
+    assert lap.dwell[0] * tick == 3 + 5  # it turns once, after its work at home
+    assert stages_at(scenario.roadmap, itinerary, lap) == [
+        [(0, first), (2, end)],
+        [],
+        [(1, north)],
+        [],
+    ]

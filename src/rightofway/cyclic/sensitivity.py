@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.model import Itinerary, Lap, Scenario, Stage, serving_visits
-from rightofway.model.lap import turns_of_lap
+from rightofway.model.lap import dwell_between_laps, turns_of_lap
 from rightofway.precedence import (
     Sensitivity,
     TimedEventGraph,
@@ -156,11 +156,13 @@ def stages_at(roadmap: Roadmap, itinerary: Itinerary, lap: Lap) -> list[list[tup
     stages = itinerary.stages
     n = len(stages)  # the stages of one lap; further laps repeat them
     n = next(k for k in range(1, n + 1) if n % k == 0 and stages[:k] * (n // k) == stages)
-    order = [*range(1, len(lap)), 0]
-    vertices = np.array(lap.vertices, np.int32)[order]
     turns = turns_of_lap(roadmap, itinerary, lap.vertices)
-    spare = (np.array(lap.dwell, np.int64) - turns)[order]
-    at: list[list[tuple[int, Stage]]] = [[] for _ in order]
-    for number, place in enumerate(serving_visits(stages[:n], vertices, spare)):
-        at[order[place]].append((number, stages[number]))
+    # The visit at home ends a lap and begins the next one: each end serves stages of its own.
+    ends = dwell_between_laps(roadmap, itinerary, lap.vertices) - turns[0]
+    spare = np.append(np.array(lap.dwell, np.int64) - turns, ends)
+    spare[0] -= ends
+    vertices = np.array((*lap.vertices, lap.vertices[0]), np.int32)
+    at: list[list[tuple[int, Stage]]] = [[] for _ in lap.vertices]
+    for number, visit in enumerate(serving_visits(stages[:n], vertices, spare)):
+        at[visit % len(lap)].append((number, stages[number]))
     return at
