@@ -19,9 +19,13 @@ class Random {
         : state_(mix(mix(seed + 1) ^ mix(2 * use + 1)) ^ mix(~index)) {}
 
     std::uint64_t next() {
-        state_ += 0x9E3779B97F4A7C15U;
+        skip(1);
         return mix(state_);
     }
+
+    // The number that `next` returns after `n` skipped numbers.
+    std::uint64_t after(std::uint64_t n) const { return mix(state_ + (n + 1) * step); }
+    void skip(std::uint64_t n) { state_ += n * step; }
 
     // A random integer in 0 .. n - 1.
     std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
@@ -34,6 +38,8 @@ class Random {
     }
 
   private:
+    static constexpr std::uint64_t step = 0x9E3779B97F4A7C15U;
+
     static std::uint64_t mix(std::uint64_t z) {
         z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
         z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;

@@ -123,13 +123,10 @@ void FleetPlan::meet(RobotId robot, const TimedTrack& track, const Found& found)
     bool is_over = false;
     for (std::size_t k = 0; k < track.visits.size() && !is_over; ++k) {
         for_each_row(robot, track, k, [&](std::int32_t row, const Booking& time) {
-            const auto there = bookings_.at(row);
-            for (std::int32_t j = BookingTable::started(there, time.end - 1);
-                 j > 0 && there[index(j - 1)].reach > time.start && !is_over; --j) {
-                is_over = there[index(j - 1)].robot != robot &&
-                          there[index(j - 1)].time.end > time.start &&
-                          found(there[index(j - 1)].robot);
-            }
+            is_over = is_over ||
+                      BookingTable::any_overlap(bookings_.at(row), time, [&](const BookedBy& one) {
+                          return one.robot != robot && found(one.robot);
+                      });
         });
         if (!may_swap || k == 0) {
             continue;

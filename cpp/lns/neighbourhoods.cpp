@@ -60,12 +60,12 @@ void Neighbourhoods::add(RobotId robot) {
 // from the vertex.
 void Neighbourhoods::add_all(VertexId vertex, Tick start, Tick end, std::size_t size) {
     const auto here = plan_.bookings().at(problem_.vertex_row(chosen_.front(), vertex));
-    for (std::int32_t k = BookingTable::started(here, end - 1);
-         k > 0 && here[index(k - 1)].reach > start && chosen_.size() < size; --k) {
-        if (here[index(k - 1)].time.end > start && here[index(k - 1)].robot != nobody) {
-            add(here[index(k - 1)].robot);
+    BookingTable::any_overlap(here, {start, end}, [&](const BookedBy& one) {
+        if (chosen_.size() < size && one.robot != nobody) {
+            add(one.robot);
         }
-    }
+        return chosen_.size() >= size;
+    });
 }
 
 void Neighbourhoods::fill_up(std::size_t size, Random& random) {

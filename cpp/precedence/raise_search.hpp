@@ -9,6 +9,18 @@
 // each once: Dijkstra's algorithm on raises. The new arc u -> b closes a cycle of positive length
 // (a deadlock) exactly if the raise of b reaches u. The search changes no times: the derived class
 // accepts or forgets the raises.
+//
+// The steps as published, with raises instead of falls; the numbers stand beside the code:
+//
+//      add the arc u -> b:
+//   1      raise(b) <- enter(u) + length(u, b) - enter(b); raise(w) <- 0 for all other w
+//   2      while some raise is above 0 and not settled, and raise(u) = 0:
+//   3          s <- the visit with the greatest of them, which is settled now
+//   4          for each arc s -> t to a visit that is not settled:
+//   5              raise(t) <- max(raise(t), enter(s) + raise(s) + length(s, t) - enter(t))
+//   6      the arc closes a cycle of positive length if raise(u) > 0
+//
+// What is added: visits later than u cannot reach it, so they wait until u is known to be safe.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +46,7 @@ class RaiseSearch {
     // These visits are settled; raises of later visits are recorded but not followed.
     bool spread(Visit b, Tick delta, Visit source) {
         latest_ = self().enter(source);
-        raise_by(b, delta, no_cause_);
+        raise_by(b, delta, no_cause_);  // 1
         return settle(source);
     }
 
@@ -83,22 +95,22 @@ class RaiseSearch {
     Derived& self() { return static_cast<Derived&>(*this); }
 
     bool settle(Visit source) {
-        while (!open_.empty()) {
+        while (!open_.empty()) {  // 2
             std::pop_heap(open_.begin(), open_.end());
-            const Raise top = open_.back();
+            const Raise top = open_.back();  // 3
             open_.pop_back();
             if (top.delta < self().raise(top.visit)) {
                 continue;  // outdated: raised further
             }
-            self().for_each_arc(top.visit, [&](Visit to, Tick length) {
+            self().for_each_arc(top.visit, [&](Visit to, Tick length) {  // 4
                 const Tick slack = self().enter(to) - self().enter(top.visit) - length;
                 const Tick delta = self().raise(top.visit) - slack;
                 if (delta > self().raise(to)) {
-                    raise_by(to, delta, top.visit);
+                    raise_by(to, delta, top.visit);  // 5
                 }
             });
             if (self().raise(source) > 0) {
-                return false;
+                return false;  // 6
             }
         }
         return true;

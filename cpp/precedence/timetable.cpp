@@ -1,20 +1,10 @@
 #include "precedence/timetable.hpp"
 
 #include <algorithm>
-#include <compare>
-#include <numeric>
 #include <stdexcept>
-#include <tuple>
 #include <vector>
 
-#include "precedence/routes.hpp"
-
 namespace rightofway {
-namespace {
-
-const StopCondition never_asked;  // empty
-
-}  // namespace
 
 Timetable::Timetable(const Routes& routes)
     : RaiseSearch(none),
@@ -27,8 +17,7 @@ Timetable::Timetable(const Routes& routes)
     for (VisitId x = 0; x < routes_.n_visits(); ++x) {
         enter_[index(x)] = routes_.is_first(x) ? 0 : enter_[index(x - 1)] + routes_.least(x - 1);
     }
-    Poll poll(never_asked);
-    if (!recompute(poll)) {
+    if (!recompute()) {
         throw std::invalid_argument("closed_from: a route is closed at all times");
     }
 }
@@ -58,246 +47,11 @@ bool Timetable::precede(VisitId a, VisitId b) {
     }
     journal_.push_back({rights_.give(a, b), true, trail_.size()});
     accept();
-    if (routes_.closures().is_known()) {
-        std::vector<VisitId> open = raised_;
-        Poll poll(never_asked);
-        const bool is_possible = rise_above_closures(open, poll);
-        trail_.insert(trail_.end(), risen_.begin(), risen_.end());
-        for (const VisitId x : raised_) {
-            is_in_instant_[index(x)] = 1;
-        }
-        const auto known = static_cast<std::ptrdiff_t>(raised_.size());
-        for (const OldEnter& one : risen_) {
-            if (is_in_instant_[index(one.visit)] == 0) {
-                raised_.push_back(one.visit);
-            }
-        }
-        std::for_each(raised_.begin(), raised_.begin() + known,
-                      [this](VisitId x) { is_in_instant_[index(x)] = 0; });
-        if (!is_possible) {
-            rollback(journal_.size() - 1);
-            raised_.clear();
-            cycle_.clear();
-            return false;
-        }
-    }
-    return true;
-}
-
-// Raises visits until no booking overlaps a closure: an overlapping booking can only start after
-// the closure, because times only grow. `open`: the visits to begin with. False if some booking
-// cannot start later. Notes the raised visits, each once, in `risen_`.
-bool Timetable::rise_above_closures(std::vector<VisitId>& open, Poll& poll) {
-    risen_.clear();
-    bool is_possible = true;
-    while (!open.empty() && is_possible) {
-        poll();
-        const VisitId x = open.back();
-        open.pop_back();
-        for_each_arc(x,
-                     [&](VisitId to, Tick length) { rise(to, enter_[index(x)] + length, open); });
-        for (VisitId y = routes_.is_first(x) ? x : x - 1; y <= x && is_possible; ++y) {
-            const Tick clear = routes_.is_active(routes_.robot(y)) ? clear_of_closures(y) : 0;
-            is_possible = clear <= enter_[index(y)] || (clear < never && !routes_.is_first(y));
-            if (is_possible) {
-                rise(y, clear, open);
-            }
-        }
-    }
-    for (const OldEnter& one : risen_) {
-        raise_[index(one.visit)] = 0;
-    }
-    return is_possible;
-}
-
-void Timetable::rise(VisitId visit, Tick tick, std::vector<VisitId>& open) {
-    if (tick <= enter_[index(visit)]) {
-        return;
-    }
-    if (raise_[index(visit)] == 0) {
-        raise_[index(visit)] = 1;
-        risen_.push_back({visit, enter_[index(visit)]});
-    }
-    enter_[index(visit)] = tick;
-    open.push_back(visit);
-}
-
-// The least enter, from the present one on, with which a visit's bookings overlap no closure.
-Tick Timetable::clear_of_closures(VisitId visit) const {
-    const VisitClosures& closed = routes_.closures();
-    const Tick approach = routes_.approach(visit);
-    const Tick drive = closed.drive(visit);
-    const Tick end = routes_.is_last(visit) ? never : enter_[index(visit + 1)] + routes_.headway();
-    Tick enter = closed.free_at(visit, enter_[index(visit)] - approach, end);
-    enter = enter >= never ? never : enter + approach;
-    if (!routes_.is_first(visit) && enter < never) {
-        const Tick start = closed.free_along(visit, enter - drive, drive + routes_.headway());
-        enter = start >= never ? never : start + drive;
-    }
-    return enter;
-}
-
-// Computes the earliest times from the rights of way alone where there are closures, with which
-// times that fall cannot be followed from visit to visit.
-bool Timetable::recompute(Poll& poll) {
-    if (!routes_.closures().is_known()) {
-        return true;
-    }
-    std::vector<VisitId> all;
-    for (VisitId x = routes_.n_visits() - 1; x >= 0; --x) {
-        enter_[index(x)] = 0;
-        all.push_back(x);
-    }
-    const bool is_possible = rise_above_closures(all, poll);
-    risen_.clear();
-    return is_possible;
-}
-
-void Timetable::find_changes(const std::vector<Tick>& before) {
-    for (VisitId x = 0; x < routes_.n_visits(); ++x) {
-        if (enter_[index(x)] != before[index(x)]) {
-            trail_.push_back({x, before[index(x)]});
-            raised_.push_back(x);
-        }
-    }
-}
-
-bool Timetable::keep_order(std::span<const Tick> when, const StopCondition& interrupt) {
-    raised_.clear();
-    cycle_.clear();
-    const std::vector<Tick> before = enter_;
-    const auto restore = [&] {
-        enter_ = before;
-        rollback(0);
-    };
-    Poll poll(interrupt);
-    bool is_possible = false;
-    try {
-        is_possible = order_all(when, poll);
-    } catch (...) {
-        std::fill(raise_.begin(), raise_.end(), 0);
-        risen_.clear();
-        restore();
-        throw;
-    }
-    if (!is_possible) {
-        restore();
+    if (routes_.closures().is_known() && !clear_closures()) {
+        rollback(journal_.size() - 1);
+        raised_.clear();
+        cycle_.clear();
         return false;
-    }
-    find_changes(before);
-    return true;
-}
-
-bool Timetable::order_all(std::span<const Tick> when, Poll& poll) {
-    return (routes_.has_sizes() ? give_incompatible_in_order(when, poll)
-                                : give_in_order(when, poll)) &&
-           sweep(when, poll) && recompute(poll);
-}
-
-bool Timetable::give_in_order(std::span<const Tick> when, Poll& poll) {
-    std::vector<VisitId> visits;
-    for (VisitId x = 0; x < routes_.n_visits(); ++x) {
-        if (routes_.is_active(routes_.robot(x))) {
-            visits.push_back(x);
-        }
-    }
-    const auto key = [&](VisitId x) { return std::tuple(routes_.vertex(x), when[index(x)], x); };
-    std::sort(visits.begin(), visits.end(), [&](VisitId x, VisitId y) {
-        poll();
-        return key(x) < key(y);
-    });
-    for (std::size_t k = 1; k < visits.size(); ++k) {
-        poll();
-        const VisitId a = visits[k - 1];
-        const VisitId b = visits[k];
-        if (routes_.vertex(a) != routes_.vertex(b) || routes_.robot(a) == routes_.robot(b)) {
-            continue;
-        }
-        if (routes_.is_last(a) || routes_.is_first(b) || when[index(a + 1)] > when[index(b)] ||
-            closes_swap(a, b)) {
-            return false;
-        }
-        journal_.push_back({rights_.give(a, b), true, trail_.size()});
-    }
-    return true;
-}
-
-// The start of each visit gets, from each other robot, the latest visit that leaves before it, if
-// no earlier start of the same robot has it already.
-bool Timetable::give_incompatible_in_order(std::span<const Tick> when, Poll& poll) {
-    const auto leaves = [&](VisitId x) { return routes_.is_last(x) ? never : when[index(x + 1)]; };
-    std::vector<VisitId> latest(static_cast<std::size_t>(routes_.n_robots()), none);
-    std::vector<RobotId> met;
-    std::vector<VisitId> firsts;
-    for (RobotId robot = 0; robot < routes_.n_robots(); ++robot) {
-        for (VisitId b = routes_.first_of(robot); b <= routes_.last_of(robot); ++b) {
-            firsts.clear();
-            for (const VisitId x : {b - 1, b}) {  // the edge driven into b, then its vertex
-                if (x < routes_.first_of(robot) || !routes_.is_active(robot)) {
-                    continue;
-                }
-                for (const IncompatibleVisit& other : routes_.incompatible(x)) {
-                    poll();
-                    const VisitId a = other.visit;
-                    if (other.own_starts(x) != b || !routes_.is_active(routes_.robot(a)) ||
-                        leaves(a) > leaves(x)) {
-                        continue;
-                    }
-                    if (routes_.is_last(a) || routes_.is_first(b) || leaves(a) == leaves(x) ||
-                        when[index(a + 1)] >= when[index(b)]) {
-                        return false;
-                    }
-                    firsts.push_back(a);
-                }
-            }
-            std::sort(firsts.rbegin(), firsts.rend());
-            for (const VisitId a : firsts) {
-                VisitId& known = latest[index(routes_.robot(a))];
-                if (known == none) {
-                    met.push_back(routes_.robot(a));
-                }
-                if (a > known) {
-                    known = a;
-                    journal_.push_back({rights_.give(a, b), true, trail_.size()});
-                }
-            }
-        }
-        for (const RobotId other : met) {
-            latest[index(other)] = none;
-        }
-        met.clear();
-    }
-    return true;
-}
-
-// Visits of one number may hold each other (a rotation): the loop repeats until no time changes.
-// More rounds than visits prove a cycle of positive length.
-bool Timetable::sweep(std::span<const Tick> when, Poll& poll) {
-    std::vector<VisitId> in_order(enter_.size());
-    std::iota(in_order.begin(), in_order.end(), 0);
-    std::sort(in_order.begin(), in_order.end(), [&](VisitId x, VisitId y) {
-        poll();
-        return std::tuple(when[index(x)], x) < std::tuple(when[index(y)], y);
-    });
-    for (std::size_t first = 0, end = 0; first < in_order.size(); first = end) {
-        while (end < in_order.size() &&
-               when[index(in_order[end])] == when[index(in_order[first])]) {
-            ++end;
-        }
-        std::size_t rounds_left = end - first + 1;
-        for (bool has_changed = true; has_changed;) {
-            if (rounds_left-- == 0) {
-                return false;
-            }
-            has_changed = false;
-            for (std::size_t k = first; k < end; ++k) {
-                poll();
-                const VisitId x = in_order[k];
-                const Tick held = routes_.is_first(x) ? 0 : held_to(x);
-                has_changed = has_changed || held > enter_[index(x)];
-                enter_[index(x)] = std::max(enter_[index(x)], held);
-            }
-        }
     }
     return true;
 }
@@ -313,8 +67,7 @@ bool Timetable::take_back(VisitId a, VisitId b) {
     if (routes_.closures().is_known()) {
         const std::vector<Tick> before = enter_;
         const std::size_t mark = trail_.size();
-        Poll poll(never_asked);
-        recompute(poll);
+        recompute();
         find_changes(before);
         journal_.push_back({right, false, mark});
         return true;

@@ -9,6 +9,9 @@
 // arc is taken back, the visits held by the arc fall to the times that their other arcs allow, in
 // the order of their old times: no arc leads back in time, so the tails of all arcs into a visit
 // fall before the visit does.
+//
+// timetable.cpp holds these two changes; timetable_order.cpp an order that is known as a whole,
+// timetable_closures.cpp what closures add.
 #pragma once
 
 #include <cstddef>
@@ -110,9 +113,11 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
         }
     }
     VisitId held_by(VisitId visit, std::span<const VisitId> passed) const;
+    bool clear_closures();
     bool rise_above_closures(std::vector<VisitId>& open, Poll& poll);
     void rise(VisitId visit, Tick tick, std::vector<VisitId>& open);
     Tick clear_of_closures(VisitId visit) const;
+    bool recompute();
     bool recompute(Poll& poll);
     void find_changes(const std::vector<Tick>& before);
     void lower(VisitId b);

@@ -27,14 +27,11 @@ void require_interval(const Booking& time) {
 
 // The first booking of another robot that overlaps `time`, or nullptr.
 const BookedBy* overlapping(std::span<const BookedBy> here, const Booking& time, RobotId robot) {
-    auto k = BookingTable::started(here, time.end - 1);
     const BookedBy* found = nullptr;
-    while (k > 0 && here[index(k - 1)].reach > time.start) {
-        const BookedBy& one = here[index(--k)];
-        if (one.robot != robot && one.time.end > time.start) {
-            found = &one;
-        }
-    }
+    BookingTable::any_overlap(here, time, [&](const BookedBy& one) {
+        found = one.robot != robot ? &one : found;
+        return false;
+    });
     return found;
 }
 

@@ -65,6 +65,25 @@ class BookingTable {
         return static_cast<std::int32_t>(first - bookings.data());
     }
 
+    // Calls `use` with each of these bookings, which are the first of a row, that ends after
+    // `start`: the latest start first, until `use` returns true. Returns whether it did.
+    template <class Use>
+    static bool any_ending_after(std::span<const BookedBy> bookings, Tick start, const Use& use) {
+        for (std::size_t k = bookings.size(); k > 0 && bookings[k - 1].reach > start; --k) {
+            if (bookings[k - 1].time.end > start && use(bookings[k - 1])) {
+                return true;
+            }
+        }
+        return false;
+    }
+    // The same for each booking of a row that overlaps a time.
+    template <class Use>
+    static bool any_overlap(std::span<const BookedBy> bookings, const Booking& time,
+                            const Use& use) {
+        const auto n_started = index(started(bookings, time.end - 1));
+        return any_ending_after(bookings.first(n_started), time.start, use);
+    }
+
   private:
     struct Row {
         std::uint32_t first = 0;
