@@ -176,20 +176,22 @@ class ExecutionMonitor:
                 self._replan(forecast, NEVER if is_shut_out else flowtime)
 
     def _replan(self, forecast: Forecast, limit: int) -> None:
-        """Replan; accept a plan with an expected flowtime below ``limit`` [ticks]."""
-        found = replan(forecast, self.stages, self.seed, self.deadline)
-        if found is None:
-            return
-        sample = found.adg.delay_sample(self.seed, self.run).with_stoppages_of(self.delay_sample)
-        execution = found.adg.execute(sample)
-        progress = simulated_progress(found.adg, sample, execution, forecast.now, self.broken)
-        new = Forecast(found.adg, progress)
-        flowtime = int(new.graph.flowtime())
-        if new.is_possible and flowtime < limit:
+        """Replan; accept the plan with the lowest expected flowtime below ``limit`` [ticks]."""
+        lowest, best = limit, None
+        for plan in replan(forecast, self.stages, self.seed, self.deadline):
+            sample = plan.adg.delay_sample(self.seed, self.run)
+            sample = sample.with_stoppages_of(self.delay_sample)
+            execution = plan.adg.execute(sample)
+            progress = simulated_progress(plan.adg, sample, execution, forecast.now, self.broken)
+            new = Forecast(plan.adg, progress)
+            flowtime = int(new.graph.flowtime())
+            if new.is_possible and flowtime < lowest:
+                lowest, best = flowtime, (plan, sample, execution, new)
+        if best is not None:
+            plan, self.delay_sample, self.execution, new = best
             self.replans += 1
-            self.adg, self.delay_sample, self.execution = found.adg, sample, execution
-            self.stages, self.cut_off = found.stages, self.cut_off | found.cut_off
-            self.expected, self.last_tried = new.times(), flowtime
+            self.adg, self.stages, self.cut_off = plan.adg, plan.stages, self.cut_off | plan.cut_off
+            self.expected, self.last_tried = new.times(), lowest
 
 
 def _switched(forecast: Forecast) -> ActionDependencyGraph | None:

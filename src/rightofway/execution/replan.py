@@ -179,11 +179,13 @@ class Replanned:
 
 def replan(
     forecast: Forecast, stages: Sequence[Stages], seed: int, deadline: Deadline
-) -> Replanned | None:
+) -> tuple[Replanned, ...]:
     """Replan the rest: first cut off few robots, then lower the flowtime.
 
-    ``stages`` are all that the route of each robot serves. The result is None if no plan was found,
-    or time ran out before.
+    ``stages`` are all that the route of each robot serves. The result is empty if no plan was
+    found, or time ran out before; else the plan with the lowest flowtime of the rest, and the plan
+    that it improves. The rest does not know the edges of drives that have begun: where such an edge
+    keeps robots off, the second plan may be the better one. A forecast knows.
     """
     scenario, cut_off = forecast.adg.scenario, frozenset[int]()
     commitments = [commitment_of(forecast, robot, own) for robot, own in enumerate(stages)]
@@ -193,18 +195,18 @@ def replan(
         roadmap = roadmap.without(closed.vertices, closed.edges)
     closures = _closures_after(scenario, roadmap, forecast.now)
     if closures is None:
-        return None
+        return ()
     rest = _rest(replace(scenario, closures=closures), roadmap, commitments)
     tracks = _going_on(forecast, commitments, closed, rest)
     if tracks is None:
         found = _another_way(rest, forecast.broken, commitments, seed, deadline)
         if found is None:
-            return None
+            return ()
         commitments, cut_off, tracks = found
         rest = _rest(rest, roadmap, commitments)
     first = Plan(scenario=rest, tracks=tuple(tracks), run=PlannerRun(name="by right of way"))
     if closures and not check(first).ok:  # a robot is caught, or will be
-        return None
+        return ()
     options = {"iterations": NEIGHBOURHOODS * len(stages)}
     plans = [first]
     try:
@@ -212,6 +214,7 @@ def replan(
         plans.insert(0, improve(first, time_limit=left, seed=seed, options=options))
     except (NoPlanExists, GaveUp):
         pass  # the first plan is kept
+    replanned = []
     for plan in plans:
         # A plan may move a busy robot away and back. Splicing keeps it there, which may deadlock.
         try:
@@ -220,8 +223,8 @@ def replan(
             continue
         if not adg.deadlocked():
             served = tuple((*one.begun, *one.left) for one in commitments)
-            return Replanned(adg=adg, stages=served, cut_off=cut_off)
-    return None
+            replanned.append(Replanned(adg=adg, stages=served, cut_off=cut_off))
+    return tuple(replanned)
 
 
 def _going_on(
