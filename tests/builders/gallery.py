@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 
 from PIL import Image
 
-from tests.builders.browsers import chromium
+from tests.builders.browsers import FRAMES, chromium
 from tests.builders.pages import DOCS, ROOT, blocks
 
 __all__ = ["WALL", "commands", "make_pages"]
@@ -74,7 +74,7 @@ def take_pictures(pages: Iterable[Path]) -> None:
         view = browser.new_page(viewport={"width": 1120, "height": 700})
         for page in pages:
             view.goto(f"{page.resolve().as_uri()}#tick={TICKS.get(page.stem, 4)}")
-            view.wait_for_timeout(500)
+            view.evaluate(FRAMES)
             picture = Image.open(BytesIO(view.screenshot()))
             small = picture.convert("RGB").resize(SMALL, Image.Resampling.LANCZOS)
             small = small.quantize(256, kmeans=4)
