@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from pathlib import Path
 
@@ -122,3 +123,42 @@ def test_what_takes_english_apart_is_found() -> None:
     assert {what for what, text in samples.items() if TAKES_APART[what].search(text)} == set(
         TAKES_APART
     )
+
+
+LOCATED = {"at", "note", "attempt", "under", "InputFault"}
+"""Calls of which the first argument is a place."""
+
+
+def places_as_text(source: str) -> list[str]:
+    """Return the places of faults that are built as text, or hold a path as text."""
+    found = []
+    for node in ast.walk(ast.parse(source)):
+        if not (isinstance(node, ast.Call) and node.args):
+            continue
+        name = node.func.attr if isinstance(node.func, ast.Attribute) else ""
+        name = node.func.id if isinstance(node.func, ast.Name) else name
+        if name not in LOCATED:
+            continue
+        place = node.args[0]
+        is_path = isinstance(place, ast.Constant) and re.search(r"[].[]| \d", str(place.value))
+        if isinstance(place, ast.JoinedStr | ast.BinOp) or is_path:
+            found.append(ast.unparse(place))
+    return found
+
+
+def test_faults_have_locations_instead_of_text() -> None:
+    """A key, a tuple of keys and indices, or a `Location`; text is made of it in one place."""
+    sources = (TESTS.parent / "src" / "rightofway").rglob("*.py")
+    found = {path.name: places_as_text(path.read_text("utf-8")) for path in sources}
+    assert {name: places for name, places in found.items() if places} == {}
+
+
+def test_places_as_text_are_found() -> None:
+    source = """
+raise InputError.at(f"robots[{index}]", message)
+faults.note("line " + str(line), message)
+under("robots[3].speed")
+InputFault(("robots", 3, "speed"), message)
+InputError.at("speed", message)
+"""
+    assert len(places_as_text(source)) == 3

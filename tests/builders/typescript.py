@@ -1,6 +1,7 @@
-"""Types of JSON for TypeScript, from the models of Python: ``python -m tests.builders.typescript``.
+"""What JavaScript has from the models of Python: types of JSON, and attributes of robots.
 
-Without arguments it writes the files; with ``--check`` it fails where one is stale.
+``python -m tests.builders.typescript`` writes all files; with ``--check`` it fails where one is
+stale.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from typing import Any
 
 from pydantic import TypeAdapter
 
+from rightofway.model.robot import ROBOT_ATTRIBUTES
+from rightofway.values import written
 from rightofway.viz.page.schema import InspectionPayload, Payload
 from tests.builders.api_types import api_types
 
@@ -30,9 +33,27 @@ def payload_types() -> str:
     return declarations("viz/page/schema.py", schemas["$defs"])
 
 
+def robot_attributes() -> str:
+    """Return the attributes of robots, for the columns of the studio."""
+    rows = []
+    for it in ROBOT_ATTRIBUTES:
+        usual = str(written(it.default)) if it.default else "\N{EN DASH}"
+        parts = {"isText": it.is_text, "title": it.title, "hint": it.hint, "usual": usual}
+        lines = (
+            f"    {key}: {json.dumps(value, ensure_ascii=False)},\n" for key, value in parts.items()
+        )
+        rows.append(f"  {it.key}: {{\n{''.join(lines)}  }},\n")
+    return (
+        "// Generated from model/robot.py: change it there, then run `just types-refresh`.\n\n"
+        "/** What a robot has beside its name and its trip, by its key in files. */\n"
+        f"export const ATTRIBUTES = /** @type {{const}} */ ({{\n{''.join(rows)}}});\n"
+    )
+
+
 FILES: dict[str, Callable[[], str]] = {
     "src/rightofway/viz/page/assets/payload.d.ts": payload_types,
     "src/rightofway/studio/assets/api_types.d.ts": api_types,
+    "src/rightofway/studio/assets/robots/attributes.js": robot_attributes,
 }
 """What is written where."""
 

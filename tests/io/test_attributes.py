@@ -1,19 +1,15 @@
 """What is no file follows the tables of attributes, too."""
 
 import inspect
-import re
-from importlib.resources import files
 from pathlib import Path
 
 import openpyxl  # type: ignore[import-untyped]
-import pytest
 
 from rightofway import FleetBuilder
 from rightofway.io import scenario_of
 from rightofway.io.workbook import write_template
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
-
-STUDIO = files("rightofway") / "studio" / "assets"
+from rightofway.phrases import Phrase
 
 
 def test_the_builder_takes_every_attribute_of_a_robot() -> None:
@@ -21,20 +17,11 @@ def test_the_builder_takes_every_attribute_of_a_robot() -> None:
     assert {it.name for it in ROBOT_ATTRIBUTES} - set(parameters) == set()
 
 
-def test_the_studio_has_a_column_for_every_attribute_of_a_robot() -> None:
-    columns = (STUDIO / "robots" / "columns.js").read_text("utf-8")
-    assert {it.key for it in ROBOT_ATTRIBUTES} == set(
-        re.findall(r'^  (?:number|word)\("(\w+)"\)', columns, re.MULTILINE)
-    )
-
-
-@pytest.mark.parametrize("language", ["en", "de"])
-def test_every_attribute_of_a_robot_has_a_heading_and_a_hint_in_the_studio(language: str) -> None:
-    words = (STUDIO / "words" / f"{language}.js").read_text("utf-8")
-    columns = words[words.index("  columns: {") :]
-    block = columns[: columns.index("  },")]
-    given = re.findall(r'^    (\w+): \["[^"]+", "[^"]+"', block, re.MULTILINE)
-    assert {it.key for it in ROBOT_ATTRIBUTES} - set(given) == set()
+def test_every_attribute_of_a_robot_has_a_title_and_a_hint_for_tables() -> None:
+    """These are phrases, of which each has its German; the studio makes its columns of them."""
+    for it in ROBOT_ATTRIBUTES:
+        assert isinstance(it.title, Phrase), it.key
+        assert isinstance(it.hint, Phrase), it.key
 
 
 def test_a_workbook_has_a_hint_for_every_attribute(tmp_path: Path) -> None:

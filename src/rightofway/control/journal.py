@@ -106,7 +106,7 @@ class SqliteJournal:
                 yield json.loads(text)
             except ValueError as error:
                 message = f"{shown(text)} is no entry of a journal (name another file)"
-                raise InputError.at(f"entry {number}", message) from error
+                raise InputError.at(("entry", number), message) from error
 
     def commit(self, entries: Iterable[Entry]) -> None:
         """Append entries in one transaction."""

@@ -8,6 +8,7 @@ from typing import Literal
 
 from rightofway.errors import shown
 from rightofway.model.attributes import attribute, attributes_of, readers_of
+from rightofway.phrases import Phrase
 from rightofway.site import VertexId
 from rightofway.values import coerced, number, text, vertex
 
@@ -99,6 +100,8 @@ class Robot:
             "length units per time unit, above 0; 1 by default",
             measure="speed",
             always=True,
+            title=Phrase("Speed"),
+            hint=Phrase("Length units per time unit"),
         ),
     )
     radius: Fraction = field(
@@ -107,6 +110,8 @@ class Robot:
             "not negative",
             "radius of the circle that it needs [length unit]",
             measure="length",
+            title=Phrase("Radius"),
+            hint=Phrase("Radius of the circle that it needs"),
         ),
     )
     type: str | None = field(
@@ -115,24 +120,55 @@ class Robot:
             "name",
             "the name of its type, for edges and vertices that are barred for types",
             unset="none",
+            title=Phrase("Type"),
+            hint=Phrase("Name of its type; lanes may be barred for types"),
         ),
     )
-    turn: Turn | None = field(default=None, metadata=attribute("turning", TURNING, measure="time"))
-    ends: TripEnd | None = field(default=None, metadata=attribute(TripEnd, RETURN, key="return"))
+    turn: Turn | None = field(
+        default=None,
+        metadata=attribute(
+            "turning",
+            TURNING,
+            measure="time",
+            title=Phrase("Turn"),
+            hint=Phrase("Time to turn at a stop, or cell"),
+        ),
+    )
+    ends: TripEnd | None = field(
+        default=None,
+        metadata=attribute(
+            TripEnd,
+            RETURN,
+            key="return",
+            title=Phrase("Return"),
+            hint=Phrase("home, or none: it stays at its last stop"),
+        ),
+    )
     laps: int | None = field(
-        default=None, metadata=attribute("count", "how often it makes its round trip, 1 or more")
+        default=None,
+        metadata=attribute(
+            "count",
+            "how often it makes its round trip, 1 or more",
+            title=Phrase("Laps"),
+            hint=Phrase("How often it makes its round trip"),
+        ),
     )
     turn_rate: Fraction | None = field(
         default=None,
         metadata=attribute(
             "positive",
             "how fast it turns on the spot [degrees per time unit]; by default in no time",
+            title=Phrase("Turn rate"),
+            hint=Phrase("How fast it turns on the spot, in degrees per time unit"),
         ),
     )
     weight: Fraction = field(
         default=Fraction(1),
         metadata=attribute(
-            "positive", "how much its completion time counts beside the others', above 0"
+            "positive",
+            "how much its completion time counts beside the others', above 0",
+            title=Phrase("Weight"),
+            hint=Phrase("How much its completion time counts beside the others"),
         ),
     )
 

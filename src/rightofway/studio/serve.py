@@ -150,7 +150,7 @@ def bound(host: str, port: int | None) -> socket.socket:
                 reason = getattr(error, "strerror", None) or str(error)
                 where = host if port is None else f"{host}:{port}"
                 message = f"{where} cannot be listened on: {reason} (give another)"
-                raise InputError.at("--host, --port", message) from None
+                raise InputError.at("--host" if port is None else "--port", message) from None
         else:
             return listener
     raise AssertionError("the last port is returned or refused")

@@ -12,6 +12,7 @@ import type { Events, Fault, NewPlan, RunData } from "./api_types.js";
 import type { PickTool } from "./draw/backdrop.js";
 import type { SelectTool } from "./draw/select_tool.js";
 import type { ParameterCurve } from "./runs/parameter_curve.js";
+import type { ATTRIBUTES } from "./robots/attributes.js";
 import type { RobotTool } from "./robots/tool.js";
 import type { Studio } from "./studio.js";
 import type { PageEvent } from "./vendor/htm-preact.js";
@@ -68,20 +69,17 @@ export interface Stop {
   work?: Numeral;
 }
 
-export interface RobotData {
+/** What a robot has beside its name and its trip. */
+type Attributes = {
+  [K in keyof typeof ATTRIBUTES]?: (typeof ATTRIBUTES)[K]["isText"] extends true ? string : Numeral;
+};
+
+export interface RobotData extends Attributes {
   name?: string;
   home?: Place;
   target?: Place;
   work?: Numeral;
   stops?: Stop[];
-  speed?: Numeral;
-  radius?: Numeral;
-  type?: string;
-  turn?: Numeral;
-  return?: string;
-  laps?: Numeral;
-  turn_rate?: Numeral;
-  weight?: Numeral;
 }
 
 export interface ClosureData {
@@ -291,8 +289,10 @@ export interface Block {
 /** A column of the table of robots. */
 export interface Column {
   key: string;
+  /** Title, hint, and what holds where a cell is empty. */
+  words(texts: { columns: Record<string, string[]> }): readonly string[];
   text(robot: RobotData): string;
-  value?(robot: RobotData): number;
+  value?: (robot: RobotData) => number;
   set(robot: RobotData, text: string): RobotData;
 }
 

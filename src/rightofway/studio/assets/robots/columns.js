@@ -1,6 +1,8 @@
 /** The columns of the table of robots: what a cell says, and what it means when it is written. */
 
+import { said } from "../../../viz/page/assets/library.js";
 import { numberOf, placeOfText, textOfPlace } from "../draw/places.js";
+import { ATTRIBUTES } from "./attributes.js";
 import { stopsOf, textOfStops, withKey, withStops } from "./fleet.js";
 /** @import { Fault } from "../api_types.js" */
 /** @import { Column, Numeral, RobotData, Stop } from "../types.js" */
@@ -44,40 +46,41 @@ function textOfWork(robot) {
 }
 
 /**
- * @param {"speed" | "radius" | "turn" | "laps" | "turn_rate" | "weight"} key
+ * The column of an attribute of the library's table.
+ * @param {string} name
  * @returns {Column}
  */
-const number = (key) => ({
-  key,
-  text: (robot) => (robot[key] === undefined ? "" : String(robot[key])),
-  value: (robot) => numberOf(robot[key], -1),
-  set: (robot, text) => withKey(robot, key, written(text)),
-});
-
-/**
- * @param {"type" | "return"} key
- * @returns {Column}
- */
-const word = (key) => ({
-  key,
-  text: (robot) => robot[key] ?? "",
-  set: (robot, text) => withKey(robot, key, text.trim() || undefined),
-});
+function attribute(name) {
+  const key = /** @type {keyof typeof ATTRIBUTES} */ (name);
+  const { isText, title, hint, usual } = ATTRIBUTES[key];
+  /** @param {RobotData} robot */
+  const text = (robot) => String(robot[key] ?? "");
+  return {
+    key,
+    words: () => [said([title, {}]), said([hint, {}]), usual],
+    text,
+    value: isText ? undefined : (robot) => numberOf(robot[key], -1),
+    set: (robot, given) => withKey(robot, key, isText ? given.trim() || undefined : written(given)),
+  };
+}
 
 /** @type {Column[]} */
 export const COLUMNS = [
   {
     key: "name",
+    words: ({ columns }) => columns.name,
     text: ({ name }) => name ?? "",
     set: (robot, text) => ({ ...robot, name: text.trim() }),
   },
   {
     key: "home",
+    words: ({ columns }) => columns.home,
     text: ({ home }) => textOfPlace(home),
     set: (robot, text) => withKey(robot, "home", placeOfText(text)),
   },
   {
     key: "stops",
+    words: ({ columns }) => columns.stops,
     text: (robot) =>
       new Set(stopsOf(robot).map(({ work }) => work)).size > 1
         ? textOfStops(robot)
@@ -96,6 +99,7 @@ export const COLUMNS = [
   },
   {
     key: "work",
+    words: ({ columns }) => columns.work,
     text: textOfWork,
     value: (robot) => numberOf(textOfWork(robot), -1),
     set: (robot, text) =>
@@ -106,14 +110,7 @@ export const COLUMNS = [
         ),
       ),
   },
-  number("speed"),
-  number("radius"),
-  word("type"),
-  number("turn"),
-  word("return"),
-  number("laps"),
-  number("turn_rate"),
-  number("weight"),
+  ...Object.keys(ATTRIBUTES).map(attribute),
 ];
 
 /**

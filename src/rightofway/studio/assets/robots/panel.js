@@ -45,7 +45,7 @@ export function RobotPanel({ studio }) {
       ${!robots.length && html`<p class="hint">${words.noRobots}</p>`}
       <${Sheet} studio=${studio} columns=${columns} wanted=${wanted.trim().toLowerCase()} />
       <div class="buttons under">
-        ${others.map(({ key }) => html`<button type="button" class="quiet" title=${words.columns[key][1]} onClick=${() => setAsked([...asked, key])}>+ ${words.columns[key][0]}</button>`)}
+        ${others.map((column) => html`<button type="button" class="quiet" title=${column.words(words)[1]} onClick=${() => setAsked([...asked, column.key])}>+ ${column.words(words)[0]}</button>`)}
         <button type="button" class="quiet" disabled=${!robots.length} onClick=${() => navigator.clipboard.writeText(tableText(robots, COLUMNS))}>${words.copyTable}</button>
       </div>
       <p class="hint small">${words.sheetHint}</p>

@@ -198,7 +198,7 @@ export function Sheet({ studio, columns, wanted }) {
   const cell = (robot, row, column, at) => {
     const place = { row, column: at };
     const fault = faults.get(row)?.find((each) => columnOf(each) === column.key);
-    const [title, , usual = ""] = words.columns[column.key];
+    const [title, , usual = ""] = column.words(words);
     return html`<td key=${column.key} class=${`${column.key} ${holds(block, row, at) && !isSingle(/** @type {Block} */ (block)) ? "in" : ""}`}>
       <${Field} value=${robot ? column.text(robot) : ""} data-cell=${`${row} ${at}`} spellcheck="false"
         aria-label=${robot ? `${title}, ${robot.name}` : `${title}, ${words.newRow}`} aria-invalid=${String(Boolean(fault))} title=${fault?.message ?? ""}
@@ -225,7 +225,7 @@ export function Sheet({ studio, columns, wanted }) {
       <thead><tr>${columns.map(
         (column) => html`
         <th scope="col" class=${column.key} aria-sort=${sorted.key === column.key ? (sorted.isDown ? "descending" : "ascending") : "none"}>
-          <button type="button" title=${words.columns[column.key][1]} onClick=${() => sort(column)}>${words.columns[column.key][0]}</button></th>`,
+          <button type="button" title=${column.words(words)[1]} onClick=${() => sort(column)}>${column.words(words)[0]}</button></th>`,
       )}<th class="do"><span class="unseen">${words.remove}</span></th></tr></thead>
       <tbody>${rows.slice(0, most).map(
         ({ robot, row }) => html`

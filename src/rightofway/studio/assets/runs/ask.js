@@ -53,7 +53,7 @@ export function Ask({ studio, children }) {
           ? html`<p class="hint">${robotsOf(store.document) ? words.chooseRobot : words.robotsElsewhere}</p>`
           : html`<div class="fields">${ASKED.map(
               (column) => html`
-        <label title=${words.columns[column.key][1]}>${words.columns[column.key][0]}<${Field} key=${`${name} ${column.key}`} value=${column.text(robots[index])} placeholder=${words.columns[column.key][2] ?? ""}
+        <label title=${column.words(words)[1]}>${column.words(words)[0]}<${Field} key=${`${name} ${column.key}`} value=${column.text(robots[index])} placeholder=${column.words(words)[2] ?? ""}
           spellcheck="false" aria-invalid=${String(isWrong(column))} onChange=${({ target }) => write(column, target.value)} /></label>`,
             )}</div>`
       }
