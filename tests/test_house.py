@@ -54,6 +54,7 @@ def test_includes_of_the_native_core_never_point_back() -> None:
 
 
 SLEEPS = {
+    "builders/brokers.py": "wait_for, which has a deadline",
     "builders/browsers.py": "Viewer.poll, which has a deadline",
     "builders/suites.py": "soon, which has a deadline",
     "builders/odd_planners.py": "planners that are slow on purpose",

@@ -151,6 +151,7 @@ def test_a_robot_that_is_lost_keeps_what_it_holds_and_gets_nothing_more(version:
     assert site.control.lost == {1}
     site.send(1, "connection", {"connectionState": "ONLINE"})
     site.say(1)
+    assert site.said[1:] == ["R2 is connected again"]
     assert site.released[1] > 0
 
 

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
 import time
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+from rightofway.cli.broker import broker_options
 from rightofway.cli.completion import PLANS, files
 from rightofway.cli.inputs import foreign_options, read_plan
 from rightofway.cli.options import (
@@ -22,13 +28,20 @@ from rightofway.cli.options import (
 from rightofway.cli.outputs import page_option
 from rightofway.cli.terminal import file_title, put_json, put_report, say
 
+if TYPE_CHECKING:
+    from rightofway.control.broker import Broker
+    from rightofway.control.endpoints import Letter
+    from rightofway.control.identities import Identity
+    from rightofway.model import Plan
+
 EXAMPLES = """\b
 Examples:
   rightofway drive plan.json --demo
   rightofway drive plan.json --demo --delays exponential:0.5 --time-scale 1
-  rightofway drive plan.json --demo --time-scale inf --json
   rightofway drive laps.json --demo --laps inf
   rightofway drive plan.json --demo --delays stop:R1@5+20 --page driven.html
+  rightofway drive plan.json --broker mqtt://hub --identities robots.yaml
+  rightofway drive plan.json --dry-run --identities robots.yaml
 """
 
 
@@ -60,22 +73,38 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @click.option("--demo", is_flag=True,
               help="Have simulated robots drive it, in this process and without a network.",
               )  # fmt: skip
+@broker_options
+@click.option("--journal", metavar="FILE",
+              help="What has happened, kept on the disk: a start with the same journal goes on. By"
+              " default the name of the plan with .journal.")  # fmt: skip
+@click.option("--dry-run", is_flag=True,
+              help="Connect to nobody: print what robots would be sent that do what they are asked,"
+              " a topic and a message a line.")  # fmt: skip
+@click.option("--stay", is_flag=True,
+              help="Go on when all robots have come to the end of their way.")  # fmt: skip
 @click.option("--time-scale", type=float, default=10, show_default=True, callback=_factor,
               metavar="FACTOR",
-              help="Seconds of the plan in each second, or its time units where it has no unit;"
-              " inf for no pause.")  # fmt: skip
+              help="With --demo, seconds of the plan in each second, or its time units where it has"
+              " no unit; inf for no pause.")  # fmt: skip
 @delays_option("none")
 @seed_option
 @click.option("--laps", metavar="COUNT", callback=_count,
-              help="Repeat the plan until each robot has made COUNT laps; inf: until interrupted.",
-              )  # fmt: skip
-@page_option("what robots did beside the plan")
+              help="Repeat the laps of the plan until each robot has made so many; inf: until"
+              " interrupted.")  # fmt: skip
+@page_option("what robots of a demo did beside the plan")
 @ticks_option
 @as_json_option("outcome")
 def drive(
     *,
     plan: str,
     demo: bool,
+    broker: str | None,
+    identities: str | None,
+    password_file: str | None,
+    ca_file: str | None,
+    journal: str | None,
+    dry_run: bool,
+    stay: bool,
     time_scale: float,
     delays: tuple[str, ...],
     seed: int,
@@ -84,7 +113,7 @@ def drive(
     in_ticks: bool,
     as_json: bool,
 ) -> int:
-    """Have robots drive a PLAN by right of way, and tell what happens.
+    """Have robots drive a PLAN by right of way, and say what happens.
 
     Robots get orders of VDA 5050, whose released part grows when others have left: never by the
     clock. A late robot makes others wait; nothing collides. What happens goes to standard error,
@@ -92,31 +121,50 @@ def drive(
     """
     if laps is not None and page:
         raise click.UsageError("laps without end fill no page (leave out --page or --laps)")
-    if not demo:
-        raise click.UsageError("robots over a network are not there yet (give --demo)")
-    from rightofway.control.demo import drive_demo
-    from rightofway.control.report import report
-    from rightofway.report.plan_data import measures
+    if [demo, broker is not None, dry_run].count(True) != 1:
+        raise click.UsageError("give one of --broker, --demo and --dry-run")
+    from rightofway.control.identities import load_identities
 
+    if broker is not None and identities is None:
+        raise click.UsageError("robots at a broker have identities (give --identities)")
+    if broker is not None and journal is None and plan == "-":
+        raise click.UsageError("a plan from standard input has no name (give --journal)")
     opened = read_plan(plan)
-    quantities = quantities_of(opened.scenario, in_ticks=in_ticks)
-    clock, seconds = opened.scenario.problem.clock, opened.scenario.units.seconds
-    began = time.monotonic()
+    names = [robot.name for robot in opened.scenario.robots]
+    known = load_identities(identities, names) if identities else []
+    if broker is not None:
+        from rightofway.control.broker import Broker
 
-    def wait_until(tick: int) -> None:
-        if time_scale < math.inf:
-            planned = float(clock.time(tick) * (seconds or 1)) / time_scale
-            time.sleep(max(began + planned - time.monotonic(), 0))
+        address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
+        file = journal or str(Path(plan).with_suffix(".journal"))
+        _drive_at(address, opened, known, file, laps=laps, stays=stay)
+        return 0
+    from rightofway.control.demo import drive_demo
+
+    if dry_run:
+        drive_demo(opened, identities=known, watch=_show)
+        return 0
+    quantities = quantities_of(opened.scenario, in_ticks=in_ticks)
 
     def narrate(tick: int, sentence: str) -> None:
         say(f"{quantities.cell(tick):>8}  {sentence}")
 
     outcome = drive_demo(
-        opened, delay_texts(delays), seed, laps=laps, report=narrate, wait_until=wait_until
+        opened,
+        delay_texts(delays),
+        seed,
+        laps=laps,
+        identities=known,
+        report=narrate,
+        wait_until=_playing(opened, time_scale),
     )
     if as_json:
+        from rightofway.report.plan_data import measures
+
         put_json({**measures(opened.scenario), "seed": seed, **outcome.as_dict()})
     else:
+        from rightofway.control.report import report
+
         put_report(report(outcome, quantities))
     if page:
         from rightofway.viz import write_page
@@ -124,3 +172,48 @@ def drive(
         write_page(opened, page, actual=outcome.trace, title=file_title(plan))
         say(f"wrote {page}")
     return 0
+
+
+def _playing(plan: Plan, time_scale: float) -> Callable[[int], None]:
+    """Return what waits until a tick is played."""
+    clock, seconds = plan.scenario.problem.clock, plan.scenario.units.seconds
+    began = time.monotonic()
+
+    def wait_until(tick: int) -> None:
+        if time_scale < math.inf:
+            planned = float(clock.time(tick) * (seconds or 1)) / time_scale
+            time.sleep(max(began + planned - time.monotonic(), 0))
+
+    return wait_until
+
+
+def _show(letter: Letter) -> None:
+    """Print a message that robots would be sent."""
+    if letter.name in {"order", "instantActions"}:
+        click.echo(f"{letter.topic} {letter.payload.decode()}")
+
+
+def _narrate(sentence: str) -> None:
+    say(f"{datetime.now().astimezone():%H:%M:%S}  {sentence}")
+
+
+def _drive_at(
+    broker: Broker,
+    plan: Plan,
+    identities: list[Identity],
+    journal: str,
+    *,
+    laps: int | None,
+    stays: bool,
+) -> None:
+    """Drive a plan with robots at a broker."""
+    from rightofway.control.driver import Driver
+    from rightofway.control.journal import SqliteJournal
+
+    opened = SqliteJournal(Path(journal))
+    try:
+        driver = Driver(plan, identities, opened, laps=laps, report=_narrate)
+        asyncio.run(driver.run(broker, stays=stays))
+    finally:
+        opened.close()
+    _narrate("all robots are at the end of their way")

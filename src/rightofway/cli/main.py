@@ -65,7 +65,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "collisions": "collisions",
     },
     "Repeated work and delays": {"laps": "laps", "simulate": "simulate"},
-    "Drive": {"drive": "drive"},
+    "Drive": {"drive": "drive", "robots": "robots"},
     "Compare": {"bench": "bench", "paper": "paper"},
     "Formats": {"convert": "formats", "schema": "formats"},
 }

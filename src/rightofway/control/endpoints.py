@@ -122,6 +122,7 @@ class ControlEnd:
     ) -> None:
         self.control, self.notices = control, notices
         self._maps = maps
+        self._missed = set[int]()  # robots that were reported as lost
         self._writer = _Writer(now)
         self._robots = {
             order_map.identity.topic(name): (robot, name)
@@ -159,6 +160,7 @@ class ControlEnd:
             if name == "state":
                 state = vda5050.read(vda5050.StateMessage, document, "state").robot_state()
                 self.notices.take(robot, state.condition)
+                self._welcome(robot)
                 return self.letters(self.control.receive(robot, state))
             if name == "connection":
                 connection = vda5050.read(vda5050.ConnectionMessage, document, "connection")
@@ -181,14 +183,19 @@ class ControlEnd:
         why
             How it is known that it is not.
         """
-        was_connected = robot not in self.control.lost
-        messages = self.control.connect(robot, is_connected=is_connected)
-        if was_connected and not is_connected:
+        if is_connected:
+            self._welcome(robot)
+        elif robot not in self.control.lost:
             reason = why or "is not connected"
-            self.notices.once(
-                robot, "lost", f"{reason}: it keeps what it holds and gets nothing more"
-            )
-        return self.letters(messages)
+            sentence = f"{reason}: it keeps what it holds and gets nothing more"
+            if self.notices.once(robot, "lost", sentence):
+                self._missed.add(robot)
+        return self.letters(self.control.connect(robot, is_connected=is_connected))
+
+    def _welcome(self, robot: int) -> None:
+        if robot in self._missed:
+            self._missed.discard(robot)
+            self.notices.about(robot, "is connected again")
 
     def _compare(self, robot: int, sheet: vda5050.Factsheet) -> None:
         """Report where a robot is slower or larger than the plan takes it to be."""

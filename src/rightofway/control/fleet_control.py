@@ -203,6 +203,11 @@ class FleetControl:
         self._commit({"kind": "taken off", "robot": robot})
         return self._go_on()
 
+    @property
+    def is_done(self) -> bool:
+        """Whether each robot that is on the floor has come to the end of its route."""
+        return all(own.is_off or own.is_done for own in self.ledger.robots)
+
     # --- what comes in ---------------------------------------------------------------------------
 
     def receive(self, robot: int, state: RobotState) -> list[Message]:

@@ -144,5 +144,50 @@ class SqliteJournal:
         self._database.close()
 
 
+class BatchedJournal:
+    """A journal whose entries reach the disk together, when `flush` is called.
+
+    What depends on an entry may be sent only after a flush that did not fail. Entries whose flush
+    has failed are tried again by the next one.
+
+    Parameters
+    ----------
+    journal
+        Where they go.
+    """
+
+    def __init__(self, journal: Journal) -> None:
+        self._journal = journal
+        self._pending: list[Entry] = []
+        self._snapshot: Entry | None = None  # of all before the pending entries
+
+    def entries(self) -> Iterable[Entry]:
+        """Return all entries that are on the disk, from the last snapshot on."""
+        return self._journal.entries()
+
+    def commit(self, entries: Iterable[Entry]) -> None:
+        """Append entries; they are not on the disk yet."""
+        self._pending += entries
+
+    def begin_again(self, snapshot: Entry) -> None:
+        """Append a snapshot, in place of entries that are not on the disk yet."""
+        self._pending, self._snapshot = [], snapshot
+
+    def flush(self) -> None:
+        """Bring all entries to the disk, in one transaction behind a snapshot, if there is one.
+
+        Raises
+        ------
+        JournalFailed
+            If they could not be written; they are kept for the next flush.
+        """
+        if self._snapshot is not None:
+            self._journal.begin_again(self._snapshot)
+            self._snapshot = None
+        if self._pending:
+            self._journal.commit(self._pending)
+            self._pending = []
+
+
 def _text_of(entry: Entry) -> str:
     return json.dumps(entry, separators=(",", ":"))

@@ -203,6 +203,11 @@ class RobotLedger:
         """The vertices that it holds: the one last arrived at, and all that are released."""
         return self.route.stretch(self.arrived, self.released + 1)
 
+    @property
+    def is_done(self) -> bool:
+        """Whether it is at the end of its route, with all its jobs done."""
+        return self.arrived == self.route.end - 1 and self.finished >= self.route.all_jobs()
+
     def held_at(self, place: str) -> int | None:
         """Return the held part whose vertex is a place, None if there is none."""
         held = self.held

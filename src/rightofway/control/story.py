@@ -63,8 +63,7 @@ class Story:
             yield f"{name} {verb} from {place} to {own.route.place(own.released)}"
         next_part = own.released + 1
         if next_part == own.route.end:
-            has_ended = own.arrived == own.released and own.finished >= own.route.all_jobs()
-            if has_ended and not chapter.has_ended:
+            if own.is_done and not chapter.has_ended:
                 chapter.has_ended = True
                 yield f"{name} is at the end of its way, {place}"
             return

@@ -1,0 +1,100 @@
+"""``rightofway robots``: simulated robots at a broker."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import click
+
+from rightofway.cli.broker import broker_options
+from rightofway.cli.completion import PLANS, files
+from rightofway.cli.inputs import foreign_options, read_plan
+from rightofway.cli.options import seed_option
+from rightofway.cli.terminal import say
+
+EXAMPLES = """\b
+Examples:
+  rightofway robots plan.json --broker mqtt://hub --write-identities r.yaml
+  rightofway robots plan.json --broker mqtt://hub --identities r.yaml
+  rightofway robots plan.json --broker mqtt://hub --trouble stop:0.05 --seed 3
+"""
+
+
+@click.command(
+    epilog=EXAMPLES,
+    short_help="Simulate the robots of a PLAN at a broker (VDA 5050).",
+)
+@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
+@foreign_options
+@broker_options
+@click.option("--write-identities", metavar="FILE",
+              help="Write a file of identities for these robots, which `drive` reads.",
+              )  # fmt: skip
+@click.option("--vda-version", default="2.1.0", show_default=True, metavar="VERSION",
+              help="The version of VDA 5050 of robots without --identities: 2.0.0, 2.1.0 or"
+              " 3.0.0.")  # fmt: skip
+@click.option("--trouble", "troubles", multiple=True, metavar="KIND:SHARE",
+              help="What goes wrong: late:0.5 (half as long again, on average), stop, error,"
+              " offline or reset with the share of drives. Can be repeated.")  # fmt: skip
+@click.option("--time-scale", type=click.FloatRange(0, 100, min_open=True), default=1,
+              show_default=True, metavar="FACTOR",
+              help="Seconds of robot time in each second, up to 100.")  # fmt: skip
+@seed_option
+def robots(
+    *,
+    plan: str,
+    broker: str | None,
+    identities: str | None,
+    password_file: str | None,
+    ca_file: str | None,
+    write_identities: str | None,
+    vda_version: str,
+    troubles: tuple[str, ...],
+    time_scale: float,
+    seed: int,
+) -> None:
+    """Simulate the robots of a PLAN at a broker, until interrupted.
+
+    They stand at their homes and do what orders of VDA 5050 ask for, each with a connection of its
+    own. The PLAN gives their homes and how long they work; lengths and speeds are in the orders.
+    """
+    from rightofway.control.broker import Broker
+    from rightofway.control.identities import (
+        identities_text,
+        load_identities,
+        simulated_identities,
+    )
+    from rightofway.control.robots import run_robots, troubles_of
+
+    if broker is None:
+        raise click.UsageError("robots need a broker (give --broker)")
+    if write_identities is not None and identities is not None:
+        raise click.UsageError("--identities are there already (take --write-identities out)")
+    opened = read_plan(plan)
+    names = [robot.name for robot in opened.scenario.robots]
+    fleet = (
+        simulated_identities(names, vda_version)
+        if identities is None
+        else load_identities(identities, names)
+    )
+    address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
+    trouble = troubles_of(troubles)
+    if write_identities is not None:
+        Path(write_identities).write_text(identities_text(names, fleet), encoding="utf-8")
+        say(f"wrote {write_identities}")
+
+    def is_up() -> None:
+        say(f"{len(fleet)} robots are at {address.address}; end them with Ctrl-C")
+
+    asyncio.run(
+        run_robots(
+            opened,
+            fleet,
+            address,
+            trouble=trouble,
+            seed=seed,
+            time_scale=time_scale,
+            is_up=is_up,
+        )
+    )

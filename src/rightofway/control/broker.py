@@ -1,0 +1,148 @@
+"""The MQTT broker: its address, passwords and certificates, and connections to it."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import ssl
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+from urllib.parse import unquote, urlsplit
+
+from rightofway.control.endpoints import Letter
+from rightofway.errors import InputError, shown
+
+if TYPE_CHECKING:
+    import aiomqtt
+
+__all__ = ["Broker"]
+
+PASSWORD = "RIGHTOFWAY_BROKER_PASSWORD"  # noqa: S105 (the name of a variable)
+"""The environment variable with the password."""
+
+PORTS = {"mqtt": 1883, "mqtts": 8883}
+"""The usual port of each scheme."""
+
+KEEP_ALIVE = 10
+"""Seconds after which a broker and its client miss each other."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Broker:
+    """An MQTT broker.
+
+    Attributes
+    ----------
+    host, port
+        Where it listens.
+    user, password
+        As whom to log in; None without.
+    tls
+        How the connection is encrypted; None for not at all.
+    """
+
+    host: str
+    port: int
+    user: str | None = None
+    password: str | None = field(default=None, repr=False)
+    tls: ssl.SSLContext | None = None
+
+    @classmethod
+    def of(
+        cls, url: str, *, password_file: str | None = None, ca_file: str | None = None
+    ) -> Broker:
+        """Return the broker of a URL.
+
+        Parameters
+        ----------
+        url
+            ``mqtt://host``, ``mqtt://user@host:port``, or ``mqtts://…`` with TLS. The password
+            comes from the environment or a file, because others see what a command line has.
+        password_file
+            A file with the password; by default the environment has it.
+        ca_file
+            Certificates to trust, in PEM format; by default those of the system.
+
+        Raises
+        ------
+        InputError
+            If the URL is none of a broker, or a file cannot be read.
+        """
+        if not find_spec("aiomqtt"):
+            message = "needs a package that is not installed (pip install 'rightofway[control]')"
+            raise InputError.at("broker", message)
+        try:
+            parts = urlsplit(url)
+            port = parts.port or PORTS.get(parts.scheme)
+        except ValueError:
+            parts, port = urlsplit(""), None
+        if port is None or not parts.hostname or parts.path.strip("/") or parts.query:
+            remedy = "give mqtt://host, mqtt://user@host:port, or mqtts://… with TLS"
+            raise InputError.at("broker", f"{shown(url)} is no address of a broker ({remedy})")
+        if parts.password is not None:
+            remedy = f"set {PASSWORD}, or give --password-file"
+            raise InputError.at("broker", f"a password is in the address ({remedy})")
+        password = os.environ.get(PASSWORD)
+        if password_file is not None:
+            password = _content(password_file, "password-file").rstrip("\r\n")
+        user = unquote(parts.username) if parts.username else None
+        if user is None and password is not None:
+            message = "a password is given without a user (write mqtt://user@host)"
+            raise InputError.at("broker", message)
+        if parts.scheme == "mqtt" and ca_file is not None:
+            message = "certificates are given without TLS (write mqtts://host)"
+            raise InputError.at("ca-file", message)
+        tls = _tls(ca_file) if parts.scheme == "mqtts" else None
+        return cls(host=parts.hostname, port=port, user=user, password=password, tls=tls)
+
+    @property
+    def address(self) -> str:
+        """Where it is, in short."""
+        return f"{self.host}:{self.port}"
+
+    def client(self, name: str, will: Letter | None = None) -> aiomqtt.Client:
+        """Return a connection: nothing is kept for it when it is gone.
+
+        Parameters
+        ----------
+        name
+            How its identifier begins; the rest is made up, so that two never have the same.
+        will
+            What the broker sends when the connection breaks; it is retained.
+        """
+        import aiomqtt
+
+        return aiomqtt.Client(
+            self.host,
+            self.port,
+            username=self.user,
+            password=self.password,
+            tls_context=self.tls,
+            identifier=f"{name}-{secrets.token_hex(4)}",
+            clean_session=True,
+            keepalive=KEEP_ALIVE,
+            timeout=KEEP_ALIVE,
+            will=None if will is None else aiomqtt.Will(will.topic, will.payload, 1, retain=True),
+        )
+
+
+def _tls(ca_file: str | None) -> ssl.SSLContext:
+    tls = ssl.create_default_context()
+    if ca_file is not None:
+        _content(ca_file, "ca-file")
+        try:
+            tls.load_verify_locations(ca_file)
+        except ssl.SSLError as error:
+            message = f"has no certificates in PEM format: {error} (give another file)"
+            raise InputError.at("ca-file", message, ca_file) from error
+    return tls
+
+
+def _content(path: str, option: str) -> str:
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise InputError.at(option, f"cannot be read: {reason} (check the path)", path) from error

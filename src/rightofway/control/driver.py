@@ -1,0 +1,227 @@
+"""A control at a broker: takes what robots send, decides, commits once, then sends; for ever.
+
+The connection may come and go. After each one robots are asked for their states, and what is not
+acknowledged is sent again.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import json
+import secrets
+import time
+from collections.abc import Callable, Iterable, Sequence
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING
+
+from rightofway.control.broker import Broker
+from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.endpoints import ControlEnd, Letter
+from rightofway.control.fleet_control import FleetControl
+from rightofway.control.identities import Identity
+from rightofway.control.journal import BatchedJournal, Journal, JournalFailed
+from rightofway.control.laps import LapsToDrive
+from rightofway.control.messages import Message
+from rightofway.control.notices import Notices
+from rightofway.control.order_map import OrderMap
+from rightofway.control.story import Story
+from rightofway.errors import InputError
+from rightofway.io import plan_text
+from rightofway.model import Plan
+
+if TYPE_CHECKING:
+    import aiomqtt
+
+__all__ = ["Driver", "timestamp"]
+
+REMIND = 1.0
+"""Seconds between two reminders of what is not acknowledged."""
+
+SILENCE = 35.0
+"""Seconds without a state after which a robot is lost: it has to send one every 30 seconds."""
+
+RETRY = (0.2, 5.0)
+"""Seconds until the next try to connect: the first time, and at most."""
+
+
+def timestamp() -> str:
+    """Return the time of the clock as messages have it."""
+    return datetime.now(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+
+
+class Driver:
+    """A plan that is driven by robots at a broker.
+
+    Parameters
+    ----------
+    plan
+        A plan that keeps the rules.
+    identities
+        The robots, in the order of the plan.
+    journal
+        Empty, or of an earlier start with the same plan and identities.
+    laps
+        How often each robot makes the laps of the plan, 0 for ever; None: the plan is driven once.
+    report
+        Receives each sentence of the story, and what is wrong.
+
+    Raises
+    ------
+    InputError
+        If robots of the plan move round a circle at one instant, or the journal is of another plan
+        or other identities; with laps, also if robots do not return home.
+    """
+
+    def __init__(
+        self,
+        plan: Plan,
+        identities: Sequence[Identity],
+        journal: Journal,
+        *,
+        laps: int | None = None,
+        report: Callable[[str], None],
+    ) -> None:
+        names = [robot.name for robot in plan.scenario.robots]
+        maps = [OrderMap(plan.scenario, *numbered) for numbered in enumerate(identities)]
+        notices = Notices(names, report)
+        self._journal, self._report = BatchedJournal(journal), report
+        self.control = FleetControl(self._journal, report=notices.about)
+        self._laps = laps
+        repeated = None if laps is None else LapsToDrive(plan)
+        dispatcher = Dispatcher(self.control, plan, repeated)
+        ledger, digest = self.control.ledger, _digest(plan, maps)
+        if not ledger.run:
+            dispatcher.begin(f"{digest}-{secrets.token_hex(4)}")
+            self._journal.flush()
+        elif not ledger.run.startswith(f"{digest}-"):
+            message = "is of another plan, or of other identities (give those, or another journal)"
+            raise InputError.at("journal", message)
+        self.end = ControlEnd(self.control, maps, timestamp, notices)
+        self._story = Story(ledger, names)
+        self._heard = [time.monotonic()] * len(names)
+        self._inbox: list[tuple[float, Letter]] = []
+        self._outbox: list[Letter] = []
+        self._news = asyncio.Event()
+        self._fails = False
+
+    async def run(self, broker: Broker, *, stays: bool = False) -> None:
+        """Drive, over as many connections as it takes, until all robots have come to their end, or made all laps.
+
+        Parameters
+        ----------
+        broker
+            Where robots are.
+        stays
+            Whether to go on for ever.
+        """
+        import aiomqtt
+
+        wait, is_lost = RETRY[0], False
+        while stays or not self.is_done:
+            try:
+                async with broker.client("rightofway") as client:
+                    self._report(f"connected to {broker.address}")
+                    wait, is_lost = RETRY[0], False
+                    await self._serve(client, stays=stays)
+            except* aiomqtt.MqttError as errors:
+                if not is_lost:
+                    reason = str(errors.exceptions[0])
+                    self._report(f"no connection to {broker.address}: {reason}; trying again")
+                is_lost = True
+                await asyncio.sleep(wait)
+                wait = min(2 * wait, RETRY[1])
+
+    @property
+    def is_done(self) -> bool:
+        """Whether robots have come to the end of their way, or made all laps."""
+        if self._laps:
+            return all(
+                own.is_off or own.laps_done >= self._laps for own in self.control.ledger.robots
+            )
+        return self.control.is_done
+
+    def send(self, messages: Iterable[Message]) -> None:
+        """Send messages of the control in the next turn.
+
+        Parameters
+        ----------
+        messages
+            What a call of the control has returned.
+        """
+        self._outbox += self.end.letters(messages)
+        self._news.set()
+
+    async def _serve(self, client: aiomqtt.Client, *, stays: bool) -> None:
+        """Take turns as long as the connection lasts."""
+        self._inbox.clear()
+        self._outbox.clear()
+        await client.subscribe(
+            [(topic, int(topic.endswith("/connection"))) for topic in self.end.topics]
+        )
+        self._heard = [time.monotonic()] * len(self._heard)
+        async with asyncio.TaskGroup() as tasks:
+            reader = tasks.create_task(self._read(client))
+            fresh = [*self.end.letters(self.control.start()), *self.end.ask_for_factsheets()]
+            await self._turn(client, fresh)
+            reminded = time.monotonic()
+            while stays or not self.is_done:
+                try:
+                    async with asyncio.timeout(max(reminded + REMIND - time.monotonic(), 0)):
+                        await self._news.wait()
+                    fresh = []
+                except TimeoutError:
+                    reminded, fresh = time.monotonic(), self._remind()
+                self._news.clear()
+                await self._turn(client, fresh)
+            reader.cancel()
+
+    async def _read(self, client: aiomqtt.Client) -> None:
+        async for message in client.messages:
+            payload = message.payload if isinstance(message.payload, bytes) else b""
+            self._inbox.append((time.perf_counter(), Letter(str(message.topic), payload)))
+            self._news.set()
+
+    def _remind(self) -> list[Letter]:
+        """Return what is to be sent again; robots that are silent are lost."""
+        letters = self.end.letters(self.control.remind())
+        now = time.monotonic()
+        for robot, heard in enumerate(self._heard):
+            if now - heard > SILENCE:
+                why = f"has been silent for {SILENCE:g} s"
+                letters += self.end.connect(robot, is_connected=False, why=why)
+        return letters
+
+    async def _turn(self, client: aiomqtt.Client, fresh: list[Letter]) -> None:
+        """Take in all that has come; commit what follows, once; then send it."""
+        inbox, self._inbox = self._inbox, []
+        self._outbox += fresh
+        for _, letter in inbox:
+            robot = self.end.robot_of(letter.topic)
+            if robot is None:
+                continue
+            if letter.name == "state":
+                self._heard[robot] = time.monotonic()
+            self._outbox += self.end.receive(letter)
+        try:
+            self._journal.flush()
+        except JournalFailed as error:
+            if not self._fails:
+                message = f"the journal cannot be written: {error}; nothing is sent until it can"
+                self._report(message)
+            self._fails = True
+            return
+        if self._fails:
+            self._report("the journal can be written again")
+        self._fails = False
+        sent, self._outbox = self._outbox, []
+        for letter in sent:
+            await client.publish(letter.topic, letter.payload, qos=0)
+        for sentence in self._story.go_on():
+            self._report(sentence)
+
+
+def _digest(plan: Plan, maps: Sequence[OrderMap]) -> str:
+    """Return a name of all that decides on the content of orders."""
+    document = json.dumps([order_map.document() for order_map in maps], sort_keys=True)
+    return hashlib.sha256(f"{plan_text(plan)}\n{document}".encode()).hexdigest()[:12]

@@ -1,0 +1,280 @@
+"""Simulated robots at a broker: hundreds in one process, each with a connection of its own.
+
+They read how long and how fast an edge is from their orders, as real robots do, and drive on while
+their connection is broken. By a seed they are late, stop, report errors, lose their connections and
+forget their orders.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import random
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from socket import SHUT_RDWR
+from typing import TYPE_CHECKING, Any
+
+from rightofway.control.broker import Broker
+from rightofway.control.driver import timestamp
+from rightofway.control.endpoints import Letter, RobotEnd
+from rightofway.control.identities import Identity
+from rightofway.control.messages import Condition, RobotError
+from rightofway.control.simulated_robot import SimulatedRobot
+from rightofway.errors import InputError, shown
+from rightofway.model import Plan
+
+if TYPE_CHECKING:
+    import aiomqtt
+
+__all__ = ["TROUBLES", "Trouble", "run_robots", "troubles_of"]
+
+TROUBLES = {
+    "late": "each drive and each work lasts longer, on average by this share",
+    "stop": "the share of drives in which the robot stands for a while",
+    "error": "the share of drives in which it stands and reports an error",
+    "offline": "the share of drives in which its connection breaks for a while",
+    "reset": "the share of places at which it forgets its order",
+}
+"""Kinds of trouble that simulated robots can have."""
+
+WHILE = 10.0
+"""How long trouble lasts, on average [s of robot time]."""
+
+STATES = 1.0
+"""Seconds between two states of a robot in which nothing happens."""
+
+Trouble = Mapping[str, float]
+"""Kinds of `TROUBLES` with their shares."""
+
+
+def troubles_of(texts: Iterable[str]) -> dict[str, float]:
+    """Return kinds of trouble that a user wrote as ``kind:share``.
+
+    Parameters
+    ----------
+    texts
+        Such as ``stop:0.02``.
+
+    Raises
+    ------
+    InputError
+        If a kind is unknown, or its share is not one.
+    """
+    troubles = {}
+    for text in texts:
+        kind, _, share = text.partition(":")
+        try:
+            value = float(share)
+        except ValueError:
+            value = -1.0
+        if kind not in TROUBLES or not 0 <= value <= (100 if kind == "late" else 1):
+            known = ", ".join(TROUBLES)
+            message = f"{shown(text)} is no trouble (give kind:share; kinds are {known})"
+            raise InputError.at("trouble", message)
+        troubles[kind] = value
+    return troubles
+
+
+@dataclass(slots=True, kw_only=True)
+class _NetworkRobot:
+    """A robot at a broker.
+
+    Attributes
+    ----------
+    end
+        The robot with its messages.
+    identity
+        As messages name it.
+    works
+        How long work lasts at places [s of robot time].
+    time_scale
+        Seconds of robot time in a second.
+    draw
+        Draws its trouble.
+    trouble
+        What can go wrong.
+    """
+
+    end: RobotEnd
+    identity: Identity
+    works: Mapping[str, float]
+    time_scale: float
+    draw: random.Random
+    trouble: Trouble
+    asked: asyncio.Event = field(default_factory=asyncio.Event)  # something came for it
+    changed: asyncio.Event = field(default_factory=asyncio.Event)  # a state is due
+    client: aiomqtt.Client | None = None
+    offline: float = 0.0  # how long it is to stay away [s of robot time]
+
+    async def pause(self, seconds: float) -> None:
+        """Wait for some seconds of robot time."""
+        await asyncio.sleep(seconds / self.time_scale)
+
+    def happens(self, kind: str) -> bool:
+        """Return whether trouble of a kind happens now."""
+        return self.draw.random() < self.trouble.get(kind, 0.0)
+
+    def a_while(self) -> float:
+        """Return how long trouble lasts [s of robot time]."""
+        return self.draw.expovariate(1 / WHILE)
+
+    async def live(self) -> None:
+        """Do what orders ask for, one step after the other, connected or not."""
+        robot = self.end.robot
+        while True:
+            step = robot.next_step
+            if step is None:
+                await self.asked.wait()
+                self.asked.clear()
+                continue
+            if step == "begin to drive":
+                await self.have_trouble()
+            await self.pause(self.duration())
+            if robot.step():
+                self.changed.set()
+            if step == "arrive" and self.happens("reset") and robot.forget():
+                self.changed.set()
+
+    def duration(self) -> float:
+        """Return how long the next step lasts [s of robot time]."""
+        robot = self.end.robot
+        match robot.next_step:
+            case "arrive":
+                lane = self.end.lanes.get((robot.place, robot.ahead[0].place))
+                lasts = 1.0 if lane is None else lane.length / lane.max_speed
+            case "end work":
+                lasts = self.works.get(robot.place, max(self.works.values(), default=0.0))
+            case _:
+                return 0.0
+        late = self.trouble.get("late", 0.0)
+        return lasts * (1 + (self.draw.expovariate(1 / late) if late else 0.0))
+
+    async def have_trouble(self) -> None:
+        """Have trouble before a drive, perhaps."""
+        if self.happens("offline") and self.client is not None:
+            self.offline = self.a_while()
+            if hang_up := self.client._client.socket():  # noqa: SLF001 (a cable that is cut)
+                with contextlib.suppress(OSError):
+                    hang_up.shutdown(SHUT_RDWR)  # type: ignore[attr-defined]
+        if self.happens("stop"):
+            await self.pause(self.a_while())
+        if self.happens("error"):
+            error = RobotError(kind="obstacle", level="FATAL", description="the way is blocked")
+            self.end.condition = replace(self.end.condition, errors=(error,))
+            self.changed.set()
+            await self.pause(self.a_while())
+            self.end.condition = Condition()
+            self.changed.set()
+
+    async def connect(self, broker: Broker) -> None:
+        """Keep a connection: listen to orders, send states."""
+        import aiomqtt
+
+        will = self.end.connection("CONNECTION_BROKEN")
+        while True:
+            try:
+                async with broker.client(self.identity.serial_number, will) as client:
+                    self.client = client
+                    await client.subscribe([(topic, 0) for topic in self.end.topics])
+                    await _publish(client, self.end.connection("ONLINE"))
+                    async with asyncio.TaskGroup() as tasks:
+                        tasks.create_task(self.listen(client))
+                        tasks.create_task(self.speak(client))
+            except* aiomqtt.MqttError:
+                self.client = None
+            await self.pause(self.offline)
+            await asyncio.sleep(STATES * self.draw.random())  # not all at once
+            self.offline = 0.0
+
+    async def listen(self, client: aiomqtt.Client) -> None:
+        """Take in what comes."""
+        async for message in client.messages:
+            payload = message.payload if isinstance(message.payload, bytes) else b""
+            with contextlib.suppress(InputError):  # real robots report what they cannot read
+                for letter in self.end.receive(Letter(str(message.topic), payload)):
+                    await _publish(client, letter)
+            self.asked.set()
+            self.changed.set()
+
+    async def speak(self, client: aiomqtt.Client) -> None:
+        """Send the state when something happens, and every now and then."""
+        while True:
+            self.changed.clear()
+            await _publish(client, self.end.state())
+            with contextlib.suppress(TimeoutError):
+                async with asyncio.timeout(STATES):
+                    await self.changed.wait()
+
+
+def _ignore_cut_cables(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+    """Report what goes wrong in the loop, but for sockets that `have_trouble` has shut down."""
+    if not isinstance(context.get("exception"), OSError):
+        loop.default_exception_handler(context)
+
+
+async def _publish(client: aiomqtt.Client, letter: Letter) -> None:
+    is_kept = letter.name == "connection"
+    await client.publish(letter.topic, letter.payload, qos=int(is_kept), retain=is_kept)
+
+
+def _works(plan: Plan, number: int) -> dict[str, float]:
+    """Return how long a robot works at each of its stops [s]."""
+    scenario = plan.scenario
+    second = scenario.units.seconds or 1
+    return {
+        scenario.roadmap.name(stop.at): float(stop.work * second)
+        for stop in scenario.robots[number].stops
+    }
+
+
+async def run_robots(
+    plan: Plan,
+    identities: Sequence[Identity],
+    broker: Broker,
+    *,
+    trouble: Trouble | None = None,
+    seed: int = 0,
+    time_scale: float = 1.0,
+    is_up: Callable[[], None] = lambda: None,
+) -> None:
+    """Run robots that stand at the homes of a plan, until cancelled.
+
+    Parameters
+    ----------
+    plan
+        The plan; only the homes and the times of work are taken from it.
+    identities
+        The robots, in the order of the plan.
+    broker
+        Where they are asked.
+    trouble
+        What goes wrong, and how often.
+    seed
+        Of the trouble; each robot draws its own.
+    time_scale
+        Seconds of robot time in a second.
+    is_up
+        Is called once all robots have begun.
+    """
+    robots = [
+        _NetworkRobot(
+            end=RobotEnd(
+                SimulatedRobot(plan.scenario.roadmap.name(robot.home)), number, identity, timestamp
+            ),
+            identity=identity,
+            works=_works(plan, number),
+            time_scale=time_scale,
+            draw=random.Random(f"{seed} {number}"),  # noqa: S311 (a simulation)
+            trouble=trouble or {},
+        )
+        for number, (robot, identity) in enumerate(
+            zip(plan.scenario.robots, identities, strict=True)
+        )
+    ]
+    asyncio.get_running_loop().set_exception_handler(_ignore_cut_cables)
+    async with asyncio.TaskGroup() as tasks:
+        for robot in robots:
+            tasks.create_task(robot.live())
+            tasks.create_task(robot.connect(broker))
+        is_up()

@@ -1,0 +1,289 @@
+"""Real processes at a real broker: they are killed, and nothing is lost or done twice."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import random
+import re
+import shutil
+import subprocess
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from rightofway.control.broker import PASSWORD, Broker
+from rightofway.control.driver import Driver
+from rightofway.control.identities import (
+    identities_text,
+    load_identities,
+    simulated_identities,
+)
+from rightofway.control.journal import SqliteJournal
+from rightofway.control.robots import run_robots
+from rightofway.errors import InputError
+from rightofway.io import write_plan
+from rightofway.model import Plan
+from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, wait_for
+from tests.builders.observers import Observer
+from tests.builders.pages import ROOT, blocks
+from tests.builders.plans import door
+from tests.builders.warehouses import warehouse
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def broker(tmp_path: Path) -> Iterator[Mosquitto]:
+    if MOSQUITTO is None:
+        pytest.skip("mosquitto is not installed")
+    made = Mosquitto(tmp_path)
+    yield made
+    made.kill()
+
+
+def robots_of(
+    plan: Plan, folder: Path, url: str, *options: str, **environment: str
+) -> contextlib.AbstractContextManager[Command]:
+    """Return simulated robots of a plan; they write their identities."""
+    write_plan(plan, folder / "plan.json")
+    more = ("--write-identities", "robots.yaml", "--time-scale", "20", *options)
+    return Command(folder, "robots", "plan.json", "--broker", url, *more, **environment).running()
+
+
+def has_heard(observer: Observer, states: int, drive: Command) -> bool:
+    """Return whether so many states have come, or there is nothing to wait for."""
+    return observer.counts["state"] >= states or drive.code is not None
+
+
+def drive_of(
+    folder: Path, url: str, **environment: str
+) -> contextlib.AbstractContextManager[Command]:
+    """Return the control of those robots."""
+    wait_for((folder / "robots.yaml").exists, 60, "the file of identities")
+    options = ("--broker", url, "--identities", "robots.yaml")
+    return Command(folder, "drive", "plan.json", *options, **environment).running()
+
+
+@pytest.mark.parametrize("version", ["2.0.0", "2.1.0", "3.0.0"])
+def test_the_door_is_driven_by_three_commands(
+    version: str, tmp_path: Path, broker: Mosquitto
+) -> None:
+    observer = Observer(broker.port)
+    with (
+        robots_of(door(), tmp_path, broker.url, "--vda-version", version),
+        drive_of(tmp_path, broker.url) as drive,
+    ):
+        assert drive.wait(60) == 0, drive.log
+    assert "R1 is at the end of its way, N0" in drive.log
+    assert "all robots are at the end of their way" in drive.log
+    assert len(observer.finished) == 2
+    observer.close()
+
+
+def test_twenty_robots_in_a_warehouse_with_trouble(tmp_path: Path, broker: Mosquitto) -> None:
+    """Late, stopped, in error, offline, without their orders: all come home, each job done once."""
+    observer = Observer(broker.port)
+    trouble = ("late:0.5", "stop:0.02", "error:0.02", "offline:0.02", "reset:0.01")
+    options = [word for kind in trouble for word in ("--trouble", kind)]
+    with (
+        robots_of(warehouse(20), tmp_path, broker.url, *options),
+        drive_of(tmp_path, broker.url) as drive,
+    ):
+        assert drive.wait(240) == 0, drive.log
+    assert len(observer.finished) == 20
+    assert "is not connected" in drive.log
+    observer.close()
+
+
+def test_control_and_broker_are_killed_and_everything_goes_on(
+    tmp_path: Path, broker: Mosquitto
+) -> None:
+    observer = Observer(broker.port)
+    draw = random.Random(1)  # noqa: S311
+    with (
+        robots_of(warehouse(8), tmp_path, broker.url, "--trouble", "late:0.5"),
+        drive_of(tmp_path, broker.url) as drive,
+    ):
+        for number in range(6):
+            due = observer.counts["state"] + draw.randrange(5, 60)
+            wait_for(partial(has_heard, observer, due, drive), 60, "states")
+            if drive.code is not None:
+                break
+            if number % 3 == 2:
+                broker.kill()
+                broker.start()
+            else:
+                drive.kill()
+                drive.start()
+        assert drive.wait(120) == 0, drive.log
+    assert len(observer.finished) == 8
+    runs = {order_id.rsplit("-", 2)[0] for _, order_id, _ in observer.orders}
+    assert len(runs) == 1  # one journal, one run
+    observer.close()
+
+
+def test_withdrawals_over_the_broker_lose_nothing(tmp_path: Path, broker: Mosquitto) -> None:
+    """Withdrawals come at any time, late ones too; robots get the rest again."""
+    plan, said = warehouse(5), list[str]()
+    identities = simulated_identities([robot.name for robot in plan.scenario.robots])
+    observer = Observer(broker.port)
+    journal = SqliteJournal(tmp_path / "plan.journal")
+    address = Broker.of(broker.url)
+    draw = random.Random(2)  # noqa: S311
+
+    def take_note(sentence: str) -> None:
+        """Withdraw an order at every third sentence of the story."""
+        said.append(sentence)
+        if len(said) % 3 == 0 and len(said) < 60:
+            loop = asyncio.get_running_loop()
+            loop.call_soon(lambda: driver.send(driver.control.cancel(draw.randrange(5))))
+
+    driver = Driver(plan, identities, journal, report=take_note)
+
+    async def everything() -> None:
+        robots = asyncio.create_task(run_robots(plan, identities, address, time_scale=10))
+        async with asyncio.timeout(120):
+            await driver.run(address)
+        robots.cancel()
+        with contextlib.suppress(asyncio.CancelledError):
+            await robots
+
+    asyncio.run(everything())
+    assert driver.control.is_done, said
+    assert any(own.cancels for own in driver.control.ledger.robots)
+    assert len(observer.finished) == 5
+    journal.close()
+    observer.close()
+
+
+def test_a_password_comes_from_the_environment(tmp_path: Path) -> None:
+    passwords = tmp_path / "passwords"
+    program = shutil.which("mosquitto_passwd")
+    if program is None or MOSQUITTO is None:
+        pytest.skip("mosquitto is not installed")
+    subprocess.run([program, "-b", "-c", str(passwords), "fleet", "secret"], check=True)
+    passwords.chmod(0o644)
+    own = Mosquitto(tmp_path, ["allow_anonymous false", f"password_file {passwords}"])
+    url = f"mqtt://fleet@localhost:{own.port}"
+    try:
+        with robots_of(door(), tmp_path, url, **{PASSWORD: "secret"}):
+            with drive_of(tmp_path, url, **{PASSWORD: "wrong"}) as refused:
+                wait_for(lambda: "no connection to" in refused.log, 30, "a refusal")
+                assert refused.interrupt() == 130
+            with drive_of(tmp_path, url, **{PASSWORD: "secret"}) as drive:
+                assert drive.wait(60) == 0, drive.log
+        assert "secret" not in drive.log + refused.log
+    finally:
+        own.kill()
+
+
+def test_a_connection_may_be_encrypted(tmp_path: Path) -> None:
+    """The broker has a certificate for localhost; who does not trust it does not connect."""
+    program = shutil.which("openssl")
+    if program is None or MOSQUITTO is None:
+        pytest.skip("openssl or mosquitto is not installed")
+    key, certificate = tmp_path / "key.pem", tmp_path / "certificate.pem"
+    made = [program, "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2"]
+    made += ["-keyout", str(key), "-out", str(certificate), "-subj", "/CN=localhost"]
+    made += ["-addext", "subjectAltName=DNS:localhost"]
+    subprocess.run(made, check=True, capture_output=True)
+    key.chmod(0o644)
+    lines = ["allow_anonymous true", f"certfile {certificate}", f"keyfile {key}"]
+    own = Mosquitto(tmp_path, lines)
+    url = own.url.replace("mqtt:", "mqtts:")
+    try:
+        with robots_of(door(), tmp_path, url, "--ca-file", str(certificate)):
+            with drive_of(tmp_path, url) as refused:
+                wait_for(lambda: "no connection to" in refused.log, 30, "a refusal")
+            options = ("--broker", url, "--identities", "robots.yaml")
+            trusting = (*options, "--ca-file", str(certificate))
+            with Command(tmp_path, "drive", "plan.json", *trusting).running() as drive:
+                assert drive.wait(60) == 0, drive.log
+    finally:
+        own.kill()
+
+
+def test_a_journal_of_another_plan_is_refused(tmp_path: Path) -> None:
+    plan, other = door(), warehouse(2)
+    names = [robot.name for robot in plan.scenario.robots]
+    journal = SqliteJournal(tmp_path / "plan.journal")
+    Driver(plan, simulated_identities(names), journal, report=print)
+    for changed, version in ((other, "2.1.0"), (plan, "3.0.0")):
+        with pytest.raises(InputError, match="is of another plan, or of other identities"):
+            Driver(changed, simulated_identities(names, version), journal, report=print)
+    Driver(plan, simulated_identities(names), journal, report=print)
+    journal.close()
+
+
+def test_a_written_file_of_identities_is_read(tmp_path: Path) -> None:
+    names = ["R1", "R2"]
+    own, path = simulated_identities(names, "3.0.0"), tmp_path / "robots.yaml"
+    path.write_text(identities_text(names, own), encoding="utf-8")
+    assert load_identities(path, names) == own
+
+
+@pytest.mark.parametrize("name", ["README.md", "docs/control.md"])
+def test_the_commands_of_a_page_drive_a_fleet(name: str, tmp_path: Path, broker: Mosquitto) -> None:
+    """All but mosquitto itself, which a test starts at a port of its own."""
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    write_plan(door(), tmp_path / "plan.json")
+    [block] = [block for block in blocks(ROOT / name) if block.info == ("sh", "robots")]
+    text = block.text.replace("mqtt://localhost", broker.url)
+    *before, robots, drive = [line.split()[1:] for line in text.splitlines()]
+    for arguments in before:
+        if arguments[0] == "plan":
+            with Command(tmp_path, *arguments).running() as planning:
+                assert planning.wait(60) == 0, planning.log
+    with Command(tmp_path, *robots).running():
+        wait_for((tmp_path / "robots.yaml").exists, 60, "the file of identities")
+        with Command(tmp_path, *drive).running() as driving:
+            assert driving.wait(120) == 0, driving.log
+
+
+def test_the_file_of_identities_of_the_page_is_read(tmp_path: Path) -> None:
+    [block] = [
+        block for block in blocks(ROOT / "docs/control.md") if block.file_name == "acme.yaml"
+    ]
+    path = tmp_path / "acme.yaml"
+    path.write_text(block.text, encoding="utf-8")
+    first, second = load_identities(path, ["R1", "R2"])
+    assert first.topic("state") == "uagv/v2/ACME/A-001/state"
+    assert second.topic("state") == "vda5050/v3/ACME/A-002/state"
+    assert (first.work.action, first.work.parameters) == ("pick", {"stationType": "floor"})
+    assert (second.work.action, first.deviation, first.map_id) == ("drop", 0.05, "hall-1")
+
+
+FAULTS = {
+    "robots.R3: the plan has no robot of this name": {"R3": {"serial": "c"}},
+    "R2 is missing": {"R1": {"serial": "a"}},
+    "is the serial number of R1, too": {"R1": {"serial": "a"}, "R2": {"serial": "a"}},
+    "'a/b' cannot be part of a topic": {"R1": {"serial": "a/b"}},
+    "robots.R1.serial: is missing": {"R1": {}},
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_identities_with_faults_are_refused_with_their_place(fault: str, tmp_path: Path) -> None:
+    path = tmp_path / "robots.json"
+    document = {"format": "rightofway-identities/1", "manufacturer": "m", "robots": FAULTS[fault]}
+    path.write_text(json.dumps(document), encoding="utf-8")
+    with pytest.raises(InputError, match=re.escape(fault)):
+        load_identities(path, ["R1", "R2"])
+
+
+@pytest.mark.parametrize(
+    ("url", "fault"),
+    [
+        ("http://localhost", "is no address of a broker"),
+        ("mqtt://localhost:99999", "is no address of a broker"),
+        ("mqtt://me:secret@localhost", "a password is in the address"),
+        ("mqtt://", "is no address of a broker"),
+    ],
+)
+def test_addresses_with_faults_are_refused(url: str, fault: str) -> None:
+    with pytest.raises(InputError, match=fault):
+        Broker.of(url)
