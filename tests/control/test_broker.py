@@ -55,7 +55,7 @@ def robots_of(
 
 
 def has_heard(observer: Observer, states: int, drive: Command) -> bool:
-    """Return whether so many states have come, or there is nothing to wait for."""
+    """Return whether enough states have come, or there is nothing to wait for."""
     return observer.counts["state"] >= states or drive.code is not None
 
 

@@ -89,7 +89,7 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @delays_option("none")
 @seed_option
 @click.option("--laps", metavar="COUNT", callback=_count,
-              help="Repeat the laps of the plan until each robot has made so many; inf: until"
+              help="Repeat the laps of the plan until each robot has made COUNT; inf: until"
               " interrupted.")  # fmt: skip
 @page_option("what robots of a demo did beside the plan")
 @ticks_option

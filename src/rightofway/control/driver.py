@@ -106,7 +106,7 @@ class Driver:
         self._fails = False
 
     async def run(self, broker: Broker, *, stays: bool = False) -> None:
-        """Drive, over as many connections as it takes, until all robots have come to their end, or made all laps.
+        """Drive over any number of connections, until robots are at their ends or made all laps.
 
         Parameters
         ----------
