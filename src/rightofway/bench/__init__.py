@@ -7,7 +7,7 @@ matplotlib, only Parquet files pyarrow, only clusters distributed; they are impo
 from rightofway.bench.cluster import run_on_cluster
 from rightofway.bench.process import machine, run_here
 from rightofway.bench.report import write_report
-from rightofway.bench.results import COLUMNS, Results, Row, need
+from rightofway.bench.results import COLUMNS, Results, Row
 from rightofway.bench.suite import Case, read_suite
 from rightofway.bench.summary import Group, Quartiles, by_planner
 
@@ -20,7 +20,6 @@ __all__ = [
     "Row",
     "by_planner",
     "machine",
-    "need",
     "read_suite",
     "run_here",
     "run_on_cluster",

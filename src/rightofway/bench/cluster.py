@@ -10,9 +10,10 @@ from typing import Any
 
 from rightofway.arguments import checks_arguments
 from rightofway.bench.process import lost, run_on_worker
-from rightofway.bench.results import Row, needed
+from rightofway.bench.results import Row
 from rightofway.bench.suite import Case
 from rightofway.errors import InputError
+from rightofway.extras import needed
 
 PATIENCE = 30
 """How long a scheduler has to answer [s]."""

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.arguments import checks_arguments
-from rightofway.bench.results import Row, needed
+from rightofway.bench.results import Row
 from rightofway.bench.summary import (
     Group,
     Quartiles,
@@ -21,6 +21,7 @@ from rightofway.bench.summary import (
     planner_names,
 )
 from rightofway.errors import InputError
+from rightofway.extras import needed
 from rightofway.files import write_whole
 
 Table = list[Sequence[str]]

@@ -7,13 +7,11 @@ import io
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Literal, Self
 
-from rightofway.arguments import checks_arguments, value_of
 from rightofway.errors import InputError, Location, Where
+from rightofway.extras import need, needed
 from rightofway.files import write_whole
 
 try:
@@ -71,33 +69,7 @@ COLUMNS = (
 
 HEADER = [column.name for column in COLUMNS]
 
-EXTRAS = {"matplotlib": "bench", "pyarrow": "bench", "distributed": "dask"}
-"""Optional libraries, imported where they are used, and the extra that installs each."""
-
 NOT_RESULTS = "this is no file of results as they are now (give another file)"
-
-
-@checks_arguments
-def need(library: str, purpose: str) -> None:
-    """Refuse with `InputError`, before any work, if an optional library is not installed.
-
-    Parameters
-    ----------
-    library
-        The name of the library.
-    purpose
-        What needs it, for the message.
-    """
-    extra = value_of(EXTRAS, library, "library")
-    if find_spec(library) is None:
-        remedy = f"pip install 'rightofway[{extra}]'"
-        raise InputError.at("", f"{purpose} needs {library} ({remedy})")
-
-
-def needed(module: str, purpose: str) -> Any:
-    """Return a module of an optional library, or refuse as `need`."""
-    need(module.partition(".")[0], purpose)
-    return import_module(module)
 
 
 class Results:

@@ -49,7 +49,8 @@ def bench(
     Prints for each planner the number of solved cases, the cost and the time. The same command
     continues an interrupted run. Exit code 1 if a plan has faults.
     """
-    from rightofway.bench import Results, need, read_suite, write_report
+    from rightofway.bench import Results, read_suite, write_report
+    from rightofway.extras import need
 
     if dask and jobs:
         raise click.UsageError("--jobs is for this machine, --dask for a cluster: choose one")

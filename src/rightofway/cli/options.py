@@ -45,6 +45,10 @@ def writable(
         fault = _unwritable(Path(path), suffixes, instead or {})
         if fault:
             raise click.BadParameter(f"{path!r} {fault}")
+        if Path(path).suffix.lower() == ".xlsx":
+            from rightofway.extras import need
+
+            need("openpyxl", "a workbook")
         return path
 
     return check

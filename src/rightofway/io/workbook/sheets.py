@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, Location, nearest, shown
+from rightofway.extras import needed
 from rightofway.io.faults import Faults
 from rightofway.io.text import content_of
 
@@ -151,8 +152,7 @@ def _too_long() -> InputError:
 @contextmanager
 def _open_workbook(data: bytes, *, cached: bool) -> Iterator[Any]:
     """Yield a workbook that streams its sheets, with formulas or with the values they had."""
-    import openpyxl  # type: ignore[import-untyped]
-
+    openpyxl = needed("openpyxl", "a workbook")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # on parts that we do not read
         try:

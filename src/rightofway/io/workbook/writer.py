@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
+from rightofway.extras import needed
 from rightofway.files import archive_of, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.tables import SPOTS
@@ -108,8 +109,7 @@ def workbook_of(document: dict[str, Any]) -> bytes:
     InputError
         If a part of it has no place in the sheets.
     """
-    import openpyxl  # type: ignore[import-untyped]
-
+    openpyxl = needed("openpyxl", "a workbook")
     _refuse_more(document)
     workbook = openpyxl.Workbook()
     workbook.remove(workbook.active)

@@ -22,7 +22,6 @@ from rightofway.studio.tasks.drawings import Origin, as_drawn
 from rightofway.viz import page_of, write_gif, write_page, write_png
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import payload_of
-from rightofway.viz.table.result import write_result
 from rightofway.viz.verdict import compared_data
 
 Result = tuple[Any, ...]
@@ -39,9 +38,16 @@ class Shown(TypedDict):
 TIMES = ("flowtime", "makespan")
 """Costs that are compared in time units."""
 
+
+def _write_result(plan: Plan, path: Path) -> None:
+    from rightofway.viz.table.result import write_result
+
+    write_result(plan, path)
+
+
 WRITERS: dict[str, Callable[[Plan, Path], object]] = {
     "json": write_plan,
-    "xlsx": write_result,
+    "xlsx": _write_result,
     "html": write_page,
     "png": write_png,
     "gif": write_gif,

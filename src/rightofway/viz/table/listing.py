@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from rightofway.errors import InputError
+from rightofway.extras import needed
 from rightofway.quantities import Quantities
 from rightofway.viz.table.terminal import MAX_LINES, text_width
 
@@ -143,12 +143,7 @@ def parquet_of(columns: dict[str, list[Any]]) -> bytes:
     InputError
         If pyarrow is not installed.
     """
-    try:
-        import pyarrow as pa  # type: ignore[import-untyped]  # it ships no types
-        from pyarrow import parquet
-    except ImportError:
-        message = "a Parquet file needs pyarrow (run: pip install pyarrow)"
-        raise InputError.at("", message) from None
+    arrow = needed("pyarrow", "a Parquet file")
     content = io.BytesIO()
-    parquet.write_table(pa.table(columns), content)
+    needed("pyarrow.parquet", "a Parquet file").write_table(arrow.table(columns), content)
     return content.getvalue()

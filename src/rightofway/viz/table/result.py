@@ -9,14 +9,8 @@ import os
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-import openpyxl  # type: ignore[import-untyped]  # it ships no types
-from openpyxl.chart import Reference, ScatterChart, Series  # type: ignore[import-untyped]
-from openpyxl.chart.label import DataLabelList  # type: ignore[import-untyped]
-from openpyxl.chart.layout import Layout, ManualLayout  # type: ignore[import-untyped]
-from openpyxl.chart.legend import LegendEntry  # type: ignore[import-untyped]
-from openpyxl.worksheet.properties import PageSetupProperties  # type: ignore[import-untyped]
-
 from rightofway.errors import InputError, NoPlanExists
+from rightofway.extras import needed
 from rightofway.files import archive_of, write_whole
 from rightofway.metrics import free_running, lost_time, measure, named_collisions
 from rightofway.model import Plan
@@ -37,6 +31,8 @@ from rightofway.viz.table.workbook import (
 )
 from rightofway.viz.table.writing import MAX_TICKS_OF_SHEET
 from rightofway.viz.verdict import verdict_on
+
+openpyxl, charts = (needed(name, "a workbook") for name in ("openpyxl", "openpyxl.chart"))
 
 MOST_LINES = 100
 """Robots in the chart; a chart has 255 series, and nobody can tell more lines apart."""
@@ -110,7 +106,9 @@ def _sheet(workbook: Any, title: str) -> Any:
     sheet = workbook.create_sheet(title)
     sheet.page_setup.orientation = "landscape"
     sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
-    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
+    sheet.sheet_properties.pageSetUpPr = openpyxl.worksheet.properties.PageSetupProperties(
+        fitToPage=True
+    )
     return sheet
 
 
@@ -178,7 +176,7 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
     rows = {vertex: row for row, vertex in enumerate(line)}
     grid = scenario.roadmap.grid
     cells = grid.cells.tolist() if grid is not None and scenario.roadmap.labels is None else None
-    chart = ScatterChart()
+    chart = charts.ScatterChart()
     chart.style, chart.scatterStyle = 13, "lineMarker"
     chart.width, chart.height = CHART_SIZE
     chart.title = None
@@ -193,10 +191,10 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
     if line:
         names = [scenario.roadmap.name(vertex) for vertex in line]
         left = min(NAME_SHARE * (2 + max(map(len, names))), 0.3)
-        room = ManualLayout(
+        room = charts.layout.ManualLayout(
             layoutTarget="inner", xMode="edge", yMode="edge", x=left, y=0.1, w=0.96 - left, h=0.76
         )
-        chart.layout = Layout(manualLayout=room)
+        chart.layout = charts.layout.Layout(manualLayout=room)
         chart.y_axis.scaling.min, chart.y_axis.scaling.max = -1, len(line)
         chart.y_axis.majorUnit = 1
     elif cells is not None:
@@ -239,9 +237,9 @@ def _line(trip: Any) -> Iterator[tuple[int, int]]:
 
 def _series(data: Any, column: int, first: int, last: int) -> Any:
     """Return the series of two columns of a sheet, named by the heading of the second one."""
-    x = Reference(data, min_col=column, min_row=first, max_row=last)
-    y = Reference(data, min_col=column + 1, min_row=first - 1, max_row=last)
-    series = Series(y, x, title_from_data=True)
+    x = charts.Reference(data, min_col=column, min_row=first, max_row=last)
+    y = charts.Reference(data, min_col=column + 1, min_row=first - 1, max_row=last)
+    series = charts.Series(y, x, title_from_data=True)
     series.marker.symbol, series.smooth = "none", False
     return series
 
@@ -256,18 +254,16 @@ def _name_places(
         columns += [["place", 0], [name, row]]
         series = _series(data, first, 2, 2)
         series.graphicalProperties.line.noFill = True
-        series.dLbls = DataLabelList()
+        series.dLbls = charts.label.DataLabelList()
         series.dLbls.showSerName, series.dLbls.position = True, "l"
         series.dLbls.showVal = series.dLbls.showLegendKey = series.dLbls.showCatName = False
         chart.series.append(series)
     chart.legend.legendEntry = [
-        LegendEntry(idx=robots + number, delete=True) for number in range(len(names))
+        charts.legend.LegendEntry(idx=robots + number, delete=True) for number in range(len(names))
     ]
 
 
 def _stroke(colour: str) -> Any:
-    from openpyxl.chart.shapes import GraphicalProperties  # type: ignore[import-untyped]
-
-    properties = GraphicalProperties()
+    properties = charts.shapes.GraphicalProperties()
     properties.line.solidFill = colour
     return properties

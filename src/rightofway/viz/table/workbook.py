@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-import openpyxl  # type: ignore[import-untyped]  # it ships no types
-
 from rightofway.errors import InputError
+from rightofway.extras import needed
 from rightofway.files import archive_of
 from rightofway.viz.table.listing import Listing
 from rightofway.viz.table.timespace import Mark, Place, RowKind, TimeSpaceTable
 
+openpyxl = needed("openpyxl", "a workbook")
 Font, PatternFill = openpyxl.styles.Font, openpyxl.styles.PatternFill
 
 FILLS: dict[Mark | None, Any] = {
