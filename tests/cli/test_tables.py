@@ -105,7 +105,7 @@ def test_events_go_to_parquet_where_pyarrow_is_installed(
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     ended = cli("table", plan, "--events", "-o", "again.parquet")
     assert ended.code == 2
-    assert "a Parquet file needs pyarrow (run: pip install pyarrow)" in ended.err
+    assert "a Parquet file needs pyarrow (pip install 'rightofway[bench]')" in ended.err
     assert not Path("again.parquet").exists()
 
 
