@@ -3,7 +3,7 @@ export default {
   entry: [
     "src/rightofway/viz/page/assets/{main,inspect_main,widget}.js",
     "src/rightofway/studio/assets/{main,stream}.js",
-    "tests/js/**/*.test.js",
+    "tests/js/{virtual_agvs,**/*.test}.js",
   ],
   project: ["src/rightofway/{viz/page,studio}/assets/**/*.js", "tests/js/**/*.js"],
   ignore: ["src/rightofway/studio/assets/vendor/**"],

@@ -112,6 +112,21 @@ def test_work_at_a_stop_is_an_action_that_nothing_else_happens_beside() -> None:
     assert edges == [(node["sequenceId"] - 1, True) for node in document["nodes"][1:]]
 
 
+@pytest.mark.parametrize("repeats_work", [True, False])
+def test_an_update_may_leave_out_work_that_is_finished(*, repeats_work: bool) -> None:
+    """Some robots would do it twice; a first order has all work that is to be done."""
+    order_map = map_of(door().scenario, repeats_work=repeats_work)
+    nodes = tuple(
+        OrderNode(place=place, sequence_id=2 * k, actions=(f"work{k}",))
+        for k, place in enumerate(("N0", "N1"))
+    )
+    for update in (0, 1):
+        order = Order(robot=0, order_id="run-0-0", update_id=update, nodes=nodes)
+        document = written(OrderMessage.of(order, order_map), header("2.1.0"))
+        counts = [len(node["actions"]) for node in document["nodes"]]
+        assert counts == [int(repeats_work or update == 0), 1]
+
+
 def site(**extra: Any) -> Scenario:
     """Return a site in centimetres, with a bend, a split lane and a slow lane; y upwards."""
     return scenario_of(

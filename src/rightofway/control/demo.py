@@ -116,8 +116,8 @@ def drive_demo(
     identities
         Of the robots; by default made for the version.
     laps
-        Robots repeat the laps of the plan until each has made this number, 0 for ever: an interrupt
-        (Ctrl-C) ends them. None: they drive the plan once.
+        How many laps of the plan each robot makes at least; 0 for laps without end, until an
+        interrupt (Ctrl-C). None: they drive the plan once.
     report
         Receives each sentence of the story, with its time.
     wait_until

@@ -75,6 +75,9 @@ class Identity:
         How far from a vertex it may call itself arrived [m]; None for half the clearance.
     work
         What it does at a stop.
+    repeats_work
+        Whether an update repeats the work of the node that it begins with, as the norm has it. That
+        work is finished; robots that do it twice want it left out.
 
     Raises
     ------
@@ -90,6 +93,7 @@ class Identity:
     frame: Frame = field(default_factory=Frame)
     deviation: float | None = None
     work: Work = field(default_factory=Work)
+    repeats_work: bool = True
 
     def __post_init__(self) -> None:
         if self.version not in VERSIONS:
@@ -156,6 +160,9 @@ class _SharedDocument(Document):
         "how far from a place the robot may call itself arrived [m]; half the clearance by default"
     )
     work: _WorkDocument = optional("{action, parameters} of what a robot does at a stop")
+    repeats_work: bool = optional(
+        "true, or false for robots that do work twice which the next update of an order repeats"
+    )
 
 
 class _RobotDocument(_SharedDocument):
@@ -219,7 +226,7 @@ def load_identities(path: Path | str, names: Sequence[str]) -> list[Identity]:
 
 
 def _identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
-    keys = ("manufacturer", "version", "interface", "map", "frame", "deviation", "work")
+    keys = _SharedDocument.model_fields
     given = {**shared.given(*keys), **own.given(*keys)}
     if "manufacturer" not in given:
         raise InputError.at("manufacturer", "is missing (give it here, or for all robots)")

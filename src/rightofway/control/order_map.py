@@ -191,5 +191,5 @@ class OrderMap:
             "frame": [str(identity.frame.x), str(identity.frame.y), str(identity.frame.yaw)],
             "map": identity.map_id,
             "deviation": self.deviation,
-            "work": [identity.work.action, identity.work.parameters],
+            "work": [identity.work.action, identity.work.parameters, identity.repeats_work],
         }

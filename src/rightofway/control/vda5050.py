@@ -146,13 +146,19 @@ class OrderMessage(_Model):
         order_map
             Where places and lanes lie for the robot, and what its work is.
         """
+        # An update is released when the work of its first node is finished.
+        done = set[str]()
+        if order.update_id and not order_map.identity.repeats_work:
+            done = set(order.nodes[0].actions)
         nodes = tuple(
             _Node(
                 nodeId=node.place,
                 sequenceId=node.sequence_id,
                 released=True,
                 nodePosition=_position(order_map.place(node.place)),
-                actions=tuple(_work(action, order_map.work) for action in node.actions),
+                actions=tuple(
+                    _work(action, order_map.work) for action in node.actions if action not in done
+                ),
             )
             for node in order.nodes
         )
@@ -525,6 +531,9 @@ def written(body: Body | Mapping[str, Any], header: Header) -> dict[str, Any]:
             document["actionStates"] += document["instantActionStates"]
         if isinstance(body, ConnectionMessage):
             document["connectionState"] = body.connectionState.replace("_", "")
+    if header.version == "2.0.0" and isinstance(body, InstantActions):
+        # Robots of 2.0 read either name: that of its schema, or that of version 1.1.
+        document["instantActions"] = document["actions"]
     names, left_out = _NAMES[header.version], _LEFT_OUT[header.version]
     is_new = header.version >= "3"
 
