@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from importlib.metadata import distribution
 from pathlib import Path
@@ -38,15 +39,31 @@ def test_the_text_of_each_licence_is_in_the_metadata(entry: dict[str, Any]) -> N
     assert all(list(ROOT.glob(pattern)) for pattern in entry["files"])
 
 
-@pytest.mark.parametrize(
-    "folder", ["examples/maps", "tests/data/samples", str(VENDOR.relative_to(ROOT))]
-)
+FOLDERS = [
+    "examples/maps", "tests/data/samples", "tests/data/vda5050", str(VENDOR.relative_to(ROOT)),
+]  # fmt: skip
+"""Folders with files of others."""
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
 def test_no_file_of_others_is_forgotten(folder: str) -> None:
     """Maps, samples and vendored scripts are all in the table; a new one has to be listed."""
     known = files_of_others() | {ROOT / entry["text"] for entry in CARRIED}
     about = {VENDOR / "vendor.json", *(VENDOR / f"{Path(name).stem}.d.ts" for name in record())}
     unknown = {path for path in (ROOT / folder).rglob("*") if path.is_file()} - known - about
     assert {path for path in unknown if path.name not in OURS} == set()
+
+
+def test_a_text_of_a_licence_stands_only_where_files_of_others_are_listed() -> None:
+    """A folder that brings its own licence is in the table."""
+    texts = {
+        path.relative_to(ROOT).as_posix()
+        for folder in ("benchmarks", "cpp", "docs", "examples", "licences", "src", "tests")
+        for path in (ROOT / folder).rglob("*")
+        if re.search(r"licen[cs]e", path.name, re.IGNORECASE) and path.suffix not in {".py", ".pyc"}
+    }
+    texts = {text for text in texts if (ROOT / text).is_file() and "_build" not in text}
+    assert texts <= {entry["text"] for entry in CARRIED}
 
 
 def test_the_texts_are_those_of_the_compiled_code() -> None:
