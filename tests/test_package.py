@@ -44,6 +44,13 @@ def is_own(module: Any, name: str) -> bool:
     return inspect.isclass(found) and found.__module__.startswith("rightofway.")
 
 
+def test_an_earlier_name_works_and_warns_of_the_new_one() -> None:
+    with pytest.warns(DeprecationWarning, match="save_plan is now write_plan") as warned:
+        assert rightofway.save_plan is rightofway.write_plan
+    assert warned[0].filename == __file__
+    assert "save_plan" not in dir(rightofway)
+
+
 def test_what_is_not_there_is_said_as_usual() -> None:
     with pytest.raises(AttributeError, match="module 'rightofway' has no attribute 'plot'"):
         rightofway.plot  # noqa: B018 (the access is the test)

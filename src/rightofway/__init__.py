@@ -267,6 +267,10 @@ __all__ = [
 ]
 
 
+_EARLIER = {"save_plan": "write_plan"}
+"""Earlier names, which work until the next major version and warn (docs/promises.md)."""
+
+
 class _Package(_ModuleType):
     """The package; its functions ``check`` and ``solve`` win over the modules of their names."""
 
@@ -286,6 +290,12 @@ def __getattr__(name: str) -> object:
         return value
     if name in _ROOMS:
         return _import_module(f"{__name__}.{name}")
+    if name in _EARLIER:
+        from warnings import warn
+
+        message = f"{__name__}.{name} is now {_EARLIER[name]} (use that name)"
+        warn(message, DeprecationWarning, stacklevel=2)
+        return getattr(_sys.modules[__name__], _EARLIER[name])
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

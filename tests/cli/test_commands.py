@@ -43,7 +43,7 @@ def test_a_plan_is_summed_up_in_80_columns(cli: Cli, door: Path) -> None:
 
 def test_json_and_page_show_the_robots_that_block_each_other(cli: Cli) -> None:
     Path("stuck.yaml").write_text(STUCK, encoding="utf-8")
-    ended = cli("plan", "stuck.yaml", "--json", "--show", "stuck.html")
+    ended = cli("plan", "stuck.yaml", "--json", "--page", "stuck.html")
     reason = (
         "R1 and R2 block each other: both have to pass N0, N1, N2 and N3 (give more room there)"
     )

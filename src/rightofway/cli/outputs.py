@@ -61,11 +61,19 @@ def plan_output_option(content: str) -> Decorator:
 
 
 class _PageOption(click.Option):
-    """The option --page; its earlier name --show still works, and no help names it."""
+    """The option --page; its earlier name --show works and warns, and no help names it."""
+
+    EARLIER = "--show"
 
     def add_to_parser(self, parser: Any, ctx: click.Context) -> None:
         super().add_to_parser(parser, ctx)
-        parser.add_option(self, ["--show"], self.name, nargs=1)
+        parser.add_option(self, [self.EARLIER], self.EARLIER, nargs=1)
+
+    def handle_parse_result(self, ctx: click.Context, opts: Any, args: list[str]) -> Any:
+        if self.EARLIER in opts:
+            say(f"{self.EARLIER} is now {self.opts[0]} (use that name)")
+            opts = {self.name: opts[self.EARLIER], **opts}
+        return super().handle_parse_result(ctx, opts, args)
 
 
 def page_option(content: str) -> Decorator:
