@@ -82,6 +82,9 @@ class Chaos:
         Share of starts with another plan of the rest.
     look_ahead
         Of the control.
+    jobs
+        Share of events at which a job is added, changed or withdrawn, or a place is closed or
+        opened, and the rest replanned.
     laps
         How many laps each robot makes after the faults; 0 where the plan is driven once.
     """
@@ -95,6 +98,7 @@ class Chaos:
     cancels: float = 0.0
     splices: float = 0.5
     look_ahead: int = 4
+    jobs: float = 0.0
     laps: int = 0
 
 
@@ -110,6 +114,9 @@ KINDS = {
     "cancels and resets": Chaos(cancels=0.02, resets=0.02),
     "wrong fields": Chaos(wrong=0.2),
     "all": Chaos(kills=0.03, resets=0.01, wrong=0.1, cancels=0.02, splices=1.0),
+    "jobs": Chaos(jobs=0.03),
+    "jobs, all": Chaos(kills=0.03, resets=0.01, wrong=0.1, cancels=0.02, jobs=0.03),
+    "jobs in laps": Chaos(jobs=0.02, laps=2),
     "laps": Chaos(laps=2, splices=0.0),
     "laps, replanned": Chaos(laps=2, kills=0.02, splices=0.5),
     "laps, all": Chaos(laps=2, kills=0.03, resets=0.01, wrong=0.1, cancels=0.02),
@@ -243,10 +250,12 @@ class _World:
         while True:
             try:
                 control = self._new_control()
-                dispatcher = Dispatcher(control, self.plan, self.laps)
+                dispatcher = Dispatcher(
+                    control, self.plan, self.laps, planner="prioritized", time_limit=None
+                )
                 if not self.journal.written:
                     dispatcher.begin("run")
-                self.control = control
+                self.control, self.dispatcher = control, dispatcher
                 if len(self.journal.written) > 1 and self._chance(self.chaos.splices):
                     self._splice(control)
                 self.send(control.start())
@@ -338,6 +347,8 @@ class _World:
         elif self._happens(chaos.cancels):
             self.counts["cancels"] += 1
             self.call(partial(self.control.cancel, robot))
+        elif self._happens(chaos.jobs):
+            self.call(self._change_work)
         kinds: list[Callable[[int], None]] = [
             self._step,
             self._take_order,
@@ -402,8 +413,43 @@ class _World:
         )
         return replace(state, **change)
 
+    def _change_work(self) -> list[Message]:
+        """Add, change or withdraw a job; close or open a place; where no plan is found, go on."""
+        draw, dispatcher, roadmap = self.draw, self.dispatcher, self.scenario.roadmap
+        ledger, names = self.control.ledger, self.control.ledger.names
+        at = roadmap.name(draw.randrange(roadmap.n_vertices))
+        jobs = [
+            (number, job)
+            for number, own in enumerate(ledger.robots)
+            for job in sorted(own.route.all_jobs() - own.finished)
+        ]
+        kind = draw.choice(["added", "added", "changed", "withdrawn", "closed", "opened"])
+        try:
+            if kind == "added":
+                robot = draw.choice([*names, None])
+                messages = dispatcher.add_job(at, draw.randint(0, 5), robot)[1]
+            elif kind == "closed":
+                messages = dispatcher.close_place(at)
+            elif kind == "opened" or not jobs:
+                messages = dispatcher.open_place(draw.choice([*sorted(ledger.closed), at]))
+            else:
+                number, job = draw.choice(jobs)
+                name = f"{names[number]}/{job}"
+                if kind == "changed":
+                    messages = dispatcher.change_job(name, at)
+                else:
+                    self.observer.withdrawn.add((number, job))
+                    messages = dispatcher.withdraw_job(name)
+        except (GaveUp, InputError):
+            self.counts[f"not {kind}"] += 1
+            return []
+        self.counts[kind] += 1
+        return messages
+
     def _ask_a_person(self) -> None:
-        """Have a person look after faulty robots."""
+        """Have a person look after faulty robots, and open what is closed."""
+        for place in sorted(self.control.ledger.closed):
+            self.call(partial(self.dispatcher.open_place, place))
         for robot, own in enumerate(self.control.ledger.robots):
             if own.fault is not None:
                 self.counts["cleared"] += 1
@@ -430,6 +476,7 @@ class Observer:
         self._contents: dict[tuple[str, int], Order] = {}
         self._arrived = [0 for _ in robots]
         self._job_of: list[dict[str, str]] = [{} for _ in robots]  # by the id of its action
+        self.withdrawn = set[tuple[int, str]]()
         self._looked_at: list[object] = [None for _ in robots]
         self._open: list[set[str]] = [set() for _ in robots]  # jobs that are not known to be done
         self._vertex = {scenario.roadmap.name(k): k for k in range(scenario.roadmap.n_vertices)}
@@ -491,7 +538,8 @@ class Observer:
         jobs = own.route.all_jobs()
         self._job_of[robot] |= own.jobs_of
         gone = self._open[robot] - jobs
-        if gone - self._done(robot).keys():
+        unwanted = {job for other, job in self.withdrawn if other == robot}
+        if gone - unwanted - self._done(robot).keys():
             raise Fault(f"robot {robot} has lost {sorted(gone)}")
         self._open[robot] = jobs - own.finished
 

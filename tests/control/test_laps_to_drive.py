@@ -8,16 +8,16 @@ from pathlib import Path
 import pytest
 
 import rightofway
-from rightofway.control import FleetControl, RobotLedger, SimulatedRobot, SqliteJournal
+from rightofway.control import FleetControl, RobotLedger, SqliteJournal
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.laps import LapsToDrive, graph_behind_released
-from rightofway.control.messages import Message, Order
 from rightofway.control.routes import routes_to_drive
 from rightofway.cyclic import best_timetable
 from rightofway.errors import InputError
 from rightofway.model import Plan
 from rightofway.precedence import ReleaseGraph
 from tests.builders.chaos import MemoryJournal, laps_plan
+from tests.builders.floors import Floor
 from tests.builders.plans import door
 
 
@@ -32,33 +32,6 @@ def begun(plan: Plan, journal: MemoryJournal | SqliteJournal) -> Dispatcher:
     dispatcher = Dispatcher(control, plan, LapsToDrive(plan))
     dispatcher.begin("run")
     return dispatcher
-
-
-class Floor:
-    """Robots that drive one after another, without any fault."""
-
-    def __init__(self, dispatcher: Dispatcher) -> None:
-        self.dispatcher = dispatcher
-        self.robots = [SimulatedRobot(own.route.places[0]) for own in dispatcher.ledger.robots]
-        self.send(dispatcher.control.start())
-
-    def send(self, messages: list[Message]) -> None:
-        """Deliver messages, and all that is answered."""
-        while messages:
-            message = messages.pop(0)
-            robot = self.robots[message.robot]
-            if isinstance(message, Order):
-                robot.take_order(message)
-            else:
-                robot.take_action(message)
-            messages += self.dispatcher.control.receive(message.robot, robot.state())
-
-    def drive(self, steps: int) -> None:
-        """Have each robot do the next things."""
-        for _ in range(steps):
-            for number, robot in enumerate(self.robots):
-                robot.step()
-                self.send(self.dispatcher.control.receive(number, robot.state()))
 
 
 @pytest.mark.parametrize("plan", [door(), chosen_timetable()], ids=["whole", "timetable"])

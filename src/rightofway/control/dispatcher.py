@@ -6,15 +6,38 @@ due. A dispatcher keeps nothing that is not in the journal.
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping, Sequence
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from rightofway.control.commands import Answer, Commands
 from rightofway.control.fleet_control import FleetControl
+from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive, graph_behind_released
 from rightofway.control.ledger import Ledger
 from rightofway.control.messages import Message
+from rightofway.control.rest import RestPlanner, StopToMake, stops_to_make
 from rightofway.control.routes import routes_to_drive
+from rightofway.errors import GaveUp, InputError, nearest, shown
 from rightofway.model import Plan
 from rightofway.precedence import ReleaseGraph
+from rightofway.search import Distances
+from rightofway.site import VertexId
 
 __all__ = ["Dispatcher"]
+
+OPERATIONS: Mapping[str, Entry] = {
+    "hold": {"kind": "hold", "on": True},
+    "go": {"kind": "hold", "on": False},
+    "clear": {"kind": "cleared"},
+    "cancel": {"kind": "cancel wanted"},
+    "remove": {"kind": "taken off"},
+}
+"""What an operator does to robots: the entry of each command."""
+
+UNREACHABLE = 10**12
+"""More than any way [ticks]."""
 
 
 class Dispatcher:
@@ -28,10 +51,23 @@ class Dispatcher:
         The plan with which the journal begins.
     laps
         What robots repeat for ever; None where they drive the plan once.
+    planner, time_limit
+        The planner of the rest where jobs change, and its time for one plan [s].
     """
 
-    def __init__(self, control: FleetControl, plan: Plan, laps: LapsToDrive | None = None) -> None:
+    def __init__(
+        self,
+        control: FleetControl,
+        plan: Plan,
+        laps: LapsToDrive | None = None,
+        *,
+        planner: str = "auto",
+        time_limit: float | None = 2,
+    ) -> None:
         self.control, self.plan, self._laps = control, plan, laps
+        self._command: int | None = None  # the number of that under way
+        self._distances = Distances(plan.scenario.roadmap)
+        self._rest = RestPlanner(plan.scenario, planner, time_limit)
         control.dispatch = self._dispatch
 
     @property
@@ -68,3 +104,287 @@ class Dispatcher:
             return []
         graph = graph_behind_released(self.plan.scenario, routes, self.control.committed())
         return self.control.splice(routes, graph)
+
+    # --- jobs (splices, rule 10) -----------------------------------------------------------------
+
+    def add_job(self, at: str, work: int, robot: str | None = None) -> tuple[str, list[Message]]:
+        """Give a robot one more job, where it is least out of its way.
+
+        Parameters
+        ----------
+        at
+            The name of a vertex.
+        work
+            How long it lasts [ticks].
+        robot
+            Whose job it is; None for the robot that drives least more.
+
+        Returns
+        -------
+        tuple
+            The name of the job, and what is to be sent.
+
+        Raises
+        ------
+        InputError
+            If there is no such vertex or robot.
+        GaveUp
+            If no plan with it was found: the old one stands.
+        """
+        self.plan.scenario.roadmap.vertex(at)  # refuses what is none
+        robots = self.ledger.robots
+        candidates = [self._robot(robot)] if robot is not None else range(len(robots))
+        on_floor = [number for number in candidates if not robots[number].is_off]
+        if not on_floor:
+            raise InputError.at("robot", "is off the floor (name another one, or none)")
+        stops = self._stops()
+        _, place, number = min(
+            (*self._detour(number, stops[number], at), number) for number in on_floor
+        )
+        own = robots[number]
+        job = f"job{own.next_job}"
+        stops[number].insert(place, StopToMake(at, job, work))
+        name = f"{self.ledger.names[number]}/{job}"
+        return name, self._replanned(stops, text=f"{name} at {at} is added")
+
+    def change_job(
+        self, name: str, at: str | None = None, work: int | None = None
+    ) -> list[Message]:
+        """Change place or work of a job that is not released.
+
+        Parameters
+        ----------
+        name
+            The job, as ``R1/job2``.
+        at, work
+            What is changed: the name of a vertex, and how long it lasts [ticks].
+
+        Raises
+        ------
+        InputError
+            If there is no such job or vertex, or the job is released already.
+        GaveUp
+            If no plan with it was found: the old one stands.
+        """
+        if at is not None:
+            self.plan.scenario.roadmap.vertex(at)  # refuses what is none
+        stops = self._stops()
+        number, place = self._open_job(stops, name)
+        old = stops[number][place]
+        stops[number][place] = old._replace(
+            place=old.place if at is None else at, work=old.work if work is None else work
+        )
+        return self._replanned(stops, text=f"{name} is changed")
+
+    def withdraw_job(self, name: str) -> list[Message]:
+        """Take a job back that is not released.
+
+        Parameters
+        ----------
+        name
+            The job, as ``R1/job2``.
+
+        Raises
+        ------
+        InputError
+            If there is no such job, or it is released already.
+        GaveUp
+            If no plan without it was found: the old one stands.
+        """
+        stops = self._stops()
+        number, place = self._open_job(stops, name)
+        job = stops[number].pop(place).job
+        text = f"{name} is withdrawn"
+        return self._replanned(stops, withdrawn=[(number, job)], text=text)
+
+    def replan(self) -> list[Message]:
+        """Plan the rest as things are now.
+
+        Raises
+        ------
+        GaveUp
+            If no plan was found: the old one stands.
+        """
+        return self._replanned(self._stops())
+
+    def close_place(self, place: str) -> list[Message]:
+        """Let no robot enter a vertex; those that hold it drive on. The rest is replanned round it.
+
+        Where no plan is found, the old one stands: robots stop before the vertex.
+
+        Parameters
+        ----------
+        place
+            The name of a vertex.
+
+        Raises
+        ------
+        InputError
+            If there is no such vertex.
+        """
+        self.plan.scenario.roadmap.vertex(place)  # refuses what is none
+        return self._noted({"kind": "closed", "place": place}, f"{place} is closed")
+
+    def open_place(self, place: str) -> list[Message]:
+        """Open a vertex again that was closed; replan the rest.
+
+        Parameters
+        ----------
+        place
+            The name of a closed vertex.
+
+        Raises
+        ------
+        InputError
+            If it is not closed.
+        """
+        if place not in self.ledger.closed:
+            raise InputError.at("place", f"{shown(place)} is not closed (name a closed vertex)")
+        return self._noted({"kind": "opened", "place": place}, f"{place} is open")
+
+    def _noted(self, entry: Entry, text: str) -> list[Message]:
+        """Commit a change of the floor, then replan the rest if that is possible."""
+        messages = self.control.note(entry, *self._carried_out(text))
+        self._command = None
+        try:
+            return [*messages, *self.replan()]
+        except GaveUp:
+            return messages
+
+    # --- commands of people ----------------------------------------------------------------------
+
+    def obey(self, commands: Commands) -> list[Message]:
+        """Carry out what people have asked for, each command once; return what is to be sent.
+
+        Parameters
+        ----------
+        commands
+            The file beside the journal.
+        """
+        messages: list[Message] = []
+        for number, command in commands.unanswered():
+            if number <= self.ledger.commands:  # it was carried out before a start
+                is_last = number == self.ledger.commands
+                text = self.ledger.answer if is_last else "carried out before a start"
+                commands.answer(number, {"done": True, "text": text})
+                continue
+            self._command = number
+            try:
+                more, answer = self._obey(command)
+            except (InputError, GaveUp) as error:
+                more, answer = [], {"done": False, "text": str(error)}
+            self._command = None
+            commands.answer(number, answer)
+            messages += more
+        return messages
+
+    def _obey(self, command: Mapping[str, Any]) -> tuple[list[Message], Answer]:
+        """Carry out a command; return what is to be sent, and the answer."""
+        kind, name = command["kind"], command.get("name")
+        at, work, robot = command.get("at"), command.get("work"), command.get("robot")
+        ticks = None if work is None else self.plan.scenario.problem.clock.ticks(Fraction(work))
+        match kind:
+            case "list":
+                return [], {"done": True, "text": "", "jobs": self.jobs()}
+            case "add":
+                messages = self.add_job(str(at), int(ticks or 0), robot)[1]
+            case "change":
+                messages = self.change_job(str(name), at, ticks)
+            case "withdraw":
+                messages = self.withdraw_job(str(name))
+            case "close":
+                messages = self.close_place(str(name))
+            case "open":
+                messages = self.open_place(str(name))
+            case _:
+                messages = self._operate(kind, name)
+        return messages, {"done": True, "text": self.ledger.answer}
+
+    def _operate(self, kind: str, name: str | None) -> list[Message]:
+        """Hold one robot or all, let them go, or confirm where one is."""
+        names = self.ledger.names
+        robots = range(len(names)) if name is None else [self._robot(name)]
+        entry = OPERATIONS.get(kind)
+        if entry is None:
+            raise InputError.at("command", f"{shown(kind)} is no command (see rightofway jobs)")
+        if name is None and kind not in {"hold", "go"}:
+            raise InputError.at("robot", f"{kind} needs the name of a robot (give one)")
+        text = f"{name or 'all robots'}: {kind}"
+        entries = [{**entry, "robot": robot} for robot in robots]
+        return self.control.note(*entries, *self._carried_out(text))
+
+    def jobs(self) -> list[dict[str, Any]]:
+        """Return the jobs of all robots that are not done, in their order: name, place, state."""
+        rows = []
+        for name, own in zip(self.ledger.names, self.ledger.robots, strict=True):
+            for visit in range(own.arrived, own.route.end):
+                for job in own.route.jobs_at(visit):
+                    if job in own.finished:
+                        continue
+                    state = "released" if visit <= own.released else "planned"
+                    state = "failed" if job in own.failed else state
+                    place = own.route.place(visit)
+                    rows.append({"name": f"{name}/{job}", "at": place, "state": state})
+        return rows
+
+    def _carried_out(self, text: str) -> list[Entry]:
+        """Return the entry of the command that is under way, with its answer."""
+        if self._command is None:
+            return []
+        return [{"kind": "command", "number": self._command, "answer": text}]
+
+    def _stops(self) -> list[list[StopToMake]]:
+        rows = zip(self.ledger.robots, self.control.committed(), strict=True)
+        return [stops_to_make(own, released) for own, released in rows]
+
+    def _replanned(
+        self,
+        stops: Sequence[Sequence[StopToMake]],
+        *,
+        withdrawn: Collection[tuple[int, str]] = (),
+        text: str = "replanned",
+        changes: Sequence[Entry] = (),
+    ) -> list[Message]:
+        """Plan the rest with these stops; then it counts, with the command that it follows."""
+        ledger, released = self.ledger, self.control.committed()
+        routes, graph = self._rest.plan(ledger.robots, released, stops, sorted(ledger.closed))
+        notes = [*changes, *self._carried_out(text)]
+        messages = self.control.splice(routes, graph, withdrawn=withdrawn, notes=notes)
+        return [*messages, *self._dispatch()]
+
+    def _detour(self, robot: int, stops: Sequence[StopToMake], at: str) -> tuple[int, int]:
+        """Return how much longer a robot drives for a job at best, and before which stop."""
+        own, roadmap = self.ledger.robots[robot], self.plan.scenario.roadmap
+        itinerary = self.plan.scenario.problem.itineraries[robot]
+        way = [own.route.place(own.released), *(one.place for one in stops), own.route.places[-1]]
+        vertices = [roadmap.vertex(place) for place in way]
+
+        def ticks(start: int, end: int) -> int:
+            to_end = self._distances.to(VertexId(end), itinerary.edge_ticks)[start]
+            return int(to_end) if to_end >= 0 else UNREACHABLE
+
+        vertex = roadmap.vertex(at)
+        return min(
+            (ticks(before, vertex) + ticks(vertex, after) - ticks(before, after), place)
+            for place, (before, after) in enumerate(pairwise(vertices))
+        )
+
+    def _robot(self, name: str) -> int:
+        names = self.ledger.names
+        if name not in names:
+            meant = nearest(name, names) or names[0]
+            raise InputError.at("robot", f"{shown(name)} is no robot (for example {meant})")
+        return names.index(name)
+
+    def _open_job(self, stops: Sequence[Sequence[StopToMake]], name: str) -> tuple[int, int]:
+        """Return the robot of a job that is not released, and which of its stops it is."""
+        robot, _, job = name.rpartition("/")
+        number = self._robot(robot)
+        for place, stop in enumerate(stops[number]):
+            if stop.job == job:
+                return number, place
+        own = self.ledger.robots[number]
+        if job in own.route.all_jobs():
+            state = "done" if job in own.finished else "released"
+            raise InputError.at("job", f"{shown(name)} is {state} already (it cannot be changed)")
+        raise InputError.at("job", f"{shown(name)} is no job (see rightofway jobs list)")

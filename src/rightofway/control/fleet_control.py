@@ -10,7 +10,7 @@ was not acknowledged. A robot that has it discards it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 
 from rightofway.control.journal import Entry, Journal
 from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive, plan_entry
@@ -121,7 +121,14 @@ class FleetControl:
         ]
         return [*self._go_on(), *self.remind(), *asks]
 
-    def splice(self, routes: Sequence[RouteToDrive], graph: ReleaseGraph) -> list[Message]:
+    def splice(
+        self,
+        routes: Sequence[RouteToDrive],
+        graph: ReleaseGraph,
+        *,
+        withdrawn: Collection[tuple[int, str]] = (),
+        notes: Sequence[Entry] = (),
+    ) -> list[Message]:
         """Replace all that is not released by other routes and rights of way.
 
         Parameters
@@ -131,6 +138,10 @@ class FleetControl:
             before the one that a robot has last arrived at may be left out.
         graph
             Who waits for whom on them; parts that are released are no longer looked at.
+        withdrawn
+            Robot and name of jobs that nobody wants any more.
+        notes
+            Entries that are committed together with the splice.
 
         Raises
         ------
@@ -149,9 +160,11 @@ class FleetControl:
             ):
                 message = "the route changes what is released (begin it with the released parts)"
                 raise InputError.at(("routes", robot), message)
-            if lost := sorted(old.all_jobs() - own.finished - new.all_jobs()):
+            unwanted = {job for other, job in withdrawn if other == robot}
+            if lost := sorted(old.all_jobs() - own.finished - new.all_jobs() - unwanted):
                 raise InputError.at(("routes", robot), f"{lost[0]} is in no visit (keep each job)")
-        self._commit(plan_entry("splice", self.ledger.run, routes, graph, committed=committed))
+        entry = plan_entry("splice", self.ledger.run, routes, graph, committed=committed)
+        self._commit({**entry, "withdrawn": [list(one) for one in withdrawn]}, *notes)
         if self._since_snapshot >= self._snapshot_every:
             self._journal.begin_again(self.ledger.snapshot())
             self._since_snapshot = 0
@@ -166,6 +179,17 @@ class FleetControl:
             A robot of the plan.
         """
         self._commit({"kind": "cancel wanted", "robot": robot})
+        return self._go_on()
+
+    def note(self, *entries: Entry) -> list[Message]:
+        """Commit what a dispatcher has to remember.
+
+        Parameters
+        ----------
+        entries
+            For the ledger.
+        """
+        self._commit(*entries)
         return self._go_on()
 
     def hold(self, robot: int, *, on: bool) -> list[Message]:
@@ -484,6 +508,7 @@ class FleetControl:
             and part - own.arrived <= self._ahead(robot)
             and own.finished.issuperset(route.jobs_at(part - 1))
             and route.place(part) not in route.stretch(own.arrived, part)
+            and route.place(part) not in self.ledger.closed
             and not any(route.place(part) == other.strays_at for other in self.ledger.robots)
             and self.ledger.graph.may_go(Part(robot, part), self.ledger.arrived)
         )

@@ -279,6 +279,9 @@ class Ledger:
         self.names: tuple[str, ...] = ()
         self.robots: list[RobotLedger] = []
         self.graph = ReleaseGraph((), {})
+        self.closed: set[str] = set()  # names of vertices that nobody may enter
+        self.commands = 0  # the number of the last command that was carried out
+        self.answer = ""  # to it
 
     @property
     def arrived(self) -> list[int]:
@@ -317,6 +320,12 @@ class Ledger:
             self._apply_plan(entry)
         elif kind == "snapshot":
             self._apply_snapshot(entry)
+        elif kind == "closed":
+            self.closed.add(entry["place"])
+        elif kind == "opened":
+            self.closed.discard(entry["place"])
+        elif kind == "command":
+            self.commands, self.answer = entry["number"], entry["answer"]
         else:
             _APPLY[kind](self.robots[entry["robot"]], entry)
 
@@ -329,6 +338,9 @@ class Ledger:
             "run": self.run,
             "starts": self.starts,
             "names": self.names,
+            "closed": sorted(self.closed),
+            "commands": self.commands,
+            "answer": self.answer,
             "robots": robots,
             "waits": waits,
         }
@@ -344,7 +356,8 @@ class Ledger:
 
     def _apply_snapshot(self, entry: Entry) -> None:
         self.run, self.starts = entry["run"], entry["starts"]
-        self.names = tuple(entry["names"])
+        self.names, self.closed = tuple(entry["names"]), set(entry["closed"])
+        self.commands, self.answer = entry["commands"], entry["answer"]
         self.robots = [RobotLedger.of_document(robot) for robot in entry["robots"]]
         self.graph = _graph_of([own.route for own in self.robots], entry["waits"])
 

@@ -1,0 +1,107 @@
+"""Commands to a control that runs: a table of their own in a file beside its journal.
+
+The journal is locked by the process that may send. Whoever wants something else writes a row into
+this file, and the control answers in it. A command is in the journal with what it has changed, in
+one transaction, so that it is carried out once, also by a control that was killed.
+"""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from rightofway.errors import InputError
+
+__all__ = ["Answer", "Commands"]
+
+Answer = Mapping[str, Any]
+"""What became of a command: ``done``, and ``text`` for people; more for programs."""
+
+PAUSE = 0.05
+"""Seconds between two looks for an answer."""
+
+
+class Commands:
+    """The commands to the control of a journal.
+
+    Parameters
+    ----------
+    journal
+        The file of the journal; commands are in the file beside it, which is made if need be.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read and written.
+    """
+
+    def __init__(self, journal: Path) -> None:
+        path = journal.with_name(f"{journal.name}-commands")
+        try:
+            self._database = sqlite3.connect(path, timeout=5, isolation_level=None)
+            self._database.execute("PRAGMA journal_mode = WAL")
+            self._database.execute(
+                "CREATE TABLE IF NOT EXISTS commands"
+                " (number INTEGER PRIMARY KEY AUTOINCREMENT, command TEXT, answer TEXT)"
+            )
+        except sqlite3.Error as error:
+            message = f"cannot be used for commands: {error} (name the journal of a control)"
+            raise InputError.at(str(path), message) from error
+
+    def ask(self, command: Mapping[str, Any]) -> int:
+        """Write a command; return its number.
+
+        Parameters
+        ----------
+        command
+            Its ``kind``, and what belongs to it.
+        """
+        query = "INSERT INTO commands (command) VALUES (?)"
+        return int(self._database.execute(query, (json.dumps(command),)).lastrowid or 0)
+
+    def unanswered(self) -> list[tuple[int, dict[str, Any]]]:
+        """Return number and content of each command that has no answer, in their order."""
+        query = "SELECT number, command FROM commands WHERE answer IS NULL ORDER BY number"
+        return [(number, json.loads(text)) for number, text in self._database.execute(query)]
+
+    def answer(self, number: int, answer: Answer) -> None:
+        """Answer a command.
+
+        Parameters
+        ----------
+        number
+            Of the command.
+        answer
+            What became of it.
+        """
+        query = "UPDATE commands SET answer = ? WHERE number = ?"
+        self._database.execute(query, (json.dumps(answer), number))
+
+    def wait_for(self, number: int, seconds: float) -> Answer | None:
+        """Return the answer to a command, None if there is none after some time [s].
+
+        Parameters
+        ----------
+        number
+            Of the command.
+        seconds
+            How long to wait.
+        """
+        until = time.monotonic() + seconds
+        query = "SELECT answer FROM commands WHERE number = ?"
+        while True:
+            row = self._database.execute(query, (number,)).fetchone()
+            if row and row[0] is not None:
+                answer: Answer = json.loads(row[0])
+                return answer
+            if time.monotonic() > until:
+                return None
+            time.sleep(PAUSE)
+
+    def close(self) -> None:
+        """Close the file."""
+        self._database.close()

@@ -1,0 +1,280 @@
+"""Planning of the rest: routes behind all that is released, judged whole before they count.
+
+Each robot starts at the end of what is released to it, once it has come there and has done its work
+on the way. All that is released goes first in the new order, so commitments wait for nobody, and
+the rest has the order of a plan: the new order has no cycle. Bookings are those of ``both``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import NamedTuple
+
+from rightofway.check import check
+from rightofway.control.laps import graph_behind_released
+from rightofway.control.ledger import RobotLedger, RouteToDrive
+from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.model import Closure, Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, route_of
+from rightofway.model.route import drives_along
+from rightofway.planners.lacam import timetable_if_possible
+from rightofway.precedence import ReleaseGraph
+from rightofway.site import VertexId
+from rightofway.solve import solve
+
+__all__ = ["RestPlanner", "StopToMake", "stops_to_make"]
+
+MOST_ASIDE = 3
+"""Neighbours that are tried where a robot has to leave a place and come back to work there."""
+
+
+class StopToMake(NamedTuple):
+    """A job that is not released yet, the end of a lap, or a place to pass."""
+
+    place: str
+    job: str = ""
+    work: int = 0  # [ticks]
+    ends_lap: bool = False
+
+
+def stops_to_make(own: RobotLedger, released: int) -> list[StopToMake]:
+    """Return the jobs and ends of laps of a robot behind what is released, in their order.
+
+    Parameters
+    ----------
+    own
+        What is known of the robot.
+    released
+        Its last part that is kept.
+    """
+    stops = []
+    for visit in range(released + 1, own.route.end):
+        place = own.route.place(visit)
+        rows = zip(own.route.jobs_at(visit), own.route.work_at(visit), strict=True)
+        stops += [StopToMake(place, job, work) for job, work in rows if job not in own.finished]
+        if visit in own.route.lap_ends:
+            stops.append(StopToMake(place, ends_lap=True))
+    return stops
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Kept:
+    """What a robot keeps, from the visit on at which it has arrived."""
+
+    route: RouteToDrive  # up to the last released part
+    vertices: tuple[int, ...]
+    work: int  # that is not done yet [ticks]
+    busy: int  # until it is done at the end of it [ticks]
+
+
+class RestPlanner:
+    """Plans the rest of a fleet that drives.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    planner
+        The name of a planner.
+    time_limit
+        For one plan [s]; None for no limit.
+    """
+
+    def __init__(
+        self, scenario: Scenario, planner: str = "auto", time_limit: float | None = 2
+    ) -> None:
+        rules = replace(scenario.rules, occupancy="both", rotations=False)
+        clock = scenario.problem.clock
+        self._scenario = replace(scenario, rules=rules, clock=clock, closures=())
+        self._planner, self._time_limit = planner, time_limit
+
+    def plan(
+        self,
+        robots: Sequence[RobotLedger],
+        released: Sequence[int],
+        stops: Sequence[Sequence[StopToMake]],
+        closed: Sequence[str] = (),
+    ) -> tuple[list[RouteToDrive], ReleaseGraph]:
+        """Return routes behind what is released, and who waits for whom on them.
+
+        Parameters
+        ----------
+        robots
+            What is known of each robot.
+        released
+            The last part of each that is kept.
+        stops
+            What each shall do behind it, in order.
+        closed
+            Names of vertices that robots shall not enter any more.
+
+        Raises
+        ------
+        GaveUp
+            If no plan was found, or the judge refuses it.
+        """
+        kept = [
+            self._kept(robot, own, end)
+            for robot, (own, end) in enumerate(zip(robots, released, strict=True))
+        ]
+        moving = [robot for robot, own in enumerate(robots) if not own.is_off]
+        reasons = ""
+        for aside in range(MOST_ASIDE):
+            try:
+                ways = {k: self._way(robots[k], kept[k], stops[k], aside) for k in moving}
+                found = self._routes(kept, ways, self._closures(kept, closed))
+            except (NoPlanExists, GaveUp, InputError) as error:
+                reasons = str(error)
+                continue
+            routes = [own.route.since(own.arrived) for own in robots]
+            for robot, route in zip(moving, found, strict=True):
+                routes[robot] = route
+            ends = [
+                own.route.end if own.is_off else end
+                for own, end in zip(robots, released, strict=True)
+            ]
+            graph = graph_behind_released(self._scenario, routes, ends)
+            if not graph.rotation():
+                return routes, graph
+            reasons = "robots would move round a circle at one instant"
+        raise GaveUp(f"no plan of the rest was found: {reasons}")
+
+    def _kept(self, robot: int, own: RobotLedger, released: int) -> _Kept:
+        route = own.route.since(own.arrived)
+        length = released - own.arrived + 1
+        roadmap = self._scenario.roadmap
+        vertices = tuple(int(roadmap.vertex(place)) for place in route.places[:length])
+        work = sum(
+            ticks
+            for names, times in zip(route.jobs[:length], route.work[:length], strict=True)
+            for job, ticks in zip(names, times, strict=True)
+            if job not in own.finished
+        )
+        itinerary = self._scenario.problem.itineraries[robot]
+        drives = drives_along(roadmap, itinerary, vertices) if length > 1 else []
+        return _Kept(
+            route=replace(
+                route,
+                places=route.places[:length],
+                jobs=route.jobs[:length],
+                work=route.work[:length],
+                enter=route.enter[:length],
+                lap_ends=tuple(end for end in route.lap_ends if end <= released),
+            ),
+            vertices=vertices,
+            work=work,
+            busy=work + sum(drives),
+        )
+
+    def _routes(
+        self,
+        kept: Sequence[_Kept],
+        ways: Mapping[int, Sequence[StopToMake]],
+        closures: tuple[Closure, ...],
+    ) -> list[RouteToDrive]:
+        """Return the whole route of each robot on the floor."""
+        moving = list(ways)
+        ends = {robot: kept[robot].vertices[-1] for robot in moving}
+        begun = [
+            self._robot(robot, ends[robot], ends[robot], kept[robot].busy, ways[robot])
+            for robot in moving
+        ]
+        rest = replace(self._scenario, robots=tuple(begun), closures=closures)
+        plan = solve(rest, self._planner, time_limit=self._time_limit)
+        fleet = [
+            self._robot(robot, kept[robot].vertices[0], ends[robot], kept[robot].work, ways[robot])
+            for robot in moving
+        ]
+        whole = replace(rest, robots=tuple(fleet))
+        visited, arrivals = [], []
+        for robot, track in zip(moving, plan.tracks, strict=True):
+            before = kept[robot].vertices[:-1]
+            visited.append([*before, *track.vertices.tolist()])
+            arrivals.append([*range(-len(before), 0), *track.enter.tolist()])
+        tracks = timetable_if_possible(whole, visited, arrivals)
+        if tracks is None:
+            raise GaveUp("its order cannot be kept behind what is released")
+        judged = check(Plan(scenario=whole, tracks=tuple(tracks), run=PlannerRun()))
+        if not judged.ok:
+            raise GaveUp(f"the whole has {judged.summary}")
+        return [
+            self._route(whole, index, track, kept[robot], ways[robot])
+            for index, (robot, track) in enumerate(zip(moving, tracks, strict=True))
+        ]
+
+    def _way(
+        self, own: RobotLedger, kept: _Kept, stops: Sequence[StopToMake], aside: int
+    ) -> list[StopToMake]:
+        """Return the stops behind what is kept, with one beside it where the robot comes back.
+
+        An action is done at a node that is new: a robot that stands where it has work to do drives
+        away and comes back.
+        """
+        roadmap, here = self._scenario.roadmap, kept.vertices[-1]
+        way = [*stops, StopToMake(own.route.places[-1])]
+        if way[0].job and roadmap.vertex(way[0].place) == here:
+            heads = roadmap.heads[roadmap.indptr[here] : roadmap.indptr[here + 1]].tolist()
+            back = [head for head in heads if roadmap.edge(head, here) is not None]
+            if not back:
+                raise GaveUp(f"{way[0].place} cannot be left and entered again")
+            way.insert(0, StopToMake(roadmap.name(back[aside % len(back)])))
+        return way
+
+    def _closures(self, kept: Sequence[_Kept], closed: Sequence[str]) -> tuple[Closure, ...]:
+        """Return the closed vertices: from the begin on, or once robots may have left them."""
+        roadmap, time = self._scenario.roadmap, self._scenario.problem.clock.time
+        held = {vertex for one in kept for vertex in one.vertices}
+        longest = max(max(one.edge_ticks) for one in self._scenario.problem.itineraries)
+        later = time(Tick(max(one.busy for one in kept) + 2 * longest))
+        vertices = [roadmap.vertex(place) for place in closed]
+        return tuple(
+            Closure(at=vertex, from_=later if vertex in held else Fraction(0))
+            for vertex in vertices
+        )
+
+    def _robot(
+        self, robot: int, home: int, end: int, busy: int, way: Sequence[StopToMake]
+    ) -> Robot:
+        """Return a robot that is busy at the end of what it keeps, and then makes its stops."""
+        time = self._scenario.problem.clock.time
+        stops = [Stop(at=VertexId(end), work=time(Tick(busy)))]
+        for stop in way:
+            vertex = self._scenario.roadmap.vertex(stop.place)
+            stops.append(Stop(at=vertex, work=time(Tick(stop.work))))
+        return replace(
+            self._scenario.robots[robot],
+            home=VertexId(home),
+            stops=tuple(stops),
+            turn=Fraction(0),
+            ends="none",
+            laps=1,
+        )
+
+    @staticmethod
+    def _route(
+        whole: Scenario, index: int, track: Track, kept: _Kept, way: Sequence[StopToMake]
+    ) -> RouteToDrive:
+        """Return the route of a whole track, with its jobs and ends of laps."""
+        route, last = kept.route, len(kept.vertices) - 1
+        serves = route_of(whole.roadmap, whole.problem.itineraries[index], track).serves[1:]
+        jobs = [*map(list, route.jobs), *([] for _ in range(last + 1, len(track)))]
+        work = [*map(list, route.work), *([] for _ in range(last + 1, len(track)))]
+        lap_ends = set(route.lap_ends)
+        for stop, visit in zip(way, serves, strict=True):
+            if stop.job and visit == last:
+                raise GaveUp(f"{stop.job} would be done at a node that was sent already")
+            if stop.job:
+                jobs[visit].append(stop.job)
+                work[visit].append(stop.work)
+            if stop.ends_lap and visit > last:
+                lap_ends.add(route.first + visit)
+        return replace(
+            route,
+            places=tuple(map(whole.roadmap.name, track.vertices.tolist())),
+            jobs=tuple(map(tuple, jobs)),
+            work=tuple(map(tuple, work)),
+            enter=tuple(track.enter.tolist()),
+            lap_ends=tuple(sorted(lap_ends)),
+            in_step=False,
+        )

@@ -1,0 +1,35 @@
+"""Simulated robots at one control, without any fault."""
+
+from __future__ import annotations
+
+from rightofway.control import Message, Order, SimulatedRobot
+from rightofway.control.dispatcher import Dispatcher
+
+__all__ = ["Floor"]
+
+
+class Floor:
+    """Robots that drive one after another, without any fault."""
+
+    def __init__(self, dispatcher: Dispatcher) -> None:
+        self.dispatcher = dispatcher
+        self.robots = [SimulatedRobot(own.route.places[0]) for own in dispatcher.ledger.robots]
+        self.send(dispatcher.control.start())
+
+    def send(self, messages: list[Message]) -> None:
+        """Deliver messages, and all that is answered."""
+        while messages:
+            message = messages.pop(0)
+            robot = self.robots[message.robot]
+            if isinstance(message, Order):
+                robot.take_order(message)
+            else:
+                robot.take_action(message)
+            messages += self.dispatcher.control.receive(message.robot, robot.state())
+
+    def drive(self, steps: int) -> None:
+        """Have each robot do the next things."""
+        for _ in range(steps):
+            for number, robot in enumerate(self.robots):
+                robot.step()
+                self.send(self.dispatcher.control.receive(number, robot.state()))

@@ -1,0 +1,150 @@
+"""Jobs, closures and commands while robots drive: what is released stays, the rest is replanned."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from rightofway.control import FleetControl, SqliteJournal
+from rightofway.control.commands import Commands
+from rightofway.control.dispatcher import Dispatcher
+from rightofway.errors import InputError
+from tests.builders.chaos import MemoryJournal
+from tests.builders.floors import Floor
+from tests.builders.plans import door
+
+
+def driven(steps: int, journal: MemoryJournal | SqliteJournal | None = None) -> Floor:
+    """Return the door's robots after some steps."""
+    dispatcher = Dispatcher(FleetControl(journal or MemoryJournal()), door())
+    dispatcher.begin("run")
+    floor = Floor(dispatcher)
+    floor.drive(steps)
+    return floor
+
+
+def jobs_of(floor: Floor) -> dict[str, str]:
+    """Return where the jobs are that are not done, by name."""
+    return {job["name"]: job["at"] for job in floor.dispatcher.jobs()}
+
+
+def test_a_job_that_is_added_goes_where_it_is_least_out_of_the_way_and_is_done() -> None:
+    floor = driven(2)
+    assert jobs_of(floor) == {"R1/job0": "N6", "R2/job0": "N8"}
+    name, messages = floor.dispatcher.add_job("N7", 2)  # on the way of R1, which has not set out
+    floor.send(messages)
+    assert name == "R1/job1"
+    assert list(jobs_of(floor)) == ["R1/job1", "R1/job0", "R2/job0"]
+    floor.drive(60)
+    assert jobs_of(floor) == {}
+    assert [own.jobs_done for own in floor.dispatcher.ledger.robots] == [2, 1]
+    assert [robot.place for robot in floor.robots] == ["N0", "N2"]
+
+
+def test_a_robot_can_be_named_and_may_be_at_its_end_already() -> None:
+    floor = driven(80)
+    assert jobs_of(floor) == {}
+    name, messages = floor.dispatcher.add_job("N2", 1, "R2")  # where it stands: it comes back
+    floor.send(messages)
+    floor.drive(60)
+    assert name == "R2/job1"
+    assert floor.dispatcher.ledger.robots[1].jobs_done == 2
+    assert floor.robots[1].place == "N2"
+
+
+def test_a_job_is_changed_and_withdrawn_until_it_is_released() -> None:
+    floor = driven(2)
+    floor.send(floor.dispatcher.change_job("R1/job0", at="N7", work=1))
+    assert jobs_of(floor)["R1/job0"] == "N7"
+    with pytest.raises(InputError, match="'R2/job0' is released already"):
+        floor.dispatcher.change_job("R2/job0", at="N7")
+    floor.send(floor.dispatcher.withdraw_job("R1/job0"))
+    floor.drive(60)
+    assert [own.jobs_done for own in floor.dispatcher.ledger.robots] == [0, 1]
+    with pytest.raises(InputError, match="'R1/job0' is no job"):
+        floor.dispatcher.withdraw_job("R1/job0")
+
+
+@pytest.mark.parametrize(
+    ("at", "robot", "message"),
+    [
+        ("N99", None, "no vertex is named 'N99'"),
+        ("N7", "R7", r"robot: 'R7' is no robot \(for example R"),
+    ],
+)
+def test_a_job_nowhere_or_of_nobody_is_refused(at: str, robot: str | None, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        driven(2).dispatcher.add_job(at, 0, robot)
+
+
+def test_a_closed_place_is_entered_by_nobody_until_it_is_open() -> None:
+    """N1 and N4 are the door; R1 has not set out when N4 is closed, and there is no other way."""
+    floor = driven(2)
+    floor.send(floor.dispatcher.close_place("N4"))
+    floor.drive(60)
+    assert floor.robots[0].place in {"N0", "N1"}
+    assert jobs_of(floor) == {"R1/job0": "N6"}
+    floor.send(floor.dispatcher.open_place("N4"))
+    floor.drive(80)
+    assert jobs_of(floor) == {}
+    with pytest.raises(InputError, match="'N4' is not closed"):
+        floor.dispatcher.open_place("N4")
+
+
+def test_a_command_is_carried_out_once_though_its_answer_was_lost(tmp_path: Path) -> None:
+    """The control ends after the commit and before the answer is written."""
+    file = tmp_path / "run.journal"
+    journal = SqliteJournal(file)
+    floor = driven(2, journal)
+    people, commands = Commands(file), Commands(file)
+    number = people.ask({"kind": "add", "at": "N7", "work": "2"})
+    floor.send(floor.dispatcher.obey(commands))
+    assert people.wait_for(number, 0) == {"done": True, "text": "R1/job1 at N7 is added"}
+    people._database.execute("UPDATE commands SET answer = NULL")
+    again = Dispatcher(FleetControl(journal), door())
+    again.obey(commands)
+    assert people.wait_for(number, 0) == {"done": True, "text": "R1/job1 at N7 is added"}
+    assert [job["name"] for job in again.jobs()].count("R1/job1") == 1
+    assert "R1/job2" not in [job["name"] for job in again.jobs()]
+
+
+@pytest.mark.parametrize(
+    ("command", "answer"),
+    [
+        ({"kind": "hold"}, {"done": True, "text": "all robots: hold"}),
+        ({"kind": "go", "name": "R1"}, {"done": True, "text": "R1: go"}),
+        ({"kind": "fly"}, {"done": False, "text": "command: 'fly' is no command"}),
+        ({"kind": "remove"}, {"done": False, "text": "robot: remove needs the name of a robot"}),
+        ({"kind": "withdraw", "name": "R1/x"}, {"done": False, "text": "job: 'R1/x' is no job"}),
+    ],
+)
+def test_each_command_has_an_answer(
+    tmp_path: Path, command: dict[str, str], answer: dict[str, object]
+) -> None:
+    floor, commands = driven(2), Commands(tmp_path / "run.journal")
+    number = commands.ask(command)
+    floor.dispatcher.obey(commands)
+    found = commands.wait_for(number, 0)
+    assert found is not None
+    assert found["done"] == answer["done"]
+    assert str(found["text"]).startswith(str(answer["text"]))
+    assert commands.unanswered() == []
+
+
+def test_all_robots_are_held_and_let_go(tmp_path: Path) -> None:
+    floor, commands = driven(0), Commands(tmp_path / "run.journal")
+    commands.ask({"kind": "hold"})
+    floor.send(floor.dispatcher.obey(commands))
+    before = [own.released for own in floor.dispatcher.ledger.robots]
+    floor.drive(40)
+    assert [own.released for own in floor.dispatcher.ledger.robots] == before
+    commands.ask({"kind": "go"})
+    floor.send(floor.dispatcher.obey(commands))
+    floor.drive(60)
+    assert jobs_of(floor) == {}
+
+
+def test_commands_need_a_folder(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="cannot be used for commands"):
+        Commands(tmp_path / "no folder" / "run.journal")
