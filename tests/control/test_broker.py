@@ -244,6 +244,30 @@ def test_the_commands_of_a_page_drive_a_fleet(name: str, tmp_path: Path, broker:
             assert driving.wait(120) == 0, driving.log
 
 
+def test_the_commands_of_the_page_change_the_work_of_robots_that_drive(
+    tmp_path: Path, broker: Mosquitto
+) -> None:
+    """The job of the page has the name that the control gives it; all robots come home."""
+    [block] = [one for one in blocks(ROOT / "docs/control.md") if one.info == ("sh", "jobs")]
+    name = "R1/job1"
+    with robots_of(door(), tmp_path, broker.url, "--time-scale", "1"):
+        wait_for((tmp_path / "robots.yaml").exists, 60, "the file of identities")
+        options = ("--broker", broker.url, "--identities", "robots.yaml", "--stay")
+        with Command(tmp_path, "drive", "plan.json", *options).running() as driving:
+            wait_for(lambda: "sets out" in driving.log, 60, "the first order")
+            for line in block.text.splitlines():
+                words = [word.replace("R1/job1", name) for word in line.split()[1:]]
+                with Command(tmp_path, *words).running() as asking:
+                    code = asking.wait(60)
+                    added = re.search(r"(R\d/job\d+) at N7 is added", asking.log)
+                name = added[1] if added else name
+                assert code in {0, 1}, asking.log
+                assert code == 0 or "refused: " in asking.log
+            wait_for(lambda: driving.log.count("is at the end of its way") >= 2, 120, "the ends")
+            assert f"{name} at N7 is added" in driving.log
+            assert "R1: hold" in driving.log
+
+
 def test_the_file_of_identities_of_the_page_is_read(tmp_path: Path) -> None:
     [block] = [
         block for block in blocks(ROOT / "docs/control.md") if block.file_name == "acme.yaml"

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import pytest
 
-from rightofway.control import FleetControl, JournalFailed, Order, RobotState
+from rightofway.control import (
+    FleetControl,
+    InstantAction,
+    JournalFailed,
+    Message,
+    Order,
+    RobotState,
+    SimulatedRobot,
+)
 from rightofway.control.routes import routes_to_drive
 from rightofway.errors import InputError
 from rightofway.precedence import Arrival, Part, ReleaseGraph
@@ -141,3 +150,37 @@ def test_a_rotation_is_refused_with_the_way_out() -> None:
     graph = ReleaseGraph([len(route.places) for route in routes], circle)
     with pytest.raises(InputError, match=r"robot 0, robot 1 move round .* rotations: false"):
         FleetControl(MemoryJournal()).begin("run", routes, graph)
+
+
+def test_a_withdrawal_that_comes_after_the_next_order_costs_one_more_order() -> None:
+    """R2 is reset when it is asked to stop, gets a new order, and the request reaches it then."""
+    control, robot = begun(), SimulatedRobot("N2")
+    control.receive(0, state("run-0-0", 0, "N0", 0, ()))
+
+    def take(messages: Sequence[Message]) -> list[InstantAction]:
+        kept = list[InstantAction]()
+        for message in messages:
+            if message.robot != 1:
+                continue
+            if isinstance(message, Order):
+                robot.take_order(message)
+            elif message.kind == "cancelOrder":
+                kept.append(message)  # it is under way for long
+            else:
+                robot.take_action(message)
+        return kept
+
+    take(control.remind())
+    take(control.receive(1, robot.state()))
+    control.receive(1, robot.state())
+    [late] = take(control.cancel(1))
+    robot.forget()
+    for _ in range(3):
+        take([*control.receive(1, robot.state()), *control.remind()])
+    assert len(control.ledger.robots[1].orders) == 2
+    robot.take_action(late)
+    for _ in range(40):
+        take([*control.receive(1, robot.state()), *control.remind()])
+        robot.step()
+    assert robot.place == "N8"
+    assert control.ledger.robots[1].finished == {"job0"}

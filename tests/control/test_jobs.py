@@ -24,6 +24,14 @@ def driven(steps: int, journal: MemoryJournal | SqliteJournal | None = None) -> 
     return floor
 
 
+def obey(floor: Floor, commands: Commands) -> None:
+    """Carry commands out, and answer them."""
+    messages, answers = floor.dispatcher.obey(commands)
+    floor.send(messages)
+    for number, answer in answers:
+        commands.answer(number, answer)
+
+
 def jobs_of(floor: Floor) -> dict[str, str]:
     """Return where the jobs are that are not done, by name."""
     return {job["name"]: job["at"] for job in floor.dispatcher.jobs()}
@@ -99,11 +107,12 @@ def test_a_command_is_carried_out_once_though_its_answer_was_lost(tmp_path: Path
     floor = driven(2, journal)
     people, commands = Commands(file), Commands(file)
     number = people.ask({"kind": "add", "at": "N7", "work": "2"})
-    floor.send(floor.dispatcher.obey(commands))
+    obey(floor, commands)
     assert people.wait_for(number, 0) == {"done": True, "text": "R1/job1 at N7 is added"}
     people._database.execute("UPDATE commands SET answer = NULL")
     again = Dispatcher(FleetControl(journal), door())
-    again.obey(commands)
+    [(_, answer)] = again.obey(commands)[1]
+    commands.answer(number, answer)
     assert people.wait_for(number, 0) == {"done": True, "text": "R1/job1 at N7 is added"}
     assert [job["name"] for job in again.jobs()].count("R1/job1") == 1
     assert "R1/job2" not in [job["name"] for job in again.jobs()]
@@ -124,7 +133,7 @@ def test_each_command_has_an_answer(
 ) -> None:
     floor, commands = driven(2), Commands(tmp_path / "run.journal")
     number = commands.ask(command)
-    floor.dispatcher.obey(commands)
+    obey(floor, commands)
     found = commands.wait_for(number, 0)
     assert found is not None
     assert found["done"] == answer["done"]
@@ -135,12 +144,12 @@ def test_each_command_has_an_answer(
 def test_all_robots_are_held_and_let_go(tmp_path: Path) -> None:
     floor, commands = driven(0), Commands(tmp_path / "run.journal")
     commands.ask({"kind": "hold"})
-    floor.send(floor.dispatcher.obey(commands))
+    obey(floor, commands)
     before = [own.released for own in floor.dispatcher.ledger.robots]
     floor.drive(40)
     assert [own.released for own in floor.dispatcher.ledger.robots] == before
     commands.ask({"kind": "go"})
-    floor.send(floor.dispatcher.obey(commands))
+    obey(floor, commands)
     floor.drive(60)
     assert jobs_of(floor) == {}
 

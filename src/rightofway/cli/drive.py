@@ -207,12 +207,14 @@ def _drive_at(
     stays: bool,
 ) -> None:
     """Drive a plan with robots at a broker."""
+    from rightofway.control.commands import Commands
     from rightofway.control.driver import Driver
     from rightofway.control.journal import SqliteJournal
 
     opened = SqliteJournal(Path(journal))
     try:
-        driver = Driver(plan, identities, opened, laps=laps, report=_narrate)
+        commands = Commands(Path(journal))
+        driver = Driver(plan, identities, opened, laps=laps, commands=commands, report=_narrate)
         asyncio.run(driver.run(broker, stays=stays))
     finally:
         opened.close()

@@ -65,7 +65,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "collisions": "collisions",
     },
     "Repeated work and delays": {"laps": "laps", "simulate": "simulate"},
-    "Drive": {"drive": "drive", "robots": "robots"},
+    "Drive": {"drive": "drive", "jobs": "jobs", "robots": "robots"},
     "Compare": {"bench": "bench", "paper": "paper"},
     "Formats": {"convert": "formats", "schema": "formats"},
 }

@@ -253,20 +253,27 @@ class Dispatcher:
 
     # --- commands of people ----------------------------------------------------------------------
 
-    def obey(self, commands: Commands) -> list[Message]:
-        """Carry out what people have asked for, each command once; return what is to be sent.
+    def obey(self, commands: Commands) -> tuple[list[Message], list[tuple[int, Answer]]]:
+        """Carry out what people have asked for, each command once.
 
         Parameters
         ----------
         commands
             The file beside the journal.
+
+        Returns
+        -------
+        tuple
+            What is to be sent, and the answers: give them to `Commands.answer` once all is on the
+            disk.
         """
         messages: list[Message] = []
+        answers: list[tuple[int, Answer]] = []
         for number, command in commands.unanswered():
             if number <= self.ledger.commands:  # it was carried out before a start
                 is_last = number == self.ledger.commands
                 text = self.ledger.answer if is_last else "carried out before a start"
-                commands.answer(number, {"done": True, "text": text})
+                answers.append((number, {"done": True, "text": text}))
                 continue
             self._command = number
             try:
@@ -274,9 +281,9 @@ class Dispatcher:
             except (InputError, GaveUp) as error:
                 more, answer = [], {"done": False, "text": str(error)}
             self._command = None
-            commands.answer(number, answer)
+            answers.append((number, answer))
             messages += more
-        return messages
+        return messages, answers
 
     def _obey(self, command: Mapping[str, Any]) -> tuple[list[Message], Answer]:
         """Carry out a command; return what is to be sent, and the answer."""

@@ -16,6 +16,7 @@ from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 from rightofway.control.broker import Broker
+from rightofway.control.commands import Answer, Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter
 from rightofway.control.fleet_control import FleetControl
@@ -63,6 +64,8 @@ class Driver:
         Empty, or of an earlier start with the same plan and identities.
     laps
         How often each robot makes the laps of the plan, 0 for ever; None: the plan is driven once.
+    commands
+        Where people ask for more: jobs, closures, holds.
     report
         Receives each sentence of the story, and what is wrong.
 
@@ -80,6 +83,7 @@ class Driver:
         journal: Journal,
         *,
         laps: int | None = None,
+        commands: Commands | None = None,
         report: Callable[[str], None],
     ) -> None:
         names = [robot.name for robot in plan.scenario.robots]
@@ -89,7 +93,8 @@ class Driver:
         self.control = FleetControl(self._journal, report=notices.about)
         self._laps = laps
         repeated = None if laps is None else LapsToDrive(plan)
-        dispatcher = Dispatcher(self.control, plan, repeated)
+        self.dispatcher = dispatcher = Dispatcher(self.control, plan, repeated)
+        self._commands = commands
         ledger, digest = self.control.ledger, _digest(plan, maps)
         if not ledger.run:
             dispatcher.begin(f"{digest}-{secrets.token_hex(4)}")
@@ -103,6 +108,7 @@ class Driver:
         self._inbox: list[tuple[float, Letter]] = []
         self._outbox: list[Letter] = []
         self._news = asyncio.Event()
+        self._answers: list[tuple[int, Answer]] = []  # to commands, once all is on the disk
         self._fails = False
 
     async def run(self, broker: Broker, *, stays: bool = False) -> None:
@@ -171,7 +177,7 @@ class Driver:
                         await self._news.wait()
                     fresh = []
                 except TimeoutError:
-                    reminded, fresh = time.monotonic(), self._remind()
+                    reminded, fresh = time.monotonic(), [*self._obey(), *self._remind()]
                 self._news.clear()
                 await self._turn(client, fresh)
             reader.cancel()
@@ -181,6 +187,24 @@ class Driver:
             payload = message.payload if isinstance(message.payload, bytes) else b""
             self._inbox.append((time.perf_counter(), Letter(str(message.topic), payload)))
             self._news.set()
+
+    def _obey(self) -> list[Letter]:
+        """Carry out what people have asked for; return what is to be sent."""
+        if self._commands is None:
+            return []
+        messages, answers = self.dispatcher.obey(self._commands)
+        self._answers += answers
+        for _, answer in answers:
+            if answer["text"]:
+                self._report(answer["text"] if answer["done"] else f"refused: {answer['text']}")
+        return self.end.letters(messages)
+
+    def _answer(self) -> None:
+        """Answer the commands whose outcome is on the disk."""
+        for number, answer in self._answers:
+            assert self._commands is not None
+            self._commands.answer(number, answer)
+        self._answers = []
 
     def _remind(self) -> list[Letter]:
         """Return what is to be sent again; robots that are silent are lost."""
@@ -214,6 +238,7 @@ class Driver:
         if self._fails:
             self._report("the journal can be written again")
         self._fails = False
+        self._answer()
         sent, self._outbox = self._outbox, []
         for letter in sent:
             await client.publish(letter.topic, letter.payload, qos=0)

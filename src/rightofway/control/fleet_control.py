@@ -376,7 +376,9 @@ class FleetControl:
         own = self.ledger.robots[robot]
         if own.message is None or own.is_off:
             return
-        if state.order_id == own.order_id:
+        if state.order_id == own.order_id and self._is_taken_back(robot, state):
+            yield from self._settle_doubt(robot, state)
+        elif state.order_id == own.order_id:
             if own.token in state.actions:
                 yield {"kind": "certain", "robot": robot}
             stands_at = own.held_at(state.last_place)
@@ -401,6 +403,18 @@ class FleetControl:
             elif own.fault is None:
                 fault = f"it stands at {state.last_place!r}, which it does not hold"
                 yield self._fault_entry(robot, fault, state)
+
+    def _is_taken_back(self, robot: int, state: RobotState) -> bool:
+        """Return whether an old withdrawal, which has come late, took the current order back.
+
+        The robot takes no update of it any more. Its answer to a token says where it stands.
+        """
+        own, start = self.ledger.robots[robot], f"{self.ledger.run}-{robot}-cancel"
+        current = own.cancel.action_id if own.cancel else None
+        return any(
+            status == "FINISHED" and action.startswith(start) and action != current
+            for action, status in state.actions.items()
+        )
 
     @staticmethod
     def _acknowledges(own: RobotLedger, state: RobotState) -> bool:

@@ -1,0 +1,98 @@
+"""``rightofway jobs``: jobs, closures and holds for robots that drive."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import click
+
+from rightofway.cli.options import as_json_option
+from rightofway.cli.terminal import put_json, put_report, say
+from rightofway.errors import InputError
+
+ACTIONS = {
+    "list": "list jobs that are not done",
+    "add": "give a robot a job: --at, perhaps --work and --robot",
+    "change": "change a job NAME that is not released: --at, --work",
+    "withdraw": "take back a job NAME that is not released",
+    "close": "let no robot enter the vertex NAME",
+    "open": "open the vertex NAME again",
+    "hold": "release nothing more to the robot NAME, or to all",
+    "go": "release again to the robot NAME, or to all",
+    "cancel": "take back what is released to the robot NAME, as far as it can stop before",
+    "clear": "confirm that the faulty robot NAME is where the journal has it",
+    "remove": "confirm that the robot NAME is off the floor",
+}
+
+EXAMPLES = """\b
+Examples:
+  rightofway jobs plan.journal list
+  rightofway jobs plan.journal add --at N7 --work 5
+  rightofway jobs plan.journal withdraw R1/job7
+  rightofway jobs plan.journal close N4
+  rightofway jobs plan.journal hold
+"""
+
+
+def _time(_context: click.Context, _parameter: click.Parameter, given: str | None) -> str | None:
+    if given is not None and not re.fullmatch(r"[0-9]+(\.[0-9]+|/[1-9][0-9]*)?", given):
+        raise click.BadParameter(f"{given!r} is no time (for example 5 or 1/2)")
+    return given
+
+
+@click.command(epilog=EXAMPLES, short_help="Change the work of robots that drive.")
+@click.argument("journal", type=click.Path())
+@click.argument("action", type=click.Choice(list(ACTIONS)))
+@click.argument("name", required=False)
+@click.option("--at", metavar="VERTEX", help="Where the job is.")
+@click.option("--work", metavar="TIME", callback=_time, help="How long it lasts [time unit].")
+@click.option("--robot", metavar="ROBOT",
+              help="Whose job it is; by default that of the robot which drives least more.",
+              )  # fmt: skip
+@click.option("--wait", metavar="SECONDS", type=click.FloatRange(min=0), default=10,
+              show_default=True, help="How long to wait for the answer.")  # fmt: skip
+@as_json_option("answer")
+def jobs(
+    *,
+    journal: str,
+    action: str,
+    name: str | None,
+    at: str | None,
+    work: str | None,
+    robot: str | None,
+    wait: float,
+    as_json: bool,
+) -> int:
+    """Ask the control that drives with a JOURNAL for an ACTION.
+
+    What is released stays, the rest is replanned and judged before it counts. Where no plan is
+    found, the old one stands and the command is refused: exit code 1. A control that does not run
+    carries the command out at its next start.
+    """
+    if not Path(journal).exists():
+        raise InputError.at(journal, "is no file (name the journal of rightofway drive)")
+    if action == "add" and at is None:
+        raise click.UsageError("a job is somewhere (give --at)")
+    if action in {"change", "withdraw", "close", "open", "cancel", "clear", "remove"} and not name:
+        raise click.UsageError(f"{action} needs a NAME")
+    from rightofway.control.commands import Commands
+
+    commands = Commands(Path(journal))
+    values = {"name": name, "at": at, "work": work, "robot": robot}
+    given = {key: value for key, value in values.items() if value is not None}
+    number = commands.ask({"kind": action, **given})
+    answer = commands.wait_for(number, wait)
+    commands.close()
+    if answer is None:
+        say(f"no answer within {wait:g} s: it is carried out when the control runs")
+        return 3
+    if as_json:
+        put_json(dict(answer))
+    elif not answer["done"]:
+        say(f"refused: {answer['text']}")
+    else:
+        rows = (map(job.get, ("name", "at", "state")) for job in answer.get("jobs", ()))
+        lines = ["  ".join(f"{cell:12}" for cell in row).rstrip() for row in rows]
+        put_report("\n".join(lines) if action == "list" else str(answer["text"]))
+    return 0 if answer["done"] else 1
