@@ -116,6 +116,7 @@ IDIOM = {
     r"\bthe (more|longer)\b[^.]{0,60}, the (more|longer)\b": "grows with",
     r"\bin parts of its\b": "relative to its",
     r"\b(had|have) back\b": "restore",
+    r"\bis one robot's\b": "a robot holds",
     r"\bone (press|choice) away\b": "say what the press does",
 }
 """Turns of phrase that have to be read three times, and what to write instead."""

@@ -26,7 +26,7 @@ NOBODY = -1
 
 
 class Booking(NamedTuple):
-    """A vertex is one robot's for ``[start, end)`` [ticks]."""
+    """A robot holds a vertex for ``[start, end)`` [ticks]."""
 
     start: Tick
     end: Tick
