@@ -3,6 +3,7 @@ import { FloorRobot } from "./floor.js";
 import { texts, withKey } from "./language.js";
 import { spoken } from "./library.js";
 import { BROKEN, WAIT } from "./phases.js";
+import { chooseAt } from "./two_line_list.js";
 import { joined, upperFirst } from "./words.js";
 
 /** @import { Root } from "./root.js" */
@@ -113,11 +114,9 @@ export class Card {
     if (!encounters.length) return [];
     const lines = this.#lines(encounters, (encounter) => {
       const text = `${encounter.other.name}, ${this.words.apart(encounter)}`;
-      return goTo(this.words.time(encounter.tick), text, () => {
-        this.clock.pause();
-        this.clock.seek(encounter.tick);
-        this.choice.lookAtPair(encounter.other.index);
-      });
+      return goTo(this.words.time(encounter.tick), text, () =>
+        chooseAt(this.clock, encounter.tick, () => this.choice.lookAtPair(encounter.other.index)),
+      );
     });
     return [element("h3", {}, texts.closest), lines];
   }
@@ -254,11 +253,9 @@ export class Card {
    * @param {number[]} [places]
    */
   #moment(tick, text, places = []) {
-    return goTo(this.words.time(tick), text, () => {
-      this.clock.pause();
-      this.clock.seek(tick);
-      this.choice.light(places);
-    });
+    return goTo(this.words.time(tick), text, () =>
+      chooseAt(this.clock, tick, () => this.choice.light(places)),
+    );
   }
 
   /** @param {FaultData} fault */

@@ -3,10 +3,10 @@ import { Card } from "./card.js";
 import { Choice } from "./choice.js";
 import { Clock } from "./clock.js";
 import { Comparison } from "./comparison.js";
-import { DecisionList } from "./decision_list.js";
+import { hasNoReasons, makeDecisionList } from "./decision_list.js";
 import { DeepLink } from "./deep_link.js";
 import { Diagram } from "./diagram.js";
-import { FaultList } from "./fault_list.js";
+import { makeFaultList } from "./fault_list.js";
 import { FrameLoop } from "./frame_loop.js";
 import { listenToKeys } from "./keys.js";
 import { askedLanguage, offerLanguages, setLanguage, writeMarkup } from "./language.js";
@@ -77,13 +77,13 @@ export function createPlayer(element, payload) {
     plan.comparison && new Comparison(root, plan, clock, choice, theme, mapView, diagram);
   new Card(root, plan, clock, choice, words, comparison, mapView.space); // before the lists, whose height depends on it
   const robotList = new RobotList(root, plan, motion, clock, choice, words);
-  const decisionList = new DecisionList(root, plan, clock, choice, words);
-  const faultList = new FaultList(root, plan, clock, choice, words);
+  const decisionList = makeDecisionList(root, plan, clock, choice, words);
+  const faultList = makeFaultList(root, plan, clock, choice, words);
   const tabs = new Tabs(
     root,
     [
       plan.robots.length,
-      decisionList.count,
+      hasNoReasons(plan) ? "–" : decisionList.items.length,
       plan.faultCount || null,
       comparison && comparison.plans.length,
     ],
