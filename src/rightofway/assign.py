@@ -62,8 +62,8 @@ def deal_homes(
     distances, steps = Distances(roadmap), _whole_lengths(roadmap)
     stops = {stop.at for robot in robots for stop in robot.stops}
     free = [place for place in parking if place not in stops]
-    found = [robot for robot in robots if robot.home != HOMELESS]
-    written, dealt = {robot.home for robot in found}, list[Robot]()
+    placed = [robot for robot in robots if robot.home != HOMELESS]
+    written, dealt = {robot.home for robot in placed}, list[Robot]()
     for robot in robots:
         if robot.home != HOMELESS or not robot.stops:
             dealt.append(robot)
@@ -71,7 +71,9 @@ def deal_homes(
         fitting = [
             place
             for place in free
-            if all(_apart(roadmap, replace(robot, home=place), at, rules.clearance) for at in found)
+            if all(
+                _apart(roadmap, replace(robot, home=place), at, rules.clearance) for at in placed
+            )
         ]
         out = distances.to(robot.stops[0].at, steps)
         returns = (robot.ends or rules.ends) == "home"
@@ -89,7 +91,7 @@ def deal_homes(
             message = _no_way(robot) if fitting else _too_few(homeless, robot, len(parking), *used)
             raise InputError.at("homes", message)
         dealt.append(replace(robot, home=home))
-        found.append(dealt[-1])
+        placed.append(dealt[-1])
     return dealt, tuple(_note(homeless, dealt, roadmap, len(parking)))
 
 
@@ -100,15 +102,15 @@ def _whole_lengths(roadmap: Roadmap) -> tuple[Tick, ...]:
     return tuple(Tick(max(1, int(length * steps / longest))) for length in roadmap.lengths)
 
 
-def _apart(roadmap: Roadmap, one: Robot, other: Robot, clearance: Fraction) -> bool:
+def _apart(roadmap: Roadmap, first: Robot, other: Robot, clearance: Fraction) -> bool:
     """Return whether two robots may stay at their homes at one time."""
-    places = {one.home, other.home}
+    places = {first.home, other.home}
     if len(places) == 1 or any(places <= set(zone.vertices) for zone in roadmap.zones):
         return False
-    if not one.radius and not other.radius:
+    if not first.radius and not other.radius:
         return True
     square = squared_distance(*map(roadmap.point, places))
-    return square >= (one.radius + other.radius + clearance) ** 2
+    return square >= (first.radius + other.radius + clearance) ** 2
 
 
 def _no_way(robot: Robot) -> str:
@@ -121,8 +123,8 @@ def _no_way(robot: Robot) -> str:
 def _too_few(homeless: Sequence[Robot], robot: Robot, places: int, homes: int, stops: int) -> str:
     """Return how many robots need a home, and how many places there are."""
     used = [
-        f"{count} {'is a' if count == 1 else 'are'} {what}{'s' * (count > 1)}"
-        for count, what in ((homes, "written home"), (stops, "stop"))
+        f"{count} {'is a' if count == 1 else 'are'} {noun}{'s' * (count > 1)}"
+        for count, noun in ((homes, "written home"), (stops, "stop"))
         if count
     ]
     why = f", of which {listed(used)}" if used else ""

@@ -376,8 +376,8 @@ class NoPlanExists(RightOfWayError):
     """
 
     def __init__(self, reasons: str | Iterable[Blockage]) -> None:
-        found = [Blockage(reasons, (), ())] if isinstance(reasons, str) else reasons
-        self.blockages = tuple(found)
+        blockages = [Blockage(reasons, (), ())] if isinstance(reasons, str) else reasons
+        self.blockages = tuple(blockages)
         super().__init__(self.blockages)
 
     def __str__(self) -> str:
@@ -388,19 +388,25 @@ class NoPlanExists(RightOfWayError):
     @property
     def robots(self) -> tuple[str, ...]:
         """Names of all robots concerned, each once."""
-        return tuple(dict.fromkeys(name for one in self.blockages for name in one.robots))
+        return tuple(dict.fromkeys(name for blockage in self.blockages for name in blockage.robots))
 
     @property
     def vertices(self) -> tuple[str, ...]:
         """Names of all vertices concerned, each once."""
-        return tuple(dict.fromkeys(name for one in self.blockages for name in one.vertices))
+        return tuple(
+            dict.fromkeys(name for blockage in self.blockages for name in blockage.vertices)
+        )
 
     def as_dict(self) -> dict[str, object]:
         """Return the blockages as plain data for JSON."""
         return {
             "reasons": [
-                {"reason": str(one), "robots": list(one.robots), "vertices": list(one.vertices)}
-                for one in self.blockages
+                {
+                    "reason": str(blockage),
+                    "robots": list(blockage.robots),
+                    "vertices": list(blockage.vertices),
+                }
+                for blockage in self.blockages
             ],
             "robots": list(self.robots),
             "vertices": list(self.vertices),
@@ -464,7 +470,9 @@ def printable(text: str) -> str:
     """
     if text.isprintable():
         return text
-    return "".join(each if each.isprintable() else repr(each)[1:-1] for each in text)
+    return "".join(
+        character if character.isprintable() else repr(character)[1:-1] for character in text
+    )
 
 
 def is_printable(text: str) -> bool:

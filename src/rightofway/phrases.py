@@ -43,10 +43,10 @@ class Phrase(str):
 
     def __new__(cls, template: str, /, **values: str) -> Self:
         """Return the text, with its values in their places."""
-        made = super().__new__(cls, template.format(**values))
-        made.template = template
-        made.values = {name: values[name] for name in names_in(template)}
-        return made
+        phrase = super().__new__(cls, template.format(**values))
+        phrase.template = template
+        phrase.values = {name: values[name] for name in names_in(template)}
+        return phrase
 
     def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, str]]:
         """Return what a copy is made of."""
@@ -56,8 +56,8 @@ class Phrase(str):
 @cache
 def names_in(template: str) -> tuple[str, ...]:
     """Return the names of the values of a template, each once, in their order."""
-    found = (name for _, name, _, _ in Formatter().parse(template) if name is not None)
-    return tuple(dict.fromkeys(found))
+    names = (name for _, name, _, _ in Formatter().parse(template) if name is not None)
+    return tuple(dict.fromkeys(names))
 
 
 def parts_of(data: Any) -> Any:

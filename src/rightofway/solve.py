@@ -218,9 +218,9 @@ def _run(
     from rightofway.search import least_completions
 
     seconds_per_visit = at("seconds_per_visit", between(0, 3600), seconds_per_visit)
-    what = f"planner {spec.name}"
+    planner = f"planner {spec.name}"
     refuse_unknown(
-        task.scenario.problem, spec.features, what, lambda needed: f"choose {able(needed)}"
+        task.scenario.problem, spec.features, planner, lambda needed: f"choose {able(needed)}"
     )
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]

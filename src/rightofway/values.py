@@ -254,7 +254,7 @@ def length(value: object, where: Where) -> Fraction:
     InputError
         If it is no number, or not positive.
     """
-    found = at(where, number, value)
-    if found <= 0:
+    checked = at(where, number, value)
+    if checked <= 0:
         raise InputError.at(where, f"{shown(value)} is not positive (give a length above 0)")
-    return found
+    return checked

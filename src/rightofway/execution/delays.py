@@ -133,7 +133,7 @@ def _delay(text: str, scenario: Scenario) -> Delay:
         raise wrong(str(error)) from None
     assert first is not None  # every form has a first number
     delay = Delay(kind=kind, robot=robot, first=first, second=second, text=text)
-    names = [one.name for one in scenario.robots]
+    names = [robot.name for robot in scenario.robots]
     if robot and robot not in names:
         few = ", ".join(names[:5]) + (", …" if len(names) > 5 else "")  # noqa: PLR2004
         raise wrong(f"there is no robot {robot!r} (there are {few})")

@@ -105,11 +105,11 @@ class Forecast:
     def _route(self, robot: int) -> Route:
         """Return a route with actual durations so far and the expected one of the current visit."""
         route, first = self.adg.routes[robot], int(self.adg.first_visit[robot])
-        here = self.visit_of(robot) - first
-        lasted = np.diff(self.progress.enter[first : first + here + 1])
+        current = self.visit_of(robot) - first
+        lasted = np.diff(self.progress.enter[first : first + current + 1])
         dwell = [Tick(ticks - route.drive[k + 1]) for k, ticks in enumerate(lasted.tolist())]
-        if here < len(route) - 1:
-            dwell.append(Tick(self._lasts(robot, here) - route.drive[here + 1]))
+        if current < len(route) - 1:
+            dwell.append(Tick(self._lasts(robot, current) - route.drive[current + 1]))
         return replace(route, dwell=(*dwell, *route.dwell[len(dwell) :]))
 
     def _lasts(self, robot: int, index: int) -> int:

@@ -77,7 +77,7 @@ class ExecutionMonitor:
         self.deadline = deadline
         self.delay_sample = adg.delay_sample(seed, run)
         self.execution = adg.execute(self.delay_sample)
-        self.stages = tuple(one.stages for one in adg.scenario.problem.itineraries)
+        self.stages = tuple(itinerary.stages for itinerary in adg.scenario.problem.itineraries)
         self.switches = self.replans = 0
         self.broken = self.lost = self.cut_off = frozenset[int]()
         self.expected = adg.planned
@@ -93,7 +93,7 @@ class ExecutionMonitor:
         completion[sorted(self.lost | self.cut_off)] = NEVER
         return completion
 
-    def batch(self, kept: RunBatch) -> RunBatch:
+    def batch(self, batch: RunBatch) -> RunBatch:
         """Return this run as a batch of one; ``kept`` is the same run of the plan as it was.
 
         Where the rest was replanned, the sources of lateness are not known and left out.
@@ -102,12 +102,12 @@ class ExecutionMonitor:
             return self.adg.runs(self.seed, self.run, 1)
         is_broken = self.execution.is_broken.copy()
         is_broken[sorted(self.lost)] = 1
-        return kept._replace(
+        return batch._replace(
             completion=self.completion[None, :],
             is_broken=is_broken[None, :],
             by_right_of_way=self.execution.collisions[None, :],
-            own=np.zeros_like(kept.own),
-            of_others=np.zeros_like(kept.of_others),
+            own=np.zeros_like(batch.own),
+            of_others=np.zeros_like(batch.of_others),
             between=np.zeros((0, 3), np.int64),
             is_caught=self.execution.is_caught[None, :],
         )

@@ -144,8 +144,8 @@ def held_by_broken(forecast: Forecast) -> Held:
     resources = adg.scenario.problem.resources
     vertices, rows = set[VertexId](), set[int]()
     for robot in forecast.broken:
-        here, end = forecast.visit_of(robot), int(adg.first_visit[robot + 1])
-        held = adg.vertex[here:end][booked[here:end]].tolist()
+        current, end = forecast.visit_of(robot), int(adg.first_visit[robot + 1])
+        held = adg.vertex[current:end][booked[current:end]].tolist()
         vertices.update(held)
         if not resources.are_points:
             own = [resources.vertex_row(robot, vertex) for vertex in held]
@@ -199,10 +199,10 @@ def replan(
     rest = _rest(replace(scenario, closures=closures), roadmap, commitments)
     tracks = _going_on(forecast, commitments, closed, rest)
     if tracks is None:
-        found = _another_way(rest, forecast.broken, commitments, seed, deadline)
-        if found is None:
+        other_ways = _another_way(rest, forecast.broken, commitments, seed, deadline)
+        if other_ways is None:
             return ()
-        commitments, cut_off, tracks = found
+        commitments, cut_off, tracks = other_ways
         rest = _rest(rest, roadmap, commitments)
     first = Plan(scenario=rest, tracks=tuple(tracks), run=PlannerRun(name="by right of way"))
     if closures and not check(first).ok:  # a robot is caught, or will be
@@ -222,7 +222,7 @@ def replan(
         except ValueError:
             continue
         if not adg.deadlocked():
-            served = tuple((*one.begun, *one.left) for one in commitments)
+            served = tuple((*commitment.begun, *commitment.left) for commitment in commitments)
             replanned.append(Replanned(adg=adg, stages=served, cut_off=cut_off))
     return tuple(replanned)
 
@@ -236,8 +236,8 @@ def _going_on(
     """Return the plan with the old routes and rights of way; None if a closure blocks it."""
     adg, times = forecast.adg, forecast.times()
     visited, arrivals = [], []
-    for robot, one in enumerate(commitments):
-        first, end = int(adg.first_visit[robot]) + one.visit, int(adg.first_visit[robot + 1])
+    for robot, commitment in enumerate(commitments):
+        first, end = int(adg.first_visit[robot]) + commitment.visit, int(adg.first_visit[robot + 1])
         if robot in forecast.broken:
             end = first + 1
         visited.append(adg.vertex[first:end].tolist())
@@ -262,17 +262,19 @@ def _another_way(
         if deadline.seconds_left() == 0:
             return None
         try:
-            found = find(_rest(rest, rest.roadmap, tried), cut_off, seed, deadline)
+            other_routes = find(_rest(rest, rest.roadmap, tried), cut_off, seed, deadline)
         except (NoPlanExists, GaveUp):
             continue
-        if found is None:
+        if other_routes is None:
             continue
         ended = [
-            _with_end(one, one.left[:-1], int(own.vertices[-1])) if robot in cut_off else one
-            for robot, (one, own) in enumerate(zip(tried, found, strict=True))
+            _with_end(commitment, commitment.left[:-1], int(own.vertices[-1]))
+            if robot in cut_off
+            else commitment
+            for robot, (commitment, own) in enumerate(zip(tried, other_routes, strict=True))
         ]
-        visited = [own.vertices.tolist() for own in found]
-        arrivals = [own.enter.tolist() for own in found]
+        visited = [own.vertices.tolist() for own in other_routes]
+        arrivals = [own.enter.tolist() for own in other_routes]
         tracks = timetable_if_possible(_rest(rest, rest.roadmap, ended), visited, arrivals)
         if tracks is not None:
             return ended, cut_off, tracks
@@ -300,7 +302,7 @@ def _by_turns(
     problem = rest.problem
     task = Task(scenario=rest, seed=seed, deadline=deadline)
     tracks: Sequence[Track] = ()
-    ends = [one.last for one in problem.itineraries]
+    ends = [itinerary.last for itinerary in problem.itineraries]
     if not any(problem.resources.clashes(ends)):
         search = fleet_search(task)
         turns = sorted(range(len(rest.robots)), key=search.alone().tolist().__getitem__)
@@ -323,11 +325,13 @@ def _choices(
     """
     distances = Distances(rest.roadmap)
     reachable = [
-        replace(one, left=_within_reach(distances, itinerary, one))
-        for itinerary, one in zip(rest.problem.itineraries, commitments, strict=True)
+        replace(commitment, left=_within_reach(distances, itinerary, commitment))
+        for itinerary, commitment in zip(rest.problem.itineraries, commitments, strict=True)
     ]
     by_map = {
-        robot for robot, one in enumerate(commitments) if len(reachable[robot].left) < len(one.left)
+        robot
+        for robot, commitment in enumerate(commitments)
+        if len(reachable[robot].left) < len(commitment.left)
     }
     others = [robot for robot in range(len(commitments)) if robot not in broken | by_map]
     for count in range(len(others) + 1):
@@ -336,23 +340,27 @@ def _choices(
             for most in (None, 0) if cut_off else (None,):
                 tried = list(reachable)
                 for robot in cut_off:
-                    one, left = reachable[robot], reachable[robot].left[:most]
-                    tried[robot] = _with_end(one, left, left[-1].vertex if left else one.free_from)
+                    commitment, left = reachable[robot], reachable[robot].left[:most]
+                    tried[robot] = _with_end(
+                        commitment, left, left[-1].vertex if left else commitment.free_from
+                    )
                 yield cut_off, tried
 
 
-def _within_reach(distances: Distances, itinerary: Itinerary, one: Commitment) -> Stages:
+def _within_reach(distances: Distances, itinerary: Itinerary, commitment: Commitment) -> Stages:
     """Return the stages that a robot can still reach, in order."""
-    at, kept = one.free_from, []
-    for stage in one.left:
+    at, reached = commitment.free_from, []
+    for stage in commitment.left:
         if distances.to(stage.vertex, itinerary.edge_ticks)[at] >= 0:
-            kept.append(stage)
+            reached.append(stage)
             at = stage.vertex
-    return tuple(kept)
+    return tuple(reached)
 
 
-def _with_end(one: Commitment, left: Stages, vertex: int) -> Commitment:
-    return replace(one, left=(*left, Stage(vertex=VertexId(vertex), work=Tick(0), turn=Tick(0))))
+def _with_end(commitment: Commitment, left: Stages, vertex: int) -> Commitment:
+    return replace(
+        commitment, left=(*left, Stage(vertex=VertexId(vertex), work=Tick(0), turn=Tick(0)))
+    )
 
 
 def _closures_after(scenario: Scenario, roadmap: Roadmap, now: Tick) -> tuple[Closure, ...] | None:
@@ -379,17 +387,17 @@ def _rest(scenario: Scenario, roadmap: Roadmap, commitments: Sequence[Commitment
     """Return the scenario of the rest; turning becomes work, since a turn may have begun."""
     time = scenario.problem.clock.time
 
-    def one_way(robot: Robot, one: Commitment) -> Robot:
-        stops = [Stop(at=one.vertex, work=time(one.busy))]
-        if one.drives_to is not None:
-            stops.append(Stop(at=one.drives_to))
-        for number, stage in enumerate(one.left, 1):
-            turn = stage.turn if number < len(one.left) else 0
+    def one_way(robot: Robot, commitment: Commitment) -> Robot:
+        stops = [Stop(at=commitment.vertex, work=time(commitment.busy))]
+        if commitment.drives_to is not None:
+            stops.append(Stop(at=commitment.drives_to))
+        for number, stage in enumerate(commitment.left, 1):
+            turn = stage.turn if number < len(commitment.left) else 0
             stops.append(Stop(at=stage.vertex, work=time(Tick(stage.work + turn))))
-        if not one.left:
+        if not commitment.left:
             stops.append(Stop(at=stops[-1].at))
         return replace(
-            robot, home=one.vertex, stops=tuple(stops), turn=Fraction(0), ends="none", laps=1
+            robot, home=commitment.vertex, stops=tuple(stops), turn=Fraction(0), ends="none", laps=1
         )
 
     robots = tuple(map(one_way, scenario.robots, commitments))
@@ -397,18 +405,21 @@ def _rest(scenario: Scenario, roadmap: Roadmap, commitments: Sequence[Commitment
 
 
 def _turn_aside(
-    scenario: Scenario, robot: int, one: Commitment, old: Route, ahead: Sequence[VertexId]
+    scenario: Scenario, robot: int, commitment: Commitment, old: Route, ahead: Sequence[VertexId]
 ) -> int:
     """Return how long a robot turns at the end of its commitment to the vertex ahead, if any.
 
     Where it drives on as planned, the turn is a part of what the robot is busy with.
     """
-    came, planned = old.vertices[max(one.visit - 1, 0) : one.visit], old.vertices[one.visit + 1 :]
-    if one.drives_to is not None:
-        came, planned = (one.vertex,), ()
+    came, planned = (
+        old.vertices[max(commitment.visit - 1, 0) : commitment.visit],
+        old.vertices[commitment.visit + 1 :],
+    )
+    if commitment.drives_to is not None:
+        came, planned = (commitment.vertex,), ()
     if not came or not ahead or ahead == planned[:1]:
         return 0
-    path = np.array([*came, one.free_from, *ahead], np.int32)
+    path = np.array([*came, commitment.free_from, *ahead], np.int32)
     return int(turns_along(scenario.roadmap, scenario.problem.itineraries[robot], path)[1])
 
 
@@ -421,37 +432,39 @@ def _spliced(
     # that is new. For points both begin at the vertex, and the order there is known.
     arrives = now if adg.scenario.problem.resources.are_points else now + 1
     routes, tracks, sinces = [], [], []
-    for robot, (one, old) in enumerate(zip(commitments, adg.routes, strict=True)):
+    for robot, (commitment, old) in enumerate(zip(commitments, adg.routes, strict=True)):
         itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]
         new = route_of(plan.scenario.roadmap, itinerary, track)
-        is_driving = one.drives_to is not None
+        is_driving = commitment.drives_to is not None
         # The new route's visit at the end of the commitment is the last visit of the old route.
-        begins, kept = new.serves[is_driving], one.visit + 1 + is_driving
-        before = 0 if is_driving else old.dwell[one.visit] - one.busy
+        begins, n_begun = new.serves[is_driving], commitment.visit + 1 + is_driving
+        before = 0 if is_driving else old.dwell[commitment.visit] - commitment.busy
         # The new route does not know where the robot has come from.
         known = turns_along(plan.scenario.roadmap, itinerary, track.vertices)[begins]
-        aside = _turn_aside(adg.scenario, robot, one, old, new.vertices[begins + 1 : begins + 2])
-        shift = kept - 1 - begins
-        to_come = new.serves[len(new.serves) - len(one.left) :]
-        serves = [*old.serves[: len(one.begun)], *(visit + shift for visit in to_come)]
+        aside = _turn_aside(
+            adg.scenario, robot, commitment, old, new.vertices[begins + 1 : begins + 2]
+        )
+        shift = n_begun - 1 - begins
+        to_come = new.serves[len(new.serves) - len(commitment.left) :]
+        serves = [*old.serves[: len(commitment.begun)], *(visit + shift for visit in to_come)]
         serves[-1] = len(new) - 1 + shift  # a completed robot may give way and return
         route = Route(
-            vertices=(*old.vertices[:kept], *new.vertices[begins + 1 :]),
+            vertices=(*old.vertices[:n_begun], *new.vertices[begins + 1 :]),
             dwell=(
-                *old.dwell[: kept - 1],
+                *old.dwell[: n_begun - 1],
                 Tick(before + new.dwell[begins] - int(known) + aside),
                 *new.dwell[begins + 1 :],
             ),
-            drive=(*old.drive[:kept], *new.drive[begins + 1 :]),
+            drive=(*old.drive[:n_begun], *new.drive[begins + 1 :]),
             serves=tuple(serves),
         )
-        booked = slice(first := int(adg.first_visit[robot]), first + one.visit + 1)
+        booked = slice(first := int(adg.first_visit[robot]), first + commitment.visit + 1)
         enter = arrives + 1 + track.enter[begins + 1 - is_driving :]
         since = np.full(len(enter), now)
-        next_visit = slice(one.visit + 1, one.visit + 2)
+        next_visit = slice(commitment.visit + 1, commitment.visit + 2)
         turns_back = old.vertices[next_visit] != route.vertices[next_visit]
         if len(enter) and forecast.may_turn_back and forecast.has_set_off(robot) and turns_back:
-            since[0] += route.drive[one.visit + 1]
+            since[0] += route.drive[commitment.visit + 1]
         enter = np.append(np.minimum(forecast.progress.enter[booked], arrives), enter)
         tracks.append(Track(vertices=np.array(route.vertices, np.int32), enter=enter))
         routes.append(route)

@@ -105,22 +105,22 @@ def simulate(
     deadline = Deadline.after(time_limit)
     causes, adg = _delayed(plan, delays)
     policy = ExecutionPolicy(switch=switch, replan=replan)
-    made: list[_Runs] = []
+    parts: list[_Runs] = []
     traces: dict[int, ExecutionTrace] = {}
     try:
         for some in _execute(adg, policy, runs=runs, seed=seed, deadline=deadline, traces=traces):
-            made.append(some)
-            report(f"{sum(len(each.batch.completion) for each in made)} of {runs} runs")
+            parts.append(some)
+            report(f"{sum(len(part.batch.completion) for part in parts)} of {runs} runs")
     except KeyboardInterrupt:
-        if not (keep_runs and made):
+        if not (keep_runs and parts):
             raise
 
     def trace(run: int) -> ExecutionTrace:
         return traces.get(run) or ExecutionMonitor(adg, policy, seed, run, Deadline()).trace()
 
-    every = joined([each.batch for each in made])
-    kept = [each.kept for each in made if each.kept is not None]
-    cut_off = sum(each.cut_off for each in made)
+    every = joined([part.batch for part in parts])
+    unchanged = [part.kept for part in parts if part.kept is not None]
+    cut_off = sum(part.cut_off for part in parts)
     is_broken, unfinished = every.is_broken.astype(bool), every.completion == NEVER
     stuck = np.isin(np.arange(len(plan.tracks)), adg.deadlocked())
     return SimulationResult(
@@ -130,14 +130,14 @@ def simulate(
         delays=tuple(cause.text for cause in causes),
         by_right_of_way=Collisions.of(every.by_right_of_way),
         by_clock=Collisions.of(every.by_clock),
-        deadlocks=len(every.completion) if stuck.any() else sum(each.deadlocks for each in made),
+        deadlocks=len(every.completion) if stuck.any() else sum(part.deadlocks for part in parts),
         broken=int(is_broken.sum()),
         stranded=int((unfinished & ~is_broken & ~stuck).sum()) - cut_off,
         caught=int(every.is_caught.sum()),
         cut_off=cut_off,
-        switches=sum(each.switches for each in made),
-        replans=sum(each.replans for each in made),
-        gain=PolicyGain.of(np.concatenate(kept), every.completion) if kept else None,
+        switches=sum(part.switches for part in parts),
+        replans=sum(part.replans for part in parts),
+        gain=PolicyGain.of(np.concatenate(unchanged), every.completion) if unchanged else None,
         lateness=Lateness.of(adg, every),
         completion=np.where(unfinished, -1, every.completion),
         _trace=trace,

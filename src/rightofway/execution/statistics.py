@@ -209,10 +209,10 @@ class PolicyGain:
     flowtime: Quantiles
 
     @classmethod
-    def of(cls, kept: NDArray[np.int64], changed: NDArray[np.int64]) -> PolicyGain:
+    def of(cls, unchanged: NDArray[np.int64], changed: NDArray[np.int64]) -> PolicyGain:
         """Return the gain from completion times without and with changes; int64[K, R]."""
-        both = ((changed < NEVER) & (kept < NEVER)).all(axis=1)
-        gain = kept[both].sum(axis=1) - changed[both].sum(axis=1)
+        both = ((changed < NEVER) & (unchanged < NEVER)).all(axis=1)
+        gain = unchanged[both].sum(axis=1) - changed[both].sum(axis=1)
         earlier, later = int((gain > 0).sum()), int((gain < 0).sum())
         return cls(runs=len(gain), earlier=earlier, later=later, flowtime=Quantiles.of(gain))
 
@@ -221,7 +221,9 @@ def joined(batches: Sequence[RunBatch]) -> RunBatch:
     """Return the runs of several batches of one plan as one batch."""
     summed = {"own", "of_others"}
     columns = zip(RunBatch._fields, zip(*batches, strict=True), strict=True)
-    return RunBatch(*(sum(each) if k in summed else np.concatenate(each) for k, each in columns))
+    return RunBatch(
+        *(sum(arrays) if k in summed else np.concatenate(arrays) for k, arrays in columns)
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

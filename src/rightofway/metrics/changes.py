@@ -76,7 +76,7 @@ def changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
         Robots, in the order of ``after``, those that are removed last; then map, rules, closures.
         Robots that change in the same way are one entry.
     """
-    found: dict[tuple[str, str, str], list[str]] = {}
+    robots_of_change: dict[tuple[str, str, str], list[str]] = {}
     was = {robot.name: robot for robot in before.robots}
     is_same_place = _places(before.roadmap, after.roadmap)
     for robot in after.robots:
@@ -85,12 +85,12 @@ def changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
             [("added", "", "")] if old is None else _robot(before, old, after, robot, is_same_place)
         )
         for change in differing:
-            found.setdefault(change, []).append(robot.name)
+            robots_of_change.setdefault(change, []).append(robot.name)
     for name in was:
-        found.setdefault(("removed", "", ""), []).append(name)
+        robots_of_change.setdefault(("removed", "", ""), []).append(name)
     robots = [
         Change(what=_named(names), robots=tuple(names), key=key, before=old, after=new)
-        for (key, old, new), names in found.items()
+        for (key, old, new), names in robots_of_change.items()
     ]
     return (*robots, *_map(before, after), *_rules(before, after), *_closures(before, after))
 
@@ -101,12 +101,12 @@ def _named(names: list[str]) -> str:
 
 def _places(before: Roadmap, after: Roadmap) -> Callable[[int, int], bool]:
     """Return whether a vertex of one map is the place of a vertex of the other one."""
-    one, other = before.grid, after.grid
-    if one is None or other is None or (one.cell_size, one.columns) == (
+    old_grid, other = before.grid, after.grid
+    if old_grid is None or other is None or (old_grid.cell_size, old_grid.columns) == (
         other.cell_size, other.columns
     ):  # fmt: skip
         return lambda vertex, now: before.name(vertex) == after.name(now)
-    reach = float(max(one.cell_size, other.cell_size))
+    reach = float(max(old_grid.cell_size, other.cell_size))
     return lambda vertex, now: bool(
         np.abs(before.positions[vertex] - after.positions[now]).max() < reach
     )
@@ -161,11 +161,11 @@ def _attributes(
     attributes: Iterable[Attribute], before: Scenario, old: Any, after: Scenario, new: Any
 ) -> Iterator[tuple[str, str, str]]:
     """Yield what differs between two robots or rules: name and both values in words."""
-    for it in attributes:
-        was = _value(before, it, getattr(old, it.name))
-        now = _value(after, it, getattr(new, it.name))
+    for attribute in attributes:
+        was = _value(before, attribute, getattr(old, attribute.name))
+        now = _value(after, attribute, getattr(new, attribute.name))
         if was != now:
-            yield it.name.replace("_", " "), was, now
+            yield attribute.name.replace("_", " "), was, now
 
 
 def _rules(before: Scenario, after: Scenario) -> Iterator[Change]:
@@ -175,15 +175,15 @@ def _rules(before: Scenario, after: Scenario) -> Iterator[Change]:
 
 def _map(before: Scenario, after: Scenario) -> Iterator[Change]:
     """Yield one change where the maps differ: by their sizes where these say it."""
-    one, other = before.roadmap, after.roadmap
-    if one == other:
+    old_roadmap, other = before.roadmap, after.roadmap
+    if old_roadmap == other:
         return
     sizes = []
-    for roadmap in (one, other):
+    for roadmap in (old_roadmap, other):
         cells, vertices = roadmap.grid is not None, roadmap.n_vertices
         sizes.append(f"{vertices} free cells" if cells else f"{vertices} vertices")
-    if sizes[0] == sizes[1] and one.grid is None:
-        sizes = [f"{len(roadmap.heads)} edges" for roadmap in (one, other)]
+    if sizes[0] == sizes[1] and old_roadmap.grid is None:
+        sizes = [f"{len(roadmap.heads)} edges" for roadmap in (old_roadmap, other)]
     if sizes[0] == sizes[1]:
         yield Change(what="map", key="changed")
     else:
@@ -209,9 +209,9 @@ def _closed(scenario: Scenario) -> dict[str, str]:
         until = "the end" if closure.until is None else _time(scenario, closure.until)
         return f"{_time(scenario, closure.from_)} to {until}"
 
-    found: dict[str, str] = {}
+    shown_values: dict[str, str] = {}
     for closure in scenario.closures:
         ends = [closure.at] if closure.edge is None else closure.edge
         place = " to ".join(PlaceNames(scenario).where(int(end)) for end in ends if end is not None)
-        found[place] = ", ".join(filter(None, (found.get(place), when(closure))))
-    return found
+        shown_values[place] = ", ".join(filter(None, (shown_values.get(place), when(closure))))
+    return shown_values

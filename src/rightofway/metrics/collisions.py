@@ -105,10 +105,12 @@ def collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, 
     one_for_each(scenario.robots, tracks=tracks)
     bookings = bookings_of(scenario, tracks, stays_of(scenario, tracks))
     columns = (bookings.vertex, bookings.start, bookings.end, bookings.robot)
-    found: list[Collision] = []
+    collisions_at_vertex: list[Collision] = []
     open_bookings: list[tuple[int, int, int]] = []  # of the vertex, those that have not ended yet
     for vertex, start, end, robot in zip(*(column.tolist() for column in columns), strict=True):
-        open_bookings = [one for one in open_bookings if one[0] == vertex and one[1] > start]
+        open_bookings = [
+            booking for booking in open_bookings if booking[0] == vertex and booking[1] > start
+        ]
         for _, other_end, other in open_bookings:
             until = min(end, other_end)
             if other != robot:
@@ -118,9 +120,14 @@ def collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, 
                     start=Tick(start),
                     end=None if until == NEVER else Tick(until),
                 )
-                found.append(collision)
+                collisions_at_vertex.append(collision)
         open_bookings.append((vertex, end, robot))
-    return tuple(sorted(found, key=lambda each: (each.start, each.robots, each.vertex)))
+    return tuple(
+        sorted(
+            collisions_at_vertex,
+            key=lambda collision: (collision.start, collision.robots, collision.vertex),
+        )
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -165,14 +172,14 @@ def swaps(tracks: Sequence[Track]) -> tuple[Swap, ...]:
     )
     order = order[as_before[:-1] | as_before[1:]]
     columns = (low, high, tick, robot, tail, head)
-    moves = zip(*(each[order].tolist() for each in columns), strict=True)
-    found = [
-        Swap(robots=(one, other), vertices=(VertexId(start), VertexId(end)), tick=Tick(when))
+    moves = zip(*(column[order].tolist() for column in columns), strict=True)
+    swaps_in_place = [
+        Swap(robots=(robot, other), vertices=(VertexId(start), VertexId(end)), tick=Tick(when))
         for (_, _, when), together in groupby(moves, key=itemgetter(0, 1, 2))
-        for (*_, one, start, end), (*_, other, start_of_other, _) in combinations(together, 2)
-        if one != other and start not in (end, start_of_other)
+        for (*_, robot, start, end), (*_, other, start_of_other, _) in combinations(together, 2)
+        if robot != other and start not in (end, start_of_other)
     ]
-    return tuple(sorted(found, key=lambda each: (each.tick, each.robots, each.vertices)))
+    return tuple(sorted(swaps_in_place, key=lambda swap: (swap.tick, swap.robots, swap.vertices)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -221,13 +228,15 @@ def near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, 
             of_row[row].append(booking)
     overlaps: defaultdict[tuple[int, int], list[_Overlap]] = defaultdict(list)
     for row, bookings in of_row.items():
-        others = chain.from_iterable(of_row.get(each, ()) for each in resources.excluded_by(row))
-        for one, other in product(bookings, list(others)):
-            start, end = max(one.start, other.start), min(one.end, other.end)
-            if one.robot < other.robot and start < end and one.place != other.place:
-                overlap = start, end, (one.place, other.place)
-                overlaps[one.robot, other.robot].append(overlap)
-    found = [
+        others = chain.from_iterable(
+            of_row.get(excluded_row, ()) for excluded_row in resources.excluded_by(row)
+        )
+        for booking, other in product(bookings, list(others)):
+            start, end = max(booking.start, other.start), min(booking.end, other.end)
+            if booking.robot < other.robot and start < end and booking.place != other.place:
+                overlap = start, end, (booking.place, other.place)
+                overlaps[booking.robot, other.robot].append(overlap)
+    near_ones = [
         NearMiss(
             robots=robots,
             places=places,
@@ -237,7 +246,7 @@ def near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, 
         for robots, times in overlaps.items()
         for start, end, places in _joined(times)
     ]
-    return tuple(sorted(found, key=lambda each: (each.start, each.robots)))
+    return tuple(sorted(near_ones, key=lambda miss: (miss.start, miss.robots)))
 
 
 class NamedCollision(NamedTuple):
@@ -263,19 +272,21 @@ def named_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Named
         One track for each robot.
     """
     name, place = [robot.name for robot in scenario.robots], scenario.roadmap.name
-    found: list[Collision | Swap | NearMiss] = [*collisions(scenario, tracks), *swaps(tracks)]
-    found += near_misses(scenario, tracks)
+    meetings: list[Collision | Swap | NearMiss] = [*collisions(scenario, tracks), *swaps(tracks)]
+    meetings += near_misses(scenario, tracks)
     rows = []
-    for each in found:
-        i, j = (name[robot] for robot in each.robots)
-        if isinstance(each, Collision):
-            row = NamedCollision(i, j, each.start, each.end, (place(each.vertex),), "collision")
-        elif isinstance(each, NearMiss):
-            near = tuple("-".join(map(place, vertices)) for vertices in each.places)
-            row = NamedCollision(i, j, each.start, each.end, near, "too near")
+    for meeting in meetings:
+        i, j = (name[robot] for robot in meeting.robots)
+        if isinstance(meeting, Collision):
+            row = NamedCollision(
+                i, j, meeting.start, meeting.end, (place(meeting.vertex),), "collision"
+            )
+        elif isinstance(meeting, NearMiss):
+            near = tuple("-".join(map(place, vertices)) for vertices in meeting.places)
+            row = NamedCollision(i, j, meeting.start, meeting.end, near, "too near")
         else:
-            places = tuple(map(place, each.vertices))
-            row = NamedCollision(i, j, each.tick, each.tick, places, "swap")
+            places = tuple(map(place, meeting.vertices))
+            row = NamedCollision(i, j, meeting.tick, meeting.tick, places, "swap")
         rows.append(row)
     return tuple(sorted(rows, key=lambda row: row.start))
 

@@ -162,5 +162,5 @@ def _best(plans: Sequence[dict[str, Any]], key: str) -> list[int]:
     """Return where a figure is smallest; nowhere if it is the same everywhere."""
     values = {place: plan[key] for place, plan in enumerate(plans) if plan[key] is not None}
     least = min(values.values(), default=None)
-    found = [place for place, value in values.items() if value == least]
-    return found if len(found) < len(plans) else []
+    places_of_least = [place for place, value in values.items() if value == least]
+    return places_of_least if len(places_of_least) < len(plans) else []

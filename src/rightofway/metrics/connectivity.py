@@ -56,7 +56,7 @@ def ways_of(roadmap: Roadmap) -> Ways:
     scale = lcm(*(length.denominator for length in roadmap.lengths))
     steps = [int(length * scale) for length in roadmap.lengths]
     heads, first = roadmap.heads.tolist(), roadmap.indptr.tolist()
-    lengths = [steps[each] for each in roadmap.class_of_edge.tolist()]
+    lengths = [steps[edge_class] for edge_class in roadmap.class_of_edge.tolist()]
     against: list[list[int]] = [[] for _ in range(roadmap.n_vertices)]
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
     for tail, head in zip(tails, heads, strict=True):
@@ -97,12 +97,12 @@ def strong_parts(ways: Ways) -> list[list[int]]:
             else:
                 seen[following] = True
                 stack.append((following, iter(ways.along[following])))
-    parts, found = list[list[int]](), [False] * count
+    parts, is_found = list[list[int]](), [False] * count
     for root in reversed(order):
-        if not found[root]:
-            part = grown_from([root], ways.against, lambda tail: not found[tail])
+        if not is_found[root]:
+            part = grown_from([root], ways.against, lambda tail: not is_found[tail])
             for vertex in part:
-                found[vertex] = True
+                is_found[vertex] = True
             parts.append(sorted(part))
     return sorted(parts, key=lambda part: (-len(part), part[0]))
 
@@ -145,7 +145,7 @@ def immediate_dominators(along: Neighbours, against: Neighbours, root: int) -> d
     Georgiadis, *Linear-time algorithms for dominators and related problems*, 2005: Semi-NCA.
     """
     order, parent = _depth_first(along, root)
-    number = {vertex: each for each, vertex in enumerate(order)}
+    number = {vertex: index for index, vertex in enumerate(order)}
     count = len(order)
     semi, label, ancestor = list(range(count)), list(range(count)), parent[:]
 
@@ -181,7 +181,7 @@ def _depth_first(along: Neighbours, root: int) -> tuple[list[int], list[int]]:
     stack = [(0, iter(along[root]))]
     while stack:
         last, heads = stack[-1]
-        head = next((each for each in heads if each not in seen), None)
+        head = next((neighbour for neighbour in heads if neighbour not in seen), None)
         if head is None:
             stack.pop()
             continue
@@ -209,7 +209,7 @@ def separations(ways: Ways, places: Sequence[int]) -> dict[int, set[int]]:
         for the first place, those on the other side than the second. Exact: a vertex that is not
         in it can be closed, and all other places still reach each other.
     """
-    found: dict[int, set[int]] = defaultdict(set)
+    cut_off: dict[int, set[int]] = defaultdict(set)
     for root, judged in zip(places[:2], (None, places[0] if places else None), strict=False):
         for along, against in ((ways.along, ways.against), (ways.against, ways.along)):
             above = immediate_dominators(along, against, root)
@@ -217,9 +217,9 @@ def separations(ways: Ways, places: Sequence[int]) -> dict[int, set[int]]:
                 vertex = above.get(place, root)
                 while vertex != root:
                     if judged is None or vertex == judged:
-                        found[vertex].add(place)
+                        cut_off[vertex].add(place)
                     vertex = above[vertex]
-    return dict(found)
+    return dict(cut_off)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -262,7 +262,7 @@ def corridors(ways: Ways) -> list[Corridor]:
             path += {*ways.along[path[-1]]} - {path[-2]}
         return path
 
-    found, seen = list[Corridor](), set[int]()
+    corridors_found, seen = list[Corridor](), set[int]()
     for start in range(len(ways.along)):
         if start in seen or not is_inside(start):
             continue
@@ -272,8 +272,10 @@ def corridors(ways: Ways) -> list[Corridor]:
             continue
         path = [*reversed(left), *right[1:]]
         steps = sum(ways.steps[tail][ways.along[tail].index(head)] for tail, head in pairwise(path))
-        found.append(Corridor(inside=tuple(path[1:-1]), ends=(path[0], path[-1]), steps=steps))
-    return sorted(found, key=lambda each: (-each.steps, each.inside))
+        corridors_found.append(
+            Corridor(inside=tuple(path[1:-1]), ends=(path[0], path[-1]), steps=steps)
+        )
+    return sorted(corridors_found, key=lambda corridor: (-corridor.steps, corridor.inside))
 
 
 def distances_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:

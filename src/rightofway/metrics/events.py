@@ -161,7 +161,7 @@ def event_columns(plan: Plan, chosen: Iterable[Event] | None = None) -> dict[str
     place = scenario.roadmap.name
 
     def times(ticks: Iterable[Tick | None]) -> list[float | None]:
-        return [None if each is None else float(each * tick) for each in ticks]
+        return [None if instant is None else float(instant * tick) for instant in ticks]
 
     return {
         "robot": [names[row.robot] for row in rows],

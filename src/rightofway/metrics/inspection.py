@@ -101,7 +101,7 @@ def inspect(site: Site) -> Inspection:
         places=len(site.places),
         parts=tuple(map(len, parts)),
         sampled=sampled,
-        findings=tuple(sorted(findings, key=lambda each: SEVERITIES.index(each.severity))),
+        findings=tuple(sorted(findings, key=lambda finding: SEVERITIES.index(finding.severity))),
     )
 
 
@@ -179,36 +179,38 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
         ("unreachable", behind & rest),
         ("cut off", rest - ahead - behind),
     )
-    for kind, found in kinds:
+    for kind, findings_of_kind in kinds:
         pieces, seen = list[list[int]](), set[int]()
-        beside = {vertex: ways.beside(vertex) & found for vertex in sorted(found)}
+        beside = {
+            vertex: ways.beside(vertex) & findings_of_kind for vertex in sorted(findings_of_kind)
+        }
         for vertex in beside:
             if vertex not in seen:
                 reached: list[int] = [vertex]
                 seen.add(vertex)
-                for one in reached:  # grows as it goes
-                    new = beside[one] - seen
+                for neighbour in reached:  # grows as it goes
+                    new = beside[neighbour] - seen
                     seen |= new
                     reached += sorted(new)
                 pieces.append(sorted(reached))
-        for piece in sorted(pieces, key=lambda each: (-len(each), each[0])):
+        for piece in sorted(pieces, key=lambda vertices: (-len(vertices), vertices[0])):
             own = [vertex for vertex in piece if vertex in site.places]
-            what = listed([site.name(vertex) for vertex in own or piece])
+            names = listed([site.name(vertex) for vertex in own or piece])
             if site.roadmap.has_cells and not own and len(piece) > 1:
                 cells = counted(len(piece), "cell", "cells")
-                what = Phrase(
+                names = Phrase(
                     "{cells} around {place}", cells=cells, place=site.name(piece[len(piece) // 2])
                 )
             others = len(piece) - len(own) if own else 0
             if others:
                 around = counted(others, "vertex", "vertices")
-                what = Phrase("{places} and {vertices} around", places=what, vertices=around)
+                names = Phrase("{places} and {vertices} around", places=names, vertices=around)
             yield Finding(
                 kind=kind,
                 severity="error" if own else "note" if kind == "cut off" else "warning",
-                fact=Phrase("No way leads to {places}", places=what)
+                fact=Phrase("No way leads to {places}", places=names)
                 if kind == "cut off" and site.roadmap.has_cells
-                else _outside_fact(kind, what),
+                else _outside_fact(kind, names),
                 remedy=Phrase("make a way wide enough for a cell, or ignore it")
                 if site.roadmap.has_cells
                 else OUTSIDE_REMEDIES[kind][len(piece) > 1],
@@ -258,7 +260,7 @@ def _on_the_way(
 
     separating = [(vertex, beyond) for vertex, beyond in apart.items() if vertex in site.places]
     inside = main.intersection(site.places)
-    for vertex, beyond in sorted(separating, key=lambda each: (-len(each[1]), each[0])):
+    for vertex, beyond in sorted(separating, key=lambda pair: (-len(pair[1]), pair[0])):
         rest = inside - beyond - {vertex}
         few = sorted(beyond if len(beyond) <= len(rest) else rest)
         parted = listed([site.name(place) for place in few])
@@ -276,7 +278,7 @@ def _on_the_way(
             vertices=site.names((vertex, *few)),
         )
     busy = [vertex for vertex in inside if vertex in site.homes and _is_busy(load, total, vertex)]
-    for vertex in sorted(busy, key=lambda each: (-load[each], each)):
+    for vertex in sorted(busy, key=lambda busy_vertex: (-load[busy_vertex], busy_vertex)):
         if vertex not in apart:
             yield Finding(
                 kind="through way",
@@ -305,10 +307,12 @@ def _corridors(
     def use(corridor: Corridor) -> float:
         return max(load.get(vertex, 0) for vertex in corridor.inside)
 
-    found = [each for each in corridors(ways) if len(each.inside) > 1 and use(each)]
-    found = [each for each in found if main.issuperset(each.ends)]
+    long_ones = [
+        corridor for corridor in corridors(ways) if len(corridor.inside) > 1 and use(corridor)
+    ]
+    long_ones = [corridor for corridor in long_ones if main.issuperset(corridor.ends)]
     scale = _length_of_a_step(site.roadmap, ways)
-    busiest = sorted(found, key=lambda each: (-use(each), -each.steps))
+    busiest = sorted(long_ones, key=lambda corridor: (-use(corridor), -corridor.steps))
     for corridor in busiest[:LISTED_CORRIDORS]:
         ends, inside = corridor.ends, set(corridor.inside)
         first = set(grown_from(ends[:1], ways.along, _outside_of(inside)))
@@ -354,12 +358,12 @@ def _outside_of(inside: set[int]) -> Callable[[int], bool]:
 
 def _using(site: Site, side: set[int], inside: set[int]) -> list[str]:
     """Return the robots that have places in a corridor, or on both sides of it."""
-    found = []
+    findings = []
     for robot in site.robots:
         trip = set(trip_of(robot, site.rules))
         if trip & inside or len({place in side for place in trip}) > 1:
-            found.append(robot.name)
-    return found
+            findings.append(robot.name)
+    return findings
 
 
 def _length_of_a_step(roadmap: Roadmap, ways: Ways) -> Fraction:
@@ -377,13 +381,13 @@ def _bottlenecks(
     busy = {vertex for vertex in load if _is_busy(load, total, vertex)}
     beside = {vertex: ways.beside(vertex) & busy for vertex in busy}
     seen = set[int]()
-    for vertex in sorted(busy, key=lambda each: (-load[each], each)):
+    for vertex in sorted(busy, key=lambda busy_vertex: (-load[busy_vertex], busy_vertex)):
         if vertex in seen:
             continue
         around = {vertex}
         front = [vertex]
-        for one in front:  # grows as it goes
-            new = beside[one] - around
+        for neighbour in front:  # grows as it goes
+            new = beside[neighbour] - around
             around |= new
             front += sorted(new)
         seen |= around

@@ -74,7 +74,7 @@ def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
     losses: defaultdict[int, list[Loss]] = defaultdict(list)
     for loss in joined_waits(scenario, tracks, stays):
         losses[loss.robot].append(loss)
-    found = []
+    fleet = []
     for robot, (track, stay) in enumerate(zip(tracks, stays, strict=True)):
         own = losses[robot]
         waiting = sum(loss.ticks for loss in own)
@@ -94,8 +94,8 @@ def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
             waiting=Tick(waiting),
             losses=tuple(sorted([*own, *room], key=lambda loss: (loss.tick, -loss.end))),
         )
-        found.append(lost)
-    return tuple(found)
+        fleet.append(lost)
+    return tuple(fleet)
 
 
 @checks_arguments
@@ -126,7 +126,7 @@ def _joined_waits(
     enter = np.concatenate([track.enter for track in tracks])
     begin = (enter + np.concatenate([stay.dwell for stay in stays])).tolist()
     vertex = [
-        VertexId(one) for one in np.concatenate([track.vertices for track in tracks]).tolist()
+        VertexId(vertex) for vertex in np.concatenate([track.vertices for track in tracks]).tolist()
     ]
     frees = freed_by(scenario, tracks, stays)
     visits = np.flatnonzero(waiting > 0)

@@ -42,7 +42,7 @@ def _beside_walls(site: Site) -> Iterator[Finding]:
     roadmap, length = site.roadmap, site.units.written_length
     if roadmap.grid is None or site.rules.walls == "strict":
         return
-    wide = {it.radius for it in site.robots if 2 * it.radius > roadmap.grid.cell_size}
+    wide = {robot.radius for robot in site.robots if 2 * robot.radius > roadmap.grid.cell_size}
     for radius in sorted(wide):
         reaches = np.flatnonzero(reaches_walls(roadmap, radius)).tolist()
         if reaches:
@@ -60,7 +60,7 @@ def _beside_walls(site: Site) -> Iterator[Finding]:
                     "set walls: strict, so that it keeps out of them, or take larger cells"
                 ),
                 vertices=site.names(reaches[:MOST_NAMED]),
-                robots=tuple(it.name for it in site.robots if it.radius == radius),
+                robots=tuple(robot.name for robot in site.robots if robot.radius == radius),
             )
 
 
@@ -70,7 +70,7 @@ def _near(site: Site) -> Iterator[Finding]:
     length = site.units.written_length
     need = None
     if room:
-        sizes = joined([length(each) for each in dict.fromkeys(site.radii)])
+        sizes = joined([length(radius) for radius in dict.fromkeys(site.radii)])
         need = Phrase("robots of radius {sizes} need {room}", sizes=sizes, room=length(room))
         if site.rules.clearance:
             need = Phrase(
@@ -123,14 +123,16 @@ def _near(site: Site) -> Iterator[Finding]:
             vertices=site.names((vertex, tail, head)),
         )
     for lanes in pairs.crossings:
-        one, other = (
+        first, other = (
             Phrase("{tail} to {head}", tail=tail, head=head)
             for tail, head in map(site.names, lanes)
         )
         yield Finding(
             kind="crossing",
             severity="note" if need else "warning",
-            fact=Phrase("The lanes {one} and {other} cross without a vertex", one=one, other=other),
+            fact=Phrase(
+                "The lanes {one} and {other} cross without a vertex", one=first, other=other
+            ),
             remedy=Phrase("robots wait for each other there; a vertex lets them wait nearer")
             if need
             else Phrase(
@@ -149,14 +151,14 @@ def smallest_cell(roadmap: Roadmap) -> Fraction | None:
 
 def _near_vertices(site: Site, pairs: ClosePairs, need: Phrase | None) -> Iterator[Finding]:
     roadmap = site.roadmap
-    for one, other in pairs.vertices:
-        if roadmap.is_along_one_lane((one, other)):
+    for first, other in pairs.vertices:
+        if roadmap.is_along_one_lane((first, other)):
             continue
-        apart = site.units.written_length(rounded_distance(roadmap, one, other))
-        both_homes = _homes_clash(site, one, other)
-        is_joined = roadmap.edge(one, other) is not None or roadmap.edge(other, one) is not None
-        are_places = one in site.places and other in site.places
-        names = {"one": site.name(one), "other": site.name(other)}
+        apart = site.units.written_length(rounded_distance(roadmap, first, other))
+        both_homes = _homes_clash(site, first, other)
+        is_joined = roadmap.edge(first, other) is not None or roadmap.edge(other, first) is not None
+        are_places = first in site.places and other in site.places
+        names = {"one": site.name(first), "other": site.name(other)}
         if need:
             fact = Phrase(
                 "{one} and {other} are {distance} apart; {need}",
@@ -177,20 +179,20 @@ def _near_vertices(site: Site, pairs: ClosePairs, need: Phrase | None) -> Iterat
             remedy=Phrase("move one, or use smaller robots")
             if need
             else Phrase("make them one vertex"),
-            vertices=site.names((one, other)),
+            vertices=site.names((first, other)),
         )
 
 
-def _homes_clash(site: Site, one: int, other: int) -> bool:
+def _homes_clash(site: Site, first: int, other: int) -> bool:
     """Whether robots live at two vertices that are nearer than just these robots need."""
     radius = {int(robot.home): robot.radius for robot in site.robots}
-    if not {one, other} <= radius.keys() or not radius[one] + radius[other]:
+    if not {first, other} <= radius.keys() or not radius[first] + radius[other]:
         return False
-    at = site.roadmap.point(one), site.roadmap.point(other)
-    return squared_distance(*at) < (radius[one] + radius[other] + site.rules.clearance) ** 2
+    at = site.roadmap.point(first), site.roadmap.point(other)
+    return squared_distance(*at) < (radius[first] + radius[other] + site.rules.clearance) ** 2
 
 
-def rounded_distance(roadmap: Roadmap, one: int, other: int) -> Fraction:
+def rounded_distance(roadmap: Roadmap, first: int, other: int) -> Fraction:
     """Return the distance of two vertices, rounded for people [length unit]."""
-    away = dist(roadmap.positions[one].tolist(), roadmap.positions[other].tolist())
+    away = dist(roadmap.positions[first].tolist(), roadmap.positions[other].tolist())
     return Fraction(round(away * ROUNDED), ROUNDED)

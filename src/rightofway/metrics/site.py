@@ -170,10 +170,10 @@ class Site:
     @cached_property
     def trips(self) -> Counter[tuple[int, int]]:
         """How many drives of the fleet lead from a place to another."""
-        found = Counter[tuple[int, int]]()
+        counts = Counter[tuple[int, int]]()
         for robot in self.robots:
-            found.update(pairwise(trip_of(robot, self.rules)))
-        return Counter({ends: count for ends, count in found.items() if ends[0] != ends[1]})
+            counts.update(pairwise(trip_of(robot, self.rules)))
+        return Counter({ends: count for ends, count in counts.items() if ends[0] != ends[1]})
 
     @property
     def gist(self) -> Hashable:
@@ -186,8 +186,8 @@ class Site:
     @property
     def radii(self) -> tuple[Fraction, Fraction]:
         """The radii of the two largest robots, the larger first [length unit]."""
-        found = sorted((robot.radius for robot in self.robots), reverse=True) or [Fraction(0)]
-        return found[0], found[min(1, len(found) - 1)]
+        radii = sorted((robot.radius for robot in self.robots), reverse=True) or [Fraction(0)]
+        return radii[0], radii[min(1, len(radii) - 1)]
 
     @property
     def room(self) -> Fraction:
@@ -199,12 +199,12 @@ class Site:
 
         A cell where lengths have a unit goes by its middle: ``(2.25, 0.75, home of R1)``.
         """
-        what = self.places.get(vertex)
+        place = self.places.get(vertex)
         if self.roadmap.has_cells and self.units.length:
             at = middle(self.roadmap, vertex)
-            return Phrase("({middle}, {what})", middle=at, what=what) if what else f"({at})"
+            return Phrase("({middle}, {what})", middle=at, what=place) if place else f"({at})"
         name = self.roadmap.name(vertex)
-        return Phrase("{name} ({what})", name=name, what=what) if what else name
+        return Phrase("{name} ({what})", name=name, what=place) if place else name
 
     def names(self, vertices: Iterable[int]) -> tuple[str, ...]:
         """Return the names of vertices."""
@@ -235,14 +235,14 @@ def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
         height=site.units.written_length(down),
         places=counted(inspection.places, "place", "places"),
     )
-    found = [size]
+    sentences = [size]
     if len(inspection.parts) == 1:
-        found.append(Phrase("All vertices reach each other."))
+        sentences.append(Phrase("All vertices reach each other."))
     else:
         sizes = [str(part) for part in inspection.parts[:LISTED_PARTS]]
         more = len(inspection.parts) - len(sizes)
         cut = [*sizes, Phrase("{number} more", number=str(more))] if more else sizes
-        found.append(
+        sentences.append(
             Phrase(
                 "{number} strongly connected parts, of {sizes} vertices.",
                 number=str(len(inspection.parts)),
@@ -251,14 +251,14 @@ def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
         )
     if inspection.sampled:
         some, all_of = map(str, inspection.sampled)
-        found.append(
+        sentences.append(
             Phrase(
                 "Shortest routes are counted from {some} of {all_of} vertices only.",
                 some=some,
                 all_of=all_of,
             )
         )
-    return tuple(found)
+    return tuple(sentences)
 
 
 def extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:

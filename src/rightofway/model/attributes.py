@@ -104,10 +104,12 @@ def attributes_of(owner: Any) -> tuple[Attribute, ...]:
     """Return the attributes of a dataclass in the order of files."""
     return tuple(
         Attribute(
-            name=each.name, default=each.default, **{**known, "key": known["key"] or each.name}
+            name=attribute_field.name,
+            default=attribute_field.default,
+            **{**known, "key": known["key"] or attribute_field.name},
         )
-        for each in fields(owner)
-        if (known := each.metadata.get("attribute"))
+        for attribute_field in fields(owner)
+        if (known := attribute_field.metadata.get("attribute"))
     )
 
 
@@ -115,9 +117,15 @@ def attributes_of(owner: Any) -> tuple[Attribute, ...]:
 def readers_of(owner: Any) -> dict[str, Callable[[object], object]]:
     """Return for each attribute of a dataclass how its value is checked, for `coerced`."""
     readers = {}
-    for it in attributes_of(owner):
-        read = word_of(words) if (words := get_args(it.kind)) else READERS[it.kind]
-        readers[it.name] = optional(read) if it.default is None else read
+    for attribute_of_owner in attributes_of(owner):
+        read = (
+            word_of(words)
+            if (words := get_args(attribute_of_owner.kind))
+            else READERS[attribute_of_owner.kind]
+        )
+        readers[attribute_of_owner.name] = (
+            optional(read) if attribute_of_owner.default is None else read
+        )
     return readers
 
 
@@ -125,8 +133,8 @@ def plain_attributes(value: Any) -> dict[str, Any]:
     """Return the attributes of a robot or of rules by their keys in files, as plain data."""
     owner: Any = type(value)
     return {
-        it.key: written(own) if isinstance(own, Fraction) else own
-        for it in attributes_of(owner)
-        if (own := getattr(value, it.name)) is not None
-        and (it.is_always_written or own != it.default)
+        own_attribute.key: written(own) if isinstance(own, Fraction) else own
+        for own_attribute in attributes_of(owner)
+        if (own := getattr(value, own_attribute.name)) is not None
+        and (own_attribute.is_always_written or own != own_attribute.default)
     }

@@ -111,8 +111,8 @@ def closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFault]:
         last = roadmap.n_vertices - 1
         yield InputFault(key, f"vertex {place} is not on the roadmap (give 0 to {last})")
     if closure.edge is not None and not unknown and not roadmap.ways_along(closure.edge):
-        one, other = map(roadmap.name, closure.edge)
-        yield InputFault("edge", f"no edge joins {one} and {other} (name the ends of an edge)")
+        tail, head = map(roadmap.name, closure.edge)
+        yield InputFault("edge", f"no edge joins {tail} and {head} (name the ends of an edge)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -195,27 +195,27 @@ def closures_of(
     if not closures:
         return None
     sizes, n_rows = sorted(set(radii)), roadmap.n_vertices + roadmap.n_edges
-    found, plane = list[_Closed](), _Plane(roadmap)
+    bookings, plane = list[_Closed](), _Plane(roadmap)
     for closure in closures:
         start = Tick(closure.from_ // clock.tick)
         end = NEVER if closure.until is None else clock.ticks(closure.until)
         for size, radius in enumerate(sizes):
             check_work("finding what closures close")
             reach = None if closure.radius is None else radius + closure.radius + clearance
-            found += [
+            bookings += [
                 _Closed(size * n_rows + resource, start, end)
                 for resource in _closed_resources(plane, closure, reach)
             ]
     merged = list[_Closed]()
-    for one in sorted(found):
-        if merged and merged[-1].row == one.row and one.start <= merged[-1].end:
-            merged[-1] = merged[-1]._replace(end=max(merged[-1].end, one.end))
+    for booking in sorted(bookings):
+        if merged and merged[-1].row == booking.row and booking.start <= merged[-1].end:
+            merged[-1] = merged[-1]._replace(end=max(merged[-1].end, booking.end))
         else:
-            merged.append(one)
+            merged.append(booking)
     return Closures(
-        row=np.array([one.row for one in merged], np.int32),
-        start=np.array([one.start for one in merged], np.int64),
-        end=np.array([one.end for one in merged], np.int64),
+        row=np.array([booking.row for booking in merged], np.int32),
+        start=np.array([booking.start for booking in merged], np.int64),
+        end=np.array([booking.end for booking in merged], np.int64),
         n_vertices=roadmap.n_vertices,
         n_edges=roadmap.n_edges,
         size_of=tuple(sizes.index(radius) for radius in radii),
@@ -248,7 +248,7 @@ class _Plane:
         return np.repeat(np.arange(self.roadmap.n_vertices), np.diff(self.roadmap.indptr))
 
     def near(
-        self, segments: Sequence[Segment], reach: Fraction, kept: Collection[int]
+        self, segments: Sequence[Segment], reach: Fraction, ends: Collection[int]
     ) -> Iterator[int]:
         """Yield vertices and edges nearer than a distance to segments, but for some vertices.
 
@@ -256,12 +256,12 @@ class _Plane:
         """
         at, heads = self.exact, self.roadmap.heads
         for place in _boxed(self.drawn, self.drawn, segments, reach):
-            if place not in kept and _nearer((at[place], at[place]), segments, reach):
+            if place not in ends and _nearer((at[place], at[place]), segments, reach):
                 yield place
         for edge in _boxed(self.drawn[self.tails], self.drawn[heads], segments, reach):
             check_work("finding what closures close")
             tail, head = int(self.tails[edge]), int(heads[edge])
-            if not {tail, head} & set(kept) and _nearer((at[tail], at[head]), segments, reach):
+            if not {tail, head} & set(ends) and _nearer((at[tail], at[head]), segments, reach):
                 yield self.roadmap.n_vertices + edge
 
 
@@ -272,15 +272,15 @@ def _closed_resources(plane: _Plane, closure: Closure, reach: Fraction | None) -
     """
     roadmap = plane.roadmap
     ways = [] if closure.edge is None else roadmap.ways_along(closure.edge)
-    own = {ends for way in ways for pair in pairwise(way) for ends in (pair, pair[::-1])}
+    own = {ends for lane in ways for pair in pairwise(lane) for ends in (pair, pair[::-1])}
     edges = (roadmap.edge(*ends) for ends in own)
     closed: set[int] = {roadmap.n_vertices + edge for edge in edges if edge is not None}
-    closed.update(place for way in ways for place in way[1:-1])
+    closed.update(place for lane in ways for place in lane[1:-1])
     if closure.at is not None:
         closed.add(closure.at)
     if reach:
         at = plane.exact
-        segments = [(at[one], at[other]) for way in ways for one, other in pairwise(way)]
+        segments = [(at[tail], at[head]) for lane in ways for tail, head in pairwise(lane)]
         if closure.at is not None:
             segments.append((at[closure.at], at[closure.at]))
         closed.update(plane.near(segments, reach, closure.edge or ()))
@@ -288,31 +288,31 @@ def _closed_resources(plane: _Plane, closure: Closure, reach: Fraction | None) -
 
 
 def _boxed(
-    one: NDArray[np.float64],
+    first: NDArray[np.float64],
     other: NDArray[np.float64],
     segments: Sequence[Segment],
     reach: Fraction,
 ) -> list[int]:
     """Return which straight lines may come within reach of segments, by boxes around both."""
     points = np.array([[float(x) for x in point] for ends in segments for point in ends])
-    slack = float(reach) + LEEWAY * (np.abs(one).max() + float(reach))
+    slack = float(reach) + LEEWAY * (np.abs(first).max() + float(reach))
     low, high = points.min(axis=0) - slack, points.max(axis=0) + slack
-    meets = (np.maximum(one, other) >= low) & (np.minimum(one, other) <= high)
+    meets = (np.maximum(first, other) >= low) & (np.minimum(first, other) <= high)
     return np.flatnonzero(meets.all(axis=1)).tolist()
 
 
-def _nearer(one: Segment, others: Sequence[Segment], reach: Fraction) -> bool:
-    return any(_squared_gap(one, other) < reach**2 for other in others)
+def _nearer(segment: Segment, others: Sequence[Segment], reach: Fraction) -> bool:
+    return any(_squared_gap(segment, other) < reach**2 for other in others)
 
 
-def _squared_gap(one: Segment, other: Segment) -> Fraction:
+def _squared_gap(first: Segment, other: Segment) -> Fraction:
     """Return the squared distance of two segments, exactly."""
-    a, b = one
+    a, b = first
     c, d = other
     sides = _side(a, b, c) * _side(a, b, d), _side(c, d, a) * _side(c, d, b)
     if sides[0] < 0 and sides[1] < 0:
         return Fraction(0)
-    return min(_to_point(a, other), _to_point(b, other), _to_point(c, one), _to_point(d, one))
+    return min(_to_point(a, other), _to_point(b, other), _to_point(c, first), _to_point(d, first))
 
 
 def _side(a: Point, b: Point, c: Point) -> Fraction:

@@ -84,24 +84,24 @@ class PlaceNames:
 
     @cached_property
     def _stations(self) -> dict[int, str]:
-        found: dict[int, str] = {}
+        names: dict[int, str] = {}
         for name, at in self.scenario.roadmap.drawing.stations:
-            found[at] = f"{found[at]} · {name}" if at in found else name
-        return found
+            names[at] = f"{names[at]} · {name}" if at in names else name
+        return names
 
     @cached_property
     def _of_robots(self) -> dict[int, str]:
         """Homes, and the only stops of robots where no other robot stops."""
         robots = self.scenario.robots
         stops = [{int(stop.at) for stop in robot.stops} - {int(robot.home)} for robot in robots]
-        count = Counter(at for each in stops for at in each)
-        found: dict[int, str] = {
+        count = Counter(at for vertices in stops for at in vertices)
+        names: dict[int, str] = {
             at: Phrase("the stop of {robot}", robot=robot.name)
-            for robot, each in zip(robots, stops, strict=True)
-            for at in each
-            if len(each) == count[at] == 1
+            for robot, vertices in zip(robots, stops, strict=True)
+            for at in vertices
+            if len(vertices) == count[at] == 1
         }
         homes = {
             int(robot.home): Phrase("the home of {robot}", robot=robot.name) for robot in robots
         }
-        return {**found, **homes}
+        return {**names, **homes}

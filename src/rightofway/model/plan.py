@@ -195,8 +195,8 @@ class RobotPlan:
     waits: tuple[Wait, ...]
 
     def __repr__(self) -> str:
-        way = f"{len(self.vertices)} visits from {self.vertices[0]} to {self.vertices[-1]}"
-        return f"RobotPlan({self.robot.name!r}, {way}, completed at tick {self.completion})"
+        trip = f"{len(self.vertices)} visits from {self.vertices[0]} to {self.vertices[-1]}"
+        return f"RobotPlan({self.robot.name!r}, {trip}, completed at tick {self.completion})"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -296,8 +296,8 @@ class Plan:
         """Return a figure of this plan; it is computed at the first request and kept by name."""
         if figure not in self._figures:
             self._figures[figure] = compute()
-        kept: T = self._figures[figure]
-        return kept
+        figure_value: T = self._figures[figure]
+        return figure_value
 
     @property
     def stays(self) -> tuple[Stays, ...]:

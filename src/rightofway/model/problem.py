@@ -142,7 +142,7 @@ class Problem:
     @property
     def is_barred(self) -> bool:
         """Whether some robot may not drive along some edge."""
-        return any(min(one.edge_ticks, default=1) < 0 for one in self.itineraries)
+        return any(min(itinerary.edge_ticks, default=1) < 0 for itinerary in self.itineraries)
 
     @property
     def is_open(self) -> bool:
@@ -171,7 +171,7 @@ class Problem:
             headway=Tick(0),
             books_ahead=False,
             rotations=self.rotations and self.headway == 0 and not self.books_ahead,
-            itineraries=tuple(one.in_steps() for one in self.itineraries),
+            itineraries=tuple(itinerary.in_steps() for itinerary in self.itineraries),
             resources=points_on(self.roadmap, len(self.itineraries)),
             closures=None,
         )
@@ -245,8 +245,8 @@ def problem_of(
     """Express a valid scenario in ticks, of a clock that is given or else chosen."""
     radii = [robot.radius for robot in robots]
     if clock is None:
-        each = (_durations(roadmap, robot, rules) for robot in robots)
-        clock = choose_clock(chain([rules.headway], chain.from_iterable(each)))
+        durations = (_durations(roadmap, robot, rules) for robot in robots)
+        clock = choose_clock(chain([rules.headway], chain.from_iterable(durations)))
     rates = [turn_rate(robot, rules) for robot in robots]
     return Problem(
         roadmap=roadmap,

@@ -120,34 +120,34 @@ def exact_positions(roadmap: Roadmap) -> list[Point]:
     return [(Fraction(repr(x)), Fraction(repr(y))) for x, y in roadmap.positions.tolist()]
 
 
-def are_nearer(roadmap: Roadmap, one: int, other: int, distance: Fraction) -> bool:
+def are_nearer(roadmap: Roadmap, first: int, other: int, distance: Fraction) -> bool:
     """Return whether two vertices are nearer than a distance; exact.
 
     Parameters
     ----------
     roadmap
         The vertices.
-    one, other
+    first, other
         Two of them.
     distance
         The distance [length unit].
     """
     at = exact_positions(roadmap)
-    return squared_distance(at[one], at[other]) < distance**2
+    return squared_distance(at[first], at[other]) < distance**2
 
 
-def distance(roadmap: Roadmap, one: int, other: int) -> float:
+def distance(roadmap: Roadmap, first: int, other: int) -> float:
     """Return the distance of two vertices [length unit].
 
     Parameters
     ----------
     roadmap
         The vertices.
-    one, other
+    first, other
         Two of them.
     """
     at = exact_positions(roadmap)
-    return sqrt(squared_distance(at[one], at[other]))
+    return sqrt(squared_distance(at[first], at[other]))
 
 
 def too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, float]]:
@@ -300,7 +300,7 @@ class Resources:
             holders.setdefault(row, []).append(robot)
         for robot, row in enumerate(rows):
             for other in self.excluded_by(row).tolist():
-                yield from ((robot, one) for one in holders.get(other, ()) if robot < one)
+                yield from ((robot, holder) for holder in holders.get(other, ()) if robot < holder)
 
 
 def resources_of(roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fraction) -> Resources:
@@ -358,25 +358,25 @@ def _excluded(roadmap: Roadmap, sizes: tuple[Fraction, ...], clearance: Fraction
     n_keys = len(sizes) * n_rows
     keys = list[Ints]()  # of pairs of rows: row * n_keys + column
 
-    def exclude(one: int, other: int, pairs: Iterable[Pairs]) -> None:
-        found = [
+    def exclude(size: int, other: int, pairs: Iterable[Pairs]) -> None:
+        pairs_between = [
             (a * n_rows + left) * n_keys + b * n_rows + right
             for x, y in pairs
-            for a, b in {(one, other), (other, one)}
+            for a, b in {(size, other), (other, size)}
             for left, right in ((x, y), (y, x))
         ]
-        keys.append(np.sort(np.concatenate(found)))
+        keys.append(np.sort(np.concatenate(pairs_between)))
 
     combinations = list(combinations_with_replacement(range(len(sizes)), 2))
-    for one, other in combinations:
-        exclude(one, other, [(same, same), *_in_zones(roadmap)])
+    for size, other in combinations:
+        exclude(size, other, [(same, same), *_in_zones(roadmap)])
     for done, part in enumerate(drawing.candidates(reach) if sizes[-1] > 0 else ()):
         crossing = list(drawing.crossing(part))
-        for one, other in combinations:
+        for size, other in combinations:
             check_work(f"{FINDING}, {done} of {drawing.n_parts} parts of the roadmap done")
             if sizes[other] > 0:
-                distance = sizes[one] + sizes[other] + clearance
-                exclude(one, other, [*drawing.nearer(distance, part), *crossing])
+                distance = sizes[size] + sizes[other] + clearance
+                exclude(size, other, [*drawing.nearer(distance, part), *crossing])
     first, excluded = _rows_of(keys, n_keys)
     return ExcludedRows(first=first, excluded=excluded)
 
@@ -487,9 +487,9 @@ class _Drawing:
 
     def crossing(self, candidates: Candidates) -> Iterator[Pairs]:
         """Yield pairs of edges that cross, both directions of a lane."""
-        one, other = candidates[2]
-        crossing = self._crosses(one, other)
-        lanes, edges = self._with_edges(one[crossing], other[crossing])
+        first, other = candidates[2]
+        crossing = self._crosses(first, other)
+        lanes, edges = self._with_edges(first[crossing], other[crossing])
         yield self._with_edges(edges, lanes)
 
     def nearer(self, distance: Fraction, candidates: Candidates) -> Iterator[Pairs]:
@@ -505,19 +505,19 @@ class _Drawing:
         """Return vertices and lanes nearer than a distance, and lanes that cross."""
         limit = int(distance * self.scale) ** 2
         lanes = list(zip(self.a.tolist(), self.b.tolist(), strict=True))
-        found = ClosePairs(vertices=[], beside=[], crossings=[])
+        pairs = ClosePairs(vertices=[], beside=[], crossings=[])
         for done, part in enumerate(self.candidates(distance)):
-            (left, right), (vertex, lane), (one, other) = part
+            (left, right), (vertex, lane), (first, other) = part
             check_work(f"{FINDING}, {done} of {self.n_parts} parts of the roadmap done")
             near = self._square(left, right) < limit
             beside = self._passes(vertex, lane, limit)
-            crossing = self._crosses(one, other)
-            found.vertices.extend(zip(left[near].tolist(), right[near].tolist(), strict=True))
+            crossing = self._crosses(first, other)
+            pairs.vertices.extend(zip(left[near].tolist(), right[near].tolist(), strict=True))
             passed = zip(vertex[beside].tolist(), lane[beside].tolist(), strict=True)
-            found.beside.extend((each, lanes[passing]) for each, passing in passed)
-            crossed = zip(one[crossing].tolist(), other[crossing].tolist(), strict=True)
-            found.crossings.extend((lanes[first], lanes[second]) for first, second in crossed)
-        return found
+            pairs.beside.extend((vertex, lanes[passing]) for vertex, passing in passed)
+            crossed = zip(first[crossing].tolist(), other[crossing].tolist(), strict=True)
+            pairs.crossings.extend((lanes[left], lanes[right]) for left, right in crossed)
+        return pairs
 
     def _with_edges(self, left: Ints, lane: Ints) -> tuple[Ints, Ints]:
         """Repeat each left one for every edge of its lane."""
@@ -527,15 +527,15 @@ class _Drawing:
 
     def _square(self, left: Ints, right: Ints) -> Exact:
         """Return the squared distance of vertices."""
-        found: Exact = (self.x[left] - self.x[right]) ** 2 + (self.y[left] - self.y[right]) ** 2
-        return found
+        square: Exact = (self.x[left] - self.x[right]) ** 2 + (self.y[left] - self.y[right]) ** 2
+        return square
 
     def _side(self, vertex: Ints, lane: Ints) -> Exact:
         """Return the cross product that tells on which side of a lane's line a vertex lies."""
         a, b = self.a[lane], self.b[lane]
         dx, dy = self.x[b] - self.x[a], self.y[b] - self.y[a]
-        found: Exact = dx * (self.y[vertex] - self.y[a]) - dy * (self.x[vertex] - self.x[a])
-        return found
+        cross_product: Exact = dx * (self.y[vertex] - self.y[a]) - dy * (self.x[vertex] - self.x[a])
+        return cross_product
 
     def _passes(self, vertex: Ints, lane: Ints, limit: int) -> NDArray[np.bool_]:
         """Return where a lane comes nearer to a vertex than the limit, and its ends do not."""
@@ -545,18 +545,18 @@ class _Drawing:
         along = (self.x[vertex] - self.x[a]) * dx + (self.y[vertex] - self.y[a]) * dy
         inside = (along > 0) & (along < square)
         ends_are_clear = (self._square(vertex, a) >= limit) & (self._square(vertex, b) >= limit)
-        found: NDArray[np.bool_] = (inside & ends_are_clear).astype(bool)
-        side = self._side(vertex[found], lane[found]).astype(object)
-        found[found] = side**2 < limit * square[found].astype(object)
-        return found
+        is_beside: NDArray[np.bool_] = (inside & ends_are_clear).astype(bool)
+        side = self._side(vertex[is_beside], lane[is_beside]).astype(object)
+        is_beside[is_beside] = side**2 < limit * square[is_beside].astype(object)
+        return is_beside
 
-    def _crosses(self, one: Ints, other: Ints) -> NDArray[np.bool_]:
+    def _crosses(self, first: Ints, other: Ints) -> NDArray[np.bool_]:
         """Return where two lanes cross in a point that is an end of neither."""
-        ends_of_other = self._side(self.a[other], one), self._side(self.b[other], one)
-        ends_of_one = self._side(self.a[one], other), self._side(self.b[one], other)
-        found: NDArray[np.bool_] = np.array(
+        ends_of_other = self._side(self.a[other], first), self._side(self.b[other], first)
+        ends_of_one = self._side(self.a[first], other), self._side(self.b[first], other)
+        crosses: NDArray[np.bool_] = np.array(
             (np.sign(ends_of_other[0]) * np.sign(ends_of_other[1]) < 0)
             & (np.sign(ends_of_one[0]) * np.sign(ends_of_one[1]) < 0),
             bool,
         )
-        return found
+        return crosses

@@ -274,14 +274,14 @@ def serving_visits(
     for number, stage in enumerate(stages):
         if stage.vertex not in visits_at:
             visits_at[stage.vertex] = np.flatnonzero(vertices == stage.vertex).tolist()
-        there, need = visits_at[stage.vertex], stage.work + stage.turn
+        visits, need = visits_at[stage.vertex], stage.work + stage.turn
         is_last = number == len(stages) - 1
-        place = bisect_left(there, len(vertices) - 1 if is_last else visit)
-        while place < len(there) and spare[there[place]] - used.get(there[place], 0) < need:
+        place = bisect_left(visits, len(vertices) - 1 if is_last else visit)
+        while place < len(visits) and spare[visits[place]] - used.get(visits[place], 0) < need:
             place += 1
-        if place == len(there):
+        if place == len(visits):
             break
-        visit = there[place]
+        visit = visits[place]
         used[visit] = used.get(visit, 0) + need
         serves.append(visit)
     return serves

@@ -64,8 +64,8 @@ class Scenario:
                 object.__setattr__(self, "roadmap", clear_of_walls(self.roadmap, radii))
             faults = [*_rule_faults(self), *_fleet_faults(self), *_space_faults(self)]
             for index, closure in enumerate(self.closures):
-                found = closure_faults(closure, self.roadmap)
-                faults += [fault.within(("closures", index)) for fault in found]
+                of_closure = closure_faults(closure, self.roadmap)
+                faults += [fault.within(("closures", index)) for fault in of_closure]
         if faults:
             raise InputError(faults)
         object.__setattr__(
@@ -266,7 +266,7 @@ def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
         elif robot.type in roadmap.barred_vertices.get(VertexId(vertex), frozenset()):
             message = f"{roadmap.name(vertex)} is barred for robots of type {robot.type}"
             yield InputFault(place, f"{message} (give the robot another place, or another type)")
-    if any(each.max_radius is not None for each in roadmap.edge_classes):
+    if any(edge_class.max_radius is not None for edge_class in roadmap.edge_classes):
         known = [(place, vertex) for place, vertex in places if 0 <= vertex < n_vertices]
         reaches = reaches_walls(roadmap, robot.radius) if known else ()
         for place, vertex in known:

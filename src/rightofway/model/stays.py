@@ -171,7 +171,9 @@ def _drives_of_fleet(
 ) -> NDArray[np.int64]:
     """Return the ticks of the edge after each visit of all tracks, 0 where there is none."""
     roadmap, itineraries = scenario.roadmap, scenario.problem.itineraries
-    row = {pace: k for k, pace in enumerate({one.edge_ticks: None for one in itineraries})}
+    row = {
+        pace: k for k, pace in enumerate({itinerary.edge_ticks: None for itinerary in itineraries})
+    }
     by_class = np.array([[*pace, 0] for pace in row], np.int64)  # the last column: no edge
     class_of_edge = np.append(roadmap.class_of_edge, -1)
     rows = np.repeat(

@@ -111,17 +111,17 @@ def turnings_of(
     InputError
         For a rate at which a turn takes more than `LONGEST_TURN` ticks.
     """
-    made: dict[Fraction | None, Turning | None] = {None: None}
+    turnings: dict[Fraction | None, Turning | None] = {None: None}
     for robot, rate in enumerate(rates):
-        if rate is not None and rate not in made:
+        if rate is not None and rate not in turnings:
             angles = angles_of(roadmap)
             ticks = [clock.ticks(angle * ANGLE_STEP / rate) for angle in angles.angles]
             if ticks and ticks[-1] > LONGEST_TURN:
                 longest = f"a turn takes {shown(ticks[-1])} ticks of {shown(clock.tick)}"
                 message = f"{shown(rate)} is too slow: {longest} (give a faster one)"
                 raise InputError.at(("robots", robot, "turn_rate"), message)
-            made[rate] = Turning(angles=angles, ticks=np.array(ticks, np.int64))
-    return [made[rate] for rate in rates]
+            turnings[rate] = Turning(angles=angles, ticks=np.array(ticks, np.int64))
+    return [turnings[rate] for rate in rates]
 
 
 @lru_cache(maxsize=4)

@@ -78,8 +78,8 @@ class BookedRows:
         at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
         for robot, lap, count in zip(robots, laps, counts, strict=True):
             rows = resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)
-            for found, own in zip((at_vertex, along_edge), rows, strict=True):
-                found.append(np.tile(own, count))
+            for rows_of_bookings, own in zip((at_vertex, along_edge), rows, strict=True):
+                rows_of_bookings.append(np.tile(own, count))
         return cls(
             vertex=np.concatenate(at_vertex, dtype=np.int32),
             edge=np.concatenate(along_edge, dtype=np.int32),

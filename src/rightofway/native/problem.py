@@ -113,7 +113,8 @@ def _turning(problem: Problem) -> _core.Turning | None:
     robots = problem.itineraries
     number: dict[Turning, int] = {}
     class_of = [
-        -1 if one.turning is None else number.setdefault(one.turning, len(number)) for one in robots
+        -1 if robot.turning is None else number.setdefault(robot.turning, len(number))
+        for robot in robots
     ]
     classes = list(number)
     if not classes or not len(classes[0].ticks):
@@ -123,7 +124,7 @@ def _turning(problem: Problem) -> _core.Turning | None:
         angles.offset,
         angles.kind,
         np.array(class_of, np.int32),
-        np.concatenate([one.ticks for one in classes]).astype(np.int32),
+        np.concatenate([edge_class.ticks for edge_class in classes]).astype(np.int32),
         n_kinds=len(angles.angles),
     )
 

@@ -18,8 +18,8 @@ def examples_folder() -> Path:
 def example_names() -> list[str]:
     """Return the names of the examples, those of subfolders last."""
     folder = examples_folder()
-    found = [path.relative_to(folder) for path in folder.rglob("*") if path.suffix in SUFFIXES]
-    return [str(path.with_suffix("")) for path in sorted(found, key=lambda p: (len(p.parts), p))]
+    paths = [path.relative_to(folder) for path in folder.rglob("*") if path.suffix in SUFFIXES]
+    return [str(path.with_suffix("")) for path in sorted(paths, key=lambda p: (len(p.parts), p))]
 
 
 def first_sentence(path: Path) -> str:

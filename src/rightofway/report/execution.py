@@ -76,8 +76,8 @@ def _gain(gain: PolicyGain, saved: float, quantities: Quantities) -> str:
     )
 
 
-def _count(number: int, what: str) -> str:
-    return f"{number or 'no'} {what}" + "s" * (number != 1)
+def _count(number: int, noun: str) -> str:
+    return f"{number or 'no'} {noun}" + "s" * (number != 1)
 
 
 def _mean(number: int, runs: int) -> str:
@@ -89,12 +89,16 @@ def _per_run(number: int, runs: int) -> str:
     return f"{mean} time{'s' * (mean != '1')} per run on average"
 
 
-def _lateness(found: Quantiles, quantities: Quantities, later: str = "later by") -> str:
-    mean, most = found.mean, found.max
+def _lateness(lateness: Quantiles, quantities: Quantities, later: str = "later by") -> str:
+    mean, most = lateness.mean, lateness.max
     if mean is None or most is None:
         return "no robot ever completes"
     write = further(quantities)
-    quantiles = (("median", found.median), ("90% within", found.p90), ("95% within", found.p95))
+    quantiles = (
+        ("median", lateness.median),
+        ("90% within", lateness.p90),
+        ("95% within", lateness.p95),
+    )
     parts = [f"{words} {write(ticks)}" for words, ticks in quantiles if ticks is not None]
     average = f"{later if mean >= 0 else 'earlier by'} {quantities.duration(abs(mean))} on average"
     return f"{average}; {', '.join(parts)}, at most {write(most)}"
@@ -132,8 +136,11 @@ def _sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[str]
     scenario = outcome.plan.scenario
     robots, place = scenario.robots, PlaceNames(scenario, numbered=True).where
     listed, cell = sources[:MAX_SOURCES], quantities.cell
-    names = [f"{short(robots[one.robot].name)} at {place(one.vertex)}" for one in listed]
-    rows = [("itself", "others"), *((cell(one.own), cell(one.of_others)) for one in listed)]
+    names = [f"{short(robots[source.robot].name)} at {place(source.vertex)}" for source in listed]
+    rows = [
+        ("itself", "others"),
+        *((cell(source.own), cell(source.of_others)) for source in listed),
+    ]
     yield ""
     yield quantities.heading("where most lateness begins, mean per run")
     yield from _table(["robot", *names], rows)

@@ -144,8 +144,8 @@ def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
     for robot in stuck[:MAX_LINES]:
         name = scenario.robots[group.robots[robot]].name
         route, last = group.context.routes[robot], len(group.history[robot]) - 1
-        here, there = place(route.vertex(last)), place(route.vertex(last + 1))
-        listed.append(f"{name} in {here} on its way to {there}")
+        place_now, place_ahead = place(route.vertex(last)), place(route.vertex(last + 1))
+        listed.append(f"{name} in {place_now} on its way to {place_ahead}")
     if len(stuck) > MAX_LINES:
         listed.append(f"{len(stuck) - MAX_LINES} more")
     if listed:
@@ -166,9 +166,9 @@ def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) 
         where = place(vertex) if beside is None else f"{place(vertex)} beside {place(beside)}"
         text = f"{where}: {robots[waiting].name} waits for {robots[awaited].name}"
         when = [
-            f"{words} at {_moments(quantities, found[site])}"
-            for words, found in (("first lap", first), ("each period", periodic))
-            if site in found
+            f"{words} at {_moments(quantities, waits[site])}"
+            for words, waits in (("first lap", first), ("each period", periodic))
+            if site in waits
         ]
         yield from wrapped(f"{text}, {'; '.join(when)}", "  ")
     if len(sites) > MAX_LINES:
@@ -176,11 +176,11 @@ def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) 
 
 
 def _sites(waits: Sequence[LapWait]) -> Sites:
-    found: Sites = {}
+    sites: Sites = {}
     for wait in waits:
         site = wait.vertex, wait.beside, wait.waits, wait.for_robot
-        found.setdefault(site, []).append(wait.tick)
-    return found
+        sites.setdefault(site, []).append(wait.tick)
+    return sites
 
 
 def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
@@ -200,10 +200,12 @@ def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
         yield f"  sensitivity: not computed for more than {MAX_VISITS_OF_SENSITIVITY} visits"
         return
     effects = parameter_effects(scenario, graph, most=MAX_EFFECTS)
-    helpful = [one for one in effects if one.ten_per_cent < one.effect.cycle_time]
-    for one in helpful:
-        saved = 1 - one.ten_per_cent / one.effect.cycle_time
-        change = _change(scenario, one)
+    helpful = [
+        parameter for parameter in effects if parameter.ten_per_cent < parameter.effect.cycle_time
+    ]
+    for parameter in helpful:
+        saved = 1 - parameter.ten_per_cent / parameter.effect.cycle_time
+        change = _change(scenario, parameter)
         yield f"  {change}: the period gets {float(saved):.2%} shorter"
     if not helpful:
         yield "  no single change shortens the period: another circuit is as long"
@@ -221,21 +223,21 @@ def _change(scenario: Scenario, effect: ParameterEffect) -> str:
     return f"{robot.name} 10% less work at {where}"
 
 
-def comparison_lines(found: BaselineComparison) -> Iterator[str]:
+def comparison_lines(comparison: BaselineComparison) -> Iterator[str]:
     """Yield how a timetable compares with its baseline, and how fair it is."""
     baseline = {
         "repeats": "first come first served",
         "open": "first come first served as measured within its time",
         "starves": "first come first served, where a robot stands still for ever",
         "deadlock": "",
-    }[found.baseline_ends]
-    if not found.baseline:
+    }[comparison.baseline_ends]
+    if not comparison.baseline:
         yield "throughput: first come first served ends in a deadlock"
-    elif found.throughput < found.baseline:
-        below = float(1 - found.throughput / found.baseline)
+    elif comparison.throughput < comparison.baseline:
+        below = float(1 - comparison.throughput / comparison.baseline)
         yield from wrapped(f"throughput: {below:.2%} below {baseline} (give more time)")
     else:
-        gain = float(found.throughput / found.baseline - 1)
+        gain = float(comparison.throughput / comparison.baseline - 1)
         yield from wrapped(f"throughput: {gain:+.1%} against {baseline}")
-    share = f"{float(found.fairness):.0%}"
+    share = f"{float(comparison.fairness):.0%}"
     yield f"fairness: every robot makes at least {share} of the laps that it makes alone"

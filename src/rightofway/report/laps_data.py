@@ -79,9 +79,9 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
     means = [None if mean is None else written(mean * clock.tick) for mean in group.mean_laps()]
     shares = [None if share is None else written(share) for share in group.waiting_shares()]
     if pattern is None:
-        found = group.measured()
-        laps = dict(zip(names, found.laps, strict=True))
-        measured = {"from": written(time(found.warm_up)), "laps": laps}
+        measurement = group.measured()
+        laps = dict(zip(names, measurement.laps, strict=True))
+        measured = {"from": written(time(measurement.warm_up)), "laps": laps}
 
     def waits_data(waits: Sequence[LapWait], when: str) -> list[dict[str, Any]]:
         return [
@@ -139,16 +139,16 @@ def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, 
         return []
     return [
         {
-            "kind": one.kind,
-            "robot": None if one.robot is None else scenario.robots[one.robot].name,
-            "stop": one.stop,
-            "gain": written(one.effect.gain * tick),
-            "loss": written(one.effect.loss * tick),
-            "until": written(one.effect.until),
-            "at_best": written(one.effect.at_best * tick),
-            "ten_per_cent": written(one.ten_per_cent * tick),
+            "kind": parameter.kind,
+            "robot": None if parameter.robot is None else scenario.robots[parameter.robot].name,
+            "stop": parameter.stop,
+            "gain": written(parameter.effect.gain * tick),
+            "loss": written(parameter.effect.loss * tick),
+            "until": written(parameter.effect.until),
+            "at_best": written(parameter.effect.at_best * tick),
+            "ten_per_cent": written(parameter.ten_per_cent * tick),
         }
-        for one in parameter_effects(scenario, graph)
+        for parameter in parameter_effects(scenario, graph)
     ]
 
 
@@ -178,7 +178,7 @@ def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | Non
         return None
     data: dict[str, Any] = {"exact": scenario.problem.clock.exact, "why": ""}
     try:
-        found = parameter_curves(scenario, graph)
+        found_curves = parameter_curves(scenario, graph)
     except GaveUp as error:
         return data | {"why": str(error), "curves": [], "circuits": []}
     circuits: dict[tuple[int, ...], int] = {}
@@ -199,7 +199,7 @@ def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | Non
                 for piece in curve.pieces
             ],
         }
-        for curve in found
+        for curve in found_curves
     ]
     listed = []
     for arcs in circuits:

@@ -73,8 +73,10 @@ def planning(plan: Plan, quantities: Quantities) -> str:
     elif run.improvement is not None:
         parts.append(improvement_in_words(run.improvement, quantities))
     if run.start is not None:
-        kept, fleet = run.start, counted(len(plan.tracks), "robot")
-        parts.append(f"{kept.routes} of {fleet} keep their old route, {kept.tracks} also its times")
+        start, fleet = run.start, counted(len(plan.tracks), "robot")
+        parts.append(
+            f"{start.routes} of {fleet} keep their old route, {start.tracks} also its times"
+        )
     if run.reroutes:
         names = [words.robot(reroute.robot) for reroute in run.reroutes]
         parts.append(f"rerouted: {', '.join(names)}")
@@ -96,9 +98,9 @@ def _flowtime(words: Words, metrics: Metrics) -> str:
 
 def _lost(words: Words, lost: Sequence[LostTime]) -> str:
     parts = {
-        "detours": sum(one.detours for one in lost),
-        "making room": sum(one.making_room for one in lost),
-        "waiting": sum(one.waiting for one in lost),
+        "detours": sum(times.detours for times in lost),
+        "making room": sum(times.making_room for times in lost),
+        "waiting": sum(times.waiting for times in lost),
     }
     causes = [f"{key} {words.time(ticks)}" for key, ticks in parts.items() if ticks]
     return f"{words.time(sum(parts.values()))}: {', '.join(causes)}" if causes else "none"
@@ -110,8 +112,13 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
         most = [robot for robot in most if lost[robot].lost] or most
     listed, cell = sorted(most), words.quantities.cell
     rows = [
-        tuple(map(cell, (one.completion, one.alone, one.detours, one.making_room, one.waiting)))
-        for one in (lost[robot] for robot in listed)
+        tuple(
+            map(
+                cell,
+                (times.completion, times.alone, times.detours, times.making_room, times.waiting),
+            )
+        )
+        for times in (lost[robot] for robot in listed)
     ]
     widths = [max(map(len, column)) for column in zip(COLUMNS_OF_TIMES, *rows, strict=True)]
     room = COLUMNS - sum(widths) - 2 * len(widths)
@@ -120,7 +127,9 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     which = "each robot" if len(listed) == len(lost) else "the robots that lose most"
     yield words.quantities.heading(f"times of {which}")
     for name, cells in zip(("robot", *names), (COLUMNS_OF_TIMES, *rows), strict=True):
-        line = "  ".join(f"{one:>{space}}" for one, space in zip(cells, widths, strict=True))
+        line = "  ".join(
+            f"{cell_text:>{space}}" for cell_text, space in zip(cells, widths, strict=True)
+        )
         yield f"{name:{width}}  {line}"
     if len(lost) > len(listed):
         rest = counted(len(lost) - len(listed), "more robot")
@@ -130,7 +139,7 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
 def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     """Yield where and to which robots time is lost, the largest losses first."""
     groups: dict[tuple[object, ...], list[Loss]] = {}
-    for loss in chain.from_iterable(one.losses for one in lost):
+    for loss in chain.from_iterable(times.losses for times in lost):
         groups.setdefault((loss.kind, loss.robot, loss.for_robot), []).append(loss)
     largest = sorted(
         groups.values(), key=lambda group: (-sum(loss.ticks for loss in group), group[0].tick)
@@ -147,13 +156,15 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
 
 def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     """Yield one sentence on the robots whose drives take longer than on their shortest trips."""
-    longest = sorted((one for one in lost if one.detours > 0), key=lambda one: -one.detours)
+    longest = sorted(
+        (robot for robot in lost if robot.detours > 0), key=lambda robot: -robot.detours
+    )
     if not longest:
         return
     first, *others = longest[:MAX_DETOURS]
     write = further(words.quantities)
     listed = [f"{words.robot(first.robot)} {words.time(first.detours)}"]
-    listed += [f"{words.robot(one.robot)} {write(one.detours)}" for one in others]
+    listed += [f"{words.robot(times.robot)} {write(times.detours)}" for times in others]
     rest = len(longest) - len(listed)
     more = f" and {counted(rest, 'more robot')}" if rest else ""
     yield ""
@@ -168,7 +179,7 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[str]:
     """
     scenario, tracks = words.plan.scenario, words.plan.tracks
     stays = words.plan.stays
-    found: dict[int, dict[int, int]] = {}
+    costs: dict[int, dict[int, int]] = {}
     for loss in losses:
         if loss.for_robot is None or loss.kind == "follows":
             continue
@@ -179,21 +190,21 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[str]:
         is_last_leg = bool((loss.tick >= before_last).all())
         is_blocked = bool(((comes >= loss.tick) & (comes < stay.completion)).any())
         if loss.vertex == last if loss.kind == "makes room" else is_last_leg and is_blocked:
-            others = found.setdefault(loss.robot, {})
+            others = costs.setdefault(loss.robot, {})
             others[loss.for_robot] = others.get(loss.for_robot, 0) + loss.ticks
-    largest = sorted(found, key=lambda robot: -sum(found[robot].values()))
+    largest = sorted(costs, key=lambda robot: -sum(costs[robot].values()))
     if largest:
         yield ""
     for robot in largest[:MAX_HOMES]:
         last = scenario.problem.itineraries[robot].last
-        what = "home" if last == scenario.robots[robot].home else "last place"
-        ranked = sorted(found[robot], key=lambda other: -found[robot][other])
+        role = "home" if last == scenario.robots[robot].home else "last place"
+        ranked = sorted(costs[robot], key=lambda other: -costs[robot][other])
         names = [*map(words.robot, ranked[:3]), *(["others"] if ranked[3:] else [])]
         listing = " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
-        lost = words.time(sum(found[robot].values()))
+        lost = words.time(sum(costs[robot].values()))
         yield from wrapped(
-            f"{words.places.where(last)}, the {what} of {words.robot(robot)}, is on the way of"
-            f" {listing} and costs {words.robot(robot)} {lost}: a {what} or a parking place off"
+            f"{words.places.where(last)}, the {role} of {words.robot(robot)}, is on the way of"
+            f" {listing} and costs {words.robot(robot)} {lost}: a {role} or a parking place off"
             " that way would help."
         )
 

@@ -97,8 +97,12 @@ class Words:
     def closed(self) -> Sequence[tuple[tuple[int, ...], int]]:
         """What is closed for a while: its vertices, and until when."""
         scenario = self.plan.scenario
-        times = ((one, closed_ticks(one, scenario)) for one in scenario.closures)
-        return [(closed_vertices(one, scenario), end) for one, (_, end) in times if end is not None]
+        times = ((closure, closed_ticks(closure, scenario)) for closure in scenario.closures)
+        return [
+            (closed_vertices(closure, scenario), end)
+            for closure, (_, end) in times
+            if end is not None
+        ]
 
     # Large plans have far more losses than different times and places.
 
@@ -153,9 +157,9 @@ def loss_in_words(words: Words, loss: Loss) -> Phrase:
         case "follows":
             if loss.until_vertex == loss.vertex:
                 return Phrase("follows {other} in {here}, loses {time}", **names)
-            there = words.place(loss.until_vertex)
+            end_place = words.place(loss.until_vertex)
             return Phrase(
-                "follows {other} from {here} to {there}, loses {time}", **names, there=there
+                "follows {other} from {here} to {there}, loses {time}", **names, there=end_place
             )
         case "makes room":
             if loss.for_robot is None:
@@ -260,9 +264,9 @@ def _why(decision: Decision) -> Phrase:
 
 def decision_in_words(words: Words, decision: Decision) -> Phrase:
     """Return how two robots would have met, and which of them waits where."""
-    one, other = map(words.robot, decision.robots)
+    first_name, other = map(words.robot, decision.robots)
     names = {
-        "one": one,
+        "one": first_name,
         "other": other,
         "place": words.way(decision.vertices),
         "waits": words.robot(decision.waits),
@@ -296,8 +300,8 @@ def decision_in_words(words: Words, decision: Decision) -> Phrase:
 
 def goes_first(decision: Decision) -> int:
     """Return the robot that goes first."""
-    one, other = decision.robots
-    return one if decision.waits == other else other
+    first_robot, other = decision.robots
+    return first_robot if decision.waits == other else other
 
 
 def _is_tie(decision: Decision) -> bool:
@@ -354,26 +358,26 @@ def _sums_in_words(decision: Decision, waits: str) -> Phrase:
 
 def figures_in_words(words: Words, decision: Decision) -> list[Phrase]:
     """Return what both choices lead to, in a sentence for each figure that was compared."""
-    one, other = map(words.robot, decision.robots)
-    names, found = {"one": one, "other": other}, list[Phrase]()
+    first_name, other = map(words.robot, decision.robots)
+    names, sentences = {"one": first_name, "other": other}, list[Phrase]()
     if any(count is not None for count in decision.conflicts_left):
         impossible = Phrase("impossible")
         counts = [impossible if n is None else str(n) for n in decision.conflicts_left]
         names["if_one"], names["if_other"] = counts
-        found.append(
+        sentences.append(
             Phrase("Conflicts left: {if_one} if {one} waits, {if_other} if {other} waits.", **names)
         )
     if decision.completion_sums:
         no_way = Phrase("no way")
         sums = [no_way if n is None else words.time(n) for n in decision.completion_sums]
         names["if_one"], names["if_other"] = sums
-        found.append(
+        sentences.append(
             Phrase(
                 "Sum of completion times: {if_one} if {one} waits, {if_other} if {other} waits.",
                 **names,
             )
         )
-    return found
+    return sentences
 
 
 def explanation_of(words: Words, decision: Decision) -> Phrase:

@@ -78,9 +78,11 @@ class Congestion:
     def of_trips(cls, problem: Problem, distances: Distances) -> Self:
         """Begin for one trip of each robot: a robot that is in the way once is in the way."""
         robots, station = problem.itineraries, np.zeros(problem.roadmap.n_vertices, np.int64)
-        cost = int(STATION * SHARES * mean(_edges_of_trip(distances, one) for one in robots))
-        for robot, one in enumerate(robots):
-            places = [one.home, *(stage.vertex for stage in one.stages)]
+        cost = int(
+            STATION * SHARES * mean(_edges_of_trip(distances, itinerary) for itinerary in robots)
+        )
+        for robot, itinerary in enumerate(robots):
+            places = [itinerary.home, *(stage.vertex for stage in itinerary.stages)]
             for place in places:
                 station[problem.resources.vertices_near(robot, place)] = cost
         oncoming = [int(ONCOMING * SHARES)] * len(robots)
@@ -90,9 +92,9 @@ class Congestion:
     def of_laps(cls, problem: Problem, distances: Distances) -> Self:
         """Begin for laps: costs from the frequency of robots, and the shares of laps at stops."""
         station, oncoming = np.zeros(problem.roadmap.n_vertices, np.int64), []
-        for one in problem.itineraries:
-            lap = max(_ticks_of_lap(distances, one), 1)
-            for stage in one.stages:
+        for itinerary in problem.itineraries:
+            lap = max(_ticks_of_lap(distances, itinerary), 1)
+            for stage in itinerary.stages:
                 stays = stage.work + stage.turn + 1
                 station[stage.vertex] += OFTEN_AT_STATION * FINE_SHARES * stays // lap
             oncoming.append(OFTEN_ONCOMING * FINE_SHARES // lap)
@@ -107,8 +109,8 @@ class Congestion:
         self.distances.checkpoint()
         checked_index("robot", robot, len(self.problem.itineraries))
         to_go = self.distances.to(target, self.problem.itineraries[robot].edge_costs)
-        found = self._kernel.path(robot, start, target, to_go)
-        return tuple(VertexId(vertex) for vertex in found.tolist())
+        route = self._kernel.path(robot, start, target, to_go)
+        return tuple(VertexId(vertex) for vertex in route.tolist())
 
     def add(self, robot: int, path: Path) -> None:
         """Have a robot on a path."""
@@ -119,9 +121,9 @@ class Congestion:
 def _edges_of_trip(distances: Distances, itinerary: Itinerary) -> float:
     """Return about how many edges it is from home to the first stop."""
     ticks = itinerary.edge_ticks
-    way = int(distances.to(itinerary.stages[0].vertex, ticks)[itinerary.home])
+    ticks_to_stop = int(distances.to(itinerary.stages[0].vertex, ticks)[itinerary.home])
     all_ticks = distances.ticks_of_edges(ticks)
-    return way / float(all_ticks[all_ticks > 0].mean()) if way else 0.0
+    return ticks_to_stop / float(all_ticks[all_ticks > 0].mean()) if ticks_to_stop else 0.0
 
 
 def _ticks_of_lap(distances: Distances, itinerary: Itinerary) -> int:

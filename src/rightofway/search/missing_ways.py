@@ -134,10 +134,10 @@ def reached_vertices(
     heads: defaultdict[int, list[int]] = defaultdict(list)
     for tail, head in ends:
         heads[tail].append(head)
-    found, waiting = {start}, [start]
+    reached, waiting = {start}, [start]
     while waiting:
         for head in heads[waiting.pop()]:
-            if head not in found and head not in closed:
-                found.add(head)
+            if head not in reached and head not in closed:
+                reached.add(head)
                 waiting.append(head)
-    return found
+    return reached

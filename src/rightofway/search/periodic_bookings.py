@@ -115,8 +115,8 @@ class RowsOfLaps:
 
     def of_lap(self, robot: int, lap: Lap) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Return the rows of a lap's vertices, and of the edges driven into them."""
-        one = self.robots[robot]
-        vertices, edges = self.resources.rows_of_lap(self.roadmap, one, lap.vertices)
+        bookings_of_robot = self.robots[robot]
+        vertices, edges = self.resources.rows_of_lap(self.roadmap, bookings_of_robot, lap.vertices)
         return vertices, np.roll(edges, 1)
 
 
@@ -240,7 +240,7 @@ class PeriodicBookings:
         home again earlier.
         """
         rows = self._rows
-        found = self._kernel.find_route(
+        route = self._kernel.find_route(
             roads_of(trip.roadmap),
             _core.RoundTrip(
                 trip.pace,
@@ -253,9 +253,9 @@ class PeriodicBookings:
             time_limit,
             0 if rows is None else rows.resources.vertex_row(rows.robots[robot], 0),
         )
-        if found is None:
+        if route is None:
             return None
-        vertices, dwell, drive, enter = found
+        vertices, dwell, drive, enter = route
         lap = Lap(
             vertices=tuple(map(VertexId, vertices.tolist())),
             dwell=tuple(map(Tick, dwell.tolist())),

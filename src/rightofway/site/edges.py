@@ -112,24 +112,31 @@ def roadmap_of_edges(
             for edge in edges
         ]
     # Fractions are slow to hash: pieces of a lane share theirs, and are told apart by identity.
-    numbers = [(id(it.length), id(it.max_speed), id(it.barred), id(it.surcharge)) for it in edges]
+    numbers = [
+        (id(edge.length), id(edge.max_speed), id(edge.barred), id(edge.surcharge)) for edge in edges
+    ]
     class_of_numbers = {
-        each: _edge_class(edges[index])
-        for each, index in {each: index for index, each in enumerate(numbers)}.items()
+        numbers_of_edge: _edge_class(edges[index])
+        for numbers_of_edge, index in {
+            numbers_of_edge: index for index, numbers_of_edge in enumerate(numbers)
+        }.items()
     }
     # Floats first: fractions are slow to compare, and only equal floats need it.
     classes = sorted(
         set(class_of_numbers.values()),
-        key=lambda one: (
-            float(one.length),
-            one.length,
-            one.max_speed or 0,
-            sorted(one.barred),
-            one.surcharge,
+        key=lambda edge_class: (
+            float(edge_class.length),
+            edge_class.length,
+            edge_class.max_speed or 0,
+            sorted(edge_class.barred),
+            edge_class.surcharge,
         ),
     )
-    rank = {each: index for index, each in enumerate(classes)}
-    rank_of_numbers = {each: rank[edge_class] for each, edge_class in class_of_numbers.items()}
+    rank = {edge_class: index for index, edge_class in enumerate(classes)}
+    rank_of_numbers = {
+        numbers_of_edge: rank[edge_class]
+        for numbers_of_edge, edge_class in class_of_numbers.items()
+    }
     order = sorted(range(len(edges)), key=lambda k: ids[edges[k].tail])  # stable: the given order
     ordered = [edges[k] for k in order]
     degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))
@@ -162,8 +169,8 @@ def _edge_class(edge: Edge) -> EdgeClass:
 def _lanes(split: Iterable[Sequence[tuple[str, str]]], ids: Mapping[str, int]) -> tuple[Lane, ...]:
     """Return the lanes of some pieces each, in an order that does not depend on that of edges."""
     names = ([pieces[0][0], *(head for _, head in pieces)] for pieces in split)
-    ways = (tuple(VertexId(ids[name]) for name in way) for way in names)
-    return tuple(Lane(vertices=way) for way in sorted(ways))
+    ways = (tuple(VertexId(ids[name]) for name in lane_names) for lane_names in names)
+    return tuple(Lane(vertices=lane) for lane in sorted(ways))
 
 
 def _check_edges(ids: Mapping[str, int], edges: Sequence[Edge]) -> None:

@@ -116,16 +116,16 @@ def straight_length(square: Fraction, step: Fraction = COARSE) -> Fraction:
     """
     if square == 0:
         raise InputError.at("", "has no length, its ends are at one position (give a length)")
-    found = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
-    if found**2 != square or _digits(found) > DIGITS:
+    root = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
+    if root**2 != square or _digits(root) > DIGITS:
         steps = square / step**2
         whole = math.isqrt(math.ceil(steps))
-        found = (whole if whole * whole >= steps else whole + 1) * step
-    if _digits(found) > DIGITS:
+        root = (whole if whole * whole >= steps else whole + 1) * step
+    if _digits(root) > DIGITS:
         about = f"about {math.sqrt(square):.4g}"
         message = f"the straight distance, {about}, has too many digits (give a length)"
         raise InputError.at("", message)
-    return found
+    return root
 
 
 def _digits(number: Fraction) -> int:

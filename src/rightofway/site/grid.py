@@ -111,11 +111,11 @@ def _check_lines(lines: Sequence[str]) -> None:
 
 def _meant_by(lines: Sequence[str]) -> str:
     """Return how to write a grid that has no free cell."""
-    found = sorted(set("".join(lines)))
-    if set(found) <= set("01"):
+    characters = sorted(set("".join(lines)))
+    if set(characters) <= set("01"):
         return "write . for free and @ for blocked, not 0 and 1"
-    others = [character for character in found if character not in "@#TOWX"]
-    if len(others) == 1 and len(found) > 1:
+    others = [character for character in characters if character not in "@#TOWX"]
+    if len(others) == 1 and len(characters) > 1:
         return f"free cells are . G S; {shown(others[0])} is blocked here: write . for it"
     return "free cells are . G S, all other characters are blocked"
 

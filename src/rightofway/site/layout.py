@@ -285,22 +285,22 @@ def roadmap_of_level(
     return LevelRoadmap(
         roadmap=roadmap,
         curves=len(curves),
-        chord_error=metre * max((each.chord_error or Fraction(0) for each in curves.values()),
+        chord_error=metre * max((curve.chord_error or Fraction(0) for curve in curves.values()),
                                 default=Fraction(0)),
         notes=tuple(_lacks(level, lanes, slowest, closed)),
     )  # fmt: skip
 
 
 def _curves(
-    lanes: Sequence[LayoutEdge], kept: Collection[tuple[str, str]]
+    lanes: Sequence[LayoutEdge], pairs: Collection[tuple[str, str]]
 ) -> dict[tuple[str, str], LayoutEdge]:
     """Return the lanes that robots drive along a curve; of parallel lanes the longest counts."""
-    found: dict[tuple[str, str], LayoutEdge] = {}
+    slowest: dict[tuple[str, str], LayoutEdge] = {}
     for lane in lanes:
         ends = (lane.tail, lane.head)
-        if ends in kept and (ends not in found or lane.length > found[ends].length):
-            found[ends] = lane
-    return {ends: lane for ends, lane in found.items() if lane.chord_error is not None}
+        if ends in pairs and (ends not in slowest or lane.length > slowest[ends].length):
+            slowest[ends] = lane
+    return {ends: lane for ends, lane in slowest.items() if lane.chord_error is not None}
 
 
 def _drawing(
@@ -330,24 +330,24 @@ def _drawing(
     )
 
 
-def _slower(one: Edge, other: Edge) -> Edge:
+def _slower(first: Edge, other: Edge) -> Edge:
     """Return an edge that asks a robot for no more than either of two parallel lanes does."""
-    limits = [edge.max_speed for edge in (one, other) if edge.max_speed is not None]
-    length = max(one.length, other.length)
-    barred = one.barred & other.barred
-    return replace(one, length=length, max_speed=min(limits, default=None), barred=barred)
+    limits = [edge.max_speed for edge in (first, other) if edge.max_speed is not None]
+    length = max(first.length, other.length)
+    barred = first.barred & other.barred
+    return replace(first, length=length, max_speed=min(limits, default=None), barred=barred)
 
 
 def _lacks(
     level: Level,
     lanes: Sequence[LayoutEdge],
-    kept: Collection[tuple[str, str]],
+    pairs: Collection[tuple[str, str]],
     closed: Collection[str],
 ) -> Iterator[str]:
     if closed:
         count = f"{len(closed)} vertices" if len(closed) > 1 else "1 vertex"
         yield f"{count} left out: only lanes of other vehicle types lead there"
-    parallel = len(lanes) - len(set(kept))
+    parallel = len(lanes) - len(set(pairs))
     if parallel:
         yield f"{_counted(parallel, 'parallel lane')} left out: the slowest of each counts"
     if level.links:

@@ -65,10 +65,10 @@ class PointGrid:
         counts = np.searchsorted(self._numbers, of_cell + 1, side="right").ravel() - begin
         first = np.repeat(begin - (np.cumsum(counts) - counts), counts)
         other = self._order[first + np.arange(counts.sum())]
-        one = np.repeat(np.tile(np.arange(len(points)), 3), counts)
-        x, y = (points[one] - self.points[other]).T
+        point = np.repeat(np.tile(np.arange(len(points)), 3), counts)
+        x, y = (points[point] - self.points[other]).T
         near = x * x + y * y <= self.distance**2
-        return one[near], other[near]
+        return point[near], other[near]
 
 
 class Lines:
@@ -122,18 +122,18 @@ class Lines:
         slack
             What rounding can move a line.
         """
-        one, middle = self._pairs(grid, some, len(self.middles))
-        later = self.line_of[middle] > one
-        one, other = one[later], self.line_of[middle][later]
-        one, other = np.divmod(np.unique(one * len(self.begin) + other), len(self.begin))
-        apart = self._lie_beside(one, other, slack) | self._lie_beside(other, one, slack)
-        return one[~apart], other[~apart]
+        point, middle = self._pairs(grid, some, len(self.middles))
+        later = self.line_of[middle] > point
+        point, other = point[later], self.line_of[middle][later]
+        point, other = np.divmod(np.unique(point * len(self.begin) + other), len(self.begin))
+        apart = self._lie_beside(point, other, slack) | self._lie_beside(other, point, slack)
+        return point[~apart], other[~apart]
 
-    def _lie_beside(self, one: Ints, other: Ints, slack: float) -> NDArray[np.bool_]:
+    def _lie_beside(self, first: Ints, other: Ints, slack: float) -> NDArray[np.bool_]:
         """Return where both ends of a line lie on one side of another, beyond the slack."""
         (x, y), (begin_x, begin_y), (end_x, end_y) = (
             (ends[of] - self.begin[other]).T
-            for ends, of in ((self.end, other), (self.begin, one), (self.end, one))
+            for ends, of in ((self.end, other), (self.begin, first), (self.end, first))
         )
         begin, end = x * begin_y - y * begin_x, x * end_y - y * end_x
         beyond = slack * np.hypot(x, y)

@@ -85,18 +85,18 @@ def _spot(value: Mapping[object, object]) -> Spot:
         for key in value
         if key not in {"x", "y"}
     ]
-    found = {"x": Fraction(0), "y": Fraction(0)}
-    for key in found:
+    coordinates = {"x": Fraction(0), "y": Fraction(0)}
+    for key in coordinates:
         if key not in value:
             faults.append(InputFault(key, "is missing (give {x: 1.2, y: 0.8})"))
             continue
         try:
-            found[key] = coordinate(value[key])
+            coordinates[key] = coordinate(value[key])
         except ValueError as error:
             faults.append(InputFault(key, str(error)))
     if faults:
         raise InputError(faults)
-    return Spot(**found)
+    return Spot(**coordinates)
 
 
 def _meant(value: object, roadmap: Roadmap | None) -> str:
@@ -169,7 +169,7 @@ def vertex_at(
     vertex = int(grid.vertex_at[row * grid.columns + column])
     if vertex >= 0:
         return VertexId(vertex)
-    what = what_blocks(row, column) if what_blocks else "a wall"
+    obstacle = what_blocks(row, column) if what_blocks else "a wall"
     if isinstance(place, Spot):
         near = _nearest(place, roadmap)
         at = f" lies in N{row * grid.columns + column}, row {row}, column {column}, which"
@@ -177,7 +177,7 @@ def vertex_at(
     else:
         at = "" if isinstance(place, tuple) else f", row {row}, column {column},"
         free = f"{_free_cell(row, column, grid)} is free"
-    raise InputError.at("", f"{_named_as(place)}{at} is blocked by {what} ({free})")
+    raise InputError.at("", f"{_named_as(place)}{at} is blocked by {obstacle} ({free})")
 
 
 def _named(place: str | tuple[int, int], roadmap: Roadmap) -> VertexId:
@@ -233,11 +233,11 @@ def _vertex_at_point(spot: Spot, roadmap: Roadmap, units: Units) -> VertexId:
     x, y = roadmap.frame.to_plane((spot.x, spot.y))
     if roadmap.sides is not None:
         return _square_that_holds(spot, roadmap, roadmap.sides, units)
-    found = np.flatnonzero((roadmap.positions == (float(x), float(y))).all(axis=1)).tolist()
-    if len(found) == 1:
-        return VertexId(found[0])
-    if found:
-        names = ", ".join(repr(roadmap.name(vertex)) for vertex in found)
+    vertices = np.flatnonzero((roadmap.positions == (float(x), float(y))).all(axis=1)).tolist()
+    if len(vertices) == 1:
+        return VertexId(vertices[0])
+    if vertices:
+        names = ", ".join(repr(roadmap.name(vertex)) for vertex in vertices)
         raise InputError.at("", f"{spot} is the point of {names} (give one of these names)")
     near = _with_distance(_nearest(spot, roadmap), spot, roadmap, units)
     raise InputError.at("", f"no vertex is at {spot} (the nearest is {near})")
@@ -248,9 +248,11 @@ def _square_that_holds(
 ) -> VertexId:
     x, y = roadmap.frame.to_plane((spot.x, spot.y))
     away = np.abs(roadmap.positions - (float(x), float(y))).max(axis=1)
-    found = np.flatnonzero(away <= sides / 2 + ON_BORDER * sides.min())
-    if len(found):
-        return VertexId(int(max(found, key=lambda one: tuple(roadmap.positions[one, ::-1]))))
+    vertices = np.flatnonzero(away <= sides / 2 + ON_BORDER * sides.min())
+    if len(vertices):
+        return VertexId(
+            int(max(vertices, key=lambda vertex: tuple(roadmap.positions[vertex, ::-1])))
+        )
     near = _with_distance(_nearest(spot, roadmap), spot, roadmap, units)
     raise InputError.at("", f"{spot} is in no free cell (the nearest has its middle at {near})")
 

@@ -70,7 +70,7 @@ class Squares:
 
     def names(self) -> Iterator[str]:
         """Yield the name of each square: ``Q<column>-<row>``, and ``x<side>`` above 1."""
-        of = (each.tolist() for each in (self.column, self.row, self.side))
+        of = (values.tolist() for values in (self.column, self.row, self.side))
         for column, row, side in zip(*of, strict=True):
             yield f"Q{column}-{row}x{side}" if side > 1 else f"Q{column}-{row}"
 
@@ -112,21 +112,21 @@ def squares_of(
     if count > max_squares:
         message = f"{count} squares, more than {max_squares} (give a larger one)"
         raise InputError.at("smallest", message)
-    found: list[tuple[NDArray[np.int64], NDArray[np.int64], int]] = []
+    squares: list[tuple[NDArray[np.int64], NDArray[np.int64], int]] = []
     for level, whole in enumerate(joined):
         alone = whole & ~_halved(joined[level + 1]) if level < levels else whole
         row, column = np.nonzero(alone)
-        found.append((row << level, column << level, 1 << level))
-    row = np.concatenate([each[0] for each in found])
-    column = np.concatenate([each[1] for each in found])
-    side = np.concatenate([np.full(len(each[0]), each[2]) for each in found])
+        squares.append((row << level, column << level, 1 << level))
+    row = np.concatenate([square[0] for square in squares])
+    column = np.concatenate([square[1] for square in squares])
+    side = np.concatenate([np.full(len(square[0]), square[2]) for square in squares])
     order = np.lexsort((column, row))
     row, column, side = row[order], column[order], side[order]
     at = np.full((1, 1), -1, np.int32)
     for level in range(levels, -1, -1):
         at = np.full(joined[level].shape, -1, np.int32) if level == levels else _halved(at)
-        here = np.flatnonzero(side == 1 << level)
-        at[row[here] >> level, column[here] >> level] = here
+        of_level = np.flatnonzero(side == 1 << level)
+        at[row[of_level] >> level, column[of_level] >> level] = of_level
     return Squares(
         column=column.astype(np.int32),
         row=row.astype(np.int32),
@@ -140,10 +140,10 @@ def _joined(free: NDArray[np.bool_], levels: int, *, near: bool) -> list[NDArray
 
     A block may if its four parts may, and if no square beside it can be smaller than they are.
     """
-    found = [free]
+    pieces = [free]
     sides = [free] * 4  # whether a block has a free cell at its low x, high x, low y, high y
     for level in range(levels):
-        part = found[-1]
+        part = pieces[-1]
         whole = _all_of_four(part)
         if level or not near:
             join = np.logical_or if level else np.logical_xor
@@ -159,8 +159,8 @@ def _joined(free: NDArray[np.bool_], levels: int, *, near: bool) -> list[NDArray
             low_y[0::2, 0::2] | low_y[0::2, 1::2],
             high_y[1::2, 0::2] | high_y[1::2, 1::2],
         ]
-        found.append(whole)
-    return found
+        pieces.append(whole)
+    return pieces
 
 
 def _all_of_four(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -260,22 +260,24 @@ def _edges(
     East comes first, then south, west and north, as on a grid.
     """
     rows, columns = squares.at.shape
-    side, found = squares.side, list[NDArray[np.int64]]()
-    for way in (EAST, SOUTH, WEST, NORTH):
-        downwards = (way == SOUTH) != y_up  # to larger y
+    side, heads_of_ways = squares.side, list[NDArray[np.int64]]()
+    for direction in (EAST, SOUTH, WEST, NORTH):
+        downwards = (direction == SOUTH) != y_up  # to larger y
         for share in (side * 0, side // 2):  # of two smaller neighbours, a cell of each
-            if way in {EAST, WEST}:
+            if direction in {EAST, WEST}:
                 row = squares.row + share
-                column = squares.column + (side if way == EAST else -1)
+                column = squares.column + (side if direction == EAST else -1)
             else:
                 column = squares.column + share
                 row = squares.row + (side if downwards else -1)
             inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
             tails = np.flatnonzero(inside)
             heads = squares.at[row[inside], column[inside]].astype(np.int64)
-            there = heads >= 0
-            found.append((tails[there] * 4 + way) * len(side) + heads[there])
-    tails, heads = np.divmod(np.unique(np.concatenate(found)), len(side))
+            has_neighbour = heads >= 0
+            heads_of_ways.append(
+                (tails[has_neighbour] * 4 + direction) * len(side) + heads[has_neighbour]
+            )
+    tails, heads = np.divmod(np.unique(np.concatenate(heads_of_ways)), len(side))
     tails //= 4
     small, large = np.minimum(side[tails], side[heads]), np.maximum(side[tails], side[heads])
     lengths = small.astype(np.int64) * np.where(small == large, 12, int(12 * OBLIQUE))

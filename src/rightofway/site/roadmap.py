@@ -226,17 +226,17 @@ class Roadmap:
     @property
     def lengths(self) -> tuple[Fraction, ...]:
         """The length of each class of edges [length unit]."""
-        return tuple(each.length for each in self.edge_classes)
+        return tuple(edge_class.length for edge_class in self.edge_classes)
 
     @property
     def has_surcharges(self) -> bool:
         """Whether an edge has a surcharge."""
-        return any(each.surcharge for each in self.edge_classes)
+        return any(edge_class.surcharge for edge_class in self.edge_classes)
 
     @property
     def types(self) -> frozenset[str]:
         """Types of robots that an edge or a vertex is barred for."""
-        on_edges = (each.barred for each in self.edge_classes)
+        on_edges = (edge_class.barred for edge_class in self.edge_classes)
         return frozenset().union(*on_edges, *self.barred_vertices.values())
 
     @checks_arguments
@@ -256,9 +256,9 @@ class Roadmap:
     @checks_arguments
     def is_along_one_lane(self, vertices: Collection[int]) -> bool:
         """Return whether vertices are joints, or joints and ends, of one lane that was split."""
-        lane = next((self._lane_at[each] for each in vertices if each in self._lane_at), None)
+        lane = next((self._lane_at[vertex] for vertex in vertices if vertex in self._lane_at), None)
         return lane is not None and all(
-            self._lane_at.get(each) is lane or each in lane.ends for each in vertices
+            self._lane_at.get(vertex) is lane or vertex in lane.ends for vertex in vertices
         )
 
     @property
@@ -333,9 +333,9 @@ class Roadmap:
         is_open = ~(np.isin(tails, shut) | np.isin(self.heads, shut))
         is_open[[index for ends in edges if (index := self.edge(*ends)) is not None]] = False
         degree = np.bincount(tails[is_open], minlength=self.n_vertices)
-        kept = set(zip(tails[is_open].tolist(), self.heads[is_open].tolist(), strict=True))
+        open_pairs = set(zip(tails[is_open].tolist(), self.heads[is_open].tolist(), strict=True))
         zones = (
-            replace(zone, edges=tuple(ends for ends in zone.edges if ends in kept))
+            replace(zone, edges=tuple(ends for ends in zone.edges if ends in open_pairs))
             for zone in self.zones
         )
         return replace(
@@ -366,26 +366,26 @@ class Roadmap:
             if len(ends):  # the least and the largest one stand for all
                 self._refuse_unknown(place, ends.min())
                 self._refuse_unknown(place, ends.max())
-        found = np.full(len(tails), -1, np.int32)
+        edge_of_pair = np.full(len(tails), -1, np.int32)
         first, last = self.indptr[tails], self.indptr[tails + 1]
         for offset in range(int((last - first).max(initial=0))):
             edge = np.minimum(first + offset, len(self.heads) - 1)
-            fits = (first + offset < last) & (self.heads[edge] == heads) & (found < 0)
-            found[fits] = edge[fits]
-        return found
+            fits = (first + offset < last) & (self.heads[edge] == heads) & (edge_of_pair < 0)
+            edge_of_pair[fits] = edge[fits]
+        return edge_of_pair
 
 
-def _same_sides(one: NDArray[np.float64] | None, other: NDArray[np.float64] | None) -> bool:
-    if one is None or other is None:
-        return one is other
-    return np.array_equal(one, other)
+def _same_sides(first: NDArray[np.float64] | None, other: NDArray[np.float64] | None) -> bool:
+    if first is None or other is None:
+        return first is other
+    return np.array_equal(first, other)
 
 
-def _same_grid(one: Grid | None, other: Grid | None) -> bool:
-    if one is None or other is None:
-        return one is other
-    return (one.rows, one.columns, one.cell_size) == (
+def _same_grid(first: Grid | None, other: Grid | None) -> bool:
+    if first is None or other is None:
+        return first is other
+    return (first.rows, first.columns, first.cell_size) == (
         other.rows,
         other.columns,
         other.cell_size,
-    ) and np.array_equal(one.cells, other.cells)
+    ) and np.array_equal(first.cells, other.cells)

@@ -117,17 +117,17 @@ def split_lanes(
             least = whole if len(lengths) > 1 else Fraction(0)
             shares = _each(parts, whole.__rtruediv__)
             ways[lane] = [edge.tail, *names, edge.head], shares, least
-        way, shares, least = ways[lane]
-        if way[0] != edge.tail:
-            way, shares = way[::-1], shares[::-1]
+        lane_vertices, shares, least = ways[lane]
+        if lane_vertices[0] != edge.tail:
+            lane_vertices, shares = lane_vertices[::-1], shares[::-1]
         if len(shares) > 1:
-            pieces[edge.tail, edge.head] = list(pairwise(way))
+            pieces[edge.tail, edge.head] = list(pairwise(lane_vertices))
         found_lengths = _each(shares, max(edge.length, least).__mul__)
         surcharges = _each(shares, edge.surcharge.__mul__)
         split += [
             edge.piece(tail, head, length, surcharge)
             for (tail, head), length, surcharge in zip(
-                pairwise(way), found_lengths, surcharges, strict=True
+                pairwise(lane_vertices), found_lengths, surcharges, strict=True
             )
         ]
     return SplitLanes(found, split, pieces)
@@ -173,9 +173,9 @@ def _refuse_winding(
 
 def _each(parts: Sequence[Fraction], use: Callable[[Fraction], Fraction]) -> list[Fraction]:
     """Return what becomes of each part; parts that are one number are worked out once."""
-    found = {id(part): part for part in parts}
-    made = {key: use(part) for key, part in found.items()}
-    return [made[id(part)] for part in parts]
+    part_of = {id(part): part for part in parts}
+    result_of = {key: use(part) for key, part in part_of.items()}
+    return [result_of[id(part)] for part in parts]
 
 
 _Ends = frozenset[str] | tuple[str, str]
@@ -183,9 +183,9 @@ _Ends = frozenset[str] | tuple[str, str]
 
 
 def _lane(edge: Edge, curves: Mapping[tuple[str, str], tuple[Point, ...]]) -> _Ends:
-    there, back = curves.get((edge.tail, edge.head), ()), curves.get((edge.head, edge.tail), ())
+    forward, back = curves.get((edge.tail, edge.head), ()), curves.get((edge.head, edge.tail), ())
     ends = (edge.tail, edge.head)
-    return frozenset(ends) if there == back[::-1] else ends
+    return frozenset(ends) if forward == back[::-1] else ends
 
 
 def lengths_along(points: Sequence[Point]) -> list[Fraction]:
@@ -248,8 +248,8 @@ def pieces_by_name(
         if set(inside) != set(unsorted_joints):
             continue
         for dash in re.finditer("-", lane):  # the names of the ends may have dashes, too
-            way = [lane[: dash.start()], *inside, lane[dash.end() :]]
-            for directed in (way, way[::-1]):
+            in_order = [lane[: dash.start()], *inside, lane[dash.end() :]]
+            for directed in (in_order, in_order[::-1]):
                 if all(piece in edges for piece in pairwise(directed)):
                     pieces[directed[0], directed[-1]] = list(pairwise(directed))
     return pieces

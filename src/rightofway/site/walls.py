@@ -42,14 +42,14 @@ def reaches_walls(roadmap: Roadmap, radius: Fraction) -> NDArray[np.bool_]:
     blocked = np.pad(
         grid.vertex_at.reshape(grid.rows, grid.columns) < 0, steps, constant_values=True
     )
-    found = np.zeros((grid.rows, grid.columns), bool)
+    is_wall = np.zeros((grid.rows, grid.columns), bool)
     for down in range(-steps, steps + 1):
         for right in range(-steps, steps + 1):
-            gaps = (max(2 * abs(each) - 1, 0) for each in (down, right))
+            gaps = (max(2 * abs(offset) - 1, 0) for offset in (down, right))
             if sum(gap**2 for gap in gaps) < reach**2:
                 top, left = steps + down, steps + right
-                found |= blocked[top : top + grid.rows, left : left + grid.columns]
-    reaches: NDArray[np.bool_] = found.ravel()[grid.cells]
+                is_wall |= blocked[top : top + grid.rows, left : left + grid.columns]
+    reaches: NDArray[np.bool_] = is_wall.ravel()[grid.cells]
     return reaches
 
 

@@ -118,8 +118,8 @@ def _model_of(request: Request, body: Any) -> Any:
     wanted = parameters[0].field_info.annotation if parameters else None
     if wanted is not None and hasattr(wanted, "model_fields"):
         return wanted
-    for each in get_args(wanted):  # each is annotated with the kind that it is for
-        model, tag = get_args(each)
+    for kind in get_args(wanted):  # each is annotated with the kind that it is for
+        model, tag = get_args(kind)
         if tag.tag == kind_of(body):
             return model
     return None

@@ -135,7 +135,10 @@ class Worker:
         code = await self._process.wait()
         if code >= 0:
             return f"its process ended with code {code}"
-        name = next((each.name for each in signal.Signals if each == -code), f"signal {-code}")
+        name = next(
+            (known_signal.name for known_signal in signal.Signals if known_signal == -code),
+            f"signal {-code}",
+        )
         hint = ", perhaps for its memory" if -code == signal.SIGKILL else ""
         return f"its process was ended by {name}{hint}"
 

@@ -193,9 +193,9 @@ class Guard:
         except StudioError as refused:
             await answer.refuse(refused.status, refused.error)
         except Exception as error:  # noqa: BLE001 (a defect of ours: one line, and the server goes on)
-            what = " ".join([f"{type(error).__name__}:", *str(error).split()])[:500]
-            print(f"unexpected {what} (please report it)", file=sys.stderr)  # noqa: T201 (a server's log)
-            await answer.refuse(500, {"kind": "defect", "message": f"unexpected {what}"})
+            summary = " ".join([f"{type(error).__name__}:", *str(error).split()])[:500]
+            print(f"unexpected {summary} (please report it)", file=sys.stderr)  # noqa: T201 (a server's log)
+            await answer.refuse(500, {"kind": "defect", "message": f"unexpected {summary}"})
 
     def _judge(self, request: _Request) -> None:
         """Refuse what is not a request of our own page, of a program here, or of an address bar."""
@@ -275,11 +275,11 @@ class Guard:
             return
         shown = request.header("authorization").removeprefix("Bearer ")
         try:
-            kept = SimpleCookie(request.header("cookie")).get(COOKIE)
+            cookie = SimpleCookie(request.header("cookie")).get(COOKIE)
         except CookieError:
-            kept = None
+            cookie = None
         wanted = self._access.token.encode()
-        for given in (shown, kept.value if kept else ""):
+        for given in (shown, cookie.value if cookie else ""):
             if secrets.compare_digest(given.encode(), wanted):
                 return
         raise Refused("a token is needed (use the address that the studio printed)", 401)

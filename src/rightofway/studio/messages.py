@@ -71,8 +71,8 @@ def as_error(error: BaseException) -> dict[str, Any]:
             message = "this needs more memory than a worker may take (give a smaller problem)"
             return {"kind": "memory", "message": message}
         case _:
-            what = " ".join([f"{type(error).__name__}:", *str(error).split()])
-            return {"kind": "defect", "message": f"unexpected {what} (please report it)"}
+            summary = " ".join([f"{type(error).__name__}:", *str(error).split()])
+            return {"kind": "defect", "message": f"unexpected {summary} (please report it)"}
 
 
 def fault_data(fault: InputFault) -> dict[str, Any]:

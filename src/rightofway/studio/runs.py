@@ -134,7 +134,7 @@ class Runs:
 
     async def start(self) -> None:
         """Take up what was left when the server went down, and begin to work."""
-        known = {each.name for each in fields(Run)}
+        known = {run_field.name for run_field in fields(Run)}
         for number, data in await asyncio.to_thread(self._store.runs):
             run = Run(**{key: value for key, value in data.items() if key in known})
             run.number = number
@@ -177,10 +177,10 @@ class Runs:
     async def blob(self, number: int, kind: str) -> bytes:
         """Return the ``plan``, the ``report``, the ``payload`` or the ``document`` of a run."""
         run = self.get(number)
-        found = await asyncio.to_thread(self._store.blob, number, kind)
-        if found is None:
+        blob = await asyncio.to_thread(self._store.blob, number, kind)
+        if blob is None:
             raise Refused(f"run {number} is {run.state} and has no {kind}", 404)
-        return found
+        return blob
 
     async def submit(
         self, run: Run, arguments: Mapping[str, Any], blobs: Mapping[str, bytes] | None = None
@@ -193,7 +193,7 @@ class Runs:
             If too many runs wait, or are kept.
         """
         async with self._adding:
-            waiting = sum(each.state == "queued" for each in self._runs.values())
+            waiting = sum(run.state == "queued" for run in self._runs.values())
             if waiting >= MAX_QUEUED:
                 raise Busy(f"{waiting} runs are queued already (cancel some, or wait)")
             await self._add(run, {"arguments": json.dumps(arguments).encode(), **(blobs or {})})
@@ -342,20 +342,20 @@ class Runs:
 
     async def _keep(self, run: Run, result: dict[str, Any], blobs: list[bytes]) -> None:
         """Keep the result of a task: a report, something to play, a plan."""
-        kept, left = dict[str, bytes](), list(blobs)
+        kept_blobs, left = dict[str, bytes](), list(blobs)
         if "report" in result:
-            kept["report"] = json.dumps(result["report"]).encode()
+            kept_blobs["report"] = json.dumps(result["report"]).encode()
             run.has_report = True
         if result.get("has_payload"):
-            kept["payload"] = left.pop(0)
+            kept_blobs["payload"] = left.pop(0)
             run.has_payload = True
         if left:
-            kept["plan"] = left.pop(0)
+            kept_blobs["plan"] = left.pop(0)
         figures = result.get("figures")
         run.status = result.get("status") or run.status
         if run.kind in {"plan", "improve"} and figures and run.started:
             run.add_point(round(time.time() - run.started, 3), figures["flowtime"])
-        await self._save(run, kept, figures)
+        await self._save(run, kept_blobs, figures)
 
     def _note(self, run: Run, work: _Work, event: dict[str, Any], blobs: list[bytes]) -> None:
         """Note progress, and tell listeners."""
@@ -371,16 +371,16 @@ class Runs:
 
     async def _save_plan(self, run: Run, work: _Work) -> None:
         async with work.is_saving:
-            found, work.plan = work.plan, None
-            if found is None:
+            unsaved, work.plan = work.plan, None
+            if unsaved is None:
                 return  # a later one is saved already
-            plan, figures = found
+            plan, figures = unsaved
             try:
                 await self._save(run, {"plan": plan}, figures)
             except StudioError:
                 return  # a later one may find room; the last one says why there is none
-        made = {"revision": run.revision, "figures": figures}
-        self._listeners.tell(run.number, "plan", made)
+        event = {"revision": run.revision, "figures": figures}
+        self._listeners.tell(run.number, "plan", event)
 
     async def _save(
         self,

@@ -128,8 +128,8 @@ def refuse_certificate(certificate: str | None, key: str | None) -> None:
         context.load_cert_chain(certificate, key, password)
     except OSError as error:  # that of TLS is one, too
         reason = getattr(error, "reason", None) or error.strerror or str(error)
-        what = f"{certificate} and {key}" if key else certificate
-        message = f"{what} cannot be used: {reason} (give a certificate and its key in PEM format)"
+        files = f"{certificate} and {key}" if key else certificate
+        message = f"{files} cannot be used: {reason} (give a certificate and its key in PEM format)"
         raise InputError.at("--certificate", message) from None
 
 

@@ -157,10 +157,10 @@ class Store:
     ) -> None:
         """Keep what is known of a run, and blobs by kind, at once."""
         with self._work() as database:
-            found = database.execute(
+            row = database.execute(
                 "UPDATE runs SET data = ? WHERE id = ?", (json.dumps(data), number)
             )
-            if found.rowcount:
+            if row.rowcount:
                 self._put_blobs(database, number, blobs)
 
     @staticmethod

@@ -162,31 +162,31 @@ class Workspace:
 
         Folders near the top come first; a list that is not whole lacks files far inside.
         """
-        found, folders, seen = list[Entry](), deque([self.folder]), 0
-        while folders and len(found) < MAX_FILES and seen < MAX_FOLDERS:
+        entries, folders, seen = list[Entry](), deque([self.folder]), 0
+        while folders and len(entries) < MAX_FILES and seen < MAX_FOLDERS:
             files, inside = self._listed(folders.popleft())
-            found += files
+            entries += files
             folders += inside
             seen += 1
-        found.sort(key=lambda entry: entry.path)
-        return found[:MAX_FILES], not folders and len(found) <= MAX_FILES
+        entries.sort(key=lambda entry: entry.path)
+        return entries[:MAX_FILES], not folders and len(entries) <= MAX_FILES
 
     def _listed(self, folder: Path) -> tuple[list[Entry], list[Path]]:
         """Return the files of one folder that may be opened, and the folders in it."""
         files, folders = list[Entry](), list[Path]()
         try:
-            inside = sorted(os.scandir(folder), key=lambda each: each.name)
+            inside = sorted(os.scandir(folder), key=lambda entry: entry.name)
         except OSError:
             return [], []  # a folder that may not be read has nothing to open
-        for each in inside:
-            if each.name.startswith(".") or each.is_symlink():
+        for entry in inside:
+            if entry.name.startswith(".") or entry.is_symlink():
                 continue
-            kind = KINDS.get(Path(each.name).suffix.lower())
-            if each.is_dir(follow_symlinks=False):
-                folders.append(Path(each.path))
-            elif kind and each.is_file(follow_symlinks=False):
-                stat = each.stat(follow_symlinks=False)
-                name = Path(each.path).relative_to(self.folder).as_posix()
+            kind = KINDS.get(Path(entry.name).suffix.lower())
+            if entry.is_dir(follow_symlinks=False):
+                folders.append(Path(entry.path))
+            elif kind and entry.is_file(follow_symlinks=False):
+                stat = entry.stat(follow_symlinks=False)
+                name = Path(entry.path).relative_to(self.folder).as_posix()
                 files.append(Entry(name, kind, stat.st_size, stat.st_mtime))
         return files, folders
 

@@ -191,10 +191,10 @@ def list_drafts(studio: InStudio) -> dict[str, Any]:
 @router.get("/drafts/{name:path}", tags=["drafts"])
 def get_draft(studio: InStudio, name: str) -> dict[str, Any]:
     """Return a draft."""
-    found = studio.store.draft(name)
-    if found is None:
+    draft = studio.store.draft(name)
+    if draft is None:
         raise Refused(f"there is no draft {name!r} (see the list of drafts)", 404)
-    return found
+    return draft
 
 
 @router.put("/drafts/{name:path}", tags=["drafts"])
@@ -204,7 +204,7 @@ def put_draft(studio: InStudio, name: str, draft: Draft) -> dict[str, Any]:
         remedy = "give from 1 to 500 characters that can be printed"
         raise Refused(f"{name[:50]!r} is no name of a draft ({remedy})")
     known = studio.store.drafts()
-    if len(known) >= MAX_DRAFTS and all(each["name"] != name for each in known):
+    if len(known) >= MAX_DRAFTS and all(draft["name"] != name for draft in known):
         raise Busy(f"{len(known)} drafts are kept already (delete some)")
     checked_json(draft.document)
     saved, revision = studio.store.put_draft(name, draft.document, revision=draft.revision)

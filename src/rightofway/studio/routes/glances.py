@@ -29,8 +29,8 @@ def scenario_examples() -> dict[str, str]:
 @router.get("/examples", tags=["files"])
 def list_examples() -> dict[str, Any]:
     """List the examples of the package."""
-    found = scenario_examples()
-    return {"examples": [{"name": name, "sentence": text} for name, text in found.items()]}
+    examples = scenario_examples()
+    return {"examples": [{"name": name, "sentence": text} for name, text in examples.items()]}
 
 
 @router.get("/examples/{name}", tags=["files"])
@@ -75,10 +75,10 @@ def _asked(studio: Studio, source: Source, name: str) -> tuple[dict[str, Any], o
         stat = studio.workspace.existing(name).stat()
         return {"path": name}, (stat.st_mtime_ns, stat.st_size)
     if source == "drafts":
-        found = studio.store.draft(name)
-        if found is None:
+        draft = studio.store.draft(name)
+        if draft is None:
             raise Refused(f"there is no draft {name!r} (see the list of drafts)", 404)
-        return {"document": found["document"]}, found["saved"]
+        return {"document": draft["document"]}, draft["saved"]
     return {"path": str(examples_folder() / f"{_known(name)}.yaml")}, None
 
 

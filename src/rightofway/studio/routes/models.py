@@ -14,8 +14,8 @@ from rightofway.studio.session import Studio
 
 def studio_of(request: Request) -> Studio:
     """Return the studio that a request is for."""
-    found: Studio = request.app.state.studio
-    return found
+    studio: Studio = request.app.state.studio
+    return studio
 
 
 InStudio = Annotated[Studio, Depends(studio_of)]

@@ -82,19 +82,19 @@ def page_file(path: str) -> bytes:
     text = _text(path)
     if path == "studio/assets/index.html":  # else a browser asks for modules one after another
         modules = scripts_of("studio/assets/main", _text)
-        links = (f'<link rel="modulepreload" href="/{each}.js">' for each in modules)
+        links = (f'<link rel="modulepreload" href="/{module}.js">' for module in modules)
         text = text.replace("</head>", "\n".join([*links, "</head>"]))
     return text.encode()
 
 
 def _text(path: str) -> str:
-    folder = next(each for each in FOLDERS if path.startswith(f"{each}/"))
+    folder = next(name for name in FOLDERS if path.startswith(f"{name}/"))
     parts = path.removeprefix(f"{folder}/").split("/")
-    found = files(FOLDERS[folder]).joinpath("assets", *parts)
+    asset_file = files(FOLDERS[folder]).joinpath("assets", *parts)
     is_asset = PurePosixPath(path).suffix in MEDIA and not {"", ".", ".."} & {*parts}
-    if not is_asset or not found.is_file():
+    if not is_asset or not asset_file.is_file():
         raise Refused(f"there is no asset {path[:100]!r} (open the studio at /)", 404)
-    return found.read_text("utf-8")
+    return asset_file.read_text("utf-8")
 
 
 @about.get("", tags=["studio"])

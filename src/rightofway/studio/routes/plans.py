@@ -97,14 +97,14 @@ async def _played(studio: Studio, task: str, run: Run, others: Sequence[int]) ->
     shown = shown_of(runs)
 
     async def make() -> bytes:
-        plans = [await studio.runs.blob(each.number, "plan") for each in runs]
-        origins = [await origin_of(studio, each) for each in runs]
-        drawn = [{**each, "origin": it} for each, it in zip(shown, origins, strict=True)]
+        plans = [await studio.runs.blob(run.number, "plan") for run in runs]
+        origins = [await origin_of(studio, run) for run in runs]
+        drawn = [{**data, "origin": origin} for data, origin in zip(shown, origins, strict=True)]
         _, blobs = await studio.ask(task, *plans, shown=drawn)
         return blobs[0]
 
-    titles = [each["title"] for each in shown]
-    key = (task, *((each.number, each.revision) for each in runs), *titles)
+    titles = [data["title"] for data in shown]
+    key = (task, *((run.number, run.revision) for run in runs), *titles)
     return await studio.played.get(key, make)
 
 
@@ -117,11 +117,11 @@ async def origin_of(studio: Studio, run: Run) -> dict[str, Any] | None:
             run = studio.runs.get(run.based_on)
         except Refused:  # it was deleted
             return None
-    found = json.loads(await studio.runs.blob(run.number, "arguments"))
-    shape = found["document"].get("map")
+    arguments = json.loads(await studio.runs.blob(run.number, "arguments"))
+    shape = arguments["document"].get("map")
     if not isinstance(shape, dict) or not shape.keys() & DRAWN_BY:
         return None
-    return {"document": found["document"], "folder": found["folder"]}
+    return {"document": arguments["document"], "folder": arguments["folder"]}
 
 
 @router.get("/runs/{number}/export/{form}", tags=["plans"], response_class=Response)
@@ -161,11 +161,11 @@ async def export_run(
 async def run_document(studio: InStudio, number: RunNumber) -> dict[str, Any]:
     """Return the document that a run was made from, so that it can be changed."""
     if studio.runs.get(number).kind in {"plan", "laps"}:
-        found = json.loads(await studio.runs.blob(number, "arguments"))
+        arguments = json.loads(await studio.runs.blob(number, "arguments"))
     else:  # made from a plan, in which the scenario is whole
         plan = json.loads(await studio.runs.blob(number, "plan"))
-        found = {"document": plan["scenario"], "folder": "."}
-    return {"document": found["document"], "folder": found["folder"].removeprefix(".")}
+        arguments = {"document": plan["scenario"], "folder": "."}
+    return {"document": arguments["document"], "folder": arguments["folder"].removeprefix(".")}
 
 
 @router.get("/runs/{number}/report", tags=["plans"], response_class=Response)
@@ -213,7 +213,9 @@ async def run_changes(studio: InStudio, number: RunNumber) -> dict[str, Any]:
         return {"before": None, "changes": []}
 
     async def make() -> bytes:
-        plans = [await studio.runs.blob(each, "plan") for each in (before.number, number)]
+        plans = [
+            await studio.runs.blob(run_number, "plan") for run_number in (before.number, number)
+        ]
         result, _ = await studio.ask("changes", *plans)
         return json.dumps({"before": before.number, **result}).encode()
 
@@ -221,7 +223,7 @@ async def run_changes(studio: InStudio, number: RunNumber) -> dict[str, Any]:
 
 
 def _before(studio: Studio, run: Run) -> Run | None:
-    earlier = [each for each in studio.runs.all() if each.number < run.number and each.revision]
-    made_from = [each for each in earlier if each.number == run.based_on]
-    same_file = [each for each in earlier if each.source == run.source]
+    earlier = [other for other in studio.runs.all() if other.number < run.number and other.revision]
+    made_from = [other for other in earlier if other.number == run.based_on]
+    same_file = [other for other in earlier if other.source == run.source]
     return next(iter([*made_from, *same_file]), None)

@@ -26,13 +26,13 @@ def losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
     plan = read(blobs[0])
     words = Words(plan=plan, quantities=plan.scenario.quantities)
     wanted = None if robot is None else _index(plan, "robot", robot)
-    found = [
+    answers = [
         _loss_data(words, loss)
-        for one in lost_time(plan)
-        if wanted in {None, one.robot}
-        for loss in one.losses
+        for lost in lost_time(plan)
+        if wanted in {None, lost.robot}
+        for loss in lost.losses
     ]
-    return (None, zipped(compact_json({"losses": found})))
+    return (None, zipped(compact_json({"losses": answers})))
 
 
 def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
@@ -71,27 +71,27 @@ def _decisions_behind(plan: Plan, loss: Loss) -> list[int]:
     places = {loss.vertex, loss.towards, loss.freed}
     pair = {loss.robot, loss.for_robot}
     own = [
-        (index, each)
-        for index, each in reversed([*enumerate(plan.run.decisions)])
-        if each.waits == loss.robot
+        (index, decision)
+        for index, decision in reversed([*enumerate(plan.run.decisions)])
+        if decision.waits == loss.robot
     ]
     last = next(
         (
-            (index, each)
-            for index, each in own
-            if set(each.robots) == pair and places.intersection(each.vertices)
+            (index, decision)
+            for index, decision in own
+            if set(decision.robots) == pair and places.intersection(decision.vertices)
         ),
         None,
     )
     if last is None:
         return []
-    found, rest = [last[0]], loss.ticks - last[1].ticks
-    for index, each in own:
-        of_same_wait = index != last[0] and each.waits_at == last[1].waits_at
-        if of_same_wait and 0 < each.ticks <= rest:
-            found.append(index)
-            rest -= each.ticks
-    return sorted(found)
+    behind, rest = [last[0]], loss.ticks - last[1].ticks
+    for index, decision in own:
+        of_same_wait = index != last[0] and decision.waits_at == last[1].waits_at
+        if of_same_wait and 0 < decision.ticks <= rest:
+            behind.append(index)
+            rest -= decision.ticks
+    return sorted(behind)
 
 
 def flip(
@@ -105,12 +105,12 @@ def flip(
     if not answer.keeps_routes:
         status = f"{status}; both planned again"
     run = replace(plan.run, status=status, seconds=None, decisions=())
-    found = Plan(scenario=plan.scenario, tracks=answer.tracks, run=run)
-    report = check(found)
+    flipped_plan = Plan(scenario=plan.scenario, tracks=answer.tracks, run=run)
+    report = check(flipped_plan)
     if not report.ok:
         raise InvalidPlan(f"a flipped right of way made a plan with {report}")
-    result = {"figures": figures(found), "before": figures(plan), "status": run.status}
-    return (result, plan_text(found).encode())
+    result = {"figures": figures(flipped_plan), "before": figures(plan), "status": run.status}
+    return (result, plan_text(flipped_plan).encode())
 
 
 def _index(plan: Plan, place: str, name: str) -> int:

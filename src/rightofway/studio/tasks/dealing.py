@@ -87,12 +87,12 @@ def _roadmap(document: dict[str, Any], folder: str, speeds: list[Fraction]) -> R
         units = validate(UnitsDocument, document.get("units") or {}).given("length", "time")
     with under("map"):
         shape = validate(MapDocument, document.get("map"))
-        found = map_of(shape, Path(folder), Units(**units), FleetTraits(speeds=speeds))
-    assert found is not None, "speeds are given"
-    return found.roadmap
+        roadmap = map_of(shape, Path(folder), Units(**units), FleetTraits(speeds=speeds))
+    assert roadmap is not None, "speeds are given"
+    return roadmap.roadmap
 
 
-def _drawn(part: Sequence[int], what: str) -> list[int]:
+def _drawn(part: Sequence[int], part_name: str) -> list[int]:
     """Return places in an order that depends on words alone, on every machine and every Python."""
-    draw = random.Random(what)  # noqa: S311 (no secret depends on it)
+    draw = random.Random(part_name)  # noqa: S311 (no secret depends on it)
     return sorted(part, key=lambda _: draw.random())

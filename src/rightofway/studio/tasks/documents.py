@@ -50,12 +50,12 @@ def opened(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None) -
     if file.suffix.lower() in {".scen", *WORKBOOKS}:
         return (_of_loaded("scenario", load_with_notes(file, count)),)
     try:
-        found = load_either(file, count)
+        loaded = load_either(file, count)
     except InputError:
         return (_with_faults(file),)
-    if isinstance(found, Plan):
-        return ({"kind": "plan", "figures": figures(found)}, plan_text(found).encode())
-    return ({**_of_loaded("scenario", found), "document": raw_document(file)},)
+    if isinstance(loaded, Plan):
+        return ({"kind": "plan", "figures": figures(loaded)}, plan_text(loaded).encode())
+    return ({**_of_loaded("scenario", loaded), "document": raw_document(file)},)
 
 
 def _of_loaded(kind: str, loaded: Loaded) -> dict[str, Any]:
@@ -98,8 +98,8 @@ def loaded_of(document: Any, folder: str) -> Loaded:
 
 def _named(faults: Sequence[InputFault], document: Any) -> list[InputFault]:
     """Return faults with the names of list items; lines mean nothing here."""
-    found = locate(faults, json.dumps(document))
-    return [it.at(replace(it.location, line=None)) for it in found]
+    located = locate(faults, json.dumps(document))
+    return [fault.at(replace(fault.location, line=None)) for fault in located]
 
 
 def validated(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
@@ -107,22 +107,26 @@ def validated(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Resu
     try:
         loaded = loaded_of(document, folder)
     except InputError as error:
-        return ({"ok": False, "faults": [fault_data(each) for each in error.faults], "notes": []},)
+        return (
+            {"ok": False, "faults": [fault_data(fault) for fault in error.faults], "notes": []},
+        )
     return ({"ok": True, "faults": [], "notes": list(loaded.notes)},)
 
 
 def inspected(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
     """Return what will hurt on the floor of a document, as `rightofway inspect --json` has it."""
     loaded = loaded_of(document, folder)
-    found = sites_of(loaded.scenario, loaded.notes)
-    results = [(site, inspect(site)) for _, site in found.sites]
-    (result,) = (each for _, each in results)
+    sites = sites_of(loaded.scenario, loaded.notes)
+    results = [(site, inspect(site)) for _, site in sites.sites]
+    (result,) = (inspected for _, inspected in results)
     return (
         {
-            "what": found.what,
-            "notes": list(found.notes),
+            "what": sites.what,
+            "notes": list(sites.notes),
             **{key: value for key, value in asdict(result).items() if key != "findings"},
-            "findings": [{**asdict(each), "sentence": str(each)} for each in result.findings],
+            "findings": [
+                {**asdict(finding), "sentence": str(finding)} for finding in result.findings
+            ],
         },
     )
 
@@ -169,7 +173,7 @@ def figures(plan: Plan) -> dict[str, Any]:
     text = {key: duration(ticks) for key, ticks in costs.items()}
     text["gap"] = f"{metrics.gap:.1%}" if metrics.lower_bound else ""
     tick, units = plan.scenario.problem.clock.tick, plan.scenario.units
-    found = {
+    data = {
         **costs,
         "text": text,
         "tick": tick.as_integer_ratio(),
@@ -178,5 +182,5 @@ def figures(plan: Plan) -> dict[str, Any]:
         "faults": verdict_on(plan).total,
     }
     if plan.run.start is None:
-        return found
-    return {**found, "start": asdict(plan.run.start), "robots": len(plan.tracks)}
+        return data
+    return {**data, "start": asdict(plan.run.start), "robots": len(plan.tracks)}

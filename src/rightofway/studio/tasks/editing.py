@@ -57,7 +57,7 @@ def surveyed(
     """
     notes = tuple[str, ...]()
     site, closures = None, list[ClosureData]()
-    loaded, kept, faults = readable(document, folder)
+    loaded, kept_robots, faults = readable(document, folder)
     if loaded is not None:
         scenario, notes = loaded.scenario, loaded.notes
         ((_, site),) = sites_of(scenario, notes).sites
@@ -66,7 +66,7 @@ def surveyed(
         site = drawn_map(document, folder)
     answer: dict[str, Any] = {
         "ok": not faults,
-        "faults": [fault_data(each) for each in faults],
+        "faults": [fault_data(fault) for fault in faults],
         "notes": list(notes),
         "site": None,
         "findings": [],
@@ -77,24 +77,24 @@ def surveyed(
         answer["scenario"] = None if loaded is None or faults else digest_of(loaded.scenario)
     if site is not None:
         drawn = _drawn(site)
-        colours = robot_colours(1 + max(kept, default=0))
-        for robot, index in zip(drawn["robots"], kept, strict=False):
+        colours = robot_colours(1 + max(kept_robots, default=0))
+        for robot, index in zip(drawn["robots"], kept_robots, strict=False):
             robot |= {"index": index, "colour": colours[index]}
         answer["site"] = {**drawn, "closures": closures}
     if site is not None and inspects:
-        found = _inspected(site)
-        said = sentences(site, found)
+        inspection = _inspected(site)
+        said = sentences(site, inspection)
         answer |= {
             "findings": [
                 {
-                    **asdict(each),
-                    "sentence": str(each),
-                    "phrases": {"fact": parts_of(each.fact), "remedy": parts_of(each.remedy)},
+                    **asdict(finding),
+                    "sentence": str(finding),
+                    "phrases": {"fact": parts_of(finding.fact), "remedy": parts_of(finding.remedy)},
                 }
-                for each in found.findings
+                for finding in inspection.findings
             ],
             "sentences": list(said),
-            "phrases": [parts_of(each) for each in said],
+            "phrases": [parts_of(sentence) for sentence in said],
         }
     return (None, zipped(compact_json(answer)))
 
@@ -148,21 +148,23 @@ def _without(
     A robot whose home is right stays, without the keys that have faults: it is seen where it is.
     """
     wrong: dict[int, set[str]] = {}
-    for each in faults:
-        section, index, key = (*each.path, "", "", "")[:3]
+    for fault in faults:
+        section, index, key = (*fault.path, "", "", "")[:3]
         if section == "robots" and isinstance(index, int):
             wrong.setdefault(index, set()).add(str(key))
     rest = dict(document)
     for key in ("closures", "rules"):
-        if any(each.path[:1] == (key,) for each in faults):
+        if any(fault.path[:1] == (key,) for fault in faults):
             rest.pop(key, None)
     drawn = [_mended(document["robots"][at], wrong.get(at, set())) for at in _robots(document)]
     whole = [None if at in wrong else document["robots"][at] for at in _robots(document)]
     for robots in (drawn, whole):
-        kept = [index for index, robot in enumerate(robots) if robot is not None]
-        if kept:
+        kept_robots = [index for index, robot in enumerate(robots) if robot is not None]
+        if kept_robots:
             try:
-                return loaded_of({**rest, "robots": [robots[at] for at in kept]}, folder), kept
+                return loaded_of(
+                    {**rest, "robots": [robots[at] for at in kept_robots]}, folder
+                ), kept_robots
             except InputError:
                 pass
     return None, []
@@ -172,13 +174,13 @@ def _mended(robot: Any, wrong: set[str]) -> Any:
     """Return a robot without the keys that are wrong; it stays at home without a stop."""
     if not isinstance(robot, dict) or wrong & {"name", "home"}:
         return robot if not wrong else None
-    kept = {key: value for key, value in robot.items() if key not in wrong}
+    read_values = {key: value for key, value in robot.items() if key not in wrong}
     if "" in wrong:  # the keys do not fit each other
-        kept = {key: value for key, value in kept.items() if key in {"name", "home"}}
-    if wrong and not kept.keys() & {"target", "stops"}:
-        kept = {key: value for key, value in kept.items() if key != "work"}
-        kept["target"] = kept.get("home")
-    return kept
+        read_values = {key: value for key, value in read_values.items() if key in {"name", "home"}}
+    if wrong and not read_values.keys() & {"target", "stops"}:
+        read_values = {key: value for key, value in read_values.items() if key != "work"}
+        read_values["target"] = read_values.get("home")
+    return read_values
 
 
 def drawn_map(document: dict[str, Any], folder: str) -> Site | None:

@@ -27,13 +27,13 @@ def glanced(
 
     A scenario with faults is looked at without what has faults.
     """
-    kind, found = _file(Path(path)) if document is None else ("scenario", _document(document, "."))
-    site = max((site for _, site in found.sites), key=lambda each: each.roadmap.n_edges)
+    kind, glance = _file(Path(path)) if document is None else ("scenario", _document(document, "."))
+    site = max((site for _, site in glance.sites), key=lambda candidate: candidate.roadmap.n_edges)
     about = {
         "kind": kind,
-        "what": found.what,
+        "what": glance.what,
         "robots": len(site.robots) if kind != "layout" else None,
-        "extent": [decimal(each) for each in extent(site.roadmap)],
+        "extent": [decimal(length) for length in extent(site.roadmap)],
         "unit": site.units.length,
     }
     return (about, preview_of(site, theme=DARK if dark else LIGHT))
@@ -43,7 +43,7 @@ def _file(file: Path) -> tuple[str, Sites]:
     if is_layout(file):
         return "layout", read_sites(file, Choice())
     try:
-        found = load_either(file)
+        loaded = load_either(file)
     except InputError:
         if file.suffix.lower() not in {".yaml", ".yml", ".json"}:
             raise
@@ -51,9 +51,9 @@ def _file(file: Path) -> tuple[str, Sites]:
         if not isinstance(document, dict) or "map" not in document:
             raise
         return "scenario", _document(document, str(file.parent))
-    if isinstance(found, Plan):
-        return "plan", sites_of(found.scenario, ())
-    return "scenario", sites_of(found.scenario, found.notes)
+    if isinstance(loaded, Plan):
+        return "plan", sites_of(loaded.scenario, ())
+    return "scenario", sites_of(loaded.scenario, loaded.notes)
 
 
 def _document(document: dict[str, Any], folder: str) -> Sites:

@@ -88,14 +88,14 @@ def _searched(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
     progress = Progress(emit)
     keep = {"report": progress.report, "on_plan": progress.on_plan, "keep_best": True}
     try:
-        found = search(keep)
+        best = search(keep)
     except KeyboardInterrupt:
         if progress.best is None:
             raise
         ended = "interrupted: the best plan that was made"
-        found = replace(progress.best, run=replace(progress.best.run, status=ended))
-    status = {"status": found.run.status, "seconds": found.run.seconds}
-    return ({"figures": figures(found), **status}, plan_text(found).encode())
+        best = replace(progress.best, run=replace(progress.best.run, status=ended))
+    status = {"status": best.run.status, "seconds": best.run.seconds}
+    return ({"figures": figures(best), **status}, plan_text(best).encode())
 
 
 def choices(_emit: Emit, _blobs: Blobs) -> Result:
@@ -106,5 +106,5 @@ def choices(_emit: Emit, _blobs: Blobs) -> Result:
     rules = {**RULES, TIMETABLE: "all rights of way are chosen in advance"}
     delays = [example for cause in CAUSES.values() for example in cause.examples]
     formats = {name: form.summary for name, form in FOREIGN_FORMATS.items()}
-    found = {"rules": rules, "delays": {"default": DEFAULT_DELAYS, "examples": dict(delays)}}
-    return ({**found, "formats": formats},)
+    choices = {"rules": rules, "delays": {"default": DEFAULT_DELAYS, "examples": dict(delays)}}
+    return ({**choices, "formats": formats},)

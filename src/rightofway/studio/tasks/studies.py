@@ -122,7 +122,7 @@ def _changed(
     if kind == "headway":
         return replace(scenario, rules=replace(scenario.rules, headway=value))
     robots = list(scenario.robots)
-    index = next((k for k, each in enumerate(robots) if each.name == robot), None)
+    index = next((k for k, candidate in enumerate(robots) if candidate.name == robot), None)
     if index is None:
         raise InputError.at("robot", f"{robot!r} is no robot of this scenario")
     stops = list(robots[index].stops)

@@ -86,12 +86,12 @@ def page(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
 
 def _titled(blobs: Blobs, shown: Sequence[Shown]) -> list[tuple[Plan, str]]:
     """Return plans with their titles, and with the seconds and drawings that files do not keep."""
-    found = []
-    for blob, each in zip(blobs, shown, strict=True):
-        plan = as_drawn(read(blob), each.get("origin"))
-        timed = replace(plan, run=replace(plan.run, seconds=each["seconds"]))
-        found.append((timed, each["title"]))
-    return found
+    payloads = []
+    for blob, titles in zip(blobs, shown, strict=True):
+        plan = as_drawn(read(blob), titles.get("origin"))
+        timed = replace(plan, run=replace(plan.run, seconds=titles["seconds"]))
+        payloads.append((timed, titles["title"]))
+    return payloads
 
 
 def exported(_emit: Emit, blobs: Blobs, *, form: str, origin: Origin | None = None) -> Result:
@@ -121,21 +121,21 @@ def compared(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
     """
     titled = _titled(blobs, shown)
     plans, titles = [plan for plan, _ in titled], [title for _, title in titled]
-    found = compare(plans, titles)
-    data = compared_data(found)
+    comparison = compare(plans, titles)
+    data = compared_data(comparison)
     robots = [
         {
             "name": robot["name"],
             "completion": [
-                None if ticks is None else float(ticks * found.tick)
+                None if ticks is None else float(ticks * comparison.tick)
                 for ticks in robot["completion"]
             ],
         }
         for robot in data["robots"]
     ]
     costs = [
-        {**figures(plan), "time": {key: float(each[key] * found.tick) for key in TIMES}}
-        for plan, each in zip(plans, data["plans"], strict=True)
+        {**figures(plan), "time": {key: float(compared[key] * comparison.tick) for key in TIMES}}
+        for plan, compared in zip(plans, data["plans"], strict=True)
     ]
     return ({"plans": costs, "robots": robots, "titles": titles, "comparison": data},)
 
@@ -143,5 +143,5 @@ def compared(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
 def changed(_emit: Emit, blobs: Blobs) -> Result:
     """Return in what the scenario of a plan differs from that of the plan before."""
     before, after = (read_scenario(parse_json(blob.decode())["scenario"], None) for blob in blobs)
-    found = changes(before.scenario, after.scenario)
-    return ({"changes": [change.as_dict() for change in found]},)
+    differences = changes(before.scenario, after.scenario)
+    return ({"changes": [change.as_dict() for change in differences]},)
