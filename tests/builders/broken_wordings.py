@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from rightofway.control import Entry, FleetControl, RobotLedger, RobotState
 from rightofway.control.ledger import SentOrder
 
-__all__ = ["WORDINGS"]
+__all__ = ["RARE", "WORDINGS"]
 
 
 class LeftWhenItDrives(FleetControl):
@@ -111,6 +111,41 @@ class FactsInMemory(FleetControl):
             self.ledger.apply(entry)
 
 
+class VertexTwiceInBase(FleetControl):
+    """A base may come to a vertex twice."""
+
+    @staticmethod
+    def _is_in_base(own: RobotLedger, part: int) -> bool:  # noqa: ARG004
+        return False
+
+
+class WithdrawalOutlivesOrder(FleetControl):
+    """A new order after a doubt does not drop the withdrawal that is under way."""
+
+    def _commit(self, *entries: Entry) -> None:
+        kept = {
+            entry["robot"]: cancel
+            for entry in entries
+            if entry["kind"] == "order" and "stands_at" not in entry
+            if (cancel := self.ledger.robots[entry["robot"]].cancel) is not None
+        }
+        super()._commit(*entries)
+        for robot, cancel in kept.items():
+            self.ledger.robots[robot].cancel = cancel
+
+
+class DoubtProvesArrival(FleetControl):
+    """A robot without an order has arrived where it says that it stands."""
+
+    def _settle_doubt(self, robot: int, state: RobotState) -> Iterator[Entry]:
+        own = self.ledger.robots[robot]
+        if own.token in state.actions and state.is_idle:
+            stands_at = own.held_at(state.last_place)
+            if stands_at is not None:
+                yield {"kind": "arrived", "robot": robot, "visit": stands_at}
+        yield from super()._settle_doubt(robot, state)
+
+
 WORDINGS = {
     "left = drives away": (LeftWhenItDrives, "plain"),
     "no nodes = arrived": (EmptyMeansArrived, "plain"),
@@ -120,6 +155,12 @@ WORDINGS = {
     "splice behind where robots are": (SplicedBehindArrived, "killed often"),
     "next update before the acknowledgement": (NextBeforeAcknowledged, "plain"),
     "a withdrawal frees at once": (FreeWhenCancelled, "cancels"),
+    "a vertex twice in a base": (VertexTwiceInBase, "resets, replanned"),
+    "a withdrawal outlives the next order": (WithdrawalOutlivesOrder, "cancels and resets"),
+    "a doubt proves an arrival": (DoubtProvesArrival, "wrong fields and resets"),
     "facts in memory": (FactsInMemory, "all"),
 }
 """Each wording with the chaos that finds it."""
+
+RARE = {"a vertex twice in a base": 50}
+"""The seed to begin with, for wordings that do harm in one of many runs only."""

@@ -112,7 +112,10 @@ KINDS = {
     "resets": Chaos(resets=0.02),
     "cancels": Chaos(cancels=0.03),
     "cancels and resets": Chaos(cancels=0.02, resets=0.02),
+    "resets, replanned": Chaos(resets=0.03, kills=0.03, splices=1.0, lost=0.5),
     "wrong fields": Chaos(wrong=0.2),
+    "wrong fields and resets": Chaos(wrong=0.3, resets=0.04),
+    "wrong fields, replanned": Chaos(wrong=0.3, kills=0.03, splices=1.0, lost=0.5),
     "all": Chaos(kills=0.03, resets=0.01, wrong=0.1, cancels=0.02, splices=1.0),
     "jobs": Chaos(jobs=0.03),
     "jobs, all": Chaos(kills=0.03, resets=0.01, wrong=0.1, cancels=0.02, jobs=0.03),
@@ -640,6 +643,8 @@ def _detour(scenario: Scenario, draw: random.Random, route: RouteToDrive, end: i
         way = _random_way(roadmap, path[-1], vertices[goal], draw)
         if way is None or (len(way) == 1 and (route.jobs[goal] or goal in laps)):
             return route
+        if len(way) > 1 and draw.random() < 0.3:
+            way += _out_and_back(roadmap, way[-1], draw)
         path += way[1:]
         jobs += [()] * (len(way) - 1)
         if way[1:]:
@@ -653,6 +658,13 @@ def _detour(scenario: Scenario, draw: random.Random, route: RouteToDrive, end: i
         work=tuple((0,) * len(names) for names in jobs),
         lap_ends=tuple(lap_end + route.first for lap_end in sorted(lap_ends)),
     )
+
+
+def _out_and_back(roadmap: Roadmap, vertex: int, draw: random.Random) -> list[int]:
+    """Return a way to a neighbour and back; nothing if none leads back."""
+    heads = roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist()
+    neighbour = draw.choice(heads)
+    return [neighbour, vertex] if roadmap.edge(neighbour, vertex) is not None else []
 
 
 def _random_way(roadmap: Roadmap, start: int, goal: int, draw: random.Random) -> list[int] | None:

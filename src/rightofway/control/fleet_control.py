@@ -521,11 +521,20 @@ class FleetControl:
             and self._is_fit(robot)
             and part - own.arrived <= self._ahead(robot)
             and own.finished.issuperset(route.jobs_at(part - 1))
-            and route.place(part) not in route.stretch(own.arrived, part)
+            and not self._is_in_base(own, part)
             and route.place(part) not in self.ledger.closed
             and not any(route.place(part) == other.strays_at for other in self.ledger.robots)
             and self.ledger.graph.may_go(Part(robot, part), self.ledger.arrived)
         )
+
+    @staticmethod
+    def _is_in_base(own: RobotLedger, part: int) -> bool:
+        """Return whether a robot holds the vertex of a part already, by an earlier part.
+
+        A robot that forgot its order would take an update again whose way ends where it began, and
+        drive it twice.
+        """
+        return own.route.place(part) in own.route.stretch(own.arrived, part)
 
     def _is_fit(self, robot: int) -> bool:
         """Return whether nothing that the robot says of itself holds a release back."""
