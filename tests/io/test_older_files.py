@@ -1,4 +1,4 @@
-"""Scenarios and plans that older development versions wrote are read, and mean what they meant.
+"""Scenarios, plans and suites that older development versions wrote mean what they meant.
 
 The files are in `tests/data/older`, one folder for each version, under the day of its commit. They
 stay as they are: a reader that refuses one breaks a promise (`docs/promises.md`).
@@ -7,11 +7,15 @@ stay as they are: a reader that refuses one breaks a promise (`docs/promises.md`
 from __future__ import annotations
 
 import json
+import shutil
+from collections import Counter
 from pathlib import Path
 
 import pytest
 
 from rightofway import check, load, load_plan, write_plan
+from rightofway.bench import read_suite
+from tests.builders.pages import ROOT
 
 OLDER = Path(__file__).parents[1] / "data" / "older"
 PLANS = sorted(OLDER.glob("*/*.json"))
@@ -54,3 +58,15 @@ def test_an_older_plan_is_written_as_a_new_one(path: Path, tmp_path: Path) -> No
 @pytest.mark.parametrize("path", SCENARIOS, ids=under(SCENARIOS))
 def test_an_older_scenario_is_that_of_its_plan(path: Path) -> None:
     assert load(path) == load_plan(path.with_suffix(".json")).scenario
+
+
+def test_an_older_suite_has_the_cases_that_it_had(tmp_path: Path) -> None:
+    """The version that wrote it counted 27, with 3 seeds: 3 counts and 2 fleets; 2 fleets; 1."""
+    [older] = OLDER.glob("*/suite.toml")
+    shutil.copy(older, tmp_path)
+    for name in ("maps", "door.yaml"):
+        (tmp_path / name).symlink_to(ROOT / "examples" / name)
+    cases = read_suite(tmp_path / "suite.toml")
+    maps = Counter(case.labels["map"] for case in cases)
+    assert list(maps.values()) == [18, 6, 3]
+    assert {case.labels["planner"] for case in cases} == {"two-level"}
