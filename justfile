@@ -70,6 +70,8 @@ nightly law_seconds="60":
         just delay 200000; \
         just chaos 20000; \
         just kills 200; \
+        just chaos-broker 100; \
+        just fuzz-states 20000; \
         just fuzz-files 20000; \
         just fuzz-bindings --count 20000; \
     done
@@ -89,6 +91,14 @@ delay count *args:
 # Drive plans of random fleets through chaos COUNT times: lost messages, kills, resets, wrong fields
 chaos count *args:
     python -m tests.campaigns.plans chaos {{ count }} {{ args }}
+
+# Drive plans over a real broker COUNT times (0: without end), its processes killed at random
+chaos-broker count *args:
+    python -m tests.campaigns.broker {{ count }} {{ args }}
+
+# Send COUNT broken states to a control whose robots drive: a hundred thousand take some minutes
+fuzz-states count *args:
+    python -m tests.campaigns.states {{ count }} {{ args }}
 
 # Break files of all formats that are read: a million take about an hour
 fuzz-files count *args:
@@ -173,6 +183,10 @@ gaps:
 # Two-level beside priorities: tables and plots of docs/results/priorities.md (an hour)
 priorities: (suite "priorities") (suite "priorities_aisles")
     python -m benchmarks.pages priorities build/priorities.csv build/priorities_aisles.csv
+
+# CPU share and answers of a control with 200 robots at a broker (benchmarks/README.md)
+control-at-a-broker *args:
+    python -m benchmarks.control_at_a_broker {{ args }}
 
 # How soon random fleets repeat themselves: tables and plots of docs/results/second-lap.md (minutes)
 laps: (suite "cyclic")

@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+from tests.builders.brokers import MOSQUITTO
+
 
 def said_by(*words: str) -> str:
     """Return what a campaign prints when it is over."""
@@ -26,3 +28,9 @@ def test_plans_are_judged_by_the_hundred(campaign: str) -> None:
 def test_a_studio_that_is_killed_loses_nothing() -> None:
     said = said_by("tests.campaigns.kills", "6")
     assert re.search(r"\b6 kills\b.*; nothing lost, nothing in parts; \d+ s$", said), said
+
+
+@pytest.mark.skipif(MOSQUITTO is None, reason="mosquitto is not installed")
+def test_plans_are_driven_over_a_broker_that_is_killed() -> None:
+    said = said_by("tests.campaigns.broker", "2", "--seed", "3")
+    assert re.search(r"^chaos-broker: 2 runs, 0 faults, \d+ s$", said, re.MULTILINE), said

@@ -12,6 +12,7 @@ import subprocess
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
+from urllib.request import urlopen
 
 import pytest
 
@@ -27,7 +28,7 @@ from rightofway.control.robots import run_robots
 from rightofway.errors import InputError
 from rightofway.io import write_plan
 from rightofway.model import Plan
-from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, wait_for
+from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, free_port, wait_for
 from tests.builders.observers import Observer
 from tests.builders.pages import ROOT, blocks
 from tests.builders.plans import door
@@ -311,3 +312,28 @@ def test_identities_with_faults_are_refused_with_their_place(fault: str, tmp_pat
 def test_addresses_with_faults_are_refused(url: str, fault: str) -> None:
     with pytest.raises(InputError, match=fault):
         Broker.of(url)
+
+
+def test_metrics_are_served_for_prometheus(tmp_path: Path, broker: Mosquitto) -> None:
+    port = free_port()
+    with robots_of(door(), tmp_path, broker.url):
+        wait_for((tmp_path / "robots.yaml").exists, 60, "the file of identities")
+        options = ("--broker", broker.url, "--identities", "robots.yaml", "--stay")
+        more = ("--metrics", str(port))
+        with Command(tmp_path, "drive", "plan.json", *options, *more).running() as drive:
+            wait_for(lambda: "R1 is at the end of its way" in drive.log, 60, "R1")
+            address = f"http://127.0.0.1:{port}/metrics"
+            wait_for(lambda: "rightofway_jobs_done 2.0" in text_at(address), 20, "metrics")
+            text = text_at(address)
+    assert 'rightofway_messages_received_total{topic="state"}' in text
+    assert 'rightofway_messages_sent_total{topic="order"}' in text
+    assert 'rightofway_waits_total{robot="R1"} 2.0' in text
+    assert "rightofway_answer_seconds_bucket" in text
+    assert "rightofway_robots_unfit 0.0" in text
+
+
+def text_at(address: str) -> str:
+    """Return what is served at an address of this machine."""
+    with urlopen(address, timeout=5) as answer:  # noqa: S310
+        text: str = answer.read().decode()
+        return text

@@ -20,6 +20,7 @@ from rightofway.precedence import ReleaseGraph
 from tests.builders.chaos import MemoryJournal
 from tests.builders.plans import door
 from tests.builders.schemas import validator
+from tests.campaigns.states import fuzz_states
 
 NOW = "2026-01-31T12:00:00.000Z"
 
@@ -212,6 +213,11 @@ def test_a_broken_state_proves_nothing_and_is_reported_once() -> None:
     assert all(sentence.startswith("R2 sent what cannot be read: ") for sentence in site.said)
     assert len(site.said) == 2  # no JSON, and no order
     assert site.control.ledger.arrived == [0, 0]
+
+
+def test_broken_states_do_no_harm_and_are_reported_once() -> None:
+    """A few hundred; `just fuzz-states 100000` sends more."""
+    assert fuzz_states(300, 1)
 
 
 @pytest.mark.parametrize(

@@ -80,6 +80,8 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @click.option("--dry-run", is_flag=True,
               help="Connect to nobody: print what robots would be sent that do what they are asked,"
               " a topic and a message a line.")  # fmt: skip
+@click.option("--metrics", type=click.IntRange(1, 65535), metavar="PORT",
+              help="Serve metrics for Prometheus at a port of this machine.")  # fmt: skip
 @click.option("--stay", is_flag=True,
               help="Go on when all robots have come to the end of their way.")  # fmt: skip
 @click.option("--time-scale", type=float, default=10, show_default=True, callback=_factor,
@@ -104,6 +106,7 @@ def drive(
     ca_file: str | None,
     journal: str | None,
     dry_run: bool,
+    metrics: int | None,
     stay: bool,
     time_scale: float,
     delays: tuple[str, ...],
@@ -137,7 +140,7 @@ def drive(
 
         address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
         file = journal or str(Path(plan).with_suffix(".journal"))
-        _drive_at(address, opened, known, file, laps=laps, stays=stay)
+        _drive_at(address, opened, known, file, laps=laps, metrics=metrics, stays=stay)
         return 0
     from rightofway.control.demo import drive_demo
 
@@ -204,6 +207,7 @@ def _drive_at(
     journal: str,
     *,
     laps: int | None,
+    metrics: int | None,
     stays: bool,
 ) -> None:
     """Drive a plan with robots at a broker."""
@@ -211,10 +215,24 @@ def _drive_at(
     from rightofway.control.driver import Driver
     from rightofway.control.journal import SqliteJournal
 
+    counted = None
+    if metrics is not None:
+        from rightofway.control.metrics import FleetMetrics
+
+        counted = FleetMetrics([robot.name for robot in plan.scenario.robots])
+        counted.serve(metrics)
     opened = SqliteJournal(Path(journal))
     try:
         commands = Commands(Path(journal))
-        driver = Driver(plan, identities, opened, laps=laps, commands=commands, report=_narrate)
+        driver = Driver(
+            plan,
+            identities,
+            opened,
+            laps=laps,
+            commands=commands,
+            report=_narrate,
+            metrics=counted,
+        )
         asyncio.run(driver.run(broker, stays=stays))
     finally:
         opened.close()

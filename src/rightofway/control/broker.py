@@ -70,8 +70,8 @@ class Broker:
         InputError
             If the URL is none of a broker, or a file cannot be read.
         """
-        if not find_spec("aiomqtt"):
-            message = "needs a package that is not installed (pip install 'rightofway[control]')"
+        if not (find_spec("aiomqtt") and find_spec("prometheus_client")):
+            message = "needs packages that are not installed (pip install 'rightofway[control]')"
             raise InputError.at("broker", message)
         try:
             parts = urlsplit(url)

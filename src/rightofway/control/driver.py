@@ -34,6 +34,8 @@ from rightofway.model import Plan
 if TYPE_CHECKING:
     import aiomqtt
 
+    from rightofway.control.metrics import FleetMetrics
+
 __all__ = ["Driver", "timestamp"]
 
 REMIND = 1.0
@@ -68,6 +70,8 @@ class Driver:
         Where people ask for more: jobs, closures, holds.
     report
         Receives each sentence of the story, and what is wrong.
+    metrics
+        Counts messages and robots, if that is wanted.
 
     Raises
     ------
@@ -85,11 +89,13 @@ class Driver:
         laps: int | None = None,
         commands: Commands | None = None,
         report: Callable[[str], None],
+        metrics: FleetMetrics | None = None,
     ) -> None:
         names = [robot.name for robot in plan.scenario.robots]
         maps = [OrderMap(plan.scenario, *numbered) for numbered in enumerate(identities)]
         notices = Notices(names, report)
         self._journal, self._report = BatchedJournal(journal), report
+        self._metrics = metrics
         self.control = FleetControl(self._journal, report=notices.about)
         self._laps = laps
         repeated = None if laps is None else LapsToDrive(plan)
@@ -208,6 +214,8 @@ class Driver:
 
     def _remind(self) -> list[Letter]:
         """Return what is to be sent again; robots that are silent are lost."""
+        if self._metrics is not None:
+            self._metrics.survey(self.control)
         letters = self.end.letters(self.control.remind())
         now = time.monotonic()
         for robot, heard in enumerate(self._heard):
@@ -244,6 +252,8 @@ class Driver:
             await client.publish(letter.topic, letter.payload, qos=0)
         for sentence in self._story.go_on():
             self._report(sentence)
+        if self._metrics is not None:
+            self._metrics.turn(inbox, sent, self._story.waits)
 
 
 def _digest(plan: Plan, maps: Sequence[OrderMap]) -> str:

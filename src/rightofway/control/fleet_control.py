@@ -10,7 +10,7 @@ was not acknowledged. A robot that has it discards it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 
 from rightofway.control.journal import Entry, Journal
 from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive, plan_entry
@@ -23,7 +23,7 @@ from rightofway.control.messages import (
     RobotState,
 )
 from rightofway.errors import InputError
-from rightofway.precedence import Part, ReleaseGraph
+from rightofway.precedence import Arrival, Part, ReleaseGraph
 
 LOOK_AHEAD = 4
 """Released parts that a robot has not reached yet, at most: re-planning keeps the rest free."""
@@ -232,6 +232,19 @@ class FleetControl:
         """Whether each robot that is on the floor has come to the end of its route."""
         return all(own.is_off or own.is_done for own in self.ledger.robots)
 
+    def is_fit(self, robot: int) -> bool:
+        """Return whether nothing that is known of a robot's condition holds a release back.
+
+        Parameters
+        ----------
+        robot
+            A robot of the plan.
+        """
+        if robot in self.lost or robot in self.refused:
+            return False
+        condition = self.conditions.get(robot)
+        return condition is None or condition.is_fit
+
     # --- what comes in ---------------------------------------------------------------------------
 
     def receive(self, robot: int, state: RobotState) -> list[Message]:
@@ -246,9 +259,14 @@ class FleetControl:
         """
         self.conditions[robot] = state.condition
         self.lost.discard(robot)
+        own, graph = self.ledger.robots[robot], self.ledger.graph
+        before = own.arrived
         self._commit(*self._facts(robot, state))
         self._commit(*self._answers(robot, state))
-        return [*self._go_on(), *self.dispatch()]
+        # Nobody else can go on because of a state than those that wait for what it proves.
+        let_go = (Arrival(robot, visit) for visit in range(before + 1, own.arrived + 1))
+        others = {part.robot for arrival in let_go for part in graph.after(arrival)}
+        return [*self._go_on(sorted({robot, *others})), *self.dispatch()]
 
     def connect(self, robot: int, *, is_connected: bool) -> list[Message]:
         """Note whether messages reach a robot. A robot that is lost keeps what it holds.
@@ -483,11 +501,11 @@ class FleetControl:
 
     # --- what may be released (rules 4 and 5) ----------------------------------------------------
 
-    def _go_on(self) -> list[Message]:
-        """Release what may be released; return what is to be sent."""
+    def _go_on(self, robots: Iterable[int] | None = None) -> list[Message]:
+        """Release what may be released to robots, by default to all; return what is to be sent."""
         sends: list[Message] = []
-        for robot, own in enumerate(self.ledger.robots):
-            entry = self._next(robot, own)
+        for robot in range(len(self.ledger.robots)) if robots is None else robots:
+            entry = self._next(robot, self.ledger.robots[robot])
             if entry is not None:
                 self._commit(entry)
                 sends += self._open(robot)
@@ -518,12 +536,12 @@ class FleetControl:
             part < route.end
             and not own.is_on_hold
             and own.fault is None
-            and self._is_fit(robot)
+            and self.is_fit(robot)
             and part - own.arrived <= self._ahead(robot)
             and own.finished.issuperset(route.jobs_at(part - 1))
             and not self._is_in_base(own, part)
             and route.place(part) not in self.ledger.closed
-            and not any(route.place(part) == other.strays_at for other in self.ledger.robots)
+            and not self._is_strayed_to(route.place(part))
             and self.ledger.graph.may_go(Part(robot, part), self.ledger.arrived)
         )
 
@@ -536,12 +554,9 @@ class FleetControl:
         """
         return own.route.place(part) in own.route.stretch(own.arrived, part)
 
-    def _is_fit(self, robot: int) -> bool:
-        """Return whether nothing that the robot says of itself holds a release back."""
-        if robot in self.lost or robot in self.refused:
-            return False
-        condition = self.conditions.get(robot)
-        return condition is None or condition.is_fit
+    def _is_strayed_to(self, place: str) -> bool:
+        """Return whether a faulty robot says that it is at a place."""
+        return any(other.strays_at == place for other in self.ledger.robots)
 
     def _ahead(self, robot: int) -> int:
         """Return how far ahead a robot may be released: twice as far if it asks for more."""

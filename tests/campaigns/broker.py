@@ -1,0 +1,142 @@
+"""Chaos over a real broker: the real processes, killed at random; an observer of what is sent.
+
+Each run is a plan of some robots with trouble of their own. Its control is killed and started again
+on its journal, its broker is killed, until all robots are home. A fault is a place that two robots
+hold, an order with two contents, a message that is not valid, a job lost or done twice, or a run
+that does not end.
+"""
+
+from __future__ import annotations
+
+import argparse
+import random
+import sys
+import tempfile
+import time
+import traceback
+from collections import Counter
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from functools import partial
+from itertools import count
+from pathlib import Path
+from random import SystemRandom
+
+from rightofway.io import write_plan
+from tests.builders.brokers import Command, Mosquitto, wait_for
+from tests.builders.observers import Observer
+from tests.builders.warehouses import warehouse
+
+__all__ = ["run_chaos_at_a_broker"]
+
+TROUBLES = {"late": 0.5, "stop": 0.05, "error": 0.05, "offline": 0.05, "reset": 0.05}
+"""The largest share of each kind of trouble."""
+
+LONGEST = 300.0
+"""Seconds after which a run counts as stuck."""
+
+KILLS = 12
+"""Kills of a run, at most: afterwards it has to come to its end."""
+
+
+def run_chaos_at_a_broker(seed: int, robots: int | None = None) -> Counter[str]:
+    """Make one run; return what happened.
+
+    Raises
+    ------
+    AssertionError
+        At a fault.
+    """
+    draw = random.Random(seed)  # noqa: S311
+    robots = robots or draw.randint(3, 8)
+    plan = warehouse(robots, seed=draw.getrandbits(30))
+    options = ["--broker", "", "--seed", str(seed), "--time-scale", str(draw.choice([20, 50]))]
+    for kind, most in TROUBLES.items():
+        options += ["--trouble", f"{kind}:{draw.uniform(0, most):.3f}"]
+    counts = Counter({"runs": 1, "robots": robots})
+    with tempfile.TemporaryDirectory(prefix="rightofway-chaos-") as name:
+        folder = Path(name)
+        write_plan(plan, folder / "plan.json")
+        broker = Mosquitto(folder)
+        options[1] = broker.url
+        observer = Observer(broker.port)
+        own = ("plan.json", *options, "--write-identities", "robots.yaml")
+        try:
+            with Command(folder, "robots", *own).running():
+                wait_for((folder / "robots.yaml").exists, 120, "the file of identities")
+                asked = ("--broker", broker.url, "--identities", "robots.yaml")
+                with Command(folder, "drive", "plan.json", *asked).running() as drive:
+                    _kill(drive, broker, observer, draw, counts)
+                    assert drive.wait(LONGEST) == 0, drive.log[-3000:]
+                assert "is faulty" not in drive.log, drive.log[-3000:]
+            # What was finished while the observer was away, it has not seen: control has.
+            wanted = {f"robot{number}" for number in range(robots)}
+            missed = wanted - {robot for robot, _ in observer.finished}
+            assert len(missed) == 0 or counts["broker kills"], missed
+            assert len(observer.finished) == robots - len(missed), "a job was done twice"
+            counts.update({f"{key}s": value for key, value in observer.counts.items()})
+            observer.close()
+        finally:
+            broker.kill()
+    return counts
+
+
+def _kill(
+    drive: Command, broker: Mosquitto, observer: Observer, draw: random.Random, counts: Counter[str]
+) -> None:
+    """Kill control and broker, each time after some states."""
+    for _ in range(draw.randrange(KILLS + 1)):
+        due = observer.counts["state"] + draw.randrange(1, 80)
+
+        def is_due(due: int = due) -> bool:
+            return observer.counts["state"] >= due or drive.code is not None
+
+        wait_for(is_due, LONGEST, "states")
+        if drive.code is not None:
+            return
+        if draw.random() < 0.25:
+            broker.kill()
+            broker.start()
+            counts["broker kills"] += 1
+        else:
+            drive.kill()
+            drive.start()
+            counts["control kills"] += 1
+
+
+def _say(line: str) -> None:
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()
+
+
+def main() -> int:
+    """Make runs; return the exit code."""
+    parser = argparse.ArgumentParser(prog="python -m tests.campaigns.broker", description=__doc__)
+    parser.add_argument("count", type=int, help="runs to make; 0 for no end")
+    parser.add_argument("--seed", type=int, default=SystemRandom().randrange(10**9))
+    parser.add_argument("--at-once", type=int, default=2, help="runs beside each other")
+    given = parser.parse_args()
+    _say(f"chaos-broker {given.count} --seed {given.seed}")
+    began, total, faults = time.perf_counter(), Counter[str](), 0
+    seeds = iter(range(given.seed, given.seed + given.count) if given.count else count(given.seed))
+    with ThreadPoolExecutor(given.at_once) as pool:
+        running: dict[Future[Counter[str]], int] = {}
+        while True:
+            while len(running) < given.at_once and (seed := next(seeds, None)) is not None:
+                running[pool.submit(partial(run_chaos_at_a_broker, seed))] = seed
+            if not running:
+                break
+            for ended in wait(running, return_when=FIRST_COMPLETED).done:
+                seed = running.pop(ended)
+                if error := ended.exception():
+                    faults += 1
+                    _say(f"--seed {seed}: {''.join(traceback.format_exception(error))}")
+                else:
+                    total += ended.result()
+    seconds = time.perf_counter() - began
+    _say(", ".join(f"{total[name]} {name}" for name in sorted(total)))
+    _say(f"chaos-broker: {given.count} runs, {faults} faults, {seconds:.0f} s")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
