@@ -81,7 +81,9 @@ def validate(model: type[M], data: Any, context: Any = None) -> M:
         return model.model_validate(data, context=context)
     except ValidationError as error:
         faults = error.errors()
-    raise InputError(each for fault in faults for each in _faults_of(fault, model))
+    raise InputError(
+        fault_of_part for fault in faults for fault_of_part in _faults_of(fault, model)
+    )
 
 
 def _faults_of(details: ErrorDetails, model: type[BaseModel]) -> Iterator[InputFault]:
@@ -155,11 +157,11 @@ def _walk(
     """Return the innermost model on the way to a place, and the last field on it."""
     owner, field = model, None
     for part in (part for part in location if isinstance(part, str)):
-        found = _fields(owner).get(part)
-        if found is None:
+        model_field = _fields(owner).get(part)
+        if model_field is None:
             break
-        field = found
-        inner = _model_in(found.annotation)
+        field = model_field
+        inner = _model_in(model_field.annotation)
         if inner is None:
             break
         owner = inner
@@ -181,4 +183,4 @@ def _model_in(annotation: Any) -> type[BaseModel] | None:
     if hasattr(annotation, "model_fields"):
         return annotation  # type: ignore[no-any-return]
     inside = (_model_in(argument) for argument in get_args(annotation))
-    return next((found for found in inside if found), None)
+    return next((inner for inner in inside if inner), None)

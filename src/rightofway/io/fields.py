@@ -81,7 +81,7 @@ class Document(BaseModel):
 
     def own(self, owner: type) -> dict[str, Any]:
         """Return those of the attributes of robots or rules that were written."""
-        return self.given(*(it.name for it in attributes_of(owner)))
+        return self.given(*(attribute.name for attribute in attributes_of(owner)))
 
 
 def optional(description: str, **limits: Any) -> Any:
@@ -91,11 +91,11 @@ def optional(description: str, **limits: Any) -> Any:
 
 def exactly_one_of(document: Document, kinds: tuple[str, ...]) -> str:
     """Return which one of several keys for a map was written; ValueError if not exactly one."""
-    found = [kind for kind in kinds if kind in document.model_fields_set]
-    if len(found) != 1:
-        what = f"{' and '.join(found)} are" if found else "no map is"
-        raise ValueError(f"{what} given (give exactly one of {', '.join(kinds)})")
-    return found[0]
+    given_kinds = [kind for kind in kinds if kind in document.model_fields_set]
+    if len(given_kinds) != 1:
+        subject = f"{' and '.join(given_kinds)} are" if given_kinds else "no map is"
+        raise ValueError(f"{subject} given (give exactly one of {', '.join(kinds)})")
+    return given_kinds[0]
 
 
 def positive(value: object) -> Fraction:
@@ -248,12 +248,15 @@ def with_attributes(owner: type, but: str = "") -> Callable[[D], D]:
 
     def add(document: D) -> D:
         fields: dict[str, Any] = {
-            it.name: (
-                KINDS.get(it.kind, it.kind),
-                optional(it.description, **({} if it.key == it.name else {"alias": it.key})),
+            attribute.name: (
+                KINDS.get(attribute.kind, attribute.kind),
+                optional(
+                    attribute.description,
+                    **({} if attribute.key == attribute.name else {"alias": attribute.key}),
+                ),
             )
-            for it in attributes_of(owner)
-            if it.name != but
+            for attribute in attributes_of(owner)
+            if attribute.name != but
         }
         return create_model(  # type: ignore[return-value]
             document.__name__,

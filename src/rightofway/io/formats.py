@@ -19,8 +19,8 @@ def check_format(document: Any, known: str) -> dict[str, Any]:
     """
     line = f'format = "{known}"' if known == SUITE_FORMAT else f"format: {known}"
     if not isinstance(document, dict):
-        found = "nothing is in it" if document is None else f"{shown(document)} is no document"
-        raise InputError.at("", f"{found} (begin with {line})")
+        fault = "nothing is in it" if document is None else f"{shown(document)} is no document"
+        raise InputError.at("", f"{fault} (begin with {line})")
     if "format" not in document:
         if any(nearest(str(key).lower(), ["format"]) for key in document):
             return {**document, "format": known}  # the misspelt key is reported with all else
@@ -28,16 +28,16 @@ def check_format(document: Any, known: str) -> dict[str, Any]:
             message = f"this is no scenario and no known layout (a scenario begins with {line})"
             raise InputError.at("", message)
         raise InputError.at("format", f"is missing (put {line} at the top)")
-    found = document["format"]
-    if found != known:
-        raise InputError.at("format", f"{shown(found)} is {_not_wanted(found, known)}")
+    name = document["format"]
+    if name != known:
+        raise InputError.at("format", f"{shown(name)} is {_not_wanted(name, known)}")
     return document
 
 
-def _not_wanted(found: object, known: str) -> str:
-    if found == PLAN_FORMAT and known == SCENARIO_FORMAT:
+def _not_wanted(value: object, known: str) -> str:
+    if value == PLAN_FORMAT and known == SCENARIO_FORMAT:
         return "a plan, not a scenario (its scenario is in it; check or show it as it is)"
-    if found == SCENARIO_FORMAT and known == PLAN_FORMAT:
+    if value == SCENARIO_FORMAT and known == PLAN_FORMAT:
         return "a scenario, not a plan (plan it first)"
     return f"not known here (give {known}, or update)"
 

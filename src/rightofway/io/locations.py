@@ -72,7 +72,7 @@ def locate(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
         The text that the document was read from.
     """
     faults = list(faults)
-    has_no_lines = [bool(it.path) and it.line is None and not it.file for it in faults]
+    has_no_lines = [bool(fault.path) and fault.line is None and not fault.file for fault in faults]
     root = _root(text) if any(has_no_lines) else None
     for fault, has_no_line in zip(faults, has_no_lines, strict=True):
         if root is None or not has_no_line:
@@ -115,10 +115,10 @@ def _locate(location: Location, root: yaml.Node) -> Location:
     """Return a location with line and names, its path followed as far as there are values."""
     node, line, names = root, root.start_mark.line, list[str]()
     for step in location.path:
-        found = _child(node, step)
-        if found is None:
+        child = _child(node, step)
+        if child is None:
             break
-        node, line = found
+        node, line = child
         names.append(_name(node) if isinstance(step, int) else "")
     return replace(location, line=line + 1, names=tuple(names))
 

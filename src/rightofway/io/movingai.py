@@ -215,8 +215,8 @@ def _optimal_lengths(scenario: Scenario) -> Iterator[int]:
     """Yield for each robot the moves on a shortest path from its home to its target."""
     from rightofway.metrics import alone_completions
 
-    robots = [Robot(name=each.name, home=each.home, stops=(Stop(at=each.stops[0].at),))
-              for each in scenario.robots]  # fmt: skip
+    robots = [Robot(name=robot.name, home=robot.home, stops=(Stop(at=robot.stops[0].at),))
+              for robot in scenario.robots]  # fmt: skip
     there_and_back = Scenario(
         roadmap=scenario.roadmap, robots=tuple(robots), rules=Rules(turn=Fraction(0))
     )

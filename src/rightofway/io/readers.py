@@ -147,13 +147,13 @@ def _classic(path: Path, count: int | None) -> Loaded:
     """Return the scenario of the first rows of a `.scen` file, or of all."""
     map_name = re.split(r"[\\/]", load_scen(path)[0].map_name)[-1]
     beside = [Path(map_name), Path("..", "maps", map_name)]
-    found = next((each for each in beside if is_regular(path.parent / each)), None)
-    if found is None:
+    name_beside = next((name for name in beside if is_regular(path.parent / name)), None)
+    if name_beside is None:
         message = f"its map {shown(map_name)} is neither beside it nor in ../maps (put it there)"
         raise InputError.at("", message)
     document = {
         "format": SCENARIO_FORMAT,
-        "map": {"file": str(found)},
+        "map": {"file": str(name_beside)},
         "robots": {"scen": path.name} | ({} if count is None else {"count": count}),
         "rules": "classic",
     }
@@ -163,7 +163,7 @@ def _classic(path: Path, count: int | None) -> Loaded:
         starts: dict[Steps, Where] = {("robots", "scen"): "", ("robots",): ""}
         moved = (fault.relocate(starts) for fault in error.faults)
         raise InputError(
-            it.at(it.location.inner) if it.location.inner else it for it in moved
+            fault.at(fault.location.inner) if fault.location.inner else fault for fault in moved
         ) from None
 
 
@@ -191,10 +191,10 @@ def _foreign(
         files = [
             None if given is None else path_of(given, place) for place, given in places.items()
         ]
-        found = read_foreign(text, path, *files)
-        if found is None and any(files):
+        plan = read_foreign(text, path, *files)
+        if plan is None and any(files):
             message = "the file has its own map and robots in it (leave out --map and --scen)"
             raise InputError.at("", message)
-        if found is None:
+        if plan is None:
             refuse_layout(path, text)
-    return text, found
+    return text, plan

@@ -80,8 +80,8 @@ def site_plan_text(plan: Plan, name: str) -> tuple[str, tuple[str, ...]]:
 def _assumed(plan: Plan, name: str) -> Iterator[str]:
     units = plan.scenario.units
     missing = [
-        f"{what} {unit}"
-        for what, unit, given in (
+        f"{quantity} {unit}"
+        for quantity, unit, given in (
             ("lengths", "count as metres", units.length),
             ("times", "count as seconds", units.time),
         )
@@ -213,16 +213,16 @@ def _events(plan: Plan) -> str:
             steps.append((int(stays.completion), "done", came.get(robot, goes), ""))
         came[robot] = goes
         x, y = map(_rounded, site.point(event.vertex))
-        for tick, what, heading, for_robot in steps:
+        for tick, doing, heading, for_robot in steps:
             row = (
-                _rounded(tick * site.second), robots[robot].name, what, name(event.vertex), x, y,
+                _rounded(tick * site.second), robots[robot].name, doing, name(event.vertex), x, y,
                 _rounded(heading), event.purpose, for_robot,
             )  # fmt: skip
             rows.append((tick, robot, row))
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(COLUMNS)
-    writer.writerows(row for _, _, row in sorted(rows, key=lambda each: each[:2]))
+    writer.writerows(row for _, _, row in sorted(rows, key=lambda row: row[:2]))
     return text.getvalue()
 
 

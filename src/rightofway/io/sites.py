@@ -54,12 +54,12 @@ class Choice:
 
     def keys(self) -> dict[str, Any]:
         """Return the keys that are given."""
-        found = {
+        level_of = {
             "level": self.level,
             "vehicle_type": self.vehicle_type,
             "cell_size": self.cell_size,
         }
-        return {key: value for key, value in found.items() if value is not None}
+        return {key: value for key, value in level_of.items() if value is not None}
 
 
 def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = None) -> Sites:
@@ -86,47 +86,47 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
             message = f"{next(iter(given))} is for layouts, and this is none (leave it out)"
             raise InputError.at("", message, str(path))
         return _of_scenario(path, robots)
-    found = read_layout(path)
+    layout = read_layout(path)
     if robots is not None:
         keys = choice.keys()
-        if isinstance(found, Layout):
-            level = _level(path, found, choice)
+        if isinstance(layout, Layout):
+            level = _level(path, layout, choice)
             if choice.vehicle_type is None and (name := _usual_type(level)):
                 keys["vehicle_type"] = name
         loaded = _with_fleet({"layout": str(path.resolve()), **keys}, Path(), Path(robots))
-        return Sites(what=describe_layout(found), notes=loaded.notes, sites=loaded.sites)
-    if isinstance(found, Layout):
-        return _of_layout(path, found, choice)
-    return _of_cells(path, found, choice)
+        return Sites(what=describe_layout(layout), notes=loaded.notes, sites=loaded.sites)
+    if isinstance(layout, Layout):
+        return _of_layout(path, layout, choice)
+    return _of_cells(path, layout, choice)
 
 
-def _level(path: Path, found: Layout, choice: Choice) -> Level:
+def _level(path: Path, layout: Layout, choice: Choice) -> Level:
     """Return the level that is wanted, with lanes of the vehicle type that is wanted."""
     with in_file(str(path)):
         if choice.cell_size is not None:
             message = "is given with a layout of lanes, which has no cells (take it out)"
             raise InputError.at("cell_size", message)
-        level = found.level(choice.level)
+        level = layout.level(choice.level)
         if choice.vehicle_type is not None:
             level.lanes_of(choice.vehicle_type)
     return level
 
 
-def _of_layout(path: Path, found: Layout, choice: Choice) -> Sites:
-    levels = found.levels if choice == Choice() else (_level(path, found, choice),)
-    sites, notes = list[tuple[str, Site]](), list(found.notes)
+def _of_layout(path: Path, layout: Layout, choice: Choice) -> Sites:
+    levels = layout.levels if choice == Choice() else (_level(path, layout, choice),)
+    sites, notes = list[tuple[str, Site]](), list(layout.notes)
     for level in levels:
         if not level.vertices:
             notes.append(f"level {level.name} is empty")
             continue
         name = choice.vehicle_type or _usual_type(level)
-        made = roadmap_of_level(level, vehicle_type=name)
-        roadmap, lacks = made.roadmap, made.notes
+        level_map = roadmap_of_level(level, vehicle_type=name)
+        roadmap, lacks = level_map.roadmap, level_map.notes
         if name and choice.vehicle_type is None:
             others = len(level.vehicle_types) - 1
             types = "1 other type" if others == 1 else f"{others} other types"
             lacks = (f"lanes of vehicle type {name} inspected, which has most ({types})", *lacks)
-        notes += [f"level {level.name}: {each}" if len(levels) > 1 else each for each in lacks]
+        notes += [f"level {level.name}: {lack}" if len(levels) > 1 else lack for lack in lacks]
         drawn = roadmap.drawing
         assert drawn, "the roadmap of a level has its places"
         site = Site(
@@ -134,11 +134,11 @@ def _of_layout(path: Path, found: Layout, choice: Choice) -> Sites:
             units=METRES,
             stations=dict(drawn.stations),
             parking={
-                roadmap.name(each): each for each in sorted({*drawn.parking, *drawn.charging})
+                roadmap.name(vertex): vertex for vertex in sorted({*drawn.parking, *drawn.charging})
             },
         )
         sites.append((level.name if len(levels) > 1 else "", site))
-    return Sites(what=describe_layout(found), notes=tuple(notes), sites=tuple(sites))
+    return Sites(what=describe_layout(layout), notes=tuple(notes), sites=tuple(sites))
 
 
 def _usual_type(level: Level) -> str | None:
@@ -147,14 +147,14 @@ def _usual_type(level: Level) -> str | None:
     return min(types, key=lambda name: (-types[name], name)) if len(types) > 1 else None
 
 
-def _of_cells(path: Path, found: Any, choice: Choice) -> Sites:
+def _of_cells(path: Path, cells: Any, choice: Choice) -> Sites:
     from rightofway.io.scenario.shape import MapDocument
 
     document = validate(MapDocument, {"layout": str(path.resolve()), **choice.keys()})
     loaded = map_of(document, Path(), Units())
     assert loaded, "only a floor needs speeds"
     site = Site(roadmap=loaded.roadmap, units=loaded.units)
-    return Sites(what=describe_layout(found), notes=loaded.notes, sites=(("", site),))
+    return Sites(what=describe_layout(cells), notes=loaded.notes, sites=(("", site),))
 
 
 def _of_scenario(path: Path, robots: Path | str | None) -> Sites:
@@ -180,8 +180,10 @@ def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
         document["robots"] = {"table": str(robots.resolve())}
         loaded = read_scenario(document, base)
         return sites_of(loaded.scenario, loaded.notes)
-    with document_of(robots, read_text(robots)) as found:
-        fleet = {"robots": found} if isinstance(found, list) else found
+    with document_of(robots, read_text(robots)) as robots_document:
+        fleet = (
+            {"robots": robots_document} if isinstance(robots_document, list) else robots_document
+        )
         if not isinstance(fleet, dict) or "robots" not in fleet:
             raise InputError.at("", "no robots are in it (give robots: [{name: R1, home: …}, …])")
         parts = {key: fleet[key] for key in ("homes", "robots", "rules", "units") if key in fleet}
@@ -212,5 +214,5 @@ def sites_of(scenario: Scenario, notes: tuple[str, ...]) -> Sites:
         else f"a roadmap of {scenario.roadmap.n_vertices} vertices"
     )
     count = len(scenario.robots)
-    what = f"a scenario of {count} robot{'s' * (count != 1)} on {ground}"
-    return Sites(what=what, notes=notes, sites=(("", site),))
+    description = f"a scenario of {count} robot{'s' * (count != 1)} on {ground}"
+    return Sites(what=description, notes=notes, sites=(("", site),))

@@ -56,10 +56,10 @@ class Source:
 
     def need(self, *keys: str) -> Source:
         """Return the value under the first of several keys that has one."""
-        found = self.get(*keys)
-        if found is None:
+        value_found = self.get(*keys)
+        if value_found is None:
             raise self.child(keys[0], None).fault("is missing (add it)")
-        return found
+        return value_found
 
     def mapping(self) -> dict[str, Any]:
         """Return the value as a mapping."""
@@ -81,7 +81,7 @@ class Source:
     def items_under(self, *keys: str) -> list[Source]:
         """Return the items of all lists that stand under some keys; none for a missing one."""
         lists = (self.get(key) for key in keys)
-        return [item for found in lists if found is not None for item in found.items()]
+        return [item for listed in lists if listed is not None for item in listed.items()]
 
     def text(self) -> str:
         """Return the value as text that can be shown; whole numbers count as text."""
@@ -112,7 +112,9 @@ class Source:
 
 @lru_cache(maxsize=2**16, typed=True)  # the numbers of a site repeat
 def _number(value: Hashable) -> Fraction:
-    found = coordinate(value.strip() if isinstance(value, str) else value)
-    if abs(found) > 10 ** (DIGITS // 2):
+    number = coordinate(value.strip() if isinstance(value, str) else value)
+    if abs(number) > 10 ** (DIGITS // 2):
         raise ValueError(f"{shown(value)} is out of range (check the unit)")
-    return found if BILLION % found.denominator == 0 else Fraction(round(found * BILLION), BILLION)
+    return (
+        number if BILLION % number.denominator == 0 else Fraction(round(number * BILLION), BILLION)
+    )

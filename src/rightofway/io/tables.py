@@ -40,7 +40,11 @@ PLACE_KEYS = {"home", "target", "at"}
 SPOTS = ("parking", "charging")
 """Columns of vertices that are true for such a place."""
 
-TRUTH_KEYS = {"both_ways", *SPOTS, *(it.key for it in RULE_ATTRIBUTES if it.kind == "truth")}
+TRUTH_KEYS = {
+    "both_ways",
+    *SPOTS,
+    *(attribute.key for attribute in RULE_ATTRIBUTES if attribute.kind == "truth"),
+}
 """Keys whose values are true or false."""
 
 YES_NO = {"true": True, "yes": True, "false": False, "no": False}
@@ -48,7 +52,10 @@ YES_NO = {"true": True, "yes": True, "false": False, "no": False}
 AT_STOP = {"stop": "at", "work": "work"}
 """The key of a stop for each heading."""
 
-WORD_KEYS = {"name", *(it.key for it in (*ROBOT_ATTRIBUTES, *RULE_ATTRIBUTES) if it.is_text)}
+WORD_KEYS = {
+    "name",
+    *(attribute.key for attribute in (*ROBOT_ATTRIBUTES, *RULE_ATTRIBUTES) if attribute.is_text),
+}
 """Keys whose values are text, also where they look like numbers."""
 
 DECIMAL_COMMA = re.compile(r"[+-]?(0,[0-9]+|[0-9]+,([0-9]{1,2}|[0-9]{4,}))")
@@ -147,14 +154,14 @@ def records_of(
             key = "note"
         columns[column] = key
     for number, values in rows:
-        here, record = (*path, len(records)), dict[str, Any]()
-        cells[here] = cell(number, 1)
+        record_path, record = (*path, len(records)), dict[str, Any]()
+        cells[record_path] = cell(number, 1)
         for column in values.keys() - columns.keys():
             faults.note(cell(number, column), "a value without a heading (take it out)")
         for column, key in columns.items():
             if key in NOTES:
                 continue
-            cells[*here, key] = cell(number, column)
+            cells[*record_path, key] = cell(number, column)
             if column in values:
                 value = faults.attempt(cell(number, column), value_of, key, values[column], words)
                 record |= {} if value is None else {key: value}

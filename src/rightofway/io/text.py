@@ -91,13 +91,13 @@ def load_delays(path: Path | str) -> tuple[str, ...]:
         If there is no such file, or no list of texts in it.
     """
     with in_file(str(path)):
-        found = parse_document(read_text(Path(path)), Path(path))
-        if isinstance(found, dict) and list(found) == ["delays"]:
-            found = found["delays"]
-        if not (isinstance(found, list) and all(isinstance(one, str) for one in found)):
+        causes = parse_document(read_text(Path(path)), Path(path))
+        if isinstance(causes, dict) and list(causes) == ["delays"]:
+            causes = causes["delays"]
+        if not (isinstance(causes, list) and all(isinstance(cause, str) for cause in causes)):
             message = "is no list of delays (write lines like - exponential:0.2)"
             raise InputError.at("", message)
-        return tuple(found)
+        return tuple(causes)
 
 
 def read_text(path: Path) -> str:
@@ -154,15 +154,15 @@ _PIPES: dict[tuple[int, int], bytearray] = {}
 
 
 def _content_of_file(path: Path, most: int) -> bytearray:
-    found = path.stat()
-    if stat.S_ISDIR(found.st_mode):
+    status = path.stat()
+    if stat.S_ISDIR(status.st_mode):
         raise IsADirectoryError
-    is_pipe = stat.S_ISFIFO(found.st_mode) or stat.S_ISSOCK(found.st_mode)
-    if not (is_pipe or stat.S_ISREG(found.st_mode)):
+    is_pipe = stat.S_ISFIFO(status.st_mode) or stat.S_ISSOCK(status.st_mode)
+    if not (is_pipe or stat.S_ISREG(status.st_mode)):
         raise InputError.at("", "this is a device (give a file)")
-    if found.st_size > most:
+    if status.st_size > most:
         raise _too_long(most)
-    key = found.st_dev, found.st_ino
+    key = status.st_dev, status.st_ino
     if is_pipe and key in _PIPES:
         return _PIPES[key]
     with path.open("rb") as file:
@@ -330,10 +330,10 @@ def parse_toml(text: str) -> dict[str, Any]:
     except RecursionError:
         raise InputError.at("", "it is nested too deeply (make it flatter)") from None
     except ValueError as error:
-        found = _TOML_PLACE.fullmatch(str(error))
-        what = found["what"] if found else str(error)
-        message = f"this is no TOML: {what[:1].lower()}{what[1:]} (mend it)"
-        where = Location(line=int(found["line"]), path=(found["column"],)) if found else ""
+        match = _TOML_PLACE.fullmatch(str(error))
+        fault = match["what"] if match else str(error)
+        message = f"this is no TOML: {fault[:1].lower()}{fault[1:]} (mend it)"
+        where = Location(line=int(match["line"]), path=(match["column"],)) if match else ""
         raise InputError.at(where, message) from None
 
 
@@ -426,8 +426,8 @@ class _Builder:
         """Return the value that an alias stands for, and its size."""
         if anchor not in self.anchored:
             inside = any(opened.anchor == anchor for opened in self.open)
-            what = "stands inside what it names" if inside else "names nothing before it"
-            raise _fault(line, f"the alias *{anchor} {what} (write the value out)")
+            fault = "stands inside what it names" if inside else "names nothing before it"
+            raise _fault(line, f"the alias *{anchor} {fault} (write the value out)")
         self.aliased += self.anchored[anchor][1]
         if self.aliased > MAX_ALIASED:
             message = f"aliases stand for more than {MAX_ALIASED} values (write out what is meant)"

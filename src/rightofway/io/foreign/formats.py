@@ -70,7 +70,7 @@ def format_of_text(text: str) -> ForeignFormat | None:
     text
         The content of a file.
     """
-    return next((each for each in FOREIGN_FORMATS.values() if each.recognizes(text)), None)
+    return next((foreign for foreign in FOREIGN_FORMATS.values() if foreign.recognizes(text)), None)
 
 
 @checks_arguments
@@ -107,11 +107,11 @@ def read_foreign(
     InputError
         With every fault, its line and remedy.
     """
-    found = format_of_text(text)
-    if found is None:
+    foreign = format_of_text(text)
+    if foreign is None:
         return None
-    with lines_of(text) if found.is_document else nullcontext():
-        return plan_of_trajectories(found.read(text), path, map_file, scen)
+    with lines_of(text) if foreign.is_document else nullcontext():
+        return plan_of_trajectories(foreign.read(text), path, map_file, scen)
 
 
 @checks_arguments

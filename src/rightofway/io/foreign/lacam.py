@@ -105,12 +105,12 @@ def write(plan: Plan) -> str:
     InputError
         If the roadmap is no grid.
     """
-    found = cells_of_plan(plan)
-    starts = list(zip(found.rows[:, 0].tolist(), found.columns[:, 0].tolist(), strict=True))
-    lines = [f"agents={len(found.names)}", f"starts={_text(starts)}", f"goals={_text(found.goals)}"]
+    cells = cells_of_plan(plan)
+    starts = list(zip(cells.rows[:, 0].tolist(), cells.columns[:, 0].tolist(), strict=True))
+    lines = [f"agents={len(cells.names)}", f"starts={_text(starts)}", f"goals={_text(cells.goals)}"]
     lines.append("solution=")
     for step, (rows, columns) in enumerate(
-        zip(found.rows.T.tolist(), found.columns.T.tolist(), strict=True)
+        zip(cells.rows.T.tolist(), cells.columns.T.tolist(), strict=True)
     ):
         lines.append(f"{step}:{_text(zip(rows, columns, strict=True))}")
     return "\n".join(lines) + "\n"

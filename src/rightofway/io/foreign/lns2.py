@@ -79,9 +79,9 @@ def _visits(text: str) -> Visits:
         raise InputError.at("", f"{shown(rest)} is no cell (write (row,column)->(row,column)->…)")
     if not text:
         raise InputError.at("", "the path is empty (give at least the first cell)")
-    found = _CELL.findall(text)
-    cells = [(int(row), int(column)) for row, column, _ in found]
-    steps = [int(third) for _, _, third in found if third]
+    groups = _CELL.findall(text)
+    cells = [(int(row), int(column)) for row, column, _ in groups]
+    steps = [int(third) for _, _, third in groups if third]
     if max(steps, default=0) <= LARGEST_HEADING:
         return visits_of(cells)
     if len(steps) < len(cells) or steps[0] or not all(a < b for a, b in pairwise(steps)):
@@ -98,10 +98,10 @@ def write(plan: Plan) -> str:
     InputError
         If the roadmap is no grid.
     """
-    found = cells_of_plan(plan)
+    drawn = cells_of_plan(plan)
     lines = []
     for robot, track in enumerate(plan.tracks):
-        cells = list(found.path(robot))[: int(track.enter[-1]) + 1]
+        cells = list(drawn.path(robot))[: int(track.enter[-1]) + 1]
         path = "".join(f"({row},{column})->" for row, column in cells)
         lines.append(f"Agent {robot}: {path}")
     return "\n".join(lines) + "\n"

@@ -99,7 +99,7 @@ def read(text: str) -> ForeignPlan:
     steps_per_move = counter if counts else 1
     errands = faults.attempt("", _errands, log) or {}
     ways = [HEADINGS] if turns else [MOVES, EARLIER_MOVES]
-    read = [_all_visits(log, key, way, steps_per_move, faults) for way in ways]
+    read = [_all_visits(log, key, changes, steps_per_move, faults) for changes in ways]
     faults.stop()
     visits = max(read, key=lambda visits: _hits(visits, errands))
     agents = []
@@ -123,7 +123,7 @@ def _all_visits(
     faults: Faults,
 ) -> list[Visits]:
     """Return the visits of each agent, or fewer after noting faults."""
-    found, n_moves = list[Visits](), 0
+    all_visits, n_moves = list[Visits](), 0
     for index, (path, start) in enumerate(zip(log[key], log["start"], strict=False)):
         begin = faults.attempt(("start", index), _start, start, changes)
         where = (key, index)
@@ -134,8 +134,8 @@ def _all_visits(
         if n_moves > MAX_MOVES:
             raise InputError.at(where, f"more than {MAX_MOVES} moves (read a part of the plan)")
         visits = faults.attempt(where, _visits, begin, *runs, changes, steps_per_move)
-        found += [] if visits is None else [visits]
-    return found
+        all_visits += [] if visits is None else [visits]
+    return all_visits
 
 
 def _visits(
@@ -310,13 +310,13 @@ def _finished(event: Any, agent: int) -> Iterator[tuple[int, int, tuple[int, int
         if count > 0:
             yield step, agent, (task, count - 1)
         return
-    for each in event if isinstance(event, list) else [event]:
-        is_event = isinstance(each, list) and len(each) == 3  # noqa: PLR2004
-        if not (is_event and type(each[0]) is type(each[1]) is int):
-            message = f'{shown(each)} is no event (give [task, step, "finished"])'
+    for row in event if isinstance(event, list) else [event]:
+        is_event = isinstance(row, list) and len(row) == 3  # noqa: PLR2004
+        if not (is_event and type(row[0]) is type(row[1]) is int):
+            message = f'{shown(row)} is no event (give [task, step, "finished"])'
             raise InputError.at("", message)
-        if each[2] == "finished":
-            yield each[1], agent, (each[0], 0)
+        if row[2] == "finished":
+            yield row[1], agent, (row[0], 0)
 
 
 def write(plan: Plan) -> str:
@@ -329,10 +329,10 @@ def write(plan: Plan) -> str:
     InputError
         If the roadmap is no grid.
     """
-    found = cells_of_plan(plan)
+    cells = cells_of_plan(plan)
     names = {move: action for action, move in MOVES.items()} | {(0, 0): "W"}
-    steps = zip(np.diff(found.rows).tolist(), np.diff(found.columns).tolist(), strict=True)
-    paths = [",".join(names.get(move, "W") for move in zip(*each, strict=True)) for each in steps]
+    steps = zip(np.diff(cells.rows).tolist(), np.diff(cells.columns).tolist(), strict=True)
+    paths = [",".join(names.get(move, "W") for move in zip(*moves, strict=True)) for moves in steps]
     tasks, events = list[list[int]](), list[list[list[int | str]]]()
     grid = plan.scenario.roadmap.grid
     assert grid is not None, "cells were found"
@@ -348,7 +348,7 @@ def write(plan: Plan) -> str:
         "actionModel": "MAPF",
         "AllValid": "Yes",
         "teamSize": len(paths),
-        "start": [[*next(found.path(robot)), "N/A"] for robot in range(len(paths))],
+        "start": [[*next(cells.path(robot)), "N/A"] for robot in range(len(paths))],
         "numTaskFinished": len(tasks),
         "sumOfCost": sum(int(track.enter[-1]) for track in plan.tracks),
         "makespan": max(int(track.enter[-1]) for track in plan.tracks),

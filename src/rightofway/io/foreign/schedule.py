@@ -71,7 +71,7 @@ def _visits(name: str, states: Any) -> Visits:
     latest = -1
     for index, state in enumerate(states):
         numbers: list[Any] = [state.get(key) for key in "xyt"] if isinstance(state, dict) else [""]
-        if not all(type(each) is int and 0 <= each <= MAX_STEP for each in numbers):
+        if not all(type(number) is int and 0 <= number <= MAX_STEP for number in numbers):
             faults.note(index, f"{shown(state)} is no state (give whole numbers x, y and t)")
             continue
         x, y, t = numbers
@@ -94,10 +94,10 @@ def write(plan: Plan) -> str:
     InputError
         If the roadmap is no grid.
     """
-    found = cells_of_plan(plan)
+    cells_at = cells_of_plan(plan)
     lines = ["schedule:"]
-    for robot, (name, track) in enumerate(zip(found.names, plan.tracks, strict=True)):
+    for robot, (name, track) in enumerate(zip(cells_at.names, plan.tracks, strict=True)):
         lines.append(f"  {json_line(name)}:")
-        for t, (row, column) in enumerate(list(found.path(robot))[: int(track.enter[-1]) + 1]):
+        for t, (row, column) in enumerate(list(cells_at.path(robot))[: int(track.enter[-1]) + 1]):
             lines.append(f"    - {{x: {column}, y: {row}, t: {t}}}")
     return "\n".join(lines) + "\n"

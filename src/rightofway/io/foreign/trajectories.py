@@ -99,13 +99,13 @@ def visits_of(cells: Sequence[Cell] | NDArray[np.int64]) -> Visits:
 
 
 def plan_of_trajectories(
-    found: ForeignPlan, path: Path, map_file: Path | None = None, scen: Path | None = None
+    foreign: ForeignPlan, path: Path, map_file: Path | None = None, scen: Path | None = None
 ) -> Plan:
     """Return a plan of another program as one of ours.
 
     Parameters
     ----------
-    found
+    foreign
         The plan.
     path
         Its file; a map that it names is looked for beside it.
@@ -118,19 +118,19 @@ def plan_of_trajectories(
         If the map is not found, or an agent leaves it.
     """
     rows = load_scen(scen) if scen else ()
-    if rows and len(rows) < len(found.agents):
-        message = f"{len(rows)} rows for {len(found.agents)} agents (give the plan's own .scen)"
+    if rows and len(rows) < len(foreign.agents):
+        message = f"{len(rows)} rows for {len(foreign.agents)} agents (give the plan's own .scen)"
         raise InputError.at("", message, str(scen))
-    named = rows[0].map_name if rows else found.map_name
+    named = rows[0].map_name if rows else foreign.map_name
     # The League of Robot Runners has free cells E, and S as we do.
     lines = load_map(map_file or _map_beside(scen or path, named))
     lines = tuple(line.replace("E", ".") for line in lines)
-    _refuse_walls(found, lines)
-    scenario = _scenario(found, lines, rows)
-    ticks = 1 / (scenario.problem.clock.tick * found.steps_per_move)  # that a step lasts
+    _refuse_walls(foreign, lines)
+    scenario = _scenario(foreign, lines, rows)
+    ticks = 1 / (scenario.problem.clock.tick * foreign.steps_per_move)  # that a step lasts
     grid = scenario.roadmap.grid
     assert grid is not None, "the map has rows"
-    tracks = tuple(_track(agent, grid, ticks) for agent in found.agents)
+    tracks = tuple(_track(agent, grid, ticks) for agent in foreign.agents)
     return Plan(scenario=scenario, tracks=tracks, run=PlannerRun())
 
 
@@ -144,10 +144,10 @@ def _map_beside(path: Path, named: str | None) -> Path:
     raise InputError.at("", f"its map {shown(name)} is not beside it (give it with --map FILE)")
 
 
-def _scenario(found: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow]) -> Scenario:
+def _scenario(foreign: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow]) -> Scenario:
     """Return the problem: the agents' own homes and stops, or those of a .scen file."""
     robots = []
-    for number, agent in enumerate(found.agents):
+    for number, agent in enumerate(foreign.agents):
         home, *_, last = agent.cells[[0, -1]].tolist()
         stops: Sequence[Sequence[int]] = agent.stops or [last]
         name = agent.name
@@ -155,8 +155,8 @@ def _scenario(found: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow])
             name = f"R{number + 1}"  # as in the scenario of the .scen file
             home, stops = list(rows[number].start), [rows[number].goal]
         robots.append({"name": name, "home": home, "stops": [{"at": list(at)} for at in stops]})
-    moves = found.steps_per_move
-    if any((agent.steps % moves).any() for agent in found.agents):
+    moves = foreign.steps_per_move
+    if any((agent.steps % moves).any() for agent in foreign.agents):
         # Agents move at steps between those of whole moves. The clock of a scenario follows from
         # its durations; work of one step makes it fine enough.
         robots[0]["stops"][-1]["work"] = f"1/{moves}"
@@ -169,27 +169,27 @@ def _scenario(found: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow])
     try:
         return read_scenario(document, None).scenario
     except InputError as error:
-        raise InputError(_name_agent(fault, found) for fault in error.faults) from None
+        raise InputError(_name_agent(fault, foreign) for fault in error.faults) from None
 
 
-def _name_agent(fault: InputFault, found: ForeignPlan) -> InputFault:
+def _name_agent(fault: InputFault, foreign: ForeignPlan) -> InputFault:
     """Return a fault of a robot at the line of its agent."""
     starts: dict[Steps, Where] = {
         ("robots", index): replace(where, path=(*where.path, agent.name))
-        for index, agent in enumerate(found.agents)
+        for index, agent in enumerate(foreign.agents)
         for where in [agent.location_of(0)]
     }
     return fault.relocate(starts)
 
 
-def _refuse_walls(found: ForeignPlan, lines: Sequence[str]) -> None:
+def _refuse_walls(foreign: ForeignPlan, lines: Sequence[str]) -> None:
     """Report the first step of an agent at which it is in a wall or outside the map.
 
     On the map of another plan nearly all agents leave it: a few of them are enough.
     """
     free = np.array([[character in FREE for character in line] for line in lines])
     faults, wrong = Faults(), 0
-    for agent in found.agents:
+    for agent in foreign.agents:
         inside: NDArray[np.bool_] = np.all((agent.cells >= 0) & (agent.cells < free.shape), axis=1)
         good = inside.copy()
         good[inside] = free[tuple(agent.cells[inside].T)]
@@ -269,5 +269,8 @@ def cells_of_plan(plan: Plan) -> CellsOfPlan:
         names=[robot.name for robot in plan.scenario.robots],
         rows=cells // grid.columns,
         columns=cells % grid.columns,
-        goals=[grid.cell(each.stages[-1].vertex) for each in plan.scenario.problem.itineraries],
+        goals=[
+            grid.cell(itinerary.stages[-1].vertex)
+            for itinerary in plan.scenario.problem.itineraries
+        ],
     )

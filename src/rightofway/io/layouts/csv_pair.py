@@ -60,15 +60,15 @@ def read(text: str, path: Path) -> Layout:
 
 def _beside(path: Path, is_nodes: bool) -> Path:
     """Return the file of edges beside one of nodes, or the other way round."""
-    here, there = (("nodes", "vertices", "points"), ("edges", "lanes", "links"))
+    own_words, other_words = (("nodes", "vertices", "points"), ("edges", "lanes", "links"))
     if not is_nodes:
-        here, there = there, here
-    for word in here:
+        own_words, other_words = other_words, own_words
+    for word in own_words:
         if word in path.name:
-            for other in there:
-                found = path.with_name(path.name.replace(word, other))
-                if is_regular(found):
-                    return found
+            for other in other_words:
+                beside = path.with_name(path.name.replace(word, other))
+                if is_regular(beside):
+                    return beside
     mine, wanted = ("nodes", "edges") if is_nodes else ("edges", "nodes")
     remedy = f"name this file {mine}.csv and put {wanted}.csv beside it"
     raise InputError.at("", f"these are {mine} without their {wanted} ({remedy})")

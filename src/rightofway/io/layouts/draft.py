@@ -95,9 +95,9 @@ def _in_micrometres(point: Point) -> tuple[int, int]:
     return int(point[0] * MICRO), int(point[1] * MICRO)
 
 
-def _square(one: tuple[int, int], other: tuple[int, int]) -> int:
+def _square(start: tuple[int, int], other: tuple[int, int]) -> int:
     """Return the squared distance of two points; whole numbers are quicker than fractions."""
-    return (one[0] - other[0]) ** 2 + (one[1] - other[1]) ** 2
+    return (start[0] - other[0]) ** 2 + (start[1] - other[1]) ** 2
 
 
 def _is_short(length: Fraction, square: int) -> bool:
@@ -113,8 +113,8 @@ class _Straight(dict[int, Fraction]):
         self.step = step
 
     def __missing__(self, square: int) -> Fraction:
-        self[square] = found = straight_length(Fraction(square, MICRO**2), self.step)
-        return found
+        self[square] = length = straight_length(Fraction(square, MICRO**2), self.step)
+        return length
 
 
 class Draft:
@@ -159,20 +159,20 @@ class Draft:
         self.faults.stop()
         if not levels:
             raise InputError.at("", f"the {self.kind} has no vertex (give at least one)")
-        notes = (what if count == 1 else f"{count} times: {what}"
-                 for what, count in self.repairs.items())  # fmt: skip
+        notes = (repair if count == 1 else f"{count} times: {repair}"
+                 for repair, count in self.repairs.items())  # fmt: skip
         return Layout(kind=self.kind, levels=tuple(levels), notes=tuple(notes))
 
     def _finish(self, level: LevelDraft, elsewhere: set[str]) -> Level:
         vertices, edges, links = level.vertices, list[LayoutEdge](), 0
-        micro = {name: _in_micrometres(each.at) for name, each in vertices.items()}
+        micro = {name: _in_micrometres(vertex.at) for name, vertex in vertices.items()}
         squares = [
             _square(micro[lane.tail], micro[lane.head])
             if lane.tail in vertices and lane.head in vertices
             else 0
             for lane in level.lanes
         ]
-        straight = _Straight(rounding_step({Fraction(each, MICRO**2) for each in set(squares)}))
+        straight = _Straight(rounding_step({Fraction(square, MICRO**2) for square in set(squares)}))
         no_lengths = self._no_lengths(level.lanes, squares)
         for lane, square in zip(level.lanes, squares, strict=True):
             if lane.attribute in no_lengths:
@@ -244,14 +244,14 @@ class Draft:
         """Return an edge with its curve, if that leads from its tail to its head."""
         ends = vertices[lane.tail].at, vertices[lane.head].at
         gaps = (
-            squared_distance(*each)
-            for each in zip(ends, (lane.curve[0], lane.curve[-1]), strict=True)
+            squared_distance(*gap)
+            for gap in zip(ends, (lane.curve[0], lane.curve[-1]), strict=True)
         )
         if max(gaps) > NEAR**2:
             self.repair("a trajectory that does not lead from start to end counts as straight")
             return edge
         points = [at for at, _ in groupby((ends[0], *lane.curve[1:-1], ends[1]))]
-        squares = [squared_distance(*each) for each in pairwise(points)]
+        squares = [squared_distance(*pair) for pair in pairwise(points)]
         step = rounding_step(squares)
         return replace(
             edge,
@@ -264,24 +264,24 @@ class Draft:
 
     def _usable_stations(self, level: LevelDraft) -> list[Station]:
         """Return the stations with a vertex of the level; a name that is taken is left out."""
-        found: dict[str, Station] = {}
+        stations: dict[str, Station] = {}
         for station in level.stations:
-            there = tuple(name for name in station.vertices if name in level.vertices)
-            if not there:
+            vertices = tuple(name for name in station.vertices if name in level.vertices)
+            if not vertices:
                 self.repair("a station without a vertex on its level is left out")
-            elif station.name in found:
+            elif station.name in stations:
                 self.repair("a second station of one name is left out")
             else:
-                found[station.name] = replace(station, vertices=there)
-        return list(found.values())
+                stations[station.name] = replace(station, vertices=vertices)
+        return list(stations.values())
 
     def _usable_zones(self, level: LevelDraft) -> list[NamedZone]:
         """Return the zones with vertices or lanes, each name once."""
-        found: dict[str, NamedZone] = {}
+        zones: dict[str, NamedZone] = {}
         for zone in level.zones:
             vertices = tuple(name for name in zone.vertices if name in level.vertices)
-            if zone.name in found or not (vertices or zone.edges):
+            if zone.name in zones or not (vertices or zone.edges):
                 self.repair("a zone without vertices and lanes, or with a name twice, is left out")
             else:
-                found[zone.name] = replace(zone, vertices=vertices)
-        return list(found.values())
+                zones[zone.name] = replace(zone, vertices=vertices)
+        return list(zones.values())

@@ -108,10 +108,10 @@ def layout_formats() -> dict[str, LayoutFormat]:
     """Return the formats of layouts by name: ours, and those of other packages."""
     from importlib.metadata import entry_points  # here, because it imports much
 
-    found = _own()
+    formats = _own()
     for point in entry_points(group=GROUP):
-        found.setdefault(point.name, point.load())
-    return found
+        formats.setdefault(point.name, point.load())
+    return formats
 
 
 @checks_arguments
@@ -132,11 +132,11 @@ def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
     with in_file(str(path)):
         _refuse_picture(path)
         text = read_text(path)
-        found = _open(text)
-        if found is None:
+        opened = _open(text)
+        if opened is None:
             message = f"this is no layout (known: {', '.join(layout_formats())})"
             raise InputError.at("", message)
-        format_of, content = found
+        format_of, content = opened
         try:
             with lines_of(text) if format_of.content == "data" else nullcontext():
                 return format_of.read(content, path)
@@ -236,20 +236,28 @@ def _open(text: str) -> tuple[LayoutFormat, Any] | None:
         raise InputError.at("", message)
     formats = layout_formats().values()
     start = text.lstrip()[:1]
-    texts = (each for each in formats if each.content == "text" and each.recognizes(text))
+    texts = (
+        layout_format
+        for layout_format in formats
+        if layout_format.content == "text" and layout_format.recognizes(text)
+    )
     if start == "<":
         kind, content = "xml", parse_xml(text)
-    elif found := next(texts, None):
-        return found, text
+    elif first := next(texts, None):
+        return first, text
     else:
         kind = "data"
         content = parse_json(text) if start in {"{", "["} else parse_yaml(text, number_keys=True)
-    known = (each for each in formats if each.content == kind and each.recognizes(content))
-    found = next(known, None)
-    if found is None and isinstance(content, Element):
+    known = (
+        layout_format
+        for layout_format in formats
+        if layout_format.content == kind and layout_format.recognizes(content)
+    )
+    first = next(known, None)
+    if first is None and isinstance(content, Element):
         message = f"an XML file of <{content.name}> is no layout (known: GraphML, openTCS 0.0.4 on)"
         raise InputError.at(Location(line=content.line), message)
-    return None if found is None else (found, content)
+    return None if first is None else (first, content)
 
 
 def _refuse_picture(path: Path) -> None:

@@ -40,11 +40,11 @@ def read(root: Element) -> Layout:
 
 def _attributes(element: Element, keys: dict[str, str]) -> Source:
     """Return the values of an element by name in lower case; a key that is not declared counts."""
-    found = {key.lower(): value for key, value in element.value.items()}
+    attributes = {key.lower(): value for key, value in element.value.items()}
     for data in element.all("data"):
         key = data.need("key").value
-        found[keys.get(key, key).lower()] = data.content.strip() or None
-    return Source(found, element.path, element.line)
+        attributes[keys.get(key, key).lower()] = data.content.strip() or None
+    return Source(attributes, element.path, element.line)
 
 
 def _add_node(level: LevelDraft, node: Element, keys: dict[str, str], draft: Draft) -> None:

@@ -74,19 +74,19 @@ def read(document: Any) -> Layout:
 def _level_names(layouts: list[Source]) -> list[str]:
     """Return the levels' names where they differ, else the layouts' names."""
     for key in ("layoutLevelId", "layoutId"):
-        found = [layout.get(key) for layout in layouts]
-        names = [part.text() for part in found if part is not None]
+        layout_names = [layout.get(key) for layout in layouts]
+        names = [part.text() for part in layout_names if part is not None]
         if len(set(names)) == len(layouts):
             return names
     return [str(number) for number in range(1, len(layouts) + 1)]
 
 
 def _items(part: Source, key: str, draft: Draft) -> list[Source]:
-    found = part.get(key)
-    if found is None:
+    value = part.get(key)
+    if value is None:
         draft.repair(f"the list of {key} is missing and counts as empty")
         return []
-    return found.items()
+    return value.items()
 
 
 def _numbers_as_text(value: Any, is_number: bool = False) -> Iterator[str]:
@@ -125,11 +125,11 @@ def _add_edge(level: LevelDraft, edge: Source, draft: Draft) -> None:
         draft.repair("an edge without a vehicle type is free for all")
         level.connect(Lane(source=edge, tail=tail, head=head))
     ways: dict[tuple[Fraction | None, Curve], set[str]] = {}
-    for each in own:
-        speed = each.get(*SPEEDS)
+    for properties in own:
+        speed = properties.get(*SPEEDS)
         limit = None if speed is None else speed.number()
-        way = limit, _curve(each, draft)
-        ways.setdefault(way, set()).update(_types(each))
+        limit_and_curve = limit, _curve(properties, draft)
+        ways.setdefault(limit_and_curve, set()).update(_types(properties))
     for (limit, (curve, error)), types in ways.items():  # one lane for all types with one way
         level.connect(
             Lane(
@@ -149,7 +149,7 @@ def _types(own: Source) -> list[str]:
     series = own.get("mobileRobotTypes")
     if series is None:
         return [own.need("vehicleTypeId").text()]
-    return [each.need("seriesName").text() for each in series.items()]
+    return [robot_type.need("seriesName").text() for robot_type in series.items()]
 
 
 def _curve(own: Source, draft: Draft) -> Curve:
@@ -158,8 +158,8 @@ def _curve(own: Source, draft: Draft) -> Curve:
     if trajectory is None:
         return (), Fraction(0)
     try:
-        found = _nurbs(trajectory)
-        pieces = found.pieces()
+        nurbs = _nurbs(trajectory)
+        pieces = nurbs.pieces()
     except (InputError, ValueError):
         draft.repair("a trajectory that cannot be read: its edge counts as straight")
         return (), Fraction(0)
@@ -167,20 +167,22 @@ def _curve(own: Source, draft: Draft) -> Curve:
         (Fraction(round(x * MICRO), MICRO), Fraction(round(y * MICRO), MICRO))
         for x, y in pieces.tolist()
     )
-    error = Fraction(repr(CHORD_ERROR)) if found.degree > 1 else Fraction(0)
+    error = Fraction(repr(CHORD_ERROR)) if nurbs.degree > 1 else Fraction(0)
     return points, error
 
 
 def _nurbs(trajectory: Source) -> Nurbs:
     degree = trajectory.get("degree")
     controls = trajectory.need("controlPoints").items()
-    knots = [float(each.number()) for each in trajectory.need("knotVector").items()]
-    weights = (each.get("weight") for each in controls)
+    knots = [float(knot.number()) for knot in trajectory.need("knotVector").items()]
+    weights = (control.get("weight") for control in controls)
     return Nurbs(
         degree=1 if degree is None else int(degree.number()),
         knots=np.array(knots),
-        points=np.array([[float(each.need(axis).number()) for axis in "xy"] for each in controls]),
-        weights=np.array([1.0 if each is None else float(each.number()) for each in weights]),
+        points=np.array(
+            [[float(control.need(axis).number()) for axis in "xy"] for control in controls]
+        ),
+        weights=np.array([1.0 if weight is None else float(weight.number()) for weight in weights]),
     )
 
 

@@ -83,8 +83,8 @@ class Nurbs:
             fall = _share(knots[p + 1 :] - parameters[:, None], right)
             basis = rise * basis[:, :-1] + fall * basis[:, 1:]
         weighted = basis * self.weights
-        found: Points = weighted @ self.points / weighted.sum(axis=1)[:, None]
-        return found
+        points: Points = weighted @ self.points / weighted.sum(axis=1)[:, None]
+        return points
 
     def reversed(self) -> Nurbs:
         """Return the curve driven back."""
@@ -112,10 +112,10 @@ class Nurbs:
         inside = self.knots[self.degree : len(self.points) + 1]
         values, times = np.unique(inside, return_counts=True)
         ends = (values == inside[0]) | (values == inside[-1]) | (times >= self.degree)
-        found = [self.at(inside[:1])]
+        samples = [self.at(inside[:1])]
         for begin, end in pairwise(values[ends].tolist()):
-            found.append(_cut(self.at(np.linspace(begin, end, SAMPLES)), chord_error)[1:])
-        return np.concatenate(found)
+            samples.append(_cut(self.at(np.linspace(begin, end, SAMPLES)), chord_error)[1:])
+        return np.concatenate(samples)
 
     def cut(self, count: int) -> Points:
         """Return the ends of some pieces that are equally long along the curve.
@@ -161,10 +161,10 @@ def _cut(samples: Points, chord_error: float) -> Points:
 
 def _along(samples: Points) -> NDArray[np.float64]:
     """Return how far along its samples each point of a curve is."""
-    found: NDArray[np.float64] = np.concatenate(
+    parameters: NDArray[np.float64] = np.concatenate(
         ([0.0], np.cumsum(np.hypot(*np.diff(samples, axis=0).T)))
     )
-    return found
+    return parameters
 
 
 def _ends(samples: Points, along: Points, count: int) -> tuple[Points, Points]:
@@ -175,7 +175,7 @@ def _ends(samples: Points, along: Points, count: int) -> tuple[Points, Points]:
 
 def _deviation(points: Points, begin: Points, end: Points) -> float:
     """Return the largest distance of points from their pieces."""
-    way = end - begin
-    square = np.maximum((way**2).sum(axis=1), np.finfo(float).tiny)
-    share = np.clip(((points - begin) * way).sum(axis=1) / square, 0, 1)
-    return float(np.hypot(*(points - begin - share[:, None] * way).T).max())
+    chord = end - begin
+    square = np.maximum((chord**2).sum(axis=1), np.finfo(float).tiny)
+    share = np.clip(((points - begin) * chord).sum(axis=1) / square, 0, 1)
+    return float(np.hypot(*(points - begin - share[:, None] * chord).T).max())

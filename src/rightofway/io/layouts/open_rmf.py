@@ -121,19 +121,19 @@ def _read_level(level: LevelDraft, part: Source, transform: Transform | None, dr
         draft.faults.attempt("", _add_lane, level, lane, names, groups, has_graphs)
     if transform is not None:  # corners of walls and floors are no vertices of the graph
         ends = {name for lane in level.lanes for name in (lane.tail, lane.head)}
-        level.vertices = {name: each for name, each in level.vertices.items() if name in ends}
+        level.vertices = {name: vertex for name, vertex in level.vertices.items() if name in ends}
     for name, (vertices, edges) in groups.items():
         level.zones.append(NamedZone(name=name, vertices=tuple(vertices), edges=tuple(edges)))
 
 
 def _own(item: Source, at: int) -> dict[str, Any]:
     """Return the parameters of a vertex or lane; those of a building are [type, value]."""
-    found = item.items()[at:]
-    if not found or found[0].value is None:
+    parameters = item.items()[at:]
+    if not parameters or parameters[0].value is None:
         return {}
     return {
         key: value[1] if isinstance(value, list) and len(value) == 2 else value  # noqa: PLR2004
-        for key, value in found[0].mapping().items()
+        for key, value in parameters[0].mapping().items()
         if not isinstance(value, dict)
     }
 
@@ -188,10 +188,10 @@ def _add_lane(
     own.setdefault("graph_idx", 0)
     types = frozenset([f"graph {_name_in(own, 'graph_idx', lane)}"]) if has_graphs else None
     max_speed = speed if speed > 0 else None
-    for one, other in ((tail, head), (head, tail)) if both else ((tail, head),):
-        level.connect(Lane(source=lane, tail=one, head=other, max_speed=max_speed, types=types))
+    for start, end in ((tail, head), (head, tail)) if both else ((tail, head),):
+        level.connect(Lane(source=lane, tail=start, head=end, max_speed=max_speed, types=types))
         if own.get("mutex"):
-            groups.setdefault(_name_in(own, "mutex", lane), ([], []))[1].append((one, other))
+            groups.setdefault(_name_in(own, "mutex", lane), ([], []))[1].append((start, end))
 
 
 def _vertex(item: Source, names: list[str | None]) -> str | None:
@@ -215,11 +215,11 @@ def _transforms(root: Source, draft: Draft) -> dict[str, Transform]:
     reference = named if isinstance(named, str) and named in levels else next(iter(levels), "")
     scales = {name: draft.faults.attempt("", _scale, level) for name, level in levels.items()}
     draft.faults.stop()
-    base, found = scales.get(reference), dict[str, Transform]()
+    base, transforms = scales.get(reference), dict[str, Transform]()
     for name, level in levels.items():
         laid = None if name == reference else _overlay(levels[reference], level)
         if laid is not None and base is not None:
-            found[name] = _transform_by(laid, base)
+            transforms[name] = _transform_by(laid, base)
             continue
         scale = scales[name] or base
         if scale is None:
@@ -228,9 +228,9 @@ def _transforms(root: Source, draft: Draft) -> dict[str, Transform]:
             continue
         if name != reference:
             draft.repair("a level without two fiducials of the reference level keeps its frame")
-        found[name] = _transform_by((1 + 0j, 0j), scale)
+        transforms[name] = _transform_by((1 + 0j, 0j), scale)
     draft.faults.stop()
-    return found
+    return transforms
 
 
 def _transform_by(laid: tuple[complex, complex], scale: Fraction) -> Transform:
@@ -249,7 +249,7 @@ def _transform_by(laid: tuple[complex, complex], scale: Fraction) -> Transform:
 
 def _scale(level: Source) -> Fraction | None:
     """Return the length of a pixel [m], the mean of all measurements; None without one."""
-    vertices, found = level.items_under("vertices"), list[float]()
+    vertices, lengths = level.items_under("vertices"), list[float]()
     for measurement in level.items_under("measurements"):
         items = measurement.items()
         ends = []
@@ -263,12 +263,12 @@ def _scale(level: Source) -> Fraction | None:
         pixels = hypot(*(a - b for a, b in zip(*ends, strict=True))) if len(ends) == 2 else 0.0  # noqa: PLR2004
         if pixels <= 0 or metres <= 0:
             raise measurement.fault("has no length (take it out)")
-        found.append(float(metres) / pixels)
-    return Fraction(repr(sum(found) / len(found))) if found else None
+        lengths.append(float(metres) / pixels)
+    return Fraction(repr(sum(lengths) / len(lengths))) if lengths else None
 
 
 def _fiducials(level: Source) -> dict[str, complex]:
-    found, items = {}, level.items_under("fiducials")
+    points, items = {}, level.items_under("fiducials")
     if len(items) > MAX_FIDUCIALS:
         message = f"{len(items)} fiducials are more than {MAX_FIDUCIALS} (a few are enough)"
         raise level.need("fiducials").fault(message)
@@ -276,8 +276,8 @@ def _fiducials(level: Source) -> dict[str, complex]:
         parts = fiducial.items()
         if len(parts) < 3:  # noqa: PLR2004 - x, y, name
             raise fiducial.fault("is no fiducial (give [x, y, name])")
-        found[parts[2].text()] = complex(float(parts[0].number()), float(parts[1].number()))
-    return found
+        points[parts[2].text()] = complex(float(parts[0].number()), float(parts[1].number()))
+    return points
 
 
 def _overlay(reference: Source, level: Source) -> tuple[complex, complex] | None:

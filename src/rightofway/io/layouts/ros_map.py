@@ -76,7 +76,7 @@ def read(document: Any, path: Path) -> Occupancy:
     if mode is not None and mode.value not in MODES:
         raise mode.fault(f"{shown(mode.value)} is unknown (give one of {', '.join(MODES)})")
     origin = root.need("origin")
-    numbers = [each.number() for each in origin.items()]
+    numbers = [coordinate.number() for coordinate in origin.items()]
     if len(numbers) not in {2, 3}:
         raise origin.fault(f"{shown(origin.value)} does not fit (give [x, y, yaw])")
     negate = root.get("negate")

@@ -95,7 +95,7 @@ def losses_of(layout: Layout, says: frozenset[str]) -> Iterator[str]:
         "further zones of one place": sum(map(_overlaps, layout.levels)),
         "lanes to other levels": sum(level.links for level in layout.levels),
     }
-    lost = [f"{what} ({count})" for what, count in counts.items() if count and what not in says]
+    lost = [f"{loss} ({count})" for loss, count in counts.items() if count and loss not in says]
     if lost:
         yield f"left out, the format has no place for them: {listed(lost)}"
 
@@ -106,7 +106,7 @@ def _is_number(name: str) -> bool:
 
 def _overlaps(level: Level) -> int:
     """Return how often a vertex or lane is in a zone beside its first one."""
-    members = [each for zone in level.zones for each in (*zone.vertices, *zone.edges)]
+    members = [member for zone in level.zones for member in (*zone.vertices, *zone.edges)]
     return len(members) - len(set(members))
 
 

@@ -58,8 +58,8 @@ def parse_xml(text: str) -> Element:
         nonlocal count
         line, count = parser.CurrentLineNumber, count + 1
         if len(opened) > MAX_DEPTH or count > MAX_ELEMENTS:
-            what = f"more than {MAX_DEPTH} deep" if count <= MAX_ELEMENTS else "too many"
-            message = f"its elements are {what} (is it the right file?)"
+            excess = f"more than {MAX_DEPTH} deep" if count <= MAX_ELEMENTS else "too many"
+            message = f"its elements are {excess} (is it the right file?)"
             raise InputError.at(Location(line=line), message)
         plain = {key.rpartition(" ")[2]: value for key, value in attributes.items()}
         bare = name.rpartition(" ")[2]

@@ -125,13 +125,13 @@ def _each(
     """Return the items of a list; without names, only look for faults of shape."""
     if not isinstance(data, list):
         raise InputError.at("", f"{shown(data)} is not a list (give one {item})")
-    faults, found = Faults(), list[T | None]()
-    for index, each in enumerate(data):
-        document = faults.attempt(index, validate, shape, each)
+    faults, parts = Faults(), list[T | None]()
+    for index, part in enumerate(data):
+        document = faults.attempt(index, validate, shape, part)
         if document is not None and names:
-            found.append(faults.attempt(index, read, document, names))
+            parts.append(faults.attempt(index, read, document, names))
     faults.stop()
-    return [each for each in found if each is not None]
+    return [part for part in parts if part is not None]
 
 
 def _tracks(data: Any, names: _Names | None) -> tuple[Track, ...]:
@@ -200,9 +200,9 @@ def _outcome(document: OutcomeDocument) -> Outcome:
 def _decision(document: DecisionDocument, names: _Names) -> Decision:
     vertices = tuple(names.vertex("vertices", name) for name in document.vertices)
     waits_at = names.vertex("waits_at", document.waits_at)
-    one, other = (names.robot("robots", name) for name in document.robots)
+    robot, other = (names.robot("robots", name) for name in document.robots)
     waits = names.robot("waits", document.waits)
-    if waits not in {one, other}:
+    if waits not in {robot, other}:
         message = f"{shown(document.waits)} is none of the two robots (name one of them)"
         raise InputError.at("waits", message)
     sums = document.completion_sums
@@ -210,7 +210,7 @@ def _decision(document: DecisionDocument, names: _Names) -> Decision:
         tick=Tick(document.tick),
         kind=document.kind,
         vertices=vertices,
-        robots=(one, other),
+        robots=(robot, other),
         waits=waits,
         waits_at=waits_at,
         ticks=Tick(document.ticks),

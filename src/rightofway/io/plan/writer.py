@@ -134,8 +134,8 @@ def _decision(decision: Decision, scenario: Scenario) -> dict[str, Any]:
     return {
         "tick": decision.tick,
         "kind": decision.kind,
-        "vertices": [vertex(each) for each in decision.vertices],
-        "robots": [robots[each].name for each in decision.robots],
+        "vertices": [vertex(visited) for visited in decision.vertices],
+        "robots": [robots[robot].name for robot in decision.robots],
         "waits": robots[decision.waits].name,
         "waits_at": vertex(decision.waits_at),
         "ticks": decision.ticks,

@@ -34,13 +34,16 @@ def crossing_note(scenario: Scenario) -> Iterator[str]:
     lanes = _lanes(roadmap)
     if len(lanes) > MAX_LANES:
         return
-    found = list(_crossings(roadmap.positions[lanes], lanes))
-    if found:
-        one, other = (" to ".join(map(roadmap.name, lanes[lane].tolist())) for lane in found[0])
-        pairs = len(found) - 1
+    crossings = list(_crossings(roadmap.positions[lanes], lanes))
+    if crossings:
+        lane, other = (
+            " to ".join(map(roadmap.name, lanes[lane_number].tolist()))
+            for lane_number in crossings[0]
+        )
+        pairs = len(crossings) - 1
         more = f" ({pairs} more pair{'s' * (pairs != 1)})" if pairs else ""
         yield (
-            f"the lanes {one} and {other} cross where no vertex is{more}:"
+            f"the lanes {lane} and {other} cross where no vertex is{more}:"
             " robots without a radius may meet there (give robots a radius, or put a vertex there)"
         )
 
@@ -69,11 +72,13 @@ def _crossings(drawn: NDArray[np.float64], lanes: NDArray[np.int64]) -> Iterator
 def _on_both_sides(line: NDArray[np.float64], of: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return whether the ends of each lane lie on different sides of a line, and not on it."""
     along = line[:, 1] - line[:, 0]
-    one, other = (
+    first, other = (
         along[:, 0] * (of[:, end, 1] - line[:, 0, 1])
         - along[:, 1] * (of[:, end, 0] - line[:, 0, 0])
         for end in (0, 1)
     )
     slack = SLACK * (along**2).sum(axis=1)
-    apart: NDArray[np.bool_] = (np.minimum(one, other) < -slack) & (np.maximum(one, other) > slack)
+    apart: NDArray[np.bool_] = (np.minimum(first, other) < -slack) & (
+        np.maximum(first, other) > slack
+    )
     return apart

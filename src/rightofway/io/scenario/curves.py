@@ -66,8 +66,8 @@ def lane_curve(tail: Point, controls: Sequence[Point], head: Point) -> LaneCurve
         If the curve cannot be cut into pieces.
     """
     whole = _floats([tail, *controls, head])
-    way = float(np.hypot(*np.diff(whole, axis=0).T).sum())
-    error = Fraction(ceil(way * float(ERROR) * MICRO), MICRO)
+    whole_length = float(np.hypot(*np.diff(whole, axis=0).T).sum())
+    error = Fraction(ceil(whole_length * float(ERROR) * MICRO), MICRO)
     try:
         ends = bezier(whole).pieces(float(error))
     except ValueError as fault:

@@ -67,18 +67,18 @@ def example_of_layout(path: Path | str, target: Path | str, radius: Fraction = F
     list of robots holds a single one that the user has to place.
     """
     path, target = Path(path), Path(target)
-    found = read_layout(path)
+    layout = read_layout(path)
     beside = Path() if str(target) == "-" else target.parent
     shape: dict[str, Any] = {"layout": Path(os.path.relpath(path, beside)).as_posix()}
     level = None
-    if isinstance(found, Layout):
-        level = max(found.levels, key=lambda each: len(each.edges))
-        shape |= {"level": level.name} if len(found.levels) > 1 else {}
+    if isinstance(layout, Layout):
+        level = max(layout.levels, key=lambda candidate: len(candidate.edges))
+        shape |= {"level": level.name} if len(layout.levels) > 1 else {}
         types = level.vehicle_types
         if len(types) > 1:
             shape["vehicle_type"] = max(types, key=lambda name: len(level.lanes_of(name)))
-    elif isinstance(found, Occupancy):
-        shape["cell_size"] = _cell_size(found, radius)
+    elif isinstance(layout, Occupancy):
+        shape["cell_size"] = _cell_size(layout, radius)
     from rightofway.io.scenario.shape import MapDocument
 
     loaded = map_of(validate(MapDocument, shape), beside, Units(), FleetTraits(radius=radius))
@@ -92,12 +92,12 @@ def example_of_layout(path: Path | str, target: Path | str, radius: Fraction = F
     return json_text(document) if target.suffix.lower() == ".json" else yaml_of(document)
 
 
-def _cell_size(found: Occupancy, radius: Fraction) -> str:
+def _cell_size(occupancy: Occupancy, radius: Fraction) -> str:
     """Return the largest side of cells with which robots get far, else the largest that fits."""
     fitting = list[str]()
     for size in CELL_SIZES:
         try:
-            roadmap = roadmap_of_grid(found.cells(Fraction(size), radius=radius))
+            roadmap = roadmap_of_grid(occupancy.cells(Fraction(size), radius=radius))
         except InputError:  # no whole cell, none that is free, or cells below a pixel
             continue
         fitting.append(size)
@@ -114,9 +114,9 @@ def _robots(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[di
     if level is not None:
         ids = {roadmap.name(vertex): vertex for vertex in part}
         parking = [
-            ids[each.name]
-            for each in level.vertices
-            if (each.is_parking or each.is_charging) and each.name in ids
+            ids[vertex.name]
+            for vertex in level.vertices
+            if (vertex.is_parking or vertex.is_charging) and vertex.name in ids
         ]
         for station in level.stations:
             vertex = ids.get(loaded.stations.get(station.name, ""))

@@ -104,8 +104,8 @@ class ListedRobot:
             if isinstance(stop, dict) and "at" in stop:
                 written["stops", index, "at"] = stop["at"]
         find: Callable[[Any], Any] = on.find if on else as_place
-        found = {key: faults.attempt(key, find, place) for key, place in written.items()}
-        return {key: vertex for key, vertex in found.items() if on and vertex is not None}
+        places = {key: faults.attempt(key, find, place) for key, place in written.items()}
+        return {key: vertex for key, vertex in places.items() if on and vertex is not None}
 
 
 def read_robot(index: int, data: Any) -> ListedRobot:
@@ -116,10 +116,12 @@ def read_robot(index: int, data: Any) -> ListedRobot:
         document = validate(RobotDocument, data)
     except InputError as error:
         faults, own = error.faults, dict[str, Any]()
-        for it in ROBOT_ATTRIBUTES:
-            if isinstance(data, dict) and it.key in data:
+        for attribute in ROBOT_ATTRIBUTES:
+            if isinstance(data, dict) and attribute.key in data:
                 with suppress(InputError):
-                    own |= validate(RobotAttributes, {it.key: data[it.key]}).own(Robot)
+                    own |= validate(RobotAttributes, {attribute.key: data[attribute.key]}).own(
+                        Robot
+                    )
         return ListedRobot(index=index, data=data, document=None, own=own, faults=faults)
     return ListedRobot(index=index, data=data, document=document, own=document.own(Robot))
 
@@ -134,12 +136,16 @@ class ListedFleet:
     def traits(self) -> FleetTraits:
         """What a map depends on."""
         known = all(
-            isinstance(it.data, dict) and ("speed" in it.own or "speed" not in it.data)
-            for it in self.robots
+            isinstance(robot.data, dict) and ("speed" in robot.own or "speed" not in robot.data)
+            for robot in self.robots
         )
-        speeds = [it.own.get("speed", DEFAULT_SPEED) for it in self.robots]
-        radius = max((it.own.get("radius", Fraction(0)) for it in self.robots), default=Fraction(0))
-        types = frozenset(it.own.get("type") for it in self.robots if isinstance(it.data, dict))
+        speeds = [robot.own.get("speed", DEFAULT_SPEED) for robot in self.robots]
+        radius = max(
+            (robot.own.get("radius", Fraction(0)) for robot in self.robots), default=Fraction(0)
+        )
+        types = frozenset(
+            robot.own.get("type") for robot in self.robots if isinstance(robot.data, dict)
+        )
         return FleetTraits(speeds=speeds if known else None, radius=radius, types=types)
 
 
@@ -157,7 +163,9 @@ def read_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
     from rightofway.io.scenario.shape import FleetDocument
 
     if isinstance(data, list) and data:
-        return ListedFleet(robots=[read_robot(index, each) for index, each in enumerate(data)])
+        return ListedFleet(
+            robots=[read_robot(index, robot_data) for index, robot_data in enumerate(data)]
+        )
     if not isinstance(data, dict):
         remedy = "give a list of robots, {scen: a file} or {table: a file}"
         message = f"{shown(data)} is no fleet ({remedy})"
@@ -194,9 +202,9 @@ def place_robots(
         if not deals and isinstance(robot.data, dict) and "home" not in robot.data:
             message = f"is missing (give {HOME}, or homes: parking for all)"
             faults.note((*robot.place, "home"), message)
-        found = faults.attempt(robot.place, _place_robot, robot, on)
-        if found and (deals or found.robot.home != HOMELESS):
-            placed.append(found)
+        placed_robot = faults.attempt(robot.place, _place_robot, robot, on)
+        if placed_robot and (deals or placed_robot.robot.home != HOMELESS):
+            placed.append(placed_robot)
     return placed
 
 
@@ -206,22 +214,22 @@ def _place_robot(robot: ListedRobot, on: LoadedMap | None) -> PlacedRobot | None
 
     faults, document, place = Faults(), robot.document, robot.place
     faults.add(robot.faults)
-    found = robot.find(on, faults)
+    places = robot.find(on, faults)
     faults.stop(keys_of(RobotDocument))
     if document is None or on is None:
         return None
     trip: list[tuple[Steps, Fraction | None]] = [(("target",), document.work)]
     if document.stops is not None:
         trip = [(("stops", k, "at"), stop.work) for k, stop in enumerate(document.stops)]
-    stops = tuple(Stop(at=found[at], work=work or Fraction(0)) for at, work in trip)
-    home = found.get(("home",), HOMELESS)
+    stops = tuple(Stop(at=places[at], work=work or Fraction(0)) for at, work in trip)
+    home = places.get(("home",), HOMELESS)
     aliases: dict[Steps, Steps] = {("laps",): _place_of_laps(document, place)}
     if "turn_rate" not in robot.own:
         aliases["turn_rate",] = ("rules", "turn_rate")
     if document.target is not None:
         aliases["stops", 0, "at"] = (*place, "target")
-    made = Robot(name=document.name, home=home, stops=stops, **robot.own)
-    return PlacedRobot(robot=made, place=place, aliases=aliases)
+    resolved = Robot(name=document.name, home=home, stops=stops, **robot.own)
+    return PlacedRobot(robot=resolved, place=place, aliases=aliases)
 
 
 def _place_rows(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[PlacedRobot]:
@@ -231,7 +239,9 @@ def _place_rows(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[Placed
     speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
     own = document.own(Robot)
     aliases: dict[Steps, Steps] = {
-        (it.name,): ("robots", it.key) for it in ROBOT_ATTRIBUTES if it.name in own
+        (attribute.name,): ("robots", attribute.key)
+        for attribute in ROBOT_ATTRIBUTES
+        if attribute.name in own
     }
     aliases["laps",] = _place_of_laps(document, ("robots",))
     if "turn_rate" not in own:

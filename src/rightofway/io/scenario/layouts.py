@@ -40,17 +40,17 @@ def map_of_layout(
     Layouts are in metres and seconds; a scenario that names no units has these.
     """
     with under("layout"):
-        found = read_layout(file)
-    if isinstance(found, CellMap):
-        return _map_of_cells(document, found, file)
+        layout = read_layout(file)
+    if isinstance(layout, CellMap):
+        return _map_of_cells(document, layout, file)
     units = Units(length=units.length or "m", time=units.time or "s")
     metres, seconds = units.metres, units.seconds
     assert metres, "a unit of length has a length"
     assert seconds, "a unit of time has a length"
-    if isinstance(found, Layout):
+    if isinstance(layout, Layout):
         _refuse(document, "a layout of lanes", "cell_size", "smallest", "largest", "unknown")
-        level = found.level(document.level)
-        made = roadmap_of_level(
+        level = layout.level(document.level)
+        level_map = roadmap_of_level(
             level,
             vehicle_type=document.vehicle_type,
             robot_types=fleet.types,
@@ -59,32 +59,36 @@ def map_of_layout(
             spacing=document.spacing,
             cuts_curves=fleet.radius > 0,
         )
-        roadmap = made.roadmap
+        roadmap = level_map.roadmap
         stations = {name: roadmap.name(at) for name, at in roadmap.drawing.stations}
-        notes = (*found.notes, *made.notes, *note_on_curves(made.curves, made.chord_error, units))
+        notes = (
+            *layout.notes,
+            *level_map.notes,
+            *note_on_curves(level_map.curves, level_map.chord_error, units),
+        )
         return LoadedMap(
             roadmap=roadmap,
             units=units,
             stations=stations,
-            chord_error=made.chord_error,
+            chord_error=level_map.chord_error,
             notes=notes,
         )
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
-    return _map_of_pixels(document, found, units, metres, fleet.radius)
+    return _map_of_pixels(document, layout, units, metres, fleet.radius)
 
 
 def _map_of_pixels(
-    document: MapDocument, found: Occupancy, units: Units, metres: Fraction, radius: Fraction
+    document: MapDocument, occupancy: Occupancy, units: Units, metres: Fraction, radius: Fraction
 ) -> LoadedMap:
     """Cut a map in pixels into cells."""
     if document.cell_size == "adaptive":
-        return _map_of_squares(document, found, units, metres, radius)
+        return _map_of_squares(document, occupancy, units, metres, radius)
     size = (
         document.cell_size
         if isinstance(document.cell_size, Fraction)
-        else _usual_cell(found) / metres
+        else _usual_cell(occupancy) / metres
     )
-    lines = found.cells(
+    lines = occupancy.cells(
         size * metres, radius=radius * metres, unknown_is_free=document.unknown == "free"
     )
     with under("layout"):
@@ -92,11 +96,11 @@ def _map_of_pixels(
             lines,
             cell_size=size,
             y_up=True,
-            origin=(found.origin[0] / metres, found.origin[1] / metres),
-            yaw=found.yaw,
+            origin=(occupancy.origin[0] / metres, occupancy.origin[1] / metres),
+            yaw=occupancy.yaw,
         )
-    if found.picture is not None:
-        roadmap = replace(roadmap, drawing=Drawing(picture=found.picture.scaled(1 / metres)))
+    if occupancy.picture is not None:
+        roadmap = replace(roadmap, drawing=Drawing(picture=occupancy.picture.scaled(1 / metres)))
     cells = f"map cut into {len(lines[0])} x {len(lines)} cells of {units.written_length(size)}"
     blocked = "what the picture shows there"
     if 2 * radius > size:
@@ -107,31 +111,31 @@ def _map_of_pixels(
         units=units,
         blocked=blocked,
         keeps_clear=True,
-        notes=(*found.notes, cells),
+        notes=(*occupancy.notes, cells),
     )
 
 
-def _usual_cell(found: Occupancy) -> Fraction:
+def _usual_cell(occupancy: Occupancy) -> Fraction:
     """Return the side of cells where none is given; no cell is below a pixel [m]."""
-    return max(CELL_SIZE, found.resolution)
+    return max(CELL_SIZE, occupancy.resolution)
 
 
 def _map_of_squares(
-    document: MapDocument, found: Occupancy, units: Units, metres: Fraction, radius: Fraction
+    document: MapDocument, occupancy: Occupancy, units: Units, metres: Fraction, radius: Fraction
 ) -> LoadedMap:
     """Cut a map in pixels into squares; the smallest are as wide as the largest robot."""
-    pixel = found.resolution / metres
+    pixel = occupancy.resolution / metres
     smallest = document.smallest or (
-        max(2 * radius, pixel) if radius else _usual_cell(found) / metres
+        max(2 * radius, pixel) if radius else _usual_cell(occupancy) / metres
     )
-    free = found.free_cells(
+    free = occupancy.free_cells(
         smallest * metres,
         radius=radius * metres,
         unknown_is_free=document.unknown == "free",
         max_cells=MAX_SMALLEST,
         key="smallest",
     )
-    corner = (found.origin[0] / metres, found.origin[1] / metres)
+    corner = (occupancy.origin[0] / metres, occupancy.origin[1] / metres)
     roadmap = roadmap_of_squares(
         free,
         smallest,
@@ -140,23 +144,23 @@ def _map_of_squares(
         y_up=True,
         corner=corner,
         origin=corner,
-        yaw=found.yaw,
+        yaw=occupancy.yaw,
     )
-    if found.picture is not None:
-        roadmap = replace(roadmap, drawing=Drawing(picture=found.picture.scaled(1 / metres)))
+    if occupancy.picture is not None:
+        roadmap = replace(roadmap, drawing=Drawing(picture=occupancy.picture.scaled(1 / metres)))
     note = note_on_squares("map", roadmap, int(free.sum()), units)
-    return LoadedMap(roadmap=roadmap, units=units, notes=(*found.notes, note))
+    return LoadedMap(roadmap=roadmap, units=units, notes=(*occupancy.notes, note))
 
 
-def _map_of_cells(document: MapDocument, found: CellMap, file: Path) -> LoadedMap:
+def _map_of_cells(document: MapDocument, cells_of_map: CellMap, file: Path) -> LoadedMap:
     if document.cell_size == "adaptive":
         message = "a map in cells has cells already (give cell_size as a length)"
         raise InputError.at("cell_size", message)
     _refuse(document, "a map in cells", "level", "vehicle_type", "spacing", "unknown")
     size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
     with under("layout"):
-        roadmap = roadmap_of_grid(found.lines, cell_size=size)
-    return LoadedMap(roadmap=roadmap, lines=found.lines, file=file)
+        roadmap = roadmap_of_grid(cells_of_map.lines, cell_size=size)
+    return LoadedMap(roadmap=roadmap, lines=cells_of_map.lines, file=file)
 
 
 def _refuse(document: MapDocument, what: str, *keys: str) -> None:

@@ -72,14 +72,14 @@ class LoadedMap:
 def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
     """Return what stands on a cell of a floor."""
     size = grid.cell_size
-    for index, it in enumerate(floor.obstacles):
+    for index, obstacle in enumerate(floor.obstacles):
         if (
-            it.x < (column + 1) * size
-            and column * size < it.x + it.width
-            and it.y < (row + 1) * size
-            and row * size < it.y + it.height
+            obstacle.x < (column + 1) * size
+            and column * size < obstacle.x + obstacle.width
+            and obstacle.y < (row + 1) * size
+            and row * size < obstacle.y + obstacle.height
         ):
-            return it.name or f"obstacles[{index}]"
+            return obstacle.name or f"obstacles[{index}]"
     raise AssertionError("an obstacle blocked the cell")
 
 
@@ -98,11 +98,11 @@ def note_on_squares(what: str, roadmap: Roadmap, cells: int, units: Units) -> st
 def note_on_curves(curves: int, chord_error: Fraction, units: Units) -> Iterator[str]:
     """Yield a sentence on the curves that are cut into straight pieces, if there are any."""
     if curves:
-        what = f"{curves} curves are" if curves > 1 else "1 curve is"
+        verb = f"{curves} curves are" if curves > 1 else "1 curve is"
         error, twice = (
-            f"{decimal(each * chord_error, 6)} {units.length or ''}".rstrip() for each in (1, 2)
+            f"{decimal(factor * chord_error, 6)} {units.length or ''}".rstrip() for factor in (1, 2)
         )
         near = f", which leave the curve by at most {error}: the clearance grows by {twice}"
         yield (
-            f"{what} cut into straight pieces for robots with a size{near if chord_error else ''}"
+            f"{verb} cut into straight pieces for robots with a size{near if chord_error else ''}"
         )

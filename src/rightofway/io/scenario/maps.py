@@ -221,17 +221,17 @@ def _map_of_roadmap(
     step = rounding_step(squares.values())
     for index, edge in enumerate(document.edges):
         place, square = ("edges", index), squares.get(index)
-        found = faults.attempt(place, _length, edge, positions, square, step)
-        length, curve = found or (None, None)
+        lane_length = faults.attempt(place, _length, edge, positions, square, step)
+        length, curve = lane_length or (None, None)
         lengths.append(length)
         if length is None:
             continue
-        there, back = (edge.tail, edge.head), (edge.head, edge.tail)
+        forward, back = (edge.tail, edge.head), (edge.head, edge.tail)
         if curve:
-            curves[there] = curve
+            curves[forward] = curve
         if curve and edge.both_ways:
             curves[back] = curve.reversed()
-        for tail, head in (there, back) if edge.both_ways else (there,):
+        for tail, head in (forward, back) if edge.both_ways else (forward,):
             earlier = first.setdefault((tail, head), index)
             if earlier != index:
                 message = f"leads from {tail!r} to {head!r} as {{other}} does (take one out)"
@@ -278,11 +278,13 @@ def _map_of_roadmap(
         pieces=written_pieces | split.pieces,
         sides=sides,
         frame=frame,
-        barred={name: it.barred for name, it in document.vertices.items() if it.barred},
-        surcharges={name: it.surcharge for name, it in document.vertices.items() if it.surcharge},
+        barred={name: vertex.barred for name, vertex in document.vertices.items() if vertex.barred},
+        surcharges={
+            name: vertex.surcharge for name, vertex in document.vertices.items() if vertex.surcharge
+        },
     )
     drawing = replace(_places(document, roadmap), **_bends(curves, roadmap))
-    error = max(each.error for each in curves.values()) if is_cut else Fraction(0)
+    error = max(curve.error for curve in curves.values()) if is_cut else Fraction(0)
     return LoadedMap(
         roadmap=replace(roadmap, drawing=drawing),
         stations=document.stations,
@@ -334,8 +336,8 @@ def _places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:
             raise InputError.at("", f"no vertex is named {shown(name)} ({hint})") from None
 
     def known(key: str, names: Sequence[str]) -> tuple[VertexId, ...]:
-        found = [faults.attempt((key, at), vertex, name) for at, name in enumerate(names)]
-        return tuple(each for each in found if each is not None)
+        vertices = [faults.attempt((key, at), vertex, name) for at, name in enumerate(names)]
+        return tuple(at_vertex for at_vertex in vertices if at_vertex is not None)
 
     stations = [
         (name, faults.attempt(("stations", name), vertex, at))

@@ -97,9 +97,13 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
             place_robots(robots, None, wrong, deals=deals)
             if wrong.found:
                 return None
-        found = map_of(drawn, base, units, robots.traits)
-        found = found and with_picture(found, drawn.picture, pictures or base)
-        return found if found is None or found.units.length else replace(found, units=units)
+        loaded_map = map_of(drawn, base, units, robots.traits)
+        loaded_map = loaded_map and with_picture(loaded_map, drawn.picture, pictures or base)
+        return (
+            loaded_map
+            if loaded_map is None or loaded_map.units.length
+            else replace(loaded_map, units=units)
+        )
 
     document = check_format(document, SCENARIO_FORMAT)
     given = document.get("robots")
@@ -157,9 +161,9 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
     if not isinstance(data, list):
         remedy = "give a list of {at or edge, from, until, radius}"
         raise InputError.at("", f"{shown(data)} is no list of closures ({remedy})")
-    faults, found = Faults(), list[Closure]()
-    for index, each in enumerate(data):
-        document = faults.attempt(index, validate, ClosureDocument, each, on)
+    faults, closures = Faults(), list[Closure]()
+    for index, closure_data in enumerate(data):
+        document = faults.attempt(index, validate, ClosureDocument, closure_data, on)
         if document is None or on is None:
             continue
         closure = Closure(
@@ -169,25 +173,28 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
         )
         for fault in closure_faults(closure, on.roadmap):
             faults.add([fault.within(index)])
-        found.append(closure)
+        closures.append(closure)
     faults.stop()
-    return found
+    return closures
 
 
 def _deal_homes(
     placed: Sequence[PlacedRobot], roadmap: Roadmap, rules: Rules, notes: list[str]
 ) -> Sequence[PlacedRobot]:
     """Return the robots, each with a home; add a note on the homes that were dealt out."""
-    robots, more = deal_homes([it.robot for it in placed], roadmap, rules)
+    robots, more = deal_homes([robot.robot for robot in placed], roadmap, rules)
     notes += more
-    return [replace(it, robot=robot) for it, robot in zip(placed, robots, strict=True)]
+    return [
+        replace(placed_robot, robot=robot)
+        for placed_robot, robot in zip(placed, robots, strict=True)
+    ]
 
 
 def _assemble(
     roadmap: Roadmap, placed: Sequence[PlacedRobot], others: dict[str, Any], faults: Faults
 ) -> Scenario | None:
     """Return the scenario, or None after noting the faults that the model finds."""
-    robots = tuple(each.robot for each in placed)
+    robots = tuple(placed_robot.robot for placed_robot in placed)
     laps = others["rules"].laps
     stages = sum((len(robot.stops) + 1) * (robot.laps or laps) for robot in robots)
     try:
@@ -198,9 +205,13 @@ def _assemble(
         _check_ticks(scenario)
     except InputError as error:
         starts = dict[Steps, Where]()
-        for index, it in enumerate(placed):  # the model numbers those robots that have no faults
-            starts["robots", index] = it.place
-            starts |= {("robots", index, *steps): place for steps, place in it.aliases.items()}
+        for index, placed_robot in enumerate(
+            placed
+        ):  # the model numbers those robots that have no faults
+            starts["robots", index] = placed_robot.place
+            starts |= {
+                ("robots", index, *steps): place for steps, place in placed_robot.aliases.items()
+            }
         faults.add(fault.relocate(starts) for fault in error.faults)
         return None
     return scenario
@@ -211,7 +222,11 @@ def _check_ticks(scenario: Scenario) -> None:
     longest = max(
         problem.headway,
         *(max(itinerary.edge_ticks, default=0) for itinerary in problem.itineraries),
-        *(stage.work + stage.turn for it in problem.itineraries for stage in it.stages),
+        *(
+            stage.work + stage.turn
+            for itinerary in problem.itineraries
+            for stage in itinerary.stages
+        ),
     )
     if longest > MAX_TICKS:
         ticks = f"{shown(longest)} ticks of {shown(problem.clock.tick)}"

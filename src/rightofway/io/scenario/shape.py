@@ -144,8 +144,8 @@ class ZoneDocument(Document):
     @field_validator("edges", mode="before")
     @classmethod
     def _read_pairs(cls, data: Any) -> Any:
-        pairs = isinstance(data, list) and all(isinstance(one, list) for one in data)
-        return [tuple(one) for one in data] if pairs else data
+        pairs = isinstance(data, list) and all(isinstance(pair, list) for pair in data)
+        return [tuple(pair) for pair in data] if pairs else data
 
 
 class PictureDocument(Document):
@@ -260,8 +260,8 @@ class MapDocument(Document):
                 raise ValueError("yaw is given with a roadmap, which needs none (take it out)")
         for key in BY_LAYOUTS if kind == "layout" else OF_LAYOUTS:
             if key in self.model_fields_set:
-                what = "which has its own" if kind == "layout" else "and is for a layout"
-                raise ValueError(f"{key} is given with a {kind}, {what} (take it out)")
+                reason = "which has its own" if kind == "layout" else "and is for a layout"
+                raise ValueError(f"{key} is given with a {kind}, {reason} (take it out)")
         if kind not in {"roadmap", "layout"} and self.spacing is not None:
             raise ValueError(
                 f"spacing is given with a {kind}, which has no long edges (take it out)"
@@ -389,8 +389,8 @@ class ClosureDocument(Document):
     @model_validator(mode="after")
     def _check_one_place(self) -> Self:
         if (self.at is None) == (self.edge is None):
-            what = "closes nothing" if self.at is None else "has both at and edge"
-            raise ValueError(f"{what} (give at, or edge)")
+            reason = "closes nothing" if self.at is None else "has both at and edge"
+            raise ValueError(f"{reason} (give at, or edge)")
         return self
 
 

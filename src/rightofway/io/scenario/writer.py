@@ -136,16 +136,16 @@ def _picture(picture: Picture | None) -> dict[str, Any]:
     """Return the picture below a map, if a scenario has named it."""
     if picture is None or not picture.name:
         return {}
-    found: dict[str, Any] = {"file": picture.name}
+    data: dict[str, Any] = {"file": picture.name}
     if picture.pixel is not None:
-        found["scale"] = written(picture.pixel)
+        data["scale"] = written(picture.pixel)
     if picture.origin is not None:
-        found["origin"] = [written(part) for part in picture.origin]
+        data["origin"] = [written(part) for part in picture.origin]
     if picture.yaw:
-        found["yaw"] = written(picture.yaw)
+        data["yaw"] = written(picture.yaw)
     if picture.opacity is not None:
-        found["opacity"] = written(picture.opacity)
-    return {"picture": found}
+        data["opacity"] = written(picture.opacity)
+    return {"picture": data}
 
 
 def _shape(roadmap: Roadmap) -> dict[str, Any]:
@@ -161,8 +161,13 @@ def _shape(roadmap: Roadmap) -> dict[str, Any]:
     origin = {} if (left, bottom) == usual else {"origin": [written(left), written(bottom)]}
     shape = {"grid": list(grid.lines()), "cell_size": written(size), **y, **origin, **yaw}
     named = [
-        {"name": it.name, "rect": [written(part) for part in (it.x, it.y, it.width, it.height)]}
-        for it in roadmap.obstacles
+        {
+            "name": obstacle.name,
+            "rect": [
+                written(part) for part in (obstacle.x, obstacle.y, obstacle.width, obstacle.height)
+            ],
+        }
+        for obstacle in roadmap.obstacles
     ]
     return {**shape, "obstacles": named} if named else shape
 
@@ -214,19 +219,19 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
 
 def _of_class(edge_class: EdgeClass) -> dict[str, Any]:
     """Return what edges of a class have beside their length."""
-    found: dict[str, Any] = {}
+    data: dict[str, Any] = {}
     if edge_class.max_speed is not None:
-        found["max_speed"] = written(edge_class.max_speed)
+        data["max_speed"] = written(edge_class.max_speed)
     if edge_class.barred:
-        found["barred"] = sorted(edge_class.barred)
+        data["barred"] = sorted(edge_class.barred)
     if edge_class.surcharge:
-        found["surcharge"] = written(edge_class.surcharge)
-    return found
+        data["surcharge"] = written(edge_class.surcharge)
+    return data
 
 
 def _closures(scenario: Scenario) -> dict[str, Any]:
     name = scenario.roadmap.name
-    found = []
+    lanes = []
     for closure in scenario.closures:
         times = {"from": closure.from_, "until": closure.until, "radius": closure.radius}
         place = (
@@ -235,8 +240,8 @@ def _closures(scenario: Scenario) -> dict[str, Any]:
             else {"edge": [name(end) for end in closure.edge or ()]}
         )
         known = {key: written(value) for key, value in times.items() if value is not None}
-        found.append({**place, **known})
-    return {"closures": found} if found else {}
+        lanes.append({**place, **known})
+    return {"closures": lanes} if lanes else {}
 
 
 def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:

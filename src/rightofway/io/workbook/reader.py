@@ -53,9 +53,9 @@ def load_workbook_scenario(path: Path | str) -> Loaded:
     path = Path(path)
     with in_file(str(path)):
         faults, notes = Faults(), list[str]()
-        found = _document(read_sheets(path, SHEETS, faults), faults, notes)
-        with found.locate():
-            loaded = read_scenario(found.part, path.parent)
+        document = _document(read_sheets(path, SHEETS, faults), faults, notes)
+        with document.locate():
+            loaded = read_scenario(document.part, path.parent)
         return Loaded(scenario=loaded.scenario, notes=(*notes, *loaded.notes))
 
 
@@ -118,7 +118,7 @@ def _grid(
     bottom, right = max(row for row, _ in used), max(column for _, column in used)
     count = (bottom - top + 1) * (right - left + 1)
     if count > MAX_CELLS:
-        last = sheet.cell(*max(used, key=lambda each: (each[0] + each[1], each)))
+        last = sheet.cell(*max(used, key=lambda cell: (cell[0] + cell[1], cell)))
         message = (
             f"the map reaches from {sheet.cell(top, left).cell} to here: {count} cells, more than"
             f" {MAX_CELLS} (clear what stands beside the map)"
@@ -231,23 +231,23 @@ def _roadmap(vertices: Sheet, edges: Sheet) -> CellDocument:
     }
     positions = dict[str, Any]()
     spots: dict[str, list[str]] = {key: [] for key in SPOTS}
-    for index, found in enumerate(table.part):
-        name, row = found.get("name", ""), table.cells[index,]
-        missing = [key for key in ("name", "x", "y") if key not in found]
+    for index, row_data in enumerate(table.part):
+        name, row = row_data.get("name", ""), table.cells[index,]
+        missing = [key for key in ("name", "x", "y") if key not in row_data]
         if missing:
             faults.note(row, f"has no {' and no '.join(missing)} (give name, x and y)")
         if name in first:
             message = f"{shown(name)} is in {{other}} already (take one out)"
             faults.note(row, message, table.cells[first[name],])
         first.setdefault(name, index)
-        position = [found.get("x", 0), found.get("y", 0)]
-        more = {key: found[key] for key in ("barred", "surcharge") if key in found}
+        position = [row_data.get("x", 0), row_data.get("y", 0)]
+        more = {key: row_data[key] for key in ("barred", "surcharge") if key in row_data}
         positions[name] = {"at": position, **more} if more else position
         for key, names in spots.items():
-            if not isinstance(found.get(key, False), bool):
-                message = f"{shown(found[key])} is neither true nor false (write one of them)"
+            if not isinstance(row_data.get(key, False), bool):
+                message = f"{shown(row_data[key])} is neither true nor false (write one of them)"
                 faults.note(table.cells[index, key], message)
-            elif found.get(key):
+            elif row_data.get(key):
                 names.append(name)
         cells[*path, "vertices", name] = row
     drawn = {"vertices": positions, "edges": ways.part}

@@ -168,14 +168,16 @@ def _open_workbook(data: bytes, *, cached: bool) -> Iterator[Any]:
 
 
 def _broken(error: Exception) -> InputError:
-    what = " ".join(str(error).split()) or type(error).__name__
-    message = f"the workbook is broken: {shown(what)} (open it in a spreadsheet, and save it again)"
+    reason = " ".join(str(error).split()) or type(error).__name__
+    message = (
+        f"the workbook is broken: {shown(reason)} (open it in a spreadsheet, and save it again)"
+    )
     return InputError.at("", message)
 
 
 def _no_sheet(names: list[str], wanted: Collection[str]) -> InputError:
-    near = [(each, nearest(each.strip().lower(), wanted)) for each in names]
-    meant = next((f"did you mean {near!r} by {each!r}?" for each, near in near if near), "")
+    near = [(name, nearest(name.strip().lower(), wanted)) for name in names]
+    meant = next((f"did you mean {near!r} by {name!r}?" for name, near in near if near), "")
     remedy = meant or "rightofway new FILE.xlsx writes a workbook to begin with"
     listed = ", ".join(map(repr, names[:5])) or "none"
     return InputError.at("", f"no sheet is called map or robots; there is {listed} ({remedy})")
@@ -188,7 +190,7 @@ def _merged_cells(data: bytes, worksheet: Any) -> list[str]:
             xml = archive.read(worksheet._worksheet_path)  # noqa: SLF001
     except Exception as error:  # noqa: BLE001 (openpyxl reads no further than a sheet ends)
         raise _broken(error) from None
-    return [found.decode() for found in MERGED.findall(xml)]
+    return [reference.decode() for reference in MERGED.findall(xml)]
 
 
 def _sheet(worksheet: Any, faults: Faults, data: bytes) -> Sheet:
@@ -236,21 +238,21 @@ def _keep_computed(
 
     A formula that only points to a cell of the map is kept as text: it is a place.
     """
-    found = set()
+    computed = set()
     with _open_workbook(data, cached=True) as workbook:
         for row in _rows(workbook[sheet.name]):
             for cell in row:
                 position = (getattr(cell, "row", 0), getattr(cell, "column", 0))
                 if position not in formulas:
                     continue
-                found.add(position)
+                computed.add(position)
                 if is_reference(formulas[position]):
                     sheet.values[position] = formulas[position]
                 elif cell.value is not None:
                     _keep(sheet, position, cell.value, cell.data_type, faults)
                 else:
-                    found.discard(position)
-    for position in formulas.keys() - found:
+                    computed.discard(position)
+    for position in formulas.keys() - computed:
         message = (
             f"the formula {shown(formulas[position])} has no value yet"
             " (open the workbook in a spreadsheet and save it, or write the value)"
@@ -267,11 +269,11 @@ def reference(text: str) -> Position | None:
     """Return row and column of the cell of the map that a text points to."""
     from openpyxl.utils import column_index_from_string
 
-    found = re.fullmatch(
+    match = re.fullmatch(
         r"=?\$?'?map'?!\$?([A-Z]{1,3})\$?([0-9]{1,7})", text.strip(), re.IGNORECASE
     )
     try:
-        return (int(found[2]), column_index_from_string(found[1])) if found else None
+        return (int(match[2]), column_index_from_string(match[1])) if match else None
     except ValueError:
         return None
 

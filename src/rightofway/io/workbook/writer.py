@@ -27,8 +27,8 @@ Hint = tuple[str, str, str]
 
 
 def _hints_of(attributes: Sequence[Attribute]) -> Iterator[Hint]:
-    for it in attributes:
-        yield it.key, it.description, ",".join(it.words)
+    for attribute in attributes:
+        yield attribute.key, attribute.description, ",".join(attribute.words)
 
 
 ROBOT_HINTS: tuple[Hint, ...] = (
@@ -173,7 +173,7 @@ def _write_grid(sheet: Any, lines: Sequence[str]) -> None:
 
 def _write_robots(sheet: Any, robots: Sequence[dict[str, Any]]) -> None:
     most = max((len(robot.get("stops", ())) for robot in robots), default=0)
-    stops = [f"{what} {number}" for number in range(1, most + 1) for what in ("stop", "work")]
+    stops = [f"{noun} {number}" for number in range(1, most + 1) for noun in ("stop", "work")]
     hints = {key: (text, choices) for key, text, choices in ROBOT_HINTS}
     usual = [key for key in hints if not (stops and key in {"target", "work"})]
     keys = [*usual[:2], *stops, *usual[2:]]
@@ -212,7 +212,7 @@ def _write_closures(sheet: Any, closures: Sequence[dict[str, Any]]) -> None:
     from rightofway.io.scenario.shape import ClosureDocument
 
     keys = ["at", "edge", "from", "until", "radius"]
-    _write_table(sheet, keys, [[_cell(one.get(key)) for key in keys] for one in closures])
+    _write_table(sheet, keys, [[_cell(closure.get(key)) for key in keys] for closure in closures])
     for letter, key in zip("ABCDE", keys, strict=True):
         _add_hint(sheet, f"{letter}2:{letter}{ROWS}", key, _description(ClosureDocument, key), "")
 
@@ -220,9 +220,13 @@ def _write_closures(sheet: Any, closures: Sequence[dict[str, Any]]) -> None:
 def _write_roadmap(workbook: Any, roadmap: dict[str, Any]) -> None:
     vertices, edges = workbook.create_sheet("vertices"), workbook.create_sheet("edges")
     rows = []
-    for name, it in roadmap["vertices"].items():
-        x, y = it["at"] if isinstance(it, dict) else it
-        more = {key: _cell(it[key]) for key in it if key != "at"} if isinstance(it, dict) else {}
+    for name, vertex in roadmap["vertices"].items():
+        x, y = vertex["at"] if isinstance(vertex, dict) else vertex
+        more = (
+            {key: _cell(vertex[key]) for key in vertex if key != "at"}
+            if isinstance(vertex, dict)
+            else {}
+        )
         spots = {key: "true" for key in SPOTS if name in roadmap.get(key, ())}
         rows.append({"name": name, "x": x, "y": y, **more, **spots})
     heads = list(dict.fromkeys(chain(("name", "x", "y"), *rows)))
