@@ -83,8 +83,20 @@ STOPPED = {
 }
 """Names of variables that do not say what they hold."""
 
-MOST = {"bench": 0, "check": 0, "cli": 0, "cyclic": 6, "fleet_builder": 0, "viz": 43}
-"""How often a room still binds such a name; numbers may only fall, and rooms may only be added."""
+MOST = {
+    **{room: 0 for room in ROOMS if room != "control"},
+    "cyclic": 1,
+    "execution": 1,
+    "io": 9,
+    "metrics": 1,
+    "model": 4,
+    "phrases": 1,
+    "planners": 2,
+    "studio": 2,
+    "values": 1,
+    "viz": 4,
+}
+"""How often a room binds such a name, mostly as a public parameter; the numbers may only fall."""
 
 
 def bound_names(module: ast.Module) -> Iterator[str]:

@@ -177,8 +177,8 @@ def pieces_of_plan(plan: Plan, steady: SteadyState) -> tuple[Piece, ...]:
         (*steady.critical, *steady.critical[:1])
     ):
         start, goal = (
-            VertexId(int(tracks[one].vertices[at]))
-            for one, at in ((robot, visit), (following, visit_after))
+            VertexId(int(tracks[robot_of_visit].vertices[at]))
+            for robot_of_visit, at in ((robot, visit), (following, visit_after))
         )
         if robot != following:
             # The begin of a visit ends the one before, of the first visit the last one at home.

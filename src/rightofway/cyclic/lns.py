@@ -206,11 +206,11 @@ def _move(
         bookings.remove(robot)
     placed: dict[int, RobotCycle] = {}
     for robot in problem.draw.sample(list(counts), len(counts)):
-        found = problem.place(bookings, robot, counts[robot], tries=2)
-        if found is None:
+        route = problem.place(bookings, robot, counts[robot], tries=2)
+        if route is None:
             break
-        bookings.add(robot, found.lap, found.count, found.enter)
-        placed[robot] = found
+        bookings.add(robot, route.lap, route.count, route.enter)
+        placed[robot] = route
     if len(placed) == len(counts):
         for robot, cycle in placed.items():
             cycles[robot] = cycle

@@ -321,8 +321,8 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     avoiding, roadmap, resources = list(routes), scenario.roadmap, scenario.problem.resources
     itineraries = scenario.problem.itineraries
     at_home = [
-        frozenset(resources.excluded_by(resources.vertex_row(robot, one.home)).tolist())
-        for robot, one in enumerate(itineraries)
+        frozenset(resources.excluded_by(resources.vertex_row(robot, itinerary.home)).tolist())
+        for robot, itinerary in enumerate(itineraries)
     ]
     owners = defaultdict[int, list[int]](list)  # of homes, by the rows that exclude them
     for robot, rows in enumerate(at_home):
@@ -336,8 +336,13 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     booked = [passed(robot) for robot in range(len(avoiding))]
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     for robot, itinerary in enumerate(itineraries):
-        met = {one for row in booked[robot] for one in owners.get(row, ()) if one != robot}
-        if all(at_home[robot].isdisjoint(booked[one]) for one in met):
+        met = {
+            neighbour
+            for row in booked[robot]
+            for neighbour in owners.get(row, ())
+            if neighbour != robot
+        }
+        if all(at_home[robot].isdisjoint(booked[neighbour]) for neighbour in met):
             continue
         shut = {row for row, homes in owners.items() if homes != [robot]}
         own = np.arange(resources.n_vertices + resources.n_edges) + resources.vertex_row(robot, 0)

@@ -55,7 +55,7 @@ def auto(task: Task) -> Draft:
             better = lns(replace(task, start=explained.tracks))
     except GaveUp:
         return explained
-    before, after = (cost_of(task.scenario, one.tracks) for one in (explained, better))
+    before, after = (cost_of(task.scenario, draft.tracks) for draft in (explained, better))
     if after < before:
         return better
     return replace(

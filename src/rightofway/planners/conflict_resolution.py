@@ -118,7 +118,10 @@ class PartialPlan:
         if not self.sees_swaps:
             raise GaveUp(f"{why} (the published method is stuck here; try two-level)")
         everyone = np.ones(len(self.routes), np.uint8)
-        robot = max(meeting.robots, key=lambda one: (self.graph.conflicts_of(one, everyone), one))
+        robot = max(
+            meeting.robots,
+            key=lambda candidate: (self.graph.conflicts_of(candidate, everyone), candidate),
+        )
         self.deferred[robot] = why
         self.settled[robot] = 0
         self.graph.withdraw(robot)
@@ -200,7 +203,9 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
     return Draft(
         tracks=tuple(ordered),
         status=status,
-        decisions=tuple(one for one in plan.decisions if not made_way.keys() & set(one.robots)),
+        decisions=tuple(
+            decision for decision in plan.decisions if not made_way.keys() & set(decision.robots)
+        ),
         reroutes=tuple(
             Reroute(robot=robot, because=plan.deferred.get(robot) or _for(names, made_way[robot]))
             for robot in rerouted
@@ -244,11 +249,11 @@ def _for(names: Sequence[str], robot: int | None) -> str:
 
 def _plan_together(task: Task, because: str) -> Draft:
     robots, problem = range(len(task.scenario.robots)), task.scenario.problem
-    found = None
+    draft = None
     if not problem.resources.are_points or not problem.is_open:
-        found = plan_in_turn(task, fleet_search(task), "shortest")
+        draft = plan_in_turn(task, fleet_search(task), "shortest")
     return replace(
-        found or plan_fleet(task),
+        draft or plan_fleet(task),
         status="re-routed all robots together",
         reroutes=tuple(Reroute(robot=robot, because=because) for robot in robots),
     )
@@ -271,7 +276,7 @@ class _Reservations:
         """Book the home of a robot without a track for a while, so that it can leave."""
         itinerary = self.itineraries[robot]
         row = self.bookings.vertex_row(robot, itinerary.home)
-        booked = [one for one in self.bookings.at(row) if one.robot != robot]
+        booked = [booking for booking in self.bookings.at(row) if booking.robot != robot]
         hold = Tick(START_HOLD * max(itinerary.edge_ticks, default=0))
         end = min([hold, *(booking.start for booking in booked)])
         if end > 0:

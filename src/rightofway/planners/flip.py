@@ -112,17 +112,17 @@ def _on_other_routes(
 ) -> tuple[Track, ...] | None:
     """Return a plan in which one robot is planned before another; None if it is not home sooner."""
     search = fleet_search(task)
-    kept = [
+    old_tracks = [
         None if robot in {waits, goes_first} else track for robot, track in enumerate(plan.tracks)
     ]
     try:
-        search.start(kept)
+        search.start(old_tracks)
     except ValueError:
         return None  # without rotations the search keeps a headway, which the plan need not have
     limit = task.deadline.seconds_left()
     if not search.repair([waits, goes_first], searches=SEARCHES, time_limit=limit):
         return None
     tracks = search.tracks()
-    before, after = (completions_of(plan.scenario, one)[waits] for one in (plan.tracks, tracks))
+    before, after = (completions_of(plan.scenario, fleet)[waits] for fleet in (plan.tracks, tracks))
     is_good = after < before and check(replace(plan, tracks=tracks)).ok
     return tracks if is_good else None

@@ -75,9 +75,9 @@ def refuse_stranded(scenario: Scenario, stranded: Iterable[int]) -> None:
     stranded
         The robots that have no way to a place.
     """
-    found = [*missing_ways(scenario, stranded), *_shared_ends(scenario), *_clashes(scenario)]
-    if found:
-        raise NoPlanExists(found)
+    blockages = [*missing_ways(scenario, stranded), *_shared_ends(scenario), *_clashes(scenario)]
+    if blockages:
+        raise NoPlanExists(blockages)
 
 
 def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
@@ -88,12 +88,12 @@ def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
     for vertex, names in holders.items():
         if len(names) > 1:
             place = PlaceNames(scenario)(vertex)
-            who = {"robots": listed(names), "place": place}
+            values = {"robots": listed(names), "place": place}
             if len(names) == 2:  # noqa: PLR2004
-                reason = Phrase("{robots} would both have to stay at {place} for ever", **who)
+                reason = Phrase("{robots} would both have to stay at {place} for ever", **values)
                 remedy = Phrase("let one of them end elsewhere")
             else:
-                reason = Phrase("{robots} would all have to stay at {place} for ever", **who)
+                reason = Phrase("{robots} would all have to stay at {place} for ever", **values)
                 remedy = Phrase("let others end elsewhere")
             yield Blockage(reason, tuple(names), (scenario.roadmap.name(vertex),), remedy)
 
@@ -102,32 +102,35 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
     """Yield where two robots would start or end too near to each other."""
     itineraries, roadmap = scenario.problem.itineraries, scenario.roadmap
     length, clearance = scenario.quantities.length, scenario.rules.clearance
-    homes, ends = [one.home for one in itineraries], [one.last for one in itineraries]
+    homes, ends = (
+        [itinerary.home for itinerary in itineraries],
+        [itinerary.last for itinerary in itineraries],
+    )
     for when, places in (("start", homes), ("end", ends)):
         for pair in scenario.problem.resources.clashes(places):
-            here, there = (places[robot] for robot in pair)
-            if here == there:
+            start, other_start = (places[robot] for robot in pair)
+            if start == other_start:
                 continue  # a shared end
-            one, other = (scenario.robots[robot] for robot in pair)
-            ends_of_pair = roadmap.name(here), roadmap.name(there)
+            first, other = (scenario.robots[robot] for robot in pair)
+            ends_of_pair = roadmap.name(start), roadmap.name(other_start)
             values = {
-                "one": one.name,
-                "here": PlaceNames(scenario).where(here),
+                "one": first.name,
+                "here": PlaceNames(scenario).where(start),
                 "other": other.name,
-                "there": PlaceNames(scenario).where(there),
+                "there": PlaceNames(scenario).where(other_start),
             }
-            zone = next((z for z in roadmap.zones if {here, there} <= {*z.vertices}), None)
+            zone = next((z for z in roadmap.zones if {start, other_start} <= {*z.vertices}), None)
             if zone is not None:
                 reason = _in_one_zone(values, zone.name, does_start=when == "start")
             else:
-                needed = one.radius + other.radius
+                needed = first.radius + other.radius
                 values["needed"] = length(needed + (clearance if needed else 0))
-                values["distance"] = length(distance(roadmap, here, there))
+                values["distance"] = length(distance(roadmap, start, other_start))
                 reason = _too_near(values, does_start=when == "start")
             remedy = Phrase("let one of them end elsewhere")
             if when == "start":
                 remedy = Phrase("let one of them start elsewhere")
-            yield Blockage(reason, (one.name, other.name), ends_of_pair, remedy)
+            yield Blockage(reason, (first.name, other.name), ends_of_pair, remedy)
 
 
 def _in_one_zone(values: Mapping[str, str], zone: str, *, does_start: bool) -> Phrase:
@@ -178,15 +181,15 @@ def refuse_closed_ways(
     """
     if scenario.problem.closures is None:
         return
-    distances, found = Distances(scenario.roadmap), []
+    distances, blockages = Distances(scenario.roadmap), []
     for robot in range(len(scenario.robots)) if robots is None else robots:
         deadline.check("looking for ways around closures")
         if not _has_track_alone(scenario, robot, distances, deadline):
-            found.append(_closed_in(scenario, robot, distances, deadline))
-            if len(found) == MAX_REASONS:
+            blockages.append(_closed_in(scenario, robot, distances, deadline))
+            if len(blockages) == MAX_REASONS:
                 break
-    if found:
-        raise NoPlanExists(found)
+    if blockages:
+        raise NoPlanExists(blockages)
 
 
 def _has_track_alone(
@@ -204,7 +207,7 @@ def _closed_in(
     left, name = list(scenario.closures), scenario.robots[robot].name
     clock = scenario.problem.clock
     for closure in scenario.closures if len(left) <= MOST_TRIALS else ():
-        fewer = [one for one in left if one is not closure]
+        fewer = [other for other in left if other is not closure]
         trial = replace(scenario, closures=tuple(fewer), clock=clock)
         try:
             left = left if _has_track_alone(trial, robot, distances, deadline) else fewer
@@ -228,10 +231,10 @@ def _closed_text(scenario: Scenario, closure: Closure) -> Phrase:
     ticks, tick = scenario.problem.clock.ticks, scenario.problem.clock.tick
     ends = closure.edge or ((closure.at,) if closure.at is not None else ())
     places = [name(end) for end in ends]
-    way = places[0]
+    place = places[0]
     if len(places) > 1:
-        way = Phrase("{first} to {last}", first=way, last=places[-1])
-    values = {"way": way, "begin": quantities.moment(int(closure.from_ // tick))}
+        place = Phrase("{first} to {last}", first=place, last=places[-1])
+    values = {"way": place, "begin": quantities.moment(int(closure.from_ // tick))}
     if closure.until is None:
         return Phrase("{way} is closed from {begin} on", **values)
     end = quantities.moment(ticks(closure.until))
@@ -357,7 +360,9 @@ def _described(scenario: Scenario, robots: Sequence[int]) -> Blockage:
         places = tuple(map(roadmap.name, narrow))
         return Blockage(reason, names, places, Phrase("give more room there"))
     itineraries = [scenario.problem.itineraries[robot] for robot in robots]
-    ends = dict.fromkeys(roadmap.name(end) for one in itineraries for end in (one.home, one.last))
+    ends = dict.fromkeys(
+        roadmap.name(end) for itinerary in itineraries for end in (itinerary.home, itinerary.last)
+    )
     return Blockage(blocked, names, tuple(ends), Phrase("give more room, or other places"))
 
 

@@ -56,9 +56,9 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     scenario = task.scenario
     problem = scenario.problem
     if problem.is_open:
-        found = plan_by_instants(task, spreads=spreads)
-        if found is not None:
-            return found
+        draft = plan_by_instants(task, spreads=spreads)
+        if draft is not None:
+            return draft
     if not problem.resources.are_points:
         task.report("no end by instants: planning the order of single moves")
         search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
@@ -76,8 +76,8 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     except NoPlanExists:
         _refuse_blocked(task)
     if not problem.is_open:
-        kept = "keeps clear of closures and barred edges"
-        message = f"robots one after another find no plan that {kept}"
+        reason = "keeps clear of closures and barred edges"
+        message = f"robots one after another find no plan that {reason}"
         raise GaveUp(f"{message} (give a longer time limit, or other places)")
     if tracks is None:
         raise GaveUp("time ran out in the search for the whole fleet (give a longer time limit)")
@@ -89,8 +89,8 @@ def _refuse_blocked(task: Task) -> NoReturn:
     """Raise for a fleet that is proven to have no plan: which robots block each other."""
     task.report("no plan exists: looking for the robots that block each other")
     everybody = range(len(task.scenario.robots))
-    found = blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
-    raise NoPlanExists([found]) from None
+    blockages = blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
+    raise NoPlanExists([blockages]) from None
 
 
 def plan_by_instants(

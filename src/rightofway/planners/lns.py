@@ -76,18 +76,18 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
     few = None
     if not problem.resources.are_points or problem.closures is not None:
         few = plan_few(task, search)
-    found: tuple[Draft | None, ...]
+    drafts: tuple[Draft | None, ...]
     if few is not None:
-        found = (first, few)
+        drafts = (first, few)
     elif not problem.is_open:
-        found = (first, _if_found(task, search, needed=first is None))
+        drafts = (first, _if_found(task, search, needed=first is None))
     elif len(problem.itineraries) > MOST_ROBOTS and problem.resources.are_points:
-        found = (first, _together(task))
+        drafts = (first, _together(task))
     else:
         together = _quickly_together(task)
         has_plan = first is not None or together is not None
-        found = (first, together, _in_turn(task, search, has_plan=has_plan))
-    plans = [plan for plan in found if plan is not None]
+        drafts = (first, together, _in_turn(task, search, has_plan=has_plan))
+    plans = [plan for plan in drafts if plan is not None]
     if not plans:
         is_simple = problem.resources.are_points and problem.is_open
         together = _together(task) if is_simple else plan_fleet(task)
@@ -177,20 +177,20 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         if not task.keep_best:
             raise
         ended = "interrupted: "
-    found = _found(task, search, tuple(spaced), is_better=search.cost < before)
+    tracks = _found(task, search, tuple(spaced), is_better=search.cost < before)
     measured = partial(cost_of, task.scenario)
-    cost = measured(found)
+    cost = measured(tracks)
     if cost == bound:
         status = f"optimal: every robot as fast as alone (first plan: {first.status})"
     elif cost == before:
         status = f"{ended}{first.status}; {done} neighbourhoods found nothing better"
     else:
         status = f"{ended}improved by {done} neighbourhoods (first plan: {first.status})"
-    if spaced is not first.tracks and measured(found) > measured(first.tracks):
-        found = first.tracks  # the headway of planning costs more than the search gained
-    saved = measured(first.tracks) - measured(found)
-    made = Improvement(saved=Tick(saved), tries=done, interrupted=bool(ended))
-    return Draft(tracks=found, status=status, improvement=made, proof=first.proof)
+    if spaced is not first.tracks and measured(tracks) > measured(first.tracks):
+        tracks = first.tracks  # the headway of planning costs more than the search gained
+    saved = measured(first.tracks) - measured(tracks)
+    gain = Improvement(saved=Tick(saved), tries=done, interrupted=bool(ended))
+    return Draft(tracks=tracks, status=status, improvement=gain, proof=first.proof)
 
 
 def _found(

@@ -182,12 +182,12 @@ def plan_few(task: Task, search: FleetSearch) -> Draft | None:
         is_over = expanded % BETWEEN_CHECKS == 0 and deadline.seconds_left() == 0
         if not waiting or expanded == MOST_STATES_IN_TIME or is_over:
             return None
-        _, _, here = heappop(waiting)
-        if not any(here is one for one in known[here.state]):
+        _, _, node = heappop(waiting)
+        if not any(node is known_node for known_node in known[node.state]):
             continue  # another one is as early
-        if floor.to_go(here.state) == 0 and min(here.leave_by) == NEVER:
-            return _draft_of(task, search, floor, here)
-        for after in floor.timed_successors(here):
+        if floor.to_go(node.state) == 0 and min(node.leave_by) == NEVER:
+            return _draft_of(task, search, floor, node)
+        for after in floor.timed_successors(node):
             others = known.setdefault(after.state, [])
             if any(other.is_as_early_as(after) for other in others):
                 continue
@@ -216,7 +216,9 @@ def _draft_of(task: Task, search: FleetSearch, floor: _Floor, timed: _Timed) -> 
 
 def _moves(task: Task, floor: _Floor, most_states: int) -> list[_Move]:
     """Return moves that bring all robots through their trips, at no times."""
-    start = floor.served(_State(tuple(one.home for one in floor.itineraries), floor.no_stage))
+    start = floor.served(
+        _State(tuple(itinerary.home for itinerary in floor.itineraries), floor.no_stage)
+    )
     came_from: dict[_State, tuple[_State, _Move] | None] = {start: None}
     order = count()  # of equally near states, the latest first
     waiting = [(floor.to_go(start), 0, start)]
@@ -247,14 +249,14 @@ def _path(came_from: dict[_State, tuple[_State, _Move] | None], state: _State) -
 
 def _blockage(task: Task) -> Blockage:
     names = tuple(robot.name for robot in task.scenario.robots)
-    who = listed(names)
+    listed_names = listed(names)
     if len(names) > MOST_NAMED:
-        who = Phrase("all {number} robots", number=str(len(names)))
-    reason = Phrase("{robots} have no room to pass each other", robots=who)
+        listed_names = Phrase("all {number} robots", number=str(len(names)))
+    reason = Phrase("{robots} have no room to pass each other", robots=listed_names)
     if task.scenario.problem.closures is not None:
         reason = Phrase(
             "{robots} have no room to pass each other at the times that closures leave them",
-            robots=who,
+            robots=listed_names,
         )
     return Blockage(reason, names, (), Phrase("give more room, or other places"))
 
@@ -277,24 +279,28 @@ class _Floor:
         self._closures = problem.closures
         self._dwells = [
             [
-                sum(stage.work + stage.turn for stage in one.stages[k:-1]) + one.stages[-1].work
-                for k in range(len(one.stages))
+                sum(stage.work + stage.turn for stage in itinerary.stages[k:-1])
+                + itinerary.stages[-1].work
+                for k in range(len(itinerary.stages))
             ]
-            for one in self.itineraries
+            for itinerary in self.itineraries
         ]
         distances = Distances(self._roadmap)
         self._ways = [
-            [distances.to(stage.vertex, one.edge_ticks).tolist() for stage in one.stages]
-            for one in self.itineraries
+            [
+                distances.to(stage.vertex, itinerary.edge_ticks).tolist()
+                for stage in itinerary.stages
+            ]
+            for itinerary in self.itineraries
         ]
         for robot in ends_anywhere:
             self._ways[robot][-1] = [0] * self._roadmap.n_vertices
         self._later = [
             [
-                sum(ways[k][one.stages[k - 1].vertex] for k in range(stage + 1, len(ways)))
+                sum(ways[k][itinerary.stages[k - 1].vertex] for k in range(stage + 1, len(ways)))
                 for stage in range(len(ways))
             ]
-            for one, ways in zip(self.itineraries, self._ways, strict=True)
+            for itinerary, ways in zip(self.itineraries, self._ways, strict=True)
         ]
 
     def _closed_at(self, robot: int, vertex: int) -> list[tuple[Tick, Tick]]:
@@ -305,7 +311,7 @@ class _Floor:
 
     def starts(self) -> list[_Timed]:
         """Return the fleet at home; a robot may work there at once, or later."""
-        home = _State(tuple(one.home for one in self.itineraries), self.no_stage)
+        home = _State(tuple(itinerary.home for itinerary in self.itineraries), self.no_stage)
         all_served = self.served(home)
         leave_by = tuple(
             min((start for start, _ in self._closed_at(robot, place)), default=NEVER)
@@ -317,21 +323,26 @@ class _Floor:
                 for served, soon in zip(all_served.stages, leave_by, strict=True)
             )
         )
-        found = []
+        next_states = []
         for stages in choices:
             ready = tuple(
-                least_dwell(one.stages[:served], leaves=True)
-                for one, served in zip(self.itineraries, stages, strict=True)
+                least_dwell(itinerary.stages[:served], leaves=True)
+                for itinerary, served in zip(self.itineraries, stages, strict=True)
             )
             state = _State(home.places, stages)
-            found.append(_Timed(state, ready, {}, leave_by, (), (), (-1,) * len(ready)))
-        return found
+            next_states.append(_Timed(state, ready, {}, leave_by, (), (), (-1,) * len(ready)))
+        return next_states
 
     def served(self, state: _State) -> _State:
         """Return the state after each robot has served its stages where it stands."""
         stages = list(state.stages)
-        for robot, (one, place) in enumerate(zip(self.itineraries, state.places, strict=True)):
-            while stages[robot] < len(one.stages) - 1 and one.stages[stages[robot]].vertex == place:
+        for robot, (itinerary, place) in enumerate(
+            zip(self.itineraries, state.places, strict=True)
+        ):
+            while (
+                stages[robot] < len(itinerary.stages) - 1
+                and itinerary.stages[stages[robot]].vertex == place
+            ):
                 stages[robot] += 1
         return _State(state.places, tuple(stages))
 
@@ -457,7 +468,7 @@ class _Floor:
 
 def _at_times(floor: _Floor, timed: _Timed) -> list[Track]:
     """Return the tracks of moves at the times that they have."""
-    vertices = [[one.home] for one in floor.itineraries]
+    vertices = [[itinerary.home] for itinerary in floor.itineraries]
     enter = [[Tick(0)] for _ in floor.itineraries]
     for move, tick in zip(timed.moves, timed.enters, strict=True):
         vertices[move.robot].append(VertexId(move.vertex))
@@ -468,20 +479,23 @@ def _at_times(floor: _Floor, timed: _Timed) -> list[Track]:
 def _in_sequence(task: Task, moves: list[_Move]) -> list[Track]:
     """Return tracks in which the robots make their moves one after another."""
     roadmap, itineraries = task.scenario.roadmap, task.scenario.problem.itineraries
-    vertices = [[one.home] for one in itineraries]
+    vertices = [[itinerary.home] for itinerary in itineraries]
     enter = [[Tick(0)] for _ in itineraries]
     stages, now, edges = [0] * len(itineraries), 0, [-1] * len(itineraries)
     for robot, head, edge in moves:
-        one, place = itineraries[robot], vertices[robot][-1]
+        itinerary, place = itineraries[robot], vertices[robot][-1]
         served = []
-        while stages[robot] < len(one.stages) - 1 and one.stages[stages[robot]].vertex == place:
-            served.append(one.stages[stages[robot]])
+        while (
+            stages[robot] < len(itinerary.stages) - 1
+            and itinerary.stages[stages[robot]].vertex == place
+        ):
+            served.append(itinerary.stages[stages[robot]])
             stages[robot] += 1
         ready = enter[robot][-1] + least_dwell(served, leaves=True)
-        if one.turning is not None:
-            ready += one.turning.of(edges[robot], edge)
+        if itinerary.turning is not None:
+            ready += itinerary.turning.of(edges[robot], edge)
         edges[robot] = edge
-        now = max(now, ready) + one.edge_ticks[roadmap.class_of_edge[edge]]
+        now = max(now, ready) + itinerary.edge_ticks[roadmap.class_of_edge[edge]]
         now += planning_headway(task.scenario)
         vertices[robot].append(VertexId(head))
         enter[robot].append(Tick(now))

@@ -82,8 +82,8 @@ def priority_search(task: Task) -> Draft:
             for _ in range(task.options["rounds"] - 1):
                 other = list(order)
                 if len(other) > 1:
-                    one, another = draw.sample(listed, 2)
-                    other[one], other[another] = other[another], other[one]
+                    first, another = draw.sample(listed, 2)
+                    other[first], other[another] = other[another], other[first]
                 other_cost = flowtime(other)
                 if other_cost <= cost:
                     order, cost = other, other_cost

@@ -53,9 +53,9 @@ HEADWAYS_PER_EDGE = 8
 
 def prioritized(task: Task) -> Draft:
     """Plan one robot after another; options: `PrioritizedOptions`."""
-    found = plan_in_turn(task, fleet_search(task), task.options["order"])
-    if found is not None:
-        return found
+    draft = plan_in_turn(task, fleet_search(task), task.options["order"])
+    if draft is not None:
+        return draft
     task.deadline.check("planning robots one after another")
     status = "all together, because robots one after another found no way"
     return replace(plan_fleet(task), status=status)
@@ -93,8 +93,8 @@ def plan_in_turn(
     drafts = [_at_one_pace(task, turns)]
     if search.resume(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
         drafts.append(_at_own_speeds(task, search))
-    there = [draft for draft in drafts if draft is not None]
-    return min(there, key=lambda draft: cost_of(task.scenario, draft.tracks), default=None)
+    finished = [draft for draft in drafts if draft is not None]
+    return min(finished, key=lambda draft: cost_of(task.scenario, draft.tracks), default=None)
 
 
 def _patiently(task: Task, search: FleetSearch, turns: Sequence[int], share: float) -> Draft | None:
@@ -104,8 +104,8 @@ def _patiently(task: Task, search: FleetSearch, turns: Sequence[int], share: flo
     """
     searches = SEARCHES_WITH_SIZES * len(turns)
     limit = _part(task.deadline, share)
-    found = search.prioritize(turns, searches=searches, time_limit=limit)
-    return _at_own_speeds(task, search) if found else None
+    is_complete = search.prioritize(turns, searches=searches, time_limit=limit)
+    return _at_own_speeds(task, search) if is_complete else None
 
 
 def _part(deadline: Deadline, share: float) -> float | None:
@@ -132,10 +132,10 @@ def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
     limit = _part(task.deadline, SHARE_AT_ONE_PACE)
     if not search.prioritize(turns, searches=searches, time_limit=limit):
         return None
-    found = timetable_of(task.scenario, search.tracks())
+    tracks = timetable_of(task.scenario, search.tracks())
     task.has_plan()
     status = "one after another at one pace, each then at its own"
-    return Draft(tracks=tuple(found), status=status)
+    return Draft(tracks=tuple(tracks), status=status)
 
 
 def _paced(scenario: Scenario) -> Scenario:

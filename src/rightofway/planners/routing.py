@@ -110,7 +110,7 @@ def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Rou
     A route that keeps clear of all others is longer in every lap. Each robot whose route is not a
     shortest one gets another one, which keeps clear of others by how often they are there.
     """
-    found, detours = list(routes), []
+    new_routes, detours = list(routes), []
     traffic = Congestion.of_laps(scenario.problem, distances)
     for robot, (itinerary, route) in enumerate(
         zip(scenario.problem.itineraries, routes, strict=True)
@@ -122,8 +122,8 @@ def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Rou
         else:
             traffic.add(robot, route.vertices)
     for robot in detours:
-        found[robot] = _clear(scenario, traffic, robot)
-    return found
+        new_routes[robot] = _clear(scenario, traffic, robot)
+    return new_routes
 
 
 def _clear(scenario: Scenario, traffic: Congestion, robot: int) -> Route:

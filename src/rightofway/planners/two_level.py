@@ -90,18 +90,22 @@ def _as_published(task: Task) -> tuple[Distances, PartialPlan]:
 def by_two_levels(plan: PartialPlan, meeting: Meeting) -> Resolution | None:
     """Follow both movement groups of a pair; the one sooner done wins, group one on a tie."""
     i, j = meeting.robots
-    one = _follow(plan, i, j, on_tie=0)
-    if one is not None and all(decision.level != "robot" for decision in one.resolution.decisions):
-        return one.resolution
+    first = _follow(plan, i, j, on_tie=0)
+    if first is not None and all(
+        decision.level != "robot" for decision in first.resolution.decisions
+    ):
+        return first.resolution
     two = _follow(plan, i, j, on_tie=1)
-    sums = tuple(None if group is None else group.completion_sum for group in (one, two))
-    first_wins = two is None or (one is not None and one.completion_sum <= two.completion_sum)
-    winner = one if first_wins else two
+    sums = tuple(None if group is None else group.completion_sum for group in (first, two))
+    first_wins = two is None or (first is not None and first.completion_sum <= two.completion_sum)
+    winner = first if first_wins else two
     if winner is None:
         return None
     decisions = (
-        replace(each, completion_sums=(sums[0], sums[1])) if each.level == "robot" else each
-        for each in winner.resolution.decisions
+        replace(decision, completion_sums=(sums[0], sums[1]))
+        if decision.level == "robot"
+        else decision
+        for decision in winner.resolution.decisions
     )
     return replace(winner.resolution, decisions=tuple(decisions))
 
@@ -173,11 +177,11 @@ def movement_groups(
 
 def _temporary_group(plan: PartialPlan, meeting: Meeting, on_tie: int) -> MovementGroup | None:
     i, j = meeting.robots
-    found = _follow(plan, i, j, on_tie=on_tie)
-    if found is None:
+    followed = _follow(plan, i, j, on_tie=on_tie)
+    if followed is None:
         return None
     mark = plan.graph.checkpoint()
-    plan.graph.give_all(found.resolution.rights)
+    plan.graph.give_all(followed.resolution.rights)
     completions = plan.graph.completion(i), plan.graph.completion(j)
     group = MovementGroup(tracks=tuple(plan.graph.tracks()), completions=completions)
     plan.graph.rollback(mark)

@@ -89,21 +89,21 @@ def first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
     NoPlanExists
         If closures leave a robot no way.
     """
-    kept = dict(_kept_routes(task.scenario, old))
-    changed = [robot for robot, one in kept.items() if one.has_changed]
-    unchanged = [robot for robot, one in kept.items() if not one.has_changed]
-    others = [robot for robot in range(len(task.scenario.robots)) if robot not in kept]
+    old_routes = dict(_kept_routes(task.scenario, old))
+    changed = [robot for robot, old_route in old_routes.items() if old_route.has_changed]
+    unchanged = [robot for robot, old_route in old_routes.items() if not old_route.has_changed]
+    others = [robot for robot in range(len(task.scenario.robots)) if robot not in old_routes]
     refuse_closed_ways(task.scenario, task.deadline, others)
     hurried = replace(task, deadline=task.deadline.sooner(SHARE))
     search = fleet_search(hurried)
-    found = [_repaired(hurried, search, kept, [*unchanged, *changed])]
+    drafts = [_repaired(hurried, search, old_routes, [*unchanged, *changed])]
     if changed and hurried.deadline.seconds_left() != 0:
-        found.append(_repaired(hurried, search, kept, unchanged))
+        drafts.append(_repaired(hurried, search, old_routes, unchanged))
     headway = task.scenario.problem.headway
     if not others and headway != planning_headway(task.scenario):  # the old plan may have had less
-        in_time = _timetable(task.scenario, kept, [*unchanged, *changed], headway)
-        found.append(None if in_time is None else tuple(in_time.values()))
-    valid = [tracks for tracks in found if tracks is not None and _is_valid(task.scenario, tracks)]
+        in_time = _timetable(task.scenario, old_routes, [*unchanged, *changed], headway)
+        drafts.append(None if in_time is None else tuple(in_time.values()))
+    valid = [tracks for tracks in drafts if tracks is not None and _is_valid(task.scenario, tracks)]
     return min(valid, key=lambda tracks: cost_of(task.scenario, tracks), default=None)
 
 
@@ -126,7 +126,7 @@ def kept_of(old: Plan, scenario: Scenario, tracks: Sequence[Track]) -> StartPlan
             continue
         routes += 1
         enter = zip(before.enter.tolist(), track.enter.tolist(), strict=True)
-        times += all(one * old_tick == other * tick for one, other in enter)
+        times += all(tick_now * old_tick == other * tick for tick_now, other in enter)
     return StartPlan(routes=routes, tracks=times)
 
 
@@ -182,7 +182,7 @@ def _kept_routes(scenario: Scenario, old: Plan) -> Iterator[tuple[int, _Kept]]:
         if partner is None:
             continue
         track, visited = old.tracks[partner], vertex[old.tracks[partner].vertices]
-        now, before = (one.problem.itineraries for one in (scenario, old.scenario))
+        now, before = (fleet.problem.itineraries for fleet in (scenario, old.scenario))
         places = [stage.vertex for stage in now[robot].stages]
         old_places = [int(vertex[stage.vertex]) for stage in before[partner].stages]
         starts, ends = visited[[0, -1]].tolist()
@@ -215,8 +215,8 @@ def _route_again(
 def _lasts_as_long(route: Route, former: Route, ticks: Fraction) -> bool:
     """Return whether all dwells and drives are as before; ``ticks``: of now in one of before."""
     now, before = (
-        np.array([one.dwell, one.drive], np.int64) * scale
-        for one, scale in ((route, ticks.denominator), (former, ticks.numerator))
+        np.array([timed.dwell, timed.drive], np.int64) * scale
+        for timed, scale in ((route, ticks.denominator), (former, ticks.numerator))
     )
     return np.array_equal(now, before)
 
@@ -238,10 +238,10 @@ def _closed_ways(scenario: Scenario) -> Callable[..., bool]:
 
 
 def _repaired(
-    task: Task, search: FleetSearch, kept: Mapping[int, _Kept], order: Sequence[int]
+    task: Task, search: FleetSearch, old_routes: Mapping[int, _Kept], order: Sequence[int]
 ) -> tuple[Track, ...] | None:
     """Return a plan that keeps as many as it can of some routes; None if it finds none."""
-    in_time = _in_old_order(task, kept, order)
+    in_time = _in_old_order(task, old_routes, order)
     tracks = [in_time.get(robot) for robot in range(len(task.scenario.robots))]
     left = [robot for robot, track in enumerate(tracks) if track is None]
     if not left:
@@ -251,16 +251,16 @@ def _repaired(
         search.start(tracks)
     except ValueError:
         return None  # without rotations the search keeps a headway, which the plan need not have
-    found = search.repair(
+    is_repaired = search.repair(
         sorted(left, key=lambda robot: alone[robot]),
         searches=SEARCHES * (len(left) + len(tracks) // 10),
         time_limit=task.deadline.seconds_left(),
     )
-    return search.tracks() if found else None
+    return search.tracks() if is_repaired else None
 
 
 def _in_old_order(
-    task: Task, kept: Mapping[int, _Kept], order: Sequence[int]
+    task: Task, old_routes: Mapping[int, _Kept], order: Sequence[int]
 ) -> Mapping[int, Track]:
     """Return the tracks of robots in the earliest timetable that keeps the old order of visits.
 
@@ -269,22 +269,22 @@ def _in_old_order(
     """
     fits, left = list[int](), list(order)
     headway = planning_headway(task.scenario)
-    tracks = _timetable(task.scenario, kept, left, headway)
+    tracks = _timetable(task.scenario, old_routes, left, headway)
     for _ in range(MOST_REFUSED):
         if tracks is not None or task.deadline.seconds_left() == 0:
             break
         low, high = 0, len(left)
         while high - low > 1:
             middle = (low + high) // 2
-            tried = _timetable(task.scenario, kept, [*fits, *left[:middle]], headway)
+            tried = _timetable(task.scenario, old_routes, [*fits, *left[:middle]], headway)
             low, high = (low, middle) if tried is None else (middle, high)
         fits, left = [*fits, *left[:low]], left[low + 1 :]
-        tracks = _timetable(task.scenario, kept, [*fits, *left], headway)
-    return tracks or _timetable(task.scenario, kept, fits, headway) or {}
+        tracks = _timetable(task.scenario, old_routes, [*fits, *left], headway)
+    return tracks or _timetable(task.scenario, old_routes, fits, headway) or {}
 
 
 def _timetable(
-    scenario: Scenario, kept: Mapping[int, _Kept], robots: Sequence[int], headway: Tick
+    scenario: Scenario, old_routes: Mapping[int, _Kept], robots: Sequence[int], headway: Tick
 ) -> Mapping[int, Track] | None:
     """Return the earliest tracks of some robots in the old order; None if it is impossible.
 
@@ -297,9 +297,9 @@ def _timetable(
         fleet = tuple(scenario.robots[robot] for robot in robots)
         part = replace(scenario, robots=fleet, clock=scenario.problem.clock)
     try:
-        routes = [kept[robot].route for robot in robots]
+        routes = [old_routes[robot].route for robot in robots]
         graph = graph_on(part, routes, headway=headway)
-        is_possible = graph.keeps_order([kept[robot].when for robot in robots])
+        is_possible = graph.keeps_order([old_routes[robot].when for robot in robots])
     except ValueError:
         return None  # closures leave a route no times, or the old plan has times that fall
     if not is_possible:

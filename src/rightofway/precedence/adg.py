@@ -258,8 +258,8 @@ class ActionDependencyGraph:
 
     def deadlocked(self) -> list[int]:
         """Return the robots that can never complete because they wait for each other."""
-        found: list[int] = self._kernel.deadlocked().tolist()
-        return found
+        circle: list[int] = self._kernel.deadlocked().tolist()
+        return circle
 
     def runs(self, seed: int, first: int, count: int, time_limit: float | None = None) -> RunBatch:
         """Run the plan ``count`` times, from run number ``first`` on.
@@ -321,6 +321,6 @@ def _kernel_of(delays: DelayModel) -> _core.DelayModel:
         np.array([a for _, a, _ in delays.random], np.float64),
         np.array([b for _, _, b in delays.random], np.float64),
         np.array([0, *accumulate(map(len, delays.stoppages))], np.int32),
-        np.array([one.tick for one in stoppages], np.int64),
-        np.array([one.ticks for one in stoppages], np.int64),
+        np.array([stoppage.tick for stoppage in stoppages], np.int64),
+        np.array([stoppage.ticks for stoppage in stoppages], np.int64),
     )

@@ -180,9 +180,9 @@ class PrecedenceGraph:
         None if there was another reason.
         """
         return [
-            (one - 1, other)
-            for one, other in pairwise(self._refused_cycle())
-            if self._robot[one] != self._robot[other]
+            (first_visit - 1, other)
+            for first_visit, other in pairwise(self._refused_cycle())
+            if self._robot[first_visit] != self._robot[other]
         ]
 
     def _refused_cycle(self) -> list[Visit]:
@@ -272,14 +272,14 @@ class PrecedenceGraph:
         """Return the earliest conflict of two robots, or None."""
         return self._meeting(self._kernel.next_conflict_between(i, j))
 
-    def _meeting(self, found: tuple[int, int, int, int] | None) -> Meeting | None:
-        if found is None:
+    def _meeting(self, meeting: tuple[int, int, int, int] | None) -> Meeting | None:
+        if meeting is None:
             return None
-        tick, kind, one, other = found
-        robots = (self._robot[one], self._robot[other])
+        tick, kind, first, other = meeting
+        robots = (self._robot[first], self._robot[other])
         if kind:  # a swap names the visits entered; the robot of `other` has left the vertex of one
-            return Meeting(tick=Tick(tick), kind="swap", robots=robots, visits=(one, other - 1))
-        return Meeting(tick=Tick(tick), kind="vertex", robots=robots, visits=(one, other))
+            return Meeting(tick=Tick(tick), kind="swap", robots=robots, visits=(first, other - 1))
+        return Meeting(tick=Tick(tick), kind="vertex", robots=robots, visits=(first, other))
 
     def completion(self, robot: int) -> Tick:
         """Return when a robot has done its work and is where it ends."""

@@ -111,10 +111,10 @@ def period_curve(
         """Return the line of the critical circuit at ``x``; None for a deadlock."""
         length = growth.fixed * x.denominator + growth.slope * x.numerator
         try:
-            found = circuit_of(len(graph), arcs.stretched(length), time_limit)
+            circuit = circuit_of(len(graph), arcs.stretched(length), time_limit)
         except ValueError as error:
             raise GaveUp(f"the numbers of this period are too large ({error})") from None
-        return None if found is None else _line(arcs, growth, found.arcs, x, until)
+        return None if circuit is None else _line(arcs, growth, circuit.arcs, x, until)
 
     first, last = line_at(start), line_at(until)
     assert first is not None, "orders that are live for some parameter are live for less"

@@ -134,7 +134,9 @@ class ReleaseGraph:
         arrived
             The visit at whose vertex each robot has last arrived.
         """
-        return tuple(one for one in self.waits(part) if arrived[one.robot] < one.visit)
+        return tuple(
+            awaited for awaited in self.waits(part) if arrived[awaited.robot] < awaited.visit
+        )
 
     def may_go(self, part: Part, arrived: Sequence[int]) -> bool:
         """Return whether no robot is in the way of a part any more.
@@ -161,31 +163,33 @@ class ReleaseGraph:
         }
         following = defaultdict[Part, list[Part]](list)
         for part, earlier in before.items():
-            for one in earlier:
-                following[one].append(part)
+            for awaited in earlier:
+                following[awaited].append(part)
         open_arcs = {part: len(earlier) for part, earlier in before.items()}
         ready = [part for part, count in open_arcs.items() if count == 0]
         while ready:
             part = ready.pop()
             del open_arcs[part]
-            for one in following[part]:
-                open_arcs[one] -= 1
-                if open_arcs[one] == 0:
-                    ready.append(one)
+            for waiting in following[part]:
+                open_arcs[waiting] -= 1
+                if open_arcs[waiting] == 0:
+                    ready.append(waiting)
         if not open_arcs:
             return ()
         # Each part that is left waits for another one that is left: walk until one comes again.
         walked, part = list[Part](), min(open_arcs)
         while part not in walked:
             walked.append(part)
-            part = min(one for one in before[part] if one in open_arcs)
+            part = min(awaited for awaited in before[part] if awaited in open_arcs)
         return tuple(walked[walked.index(part) :])
 
     def _released_before(self, part: Part) -> set[Part]:
         """Return the parts that are released before a part: its own last one, and arrivals' own."""
         first = self.firsts[part.robot]
         own = [Part(part.robot, part.number - 1)] if part.number > first else []
-        arrivals = (one for one in self.waits(part) if one.visit > self.firsts[one.robot])
+        arrivals = (
+            awaited for awaited in self.waits(part) if awaited.visit > self.firsts[awaited.robot]
+        )
         return {*own, *(Part(*arrival) for arrival in arrivals)}
 
 

@@ -92,40 +92,40 @@ class Segment:
 
 def _implying(waits: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
     """Return, of (start, end before it), those with an end that no earlier start waits for."""
-    found: list[tuple[int, int]] = []
+    pairs: list[tuple[int, int]] = []
     for start, end in sorted(waits, key=lambda wait: (wait[0], -wait[1])):
-        if not found or end > found[-1][1]:
-            found.append((start, end))
-    return found
+        if not pairs or end > pairs[-1][1]:
+            pairs.append((start, end))
+    return pairs
 
 
 def linked_segments(
-    one: Route, other: Route, pairs: Iterable[IncompatiblePair]
+    first: Route, other: Route, pairs: Iterable[IncompatiblePair]
 ) -> Mapping[tuple[int, int], Segment]:
     """Return the segment of each pair of incompatible visits of two robots.
 
     Parameters
     ----------
-    one, other
+    first, other
         Routes of robots i and j.
     pairs
         All incompatible visits of the two.
     """
     left = {(pair.i, pair.j): pair for pair in pairs}
-    found: dict[tuple[int, int], Segment] = {}
+    segments: dict[tuple[int, int], Segment] = {}
     while left:
         _, pair = left.popitem()
         linked = [pair]
         for pair in linked:  # grows
             around = [(pair.i + di, pair.j + dj) for di in (-1, 0, 1) for dj in (-1, 0, 1)]
             near = [left[at] for at in around if at in left]
-            linked += [left.pop((each.i, each.j)) for each in near if pair.is_linked(each)]
-        segment = _segment_of(one, other, tuple(sorted(linked)))
-        found |= dict.fromkeys(((each.i, each.j) for each in linked), segment)
-    return found
+            linked += [left.pop((shared.i, shared.j)) for shared in near if pair.is_linked(shared)]
+        segment = _segment_of(first, other, tuple(sorted(linked)))
+        segments |= dict.fromkeys(((shared.i, shared.j) for shared in linked), segment)
+    return segments
 
 
-def _segment_of(one: Route, other: Route, pairs: tuple[IncompatiblePair, ...]) -> Segment:
+def _segment_of(first: Route, other: Route, pairs: tuple[IncompatiblePair, ...]) -> Segment:
     i, j = [pair.i for pair in pairs], [pair.j for pair in pairs]
     i_first = min(pair.i_starts for pair in pairs)
     j_first = min(pair.j_starts for pair in pairs)
@@ -133,19 +133,19 @@ def _segment_of(one: Route, other: Route, pairs: tuple[IncompatiblePair, ...]) -
     kind: Literal["vertex", "head-on", "following", "crossing"] = "crossing"
     if together:
         kind = "following" if together > 0 else "head-on"
-    elif len(pairs) == 1 and one.vertices[i[0]] == other.vertices[j[0]]:
+    elif len(pairs) == 1 and first.vertices[i[0]] == other.vertices[j[0]]:
         kind = "vertex"
     return Segment(
         kind=kind,
         pairs=pairs,
         i_first=i_first,
         j_first=j_first,
-        i_vertices=one.vertices[min(i) : max(pair.i_starts for pair in pairs) + 1],
+        i_vertices=first.vertices[min(i) : max(pair.i_starts for pair in pairs) + 1],
         j_vertices=other.vertices[min(j) : max(pair.j_starts for pair in pairs) + 1],
     )
 
 
-def crossing(one: Route, i: int, other: Route, j: int) -> Segment:
+def crossing(first: Route, i: int, other: Route, j: int) -> Segment:
     """Return the segment of two visits to one vertex, and of nothing around it.
 
     Parameters
@@ -155,10 +155,10 @@ def crossing(one: Route, i: int, other: Route, j: int) -> Segment:
     other, j
         Route of robot j and the index of its visit, to the same vertex.
     """
-    return _segment_of(one, other, (IncompatiblePair(i, j, i, j),))
+    return _segment_of(first, other, (IncompatiblePair(i, j, i, j),))
 
 
-def shared_segment(one: Route, i: int, other: Route, j: int) -> Segment:
+def shared_segment(first: Route, i: int, other: Route, j: int) -> Segment:
     """Return the longest run of vertices around two visits; head-on if it could be both.
 
     Parameters
@@ -169,23 +169,23 @@ def shared_segment(one: Route, i: int, other: Route, j: int) -> Segment:
         Route of robot j and the index of its visit, to the same vertex.
     """
     j_step = -1
-    before = _run(one, i, other, j, i_step=-1, j_step=1)
-    after = _run(one, i, other, j, i_step=1, j_step=-1)
+    before = _run(first, i, other, j, i_step=-1, j_step=1)
+    after = _run(first, i, other, j, i_step=1, j_step=-1)
     if not before + after:
         j_step = 1
-        before = _run(one, i, other, j, i_step=-1, j_step=-1)
-        after = _run(one, i, other, j, i_step=1, j_step=1)
+        before = _run(first, i, other, j, i_step=-1, j_step=-1)
+        after = _run(first, i, other, j, i_step=1, j_step=1)
     visits = [(i + step, j + j_step * step) for step in range(-before, after + 1)]
-    return _segment_of(one, other, tuple(IncompatiblePair(a, b, a, b) for a, b in visits))
+    return _segment_of(first, other, tuple(IncompatiblePair(a, b, a, b) for a, b in visits))
 
 
-def _run(one: Route, i: int, other: Route, j: int, *, i_step: int, j_step: int) -> int:
+def _run(first: Route, i: int, other: Route, j: int, *, i_step: int, j_step: int) -> int:
     """Return how many visits further both routes go on together in these directions."""
     length = 0
     while (
-        0 <= i + i_step < len(one)
+        0 <= i + i_step < len(first)
         and 0 <= j + j_step < len(other)
-        and one.vertices[i + i_step] == other.vertices[j + j_step]
+        and first.vertices[i + i_step] == other.vertices[j + j_step]
     ):
         i, j, length = i + i_step, j + j_step, length + 1
     return length

@@ -140,14 +140,14 @@ def critical_circuit_without(
     """
     whole, saved = part.denominator, part.numerator
     arcs = graph.arcs.stretched(graph.arcs.length * whole - share * saved)
-    found = _circuit(graph, arcs, time_limit)
-    return Circuit(cycle_time=found.cycle_time / whole, arcs=found.arcs)
+    circuit = _circuit(graph, arcs, time_limit)
+    return Circuit(cycle_time=circuit.cycle_time / whole, arcs=circuit.arcs)
 
 
 def _circuit(graph: TimedEventGraph, arcs: Arcs, time_limit: float | None) -> Circuit:
-    found = circuit_of(len(graph), arcs, time_limit)
-    assert found is not None, "the orders of the graph are live, also with other lengths"
-    return found
+    circuit = circuit_of(len(graph), arcs, time_limit)
+    assert circuit is not None, "the orders of the graph are live, also with other lengths"
+    return circuit
 
 
 def _reach(
@@ -163,13 +163,13 @@ def _reach(
     which one decides there, until it is the first line itself.
     """
     until = Fraction(1)
-    found = critical_circuit_without(graph, share, until, time_limit=time_limit)
-    at_best = found.cycle_time
-    while found.cycle_time > now - gain * until:
-        arcs = graph.arcs.chosen(found.arcs)
+    other_circuit = critical_circuit_without(graph, share, until, time_limit=time_limit)
+    at_best = other_circuit.cycle_time
+    while other_circuit.cycle_time > now - gain * until:
+        arcs = graph.arcs.chosen(other_circuit.arcs)
         height = int(arcs.height.sum())
         mean = Fraction(int(arcs.length.sum()), height)
-        slope = Fraction(int(share[found.arcs].sum()), height)
+        slope = Fraction(int(share[other_circuit.arcs].sum()), height)
         until = (now - mean) / (gain - slope)
-        found = critical_circuit_without(graph, share, until, time_limit=time_limit)
+        other_circuit = critical_circuit_without(graph, share, until, time_limit=time_limit)
     return until, at_best

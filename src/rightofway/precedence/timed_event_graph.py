@@ -259,9 +259,9 @@ class TimedEventGraph:
         n_robots = len(self.timetable.laps)
         key = row.astype(np.int64) * n_robots + self.robot[visit]
         order = np.lexsort((rank[visit], key))
-        found, begins = np.unique(key[order], return_index=True)
-        ends, of_row = np.append(begins[1:], 2 * n), found // n_robots
-        places = np.repeat(np.arange(len(found)), ends - begins) * n + rank[visit[order]]
+        keys, begins = np.unique(key[order], return_index=True)
+        ends, of_row = np.append(begins[1:], 2 * n), keys // n_robots
+        places = np.repeat(np.arange(len(keys)), ends - begins) * n + rank[visit[order]]
         # Each start asks all rows that exclude it, and there each other robot.
         first, excluded = rows.lists.first, rows.lists.excluded
         robots_at = np.searchsorted(of_row, [excluded, excluded + 1])
@@ -275,7 +275,7 @@ class TimedEventGraph:
             of_asked, at = _ranges(first[row[some]], first[row[some] + 1])
             again, of = _ranges(robots_at[0][at], robots_at[1][at])
             asks = some[of_asked[again]]
-            is_other = found[of] % n_robots != self.robot[visit[asks]]
+            is_other = keys[of] % n_robots != self.robot[visit[asks]]
             asks, of = asks[is_other], of[is_other]
             place = np.searchsorted(places, of * n + rank[visit[asks]]) - 1
             is_earlier_round = place < begins[of]
@@ -312,8 +312,8 @@ class TimedEventGraph:
         reached = np.maximum.accumulate(
             np.cumsum(np.diff(pair, prepend=pair[0]) != 0) * span + when
         )
-        kept = in_order[np.diff(reached, prepend=reached[0] - 1) > 0]
-        return head[kept], ended[kept], height[kept]
+        rising = in_order[np.diff(reached, prepend=reached[0] - 1) > 0]
+        return head[rising], ended[rising], height[rising]
 
     def has_swaps(self) -> bool:
         """Tell whether two robots would exchange two vertices: each waits for the other to go.
@@ -323,11 +323,11 @@ class TimedEventGraph:
         rights = self.arcs.chosen((self.arcs.first >= 0) & (self.arcs.length == 0))
         if not len(rights):
             return False
-        there = rights.tail.astype(np.int64) * len(self) + rights.head
+        forward = rights.tail.astype(np.int64) * len(self) + rights.head
         back = rights.head.astype(np.int64) * len(self) + rights.tail
-        order = np.argsort(there)
-        found = order[np.searchsorted(there[order], back).clip(max=len(there) - 1)]
-        swaps = (there[found] == back) & (rights.height + rights.height[found] == 0)
+        order = np.argsort(forward)
+        matches = order[np.searchsorted(forward[order], back).clip(max=len(forward) - 1)]
+        swaps = (forward[matches] == back) & (rights.height + rights.height[matches] == 0)
         return bool(swaps.any())
 
     def slack(self) -> NDArray[np.int64]:
@@ -432,10 +432,10 @@ def circuit_of(n_visits: int, arcs: Arcs, time_limit: float | None) -> Circuit |
     GaveUp
         If time ran out.
     """
-    found = _core.critical_circuit(
+    circuit = _core.critical_circuit(
         n_visits, arcs.tail, arcs.head, arcs.length, arcs.height, time_limit
     )
-    if found is None:
+    if circuit is None:
         raise GaveUp("time ran out in the search for the bottleneck (give a longer time limit)")
-    length, height, numbers = found
+    length, height, numbers = circuit
     return Circuit(cycle_time=Fraction(length, height), arcs=numbers) if height else None

@@ -362,13 +362,13 @@ def _zones(
     level: Level, vertices: Collection[str], lanes: Collection[tuple[str, str]]
 ) -> list[NamedZone]:
     """Return the zones with what the roadmap has of them."""
-    found = []
+    zones = []
     for zone in level.zones:
         edges = tuple(dict.fromkeys(edge for edge in zone.edges if edge in lanes))
         names = tuple(dict.fromkeys(name for name in zone.vertices if name in vertices))
         if names or edges:
-            found.append(NamedZone(name=zone.name, vertices=names, edges=edges))
-    return found
+            zones.append(NamedZone(name=zone.name, vertices=names, edges=edges))
+    return zones
 
 
 def _counted(number: int, noun: str) -> str:

@@ -92,7 +92,7 @@ def split_lanes(
         lane = _lane(edge, curves)
         longest[lane] = max(longest.get(lane, edge.length), edge.length)
     refuse_many_pieces(longest.values(), spacing)
-    found, split = dict(positions), list[Edge]()
+    places, split = dict(positions), list[Edge]()
     pieces: dict[tuple[str, str], list[tuple[str, str]]] = {}
     ways: dict[_Ends, tuple[list[str], list[Fraction], Fraction]] = {}
     for edge in edges:
@@ -109,10 +109,10 @@ def split_lanes(
             inside, parts = _cuts(points, lengths, spacing)
             names = [f"{edge.tail}-{edge.head}/{k}" for k in range(1, len(inside) + 1)]
             for name, point in zip(names, inside, strict=True):
-                if name in found:
+                if name in places:
                     message = f"{name!r} is the name of a piece of a lane (rename the vertex)"
                     raise InputError.at("vertices", message)
-                found[name] = point
+                places[name] = point
             whole = sum(lengths, Fraction(0))
             least = whole if len(lengths) > 1 else Fraction(0)
             shares = _each(parts, whole.__rtruediv__)
@@ -130,7 +130,7 @@ def split_lanes(
                 pairwise(lane_vertices), found_lengths, surcharges, strict=True
             )
         ]
-    return SplitLanes(found, split, pieces)
+    return SplitLanes(places, split, pieces)
 
 
 def refuse_many_pieces(lengths: Iterable[Fraction], spacing: Fraction | None) -> None:

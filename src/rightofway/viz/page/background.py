@@ -166,8 +166,8 @@ def place_of(roadmap: Roadmap, background: Background, columns: int, rows: int) 
         if background.origin is not None:
             x, y = drawn(background.origin)
         x, y = x + rows * pixel * sin(turn), y - rows * pixel * cos(turn)
-    found: PlaceData = {"x": x, "y": y, "width": columns * pixel, "height": rows * pixel}
-    return {**found, "turn": turn} if turn else found
+    place: PlaceData = {"x": x, "y": y, "width": columns * pixel, "height": rows * pixel}
+    return {**place, "turn": turn} if turn else place
 
 
 def background_place(roadmap: Roadmap, background: Background) -> BackgroundData:
@@ -209,9 +209,9 @@ def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
             content = io.BytesIO()
             if kind is None or max(columns, rows) > MOST_PIXELS:
                 kind = None
-                kept = image.convert(_mode(image))
-                kept.thumbnail((MOST_PIXELS, MOST_PIXELS))
-                kept.save(content, "png")
+                converted = image.convert(_mode(image))
+                converted.thumbnail((MOST_PIXELS, MOST_PIXELS))
+                converted.save(content, "png")
             else:
                 content.write(Path(path).read_bytes())
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:

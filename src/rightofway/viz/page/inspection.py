@@ -146,17 +146,17 @@ def _level(
     robot_of = {robot.name: index for index, robot in enumerate(site.robots)}
     return {
         "name": name,
-        "sentences": [parts_of(each) for each in sentences(site, inspection)],
+        "sentences": [parts_of(sentence) for sentence in sentences(site, inspection)],
         **site_data(site, background),
         "findings": [
             {
-                "severity": each.severity,
-                "kind": each.kind,
-                "fact": parts_of(each.fact),
-                "remedy": parts_of(each.remedy),
-                "vertices": [int(site.roadmap.vertex(vertex)) for vertex in each.vertices],
-                "robots": [robot_of[robot] for robot in each.robots],
+                "severity": finding.severity,
+                "kind": finding.kind,
+                "fact": parts_of(finding.fact),
+                "remedy": parts_of(finding.remedy),
+                "vertices": [int(site.roadmap.vertex(vertex)) for vertex in finding.vertices],
+                "robots": [robot_of[robot] for robot in finding.robots],
             }
-            for each in inspection.findings
+            for finding in inspection.findings
         ],
     }

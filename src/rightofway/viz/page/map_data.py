@@ -48,16 +48,16 @@ def map_data(
     """
     plane, grid = plane_of(roadmap), roadmap.grid
     decimals = DECIMALS["network" if grid is None else "grid"]
-    found: dict[str, Any] = {
+    data: dict[str, Any] = {
         "width": round(plane.width, decimals),
         "height": round(plane.height, decimals),
         "frame": _frame(plane, roadmap),
     }
     if grid is not None:
-        found["rows"] = grid.lines()
+        data["rows"] = grid.lines()
     else:
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
-        found |= {
+        data |= {
             "names": [roadmap.name(vertex) for vertex in range(roadmap.n_vertices)],
             "points": np.round(plane.points, decimals).ravel().tolist(),
             "tails": differences(tails.tolist()),
@@ -81,50 +81,50 @@ def map_data(
         "charging": list(drawing.charging),
         "close": _close(roadmap, room) if room and grid is None else {},
     }
-    found |= {key: value for key, value in marks.items() if value}
+    data |= {key: value for key, value in marks.items() if value}
     background = background or background_of(roadmap)
     if background:
-        found["background"] = background_data(roadmap, background)
-    return cast("MapData", found)
+        data["background"] = background_data(roadmap, background)
+    return cast("MapData", data)
 
 
 def differences(numbers: Iterable[int]) -> list[int]:
     """Return first differences: those of ``[3, 4, 6]`` are ``[3, 1, 2]``."""
-    found: list[int] = np.diff(np.fromiter(numbers, np.int64), prepend=0).tolist()
-    return found
+    first_differences: list[int] = np.diff(np.fromiter(numbers, np.int64), prepend=0).tolist()
+    return first_differences
 
 
 def _frame(plane: Plane, roadmap: Roadmap) -> FrameData:
     """Return where (0, 0) of the drawing lies on the site, and the length of its unit there."""
     left, top = map(Fraction, plane.corner)
     x, y = roadmap.frame.to_site((left, top))
-    found: FrameData = {
+    data: FrameData = {
         "x": float(x),
         "y": float(y),
         "yUp": roadmap.frame.y_up,
         "unit": plane.unit,
     }
-    return {**found, "yaw": float(roadmap.frame.yaw)} if roadmap.frame.yaw else found
+    return {**data, "yaw": float(roadmap.frame.yaw)} if roadmap.frame.yaw else data
 
 
 def _drawn(plane: Plane, roadmap: Roadmap, points: Sequence[Point]) -> NDArray[np.float64]:
     """Return where points of the site are in the drawing; shape (n, 2)."""
     at = [[float(part) for part in roadmap.frame.to_plane(point)] for point in points]
-    found: NDArray[np.float64] = (np.array(at) - plane.corner) / plane.unit
-    return found
+    in_units: NDArray[np.float64] = (np.array(at) - plane.corner) / plane.unit
+    return in_units
 
 
 def _obstacles(roadmap: Roadmap, grid: Grid) -> list[ObstacleRow]:
     """Return the named obstacles: name, left, top, width and height in the drawing."""
-    size, found = grid.cell_size, list[ObstacleRow]()
+    size, rows = grid.cell_size, list[ObstacleRow]()
     low = grid.rows * size - size / 2
     left, bottom = roadmap.frame.to_site((-size / 2, low))
-    for it in roadmap.obstacles:
-        down = bottom - it.y - it.height if roadmap.frame.y_up else it.y - bottom
-        sides = (it.x - left - size / 2, low + down, it.width, it.height)
+    for obstacle in roadmap.obstacles:
+        down = bottom - obstacle.y - obstacle.height if roadmap.frame.y_up else obstacle.y - bottom
+        sides = (obstacle.x - left - size / 2, low + down, obstacle.width, obstacle.height)
         x, y, width, height = (round(float(side / size), DECIMALS["grid"]) for side in sides)
-        found.append((it.name, x, y, width, height))
-    return found
+        rows.append((obstacle.name, x, y, width, height))
+    return rows
 
 
 def _limits(roadmap: Roadmap) -> list[tuple[str, list[int]]]:
@@ -145,11 +145,11 @@ def _close(roadmap: Roadmap, room: Fraction) -> CloseData:
     pairs = close_pairs(roadmap, room)
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
     joined = set(zip(tails, roadmap.heads.tolist(), strict=True))
-    found: CloseData = {
-        "crossings": [(*one, *other) for one, other in pairs.crossings[:MOST_CLOSE]],
+    data: CloseData = {
+        "crossings": [(*first, *other) for first, other in pairs.crossings[:MOST_CLOSE]],
         "beside": [(vertex, *lane) for vertex, lane in pairs.beside[:MOST_CLOSE]],
         "vertices": [
             pair for pair in pairs.vertices if pair not in joined and pair[::-1] not in joined
         ][:MOST_CLOSE],
     }
-    return cast("CloseData", {key: value for key, value in found.items() if value})
+    return cast("CloseData", {key: value for key, value in data.items() if value})

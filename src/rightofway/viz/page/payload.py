@@ -126,7 +126,9 @@ def payload_of(
         "line": _line(plan, [other for other, _ in others]),
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [
-            _loss(loss, book.add(loss_in_words(words, loss))) for one in lost for loss in one.losses
+            _loss(loss, book.add(loss_in_words(words, loss)))
+            for robot_losses in lost
+            for loss in robot_losses.losses
         ],
         "faults": _faults(plan, verdict_on(plan), book),
         "planner": _planner(plan),
@@ -172,15 +174,15 @@ def _compare(plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload
     colours = dict(zip(comparison.robots, robot_colours(len(comparison.robots)), strict=True))
     payload["others"] = []
     for other, name in others:
-        made: dict[str, Any] = {**payload_of(other, title=name)}
-        for language, table in made.pop("translations").items():
+        data: dict[str, Any] = {**payload_of(other, title=name)}
+        for language, table in data.pop("translations").items():
             payload["translations"][language] |= table
-        for robot in made["robots"]:
+        for robot in data["robots"]:
             robot["colour"] = colours[robot["name"]]
         if other.scenario.roadmap == plan.scenario.roadmap:
-            made["line"] = payload["line"]
-            del made["map"]
-        payload["others"].append(cast(OtherPlan, made))
+            data["line"] = payload["line"]
+            del data["map"]
+        payload["others"].append(cast(OtherPlan, data))
     payload["comparison"] = cast(ComparisonData, compared_data(comparison))
 
 
@@ -269,9 +271,11 @@ def _line(plan: Plan, others: Sequence[Plan]) -> list[tuple[int, float]]:
     Other plans on the same map may visit other places, which come after.
     """
     roadmap, routes = plan.scenario.roadmap, dict[str, list[int]]()
-    for each in (plan, *others):
-        if each.scenario.roadmap == roadmap:
-            for robot, trip in zip(each.scenario.robots, trips_of(each), strict=True):
+    for compared_plan in (plan, *others):
+        if compared_plan.scenario.roadmap == roadmap:
+            for robot, trip in zip(
+                compared_plan.scenario.robots, trips_of(compared_plan), strict=True
+            ):
                 routes.setdefault(robot.name, []).extend(trip.vertices)
     places = vertices_in_line([*routes.values()], edge_length(roadmap))
     return [(int(vertex), round(place, DECIMALS)) for vertex, place in places.items()]
@@ -285,7 +289,7 @@ def _robots(
     for index, (robot, trip, edges) in enumerate(
         zip(plan.scenario.robots, trips, edge_ticks, strict=True)
     ):
-        found: RobotData = {
+        robot_data: RobotData = {
             "name": robot.name,
             "colour": colours[index],
             "speed": str(robot.speed),
@@ -301,12 +305,12 @@ def _robots(
             ],
         }
         if robot.radius:
-            found["radius"] = float(robot.radius)
+            robot_data["radius"] = float(robot.radius)
         if any(trip.turns):
-            found["turns"] = _sparse(trip.turns)
+            robot_data["turns"] = _sparse(trip.turns)
         if min(trip.served) < 0:
-            found["stands"] = True
-        robots.append(found)
+            robot_data["stands"] = True
+        robots.append(robot_data)
     return robots
 
 
@@ -470,7 +474,7 @@ def _executed_duties(trip: Trip, dwell: NDArray[np.int64]) -> tuple[list[StageRo
         else (stage.vertex, stage.work, stage.turn, -1)
         for stage, visit in zip(trip.stages, trip.served, strict=True)
     ]
-    scaled = (round(ticks * each) for ticks, each in zip(trip.turns, pace, strict=False))
+    scaled = (round(ticks * share) for ticks, share in zip(trip.turns, pace, strict=False))
     return stages, _sparse(scaled)
 
 

@@ -38,7 +38,7 @@ def scripts_of(entry: str, text_of: Callable[[str], str] = asset) -> tuple[str, 
     text_of
         Returns the text of a file.
     """
-    found: dict[str, None] = {}
+    modules: dict[str, None] = {}
     entered = set[str]()
 
     def enter(name: str) -> None:
@@ -46,10 +46,10 @@ def scripts_of(entry: str, text_of: Callable[[str], str] = asset) -> tuple[str, 
             entered.add(name)
             for imported in IMPORT.findall(text_of(f"{name}.js")):
                 enter(normpath(join(dirname(name), imported)))
-            found[name] = None
+            modules[name] = None
 
     enter(entry)
-    return tuple(found)
+    return tuple(modules)
 
 
 @cache

@@ -160,17 +160,17 @@ def to_the_right(points: Sequence[Point], aside: float) -> list[Point]:
     for (x, y), (to_x, to_y) in ways:
         length = math.hypot(to_x - x, to_y - y)
         sides.append((-(to_y - y) / length * aside, (to_x - x) / length * aside))
-    found: list[Point] = []
+    around: list[Point] = []
     befores, afters = [*sides[:1], *sides], [*sides, *sides[-1:]]
     corners = [side[0] for side in ways] + [side[1] for side in ways[-1:]]
     for (x, y), before, after in zip(corners, befores, afters, strict=True):
         along = (before[0] * after[0] + before[1] * after[1]) / aside**2
         if along < TURNS_BACK:
-            found += [(x + before[0], y + before[1]), (x + after[0], y + after[1])]
+            around += [(x + before[0], y + before[1]), (x + after[0], y + after[1])]
         else:
             share = 1 / (1 + along)
-            found.append((x + (before[0] + after[0]) * share, y + (before[1] + after[1]) * share))
-    return found
+            around.append((x + (before[0] + after[0]) * share, y + (before[1] + after[1]) * share))
+    return around
 
 
 def _home(pen: Pen, scene: Scene, sizes: Sizes, robot: int) -> None:

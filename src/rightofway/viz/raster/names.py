@@ -159,7 +159,8 @@ class MapNames:
         if left < least_x or top < least_y or right > most_x or bottom > most_y:
             return False
         return all(
-            it[0] >= right or it[2] <= left or it[1] >= bottom or it[3] <= top for it in taken
+            label[0] >= right or label[2] <= left or label[1] >= bottom or label[3] <= top
+            for label in taken
         )
 
     def _covers_lane(self, box: Box) -> bool:

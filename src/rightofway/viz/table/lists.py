@@ -222,29 +222,33 @@ def decision_list(plan: Plan, quantities: Quantities | None = None) -> Listing:
         ends = dict.fromkeys((decision.vertices[0], decision.vertices[-1]))
         return " to ".join(map(place, ends))
 
-    left_if = [each.conflicts_left for each in decisions]
-    sums = [each.completion_sums or (None, None) for each in decisions]
+    left_if = [decision.conflicts_left for decision in decisions]
+    sums = [decision.completion_sums or (None, None) for decision in decisions]
     return Listing(
         title="decisions",
         columns=(
             ListColumn(heading="no.", values=range(1, len(decisions) + 1), kind="number"),
-            ListColumn(heading="time", values=[each.tick for each in decisions], kind="time"),
+            ListColumn(
+                heading="time", values=[decision.tick for decision in decisions], kind="time"
+            ),
             ListColumn(heading="place", values=list(map(places, decisions))),
-            ListColumn(heading="i", values=[names[each.robots[0]] for each in decisions]),
-            ListColumn(heading="j", values=[names[each.robots[1]] for each in decisions]),
-            ListColumn(heading="waits", values=[names[each.waits] for each in decisions]),
-            ListColumn(heading="in", values=[place(each.waits_at) for each in decisions]),
-            ListColumn(heading="delay", values=[each.ticks for each in decisions], kind="time"),
-            ListColumn(heading="level", values=[each.level for each in decisions]),
+            ListColumn(heading="i", values=[names[decision.robots[0]] for decision in decisions]),
+            ListColumn(heading="j", values=[names[decision.robots[1]] for decision in decisions]),
+            ListColumn(heading="waits", values=[names[decision.waits] for decision in decisions]),
+            ListColumn(heading="in", values=[place(decision.waits_at) for decision in decisions]),
+            ListColumn(
+                heading="delay", values=[decision.ticks for decision in decisions], kind="time"
+            ),
+            ListColumn(heading="level", values=[decision.level for decision in decisions]),
             ListColumn(heading="before", values=conflicts_before(plan), kind="number"),
-            ListColumn(heading="if i", values=[each[0] for each in left_if], kind="number"),
-            ListColumn(heading="if j", values=[each[1] for each in left_if], kind="number"),
+            ListColumn(heading="if i", values=[counts[0] for counts in left_if], kind="number"),
+            ListColumn(heading="if j", values=[counts[1] for counts in left_if], kind="number"),
             ListColumn(heading="left", values=list(map(conflicts_left, decisions)), kind="number"),
             ListColumn(
-                heading="sum if i", values=[each[0] for each in sums], kind="time", for_people=False
+                heading="sum if i", values=[pair[0] for pair in sums], kind="time", for_people=False
             ),
             ListColumn(
-                heading="sum if j", values=[each[1] for each in sums], kind="time", for_people=False
+                heading="sum if j", values=[pair[1] for pair in sums], kind="time", for_people=False
             ),
         ),
         quantities=quantities or plan.scenario.quantities,
