@@ -426,9 +426,15 @@ class _World:
             for number, own in enumerate(ledger.robots)
             for job in sorted(own.route.all_jobs() - own.finished)
         ]
-        kind = draw.choice(["added", "added", "changed", "withdrawn", "closed", "opened"])
+        kind = draw.choice(
+            ["added", "added", "changed", "withdrawn", "closed", "opened", "switched"]
+        )
         try:
-            if kind == "added":
+            if kind == "switched":
+                before = self.control.ledger.graph
+                messages = dispatcher.switch()
+                kind = kind if self.control.ledger.graph is not before else "not switched"
+            elif kind == "added":
                 robot = draw.choice([*names, None])
                 messages = dispatcher.add_job(at, draw.randint(0, 5), robot)[1]
             elif kind == "closed":

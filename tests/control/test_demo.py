@@ -15,7 +15,7 @@ from rightofway.cyclic import best_timetable
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
 from rightofway.model import Tick
-from tests.builders.chaos import laps_plan
+from tests.builders.chaos import chaotic_plan, laps_plan
 from tests.builders.plans import door, door_shifted
 from tests.builders.schemas import validator
 
@@ -146,6 +146,17 @@ def test_laps_are_driven_until_each_robot_has_made_as_many_as_wanted() -> None:
     lines = report(result, plan.scenario.quantities).splitlines()
     assert lines[1] == f"laps      {sum(result.laps)} in {result.now} time units"
     assert lines[5].split() == ["robot", "jobs", "waits", "laps", "mean", "lap"]
+
+
+def test_rights_of_way_are_switched_where_robots_are_late() -> None:
+    """Three random fleets with delays that come home sooner so, all with the same jobs done."""
+    for seed, (kept, switched) in {8: (512, 435), 22: (204, 162), 26: (201, 137)}.items():
+        runs = [
+            drive_demo(chaotic_plan(seed), "exponential:1", seed, switch=switch)
+            for switch in (False, True)
+        ]
+        assert [sum(map(int, times)) for times in _completions(*runs)] == [kept, switched]  # type: ignore[arg-type]
+        assert runs[0].jobs == runs[1].jobs
 
 
 def test_an_interrupt_ends_laps_that_go_on_for_ever_and_reports_them() -> None:

@@ -184,3 +184,28 @@ def test_a_withdrawal_that_comes_after_the_next_order_costs_one_more_order() -> 
         robot.step()
     assert robot.place == "N8"
     assert control.ledger.robots[1].finished == {"job0"}
+
+
+def test_a_robot_whose_work_has_failed_goes_no_further_and_others_go_on() -> None:
+    """R2 fails at N8; R1 follows it through the door and does its own work at N6."""
+    told: list[tuple[int, str]] = []
+    plan, robots = door(), [SimulatedRobot("N0"), SimulatedRobot("N2")]
+    control = FleetControl(MemoryJournal(), report=lambda *said: told.append((said[0], said[1])))
+    control.begin("run", routes_to_drive(plan), ReleaseGraph.of(plan.scenario, plan.tracks))
+    messages = [*control.start()]
+    for _ in range(60):
+        for message in messages:
+            if isinstance(message, Order):
+                robots[message.robot].take_order(message)
+        messages = []
+        for number, robot in enumerate(robots):
+            if not (number and robot.place == "N8"):
+                robot.step()
+            said = robot.state()
+            if number and robot.place == "N8":
+                said = replace(said, actions=dict.fromkeys(said.actions, "FAILED"))
+            messages += control.receive(number, said)
+    assert told == [(1, "has failed in job0: it goes no further")]
+    assert robots[1].place == "N8"
+    assert control.ledger.robots[0].finished == {"job0"}
+    assert robots[0].place == "N6"  # its way back is that of R2

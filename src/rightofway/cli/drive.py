@@ -93,6 +93,9 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @click.option("--laps", metavar="COUNT", callback=_count,
               help="Repeat the laps of the plan until each robot has made COUNT; inf: until"
               " interrupted.")  # fmt: skip
+@click.option("--switch", is_flag=True,
+              help="Switch rights of way where robots have come so far that another order is"
+              " better.")  # fmt: skip
 @page_option("what robots of a demo did beside the plan")
 @ticks_option
 @as_json_option("outcome")
@@ -112,6 +115,7 @@ def drive(
     delays: tuple[str, ...],
     seed: int,
     laps: int | None,
+    switch: bool,
     page: str | None,
     in_ticks: bool,
     as_json: bool,
@@ -140,7 +144,9 @@ def drive(
 
         address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
         file = journal or str(Path(plan).with_suffix(".journal"))
-        _drive_at(address, opened, known, file, laps=laps, metrics=metrics, stays=stay)
+        _drive_at(
+            address, opened, known, file, laps=laps, switch=switch, metrics=metrics, stays=stay
+        )
         return 0
     from rightofway.control.demo import drive_demo
 
@@ -157,6 +163,7 @@ def drive(
         delay_texts(delays),
         seed,
         laps=laps,
+        switch=switch,
         identities=known,
         report=narrate,
         wait_until=_playing(opened, time_scale),
@@ -208,6 +215,7 @@ def _drive_at(
     *,
     laps: int | None,
     metrics: int | None,
+    switch: bool,
     stays: bool,
 ) -> None:
     """Drive a plan with robots at a broker."""
@@ -230,6 +238,7 @@ def _drive_at(
             opened,
             laps=laps,
             commands=commands,
+            switch=switch,
             report=_narrate,
             metrics=counted,
         )

@@ -96,6 +96,7 @@ def drive_demo(
     version: str = "2.1.0",
     identities: Sequence[Identity] = (),
     laps: int | None = None,
+    switch: bool = False,
     report: Report = lambda *_: None,
     wait_until: Callable[[Tick], None] = lambda _: None,
     watch: Callable[[Letter], None] = lambda _: None,
@@ -118,6 +119,9 @@ def drive_demo(
     laps
         How many laps of the plan each robot makes at least; 0 for laps without end, until an
         interrupt (Ctrl-C). None: they drive the plan once.
+    switch
+        Whether rights of way are switched where robots have come so far that another order is
+        better.
     report
         Receives each sentence of the story, with its time.
     wait_until
@@ -145,6 +149,7 @@ def drive_demo(
     identities = identities or simulated_identities(names, version)
     dispatcher = Dispatcher(control, plan, repeated)
     demo = _Demo(dispatcher, durations, identities, watch=watch, report=report)
+    demo.switches = switch
     return demo.run(wait_until, laps)
 
 
@@ -243,6 +248,7 @@ class _Demo:
         self._listens = {topic: robot for robot in self._robots for topic in robot.end.topics}
         self._story = Story(control.ledger, names)
         self._sent = Counter[str]()
+        self._dispatcher, self.switches = dispatcher, False
 
     def _timestamp(self) -> str:
         """Return the simulated time as messages have it: a time unit is a second after 1970."""
@@ -277,6 +283,8 @@ class _Demo:
                 return
             moment, number = heapq.heappop(agenda)
             if moment > self._now:
+                if self.switches:
+                    self._exchange(self._end.letters(self._dispatcher.switch()))
                 wait_until(Tick(moment))
             self._now = moment
             self._robots[number].end_step(moment)

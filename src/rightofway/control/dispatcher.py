@@ -207,6 +207,20 @@ class Dispatcher:
         """
         return self._replanned(self._stops())
 
+    def switch(self) -> list[Message]:
+        """Switch rights of way where robots have come so far that another order is better.
+
+        A robot that is lost, faulty, on hold or not fit lets others go first, where they can.
+        """
+        control, ledger = self.control, self.ledger
+        stuck = [
+            robot
+            for robot, own in enumerate(ledger.robots)
+            if own.is_on_hold or own.fault is not None or not control.is_fit(robot)
+        ]
+        better = self._rest.switched(ledger.robots, control.committed(), stuck)
+        return control.splice(*better) if better else []
+
     def close_place(self, place: str) -> list[Message]:
         """Let no robot enter a vertex; those that hold it drive on. The rest is replanned round it.
 

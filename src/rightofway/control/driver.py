@@ -68,6 +68,9 @@ class Driver:
         How often each robot makes the laps of the plan, 0 for ever; None: the plan is driven once.
     commands
         Where people ask for more: jobs, closures, holds.
+    switch
+        Whether rights of way are switched where robots have come so far that another order is
+        better.
     report
         Receives each sentence of the story, and what is wrong.
     metrics
@@ -88,6 +91,7 @@ class Driver:
         *,
         laps: int | None = None,
         commands: Commands | None = None,
+        switch: bool = False,
         report: Callable[[str], None],
         metrics: FleetMetrics | None = None,
     ) -> None:
@@ -100,7 +104,7 @@ class Driver:
         self._laps = laps
         repeated = None if laps is None else LapsToDrive(plan)
         self.dispatcher = dispatcher = Dispatcher(self.control, plan, repeated)
-        self._commands = commands
+        self._commands, self._switches = commands, switch
         ledger, digest = self.control.ledger, _digest(plan, maps)
         if not ledger.run:
             dispatcher.begin(f"{digest}-{secrets.token_hex(4)}")
@@ -195,15 +199,16 @@ class Driver:
             self._news.set()
 
     def _obey(self) -> list[Letter]:
-        """Carry out what people have asked for; return what is to be sent."""
+        """Switch rights of way, carry out what people have asked for; return what is to be sent."""
+        switched = self.end.letters(self.dispatcher.switch()) if self._switches else []
         if self._commands is None:
-            return []
+            return switched
         messages, answers = self.dispatcher.obey(self._commands)
         self._answers += answers
         for _, answer in answers:
             if answer["text"]:
                 self._report(answer["text"] if answer["done"] else f"refused: {answer['text']}")
-        return self.end.letters(messages)
+        return [*switched, *self.end.letters(messages)]
 
     def _answer(self) -> None:
         """Answer the commands whose outcome is on the disk."""
