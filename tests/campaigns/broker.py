@@ -132,6 +132,8 @@ def main() -> int:
                     _say(f"--seed {seed}: {''.join(traceback.format_exception(error))}")
                 else:
                     total += ended.result()
+                    if total["runs"] % 10 == 0:
+                        _say(f"{total['runs']} runs without a fault, {faults} with one")
     seconds = time.perf_counter() - began
     _say(", ".join(f"{total[name]} {name}" for name in sorted(total)))
     _say(f"chaos-broker: {given.count} runs, {faults} faults, {seconds:.0f} s")

@@ -26,7 +26,7 @@ from rightofway.control.identities import (
 from rightofway.control.journal import SqliteJournal
 from rightofway.control.robots import run_robots
 from rightofway.errors import InputError
-from rightofway.io import write_plan
+from rightofway.io import load_plan, write_plan
 from rightofway.model import Plan
 from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, free_port, wait_for
 from tests.builders.observers import Observer
@@ -267,6 +267,29 @@ def test_the_commands_of_the_page_change_the_work_of_robots_that_drive(
             wait_for(lambda: driving.log.count("is at the end of its way") >= 2, 120, "the ends")
             assert f"{name} at N7 is added" in driving.log
             assert "R1: hold" in driving.log
+
+
+def test_the_drawing_of_the_page_becomes_robots_that_drive(
+    tmp_path: Path, broker: Mosquitto
+) -> None:
+    """From the LIF file and the scenario of the page to simulated robots at a broker."""
+    for block in blocks(ROOT / "docs/control.md"):
+        if block.file_name in {"plant.lif.json", "plant.yaml"}:
+            (tmp_path / block.file_name).write_text(block.text, encoding="utf-8")
+    observer = Observer(broker.port)
+    with Command(tmp_path, "plan", "plant.yaml", "-o", "plant.json").running() as planning:
+        assert planning.wait(60) == 0, planning.log
+    plan = load_plan(tmp_path / "plant.json")
+    with (
+        robots_of(plan, tmp_path, broker.url),
+        drive_of(tmp_path, broker.url) as drive,
+    ):
+        assert drive.wait(60) == 0, drive.log
+    assert "Ada has done its work at P (1 of 1)" in drive.log
+    assert len(observer.finished) == 2
+    trajectories = [edge["trajectory"] for _, edges in observer.orders.values() for edge in edges]
+    assert all(len(each["controlPoints"]) == 2 for each in trajectories)
+    observer.close()
 
 
 def test_the_file_of_identities_of_the_page_is_read(tmp_path: Path) -> None:
