@@ -315,7 +315,8 @@ void bind_adg(nb::module_& module) {
         .def("execute", &BoundAdg::execute, array("dwell"), array("drive"), array("first_stoppage"),
              array("stoppage_tick"), array("stoppage_ticks"), nb::arg("clock"), execute_doc)
         .def("deadlocked", &BoundAdg::deadlocked,
-             "Return the robots that can never complete because they wait for each other.");
+             "Return the robots that can never complete because they wait for each other, "
+             "int32[K].");
 }
 
 }  // namespace rightofway::bind

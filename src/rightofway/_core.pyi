@@ -986,7 +986,7 @@ class ActionDependencyGraph:
 
     def deadlocked(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
         """
-        Return the robots that can never complete because they wait for each other.
+        Return the robots that can never complete because they wait for each other, int32[K].
         """
 
 class PrecedenceGraph:

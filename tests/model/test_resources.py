@@ -24,7 +24,7 @@ from tests.oracles.space import incompatible
 
 def lists(resources: Resources) -> list[list[int]]:
     assert resources.lists is not None
-    return [resources.excluded_by(row).tolist() for row in range(len(resources.lists.first) - 1)]
+    return [resources.excluded_by(row) for row in range(len(resources.lists.first) - 1)]
 
 
 def test_a_point_excludes_others_from_its_vertex_and_needs_no_lists() -> None:
@@ -32,10 +32,10 @@ def test_a_point_excludes_others_from_its_vertex_and_needs_no_lists() -> None:
     trips = [("N0", "N2"), ("N2", "N0")]
     resources = grid_fleet(["..."], trips).problem.resources
     assert resources.lists is None
-    excluded = [resources.excluded_by(row).tolist() for row in range(7)]
+    excluded = [resources.excluded_by(row) for row in range(7)]
     assert excluded == [[0], [1], [2], [], [], [], []]
     assert list(resources.clashes([1, 2])) == []
-    assert resources.vertices_near(0, 2).tolist() == [2]
+    assert resources.vertices_near(0, 2) == [2]
 
 
 def test_crossing_lanes_exclude_each_other_in_both_directions() -> None:
@@ -101,7 +101,7 @@ def test_rows_exclude_what_the_definition_does_unless_the_ends_of_edges_do(
     for i, j in permutations(range(len(scenario.robots)), 2):
         excludes = cache(partial(_incompatible, scenario, i, j))
         for x, one in enumerate(shapes):
-            found = set(resources.excluded_by(resources.vertex_row(i, x)).tolist())
+            found = set(resources.excluded_by(resources.vertex_row(i, x)))
             for y, other in enumerate(shapes):
                 if resources.vertex_row(j, y) in found:
                     assert excludes(one, other)

@@ -170,7 +170,7 @@ class GroupContext:
         """Return the rows of other robots that keep a robot from the drive into a visit."""
         resources = self.scenario.problem.resources
         row, edge = self.booked_at(index, visit)[0], self.booked_at(index, visit - 1)[1]
-        return (*resources.excluded_by(row).tolist(), *resources.excluded_by(edge).tolist())
+        return (*resources.excluded_by(row), *resources.excluded_by(edge))
 
     @property
     def reach(self) -> int:
@@ -321,7 +321,7 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     avoiding, roadmap, resources = list(routes), scenario.roadmap, scenario.problem.resources
     itineraries = scenario.problem.itineraries
     at_home = [
-        frozenset(resources.excluded_by(resources.vertex_row(robot, itinerary.home)).tolist())
+        frozenset(resources.excluded_by(resources.vertex_row(robot, itinerary.home)))
         for robot, itinerary in enumerate(itineraries)
     ]
     owners = defaultdict[int, list[int]](list)  # of homes, by the rows that exclude them
@@ -338,8 +338,8 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     for robot, itinerary in enumerate(itineraries):
         met = {
             neighbour
-            for row in booked[robot]
-            for neighbour in owners.get(row, ())
+            for row in owners.keys() & booked[robot]
+            for neighbour in owners[row]
             if neighbour != robot
         }
         if all(at_home[robot].isdisjoint(booked[neighbour]) for neighbour in met):
@@ -376,8 +376,9 @@ def independent_groups(scenario: Scenario, fleet: Sequence[CyclicRoute]) -> list
     first_at: dict[int, int] = {}
     laps = [rows_of(scenario, route.robot, route.lap) for route in fleet]
     booked = frozenset().union(*(lap.booked for lap in laps))
+    excluded = frozenset().union(*(lap.excluded for lap in laps))
     for index, lap in enumerate(laps):
-        for row in lap.booked | (lap.excluded & booked):
+        for row in (lap.booked & excluded) | (lap.excluded & booked):
             first, second = find(first_at.setdefault(row, index)), find(index)
             leader[max(first, second)] = min(first, second)
     groups: dict[int, list[CyclicRoute]] = {}
@@ -408,5 +409,5 @@ def rows_of(scenario: Scenario, robot: int, lap: Lap) -> LapRows:
     booked = frozenset(
         np.concatenate(resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)).tolist()
     )
-    excluded = (resources.excluded_by(row).tolist() for row in booked)
+    excluded = (resources.excluded_by(row) for row in booked)
     return LapRows(booked, frozenset(chain.from_iterable(excluded)))

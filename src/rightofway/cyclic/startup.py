@@ -92,7 +92,7 @@ def _passes(scenario: Scenario, timetable: CyclicSchedule) -> dict[int, NDArray[
     booked = list[list[tuple[int, ...]]]()  # of each visit of each lap
     for index, (robot, lap) in enumerate(zip(timetable.robots, timetable.laps, strict=True)):
         rows = resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)
-        for row in resources.excluded_by(int(rows[0][0])).tolist():
+        for row in resources.excluded_by(int(rows[0][0])):
             owners[row].append(index)
         booked.append(list(zip(rows[0].tolist(), rows[1].tolist(), strict=True)))
     passes = defaultdict[int, list[NDArray[np.int64]]](list)

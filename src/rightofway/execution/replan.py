@@ -154,7 +154,7 @@ def held_by_broken(forecast: Forecast) -> Held:
                 for ends in pairwise(held)
                 if (edge := adg.scenario.roadmap.edge(*ends)) is not None
             )
-            rows.update(other for row in own for other in resources.excluded_by(row).tolist())
+            rows.update(other for row in own for other in resources.excluded_by(row))
     if resources.are_points:
         return Held(vertices=frozenset(vertices))
     n_vertices, count = resources.n_vertices, resources.n_vertices + resources.n_edges

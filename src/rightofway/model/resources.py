@@ -270,21 +270,22 @@ class Resources:
             Where it goes; an edge leads from the last one to the first.
         """
         visited = np.array(vertices, np.int32)
-        edges = roadmap.edges(visited, np.roll(visited, -1))
+        edges = roadmap.edges(visited, np.concatenate((visited[1:], visited[:1])))
         return visited + self.vertex_row(robot, 0), edges + self.edge_row(robot, 0)
 
-    def excluded_by(self, row: int) -> NDArray[np.int32]:
-        """Return the rows that a booking of a row excludes."""
+    def excluded_by(self, row: int) -> list[int]:
+        """Return the rows that a booking of a row excludes; called for each visit."""
         if self.lists is None:
-            return np.array([row] if row < self.n_vertices else [], np.int32)
-        return self.lists.excluded[self.lists.first[row] : self.lists.first[row + 1]]
+            return [row] if row < self.n_vertices else []
+        first, end = self.lists.first[row : row + 2].tolist()
+        excluded: list[int] = self.lists.excluded[first:end].tolist()
+        return excluded
 
-    def vertices_near(self, robot: int, vertex: int) -> NDArray[np.int32]:
+    def vertices_near(self, robot: int, vertex: int) -> list[int]:
         """Return the vertices that robots of some size cannot book while a robot is at a vertex."""
-        resources = self.excluded_by(self.vertex_row(robot, vertex)) % (
-            self.n_vertices + self.n_edges
-        )
-        return resources[resources < self.n_vertices]
+        n_resources = self.n_vertices + self.n_edges
+        resources = (row % n_resources for row in self.excluded_by(self.vertex_row(robot, vertex)))
+        return [resource for resource in resources if resource < self.n_vertices]
 
     def clashes(self, places: Sequence[int]) -> Iterator[tuple[int, int]]:
         """Yield pairs of robots (i, j), i < j, that cannot stay at their places at one time.
@@ -299,7 +300,7 @@ class Resources:
         for robot, row in enumerate(rows):
             holders.setdefault(row, []).append(robot)
         for robot, row in enumerate(rows):
-            for other in self.excluded_by(row).tolist():
+            for other in self.excluded_by(row):
                 yield from ((robot, holder) for holder in holders.get(other, ()) if robot < holder)
 
 

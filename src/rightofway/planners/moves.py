@@ -417,7 +417,7 @@ class _Floor:
         ends = dict(timed.ends)
         along = self._resources.edge_row(robot, move.edge)
         for left in (along, self._resources.vertex_row(robot, timed.state.places[robot])):
-            for row in self._resources.excluded_by(left).tolist():
+            for row in self._resources.excluded_by(left):
                 ends[row, robot] = enter + self._headway
         edges = timed.edges
         if itinerary.turning is not None:
@@ -461,7 +461,7 @@ class _Floor:
         """Return the rows that a booking excludes, as bits."""
         if row not in self._excluded:
             self._excluded[row] = sum(
-                1 << other for other in self._resources.excluded_by(row).tolist()
+                1 << other for other in self._resources.excluded_by(row)
             )
         return self._excluded[row]
 

@@ -229,7 +229,7 @@ def _waits_of(
     resources = scenario.problem.resources
     latest = defaultdict[int, dict[int, int]](dict)  # part: other robot: visit
     for use in own:
-        for row in resources.excluded_by(use.row).tolist():
+        for row in resources.excluded_by(use.row):
             users = order.get(row, ())
             for k in range(bisect_left(users, (use.begin,)) - 1, -1, -1):
                 other = users[k]

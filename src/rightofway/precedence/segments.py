@@ -15,8 +15,9 @@ of linked pairs.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from operator import mul, neg
 from typing import Literal, NamedTuple
 
 from rightofway.model import Route
@@ -55,8 +56,9 @@ class Segment:
     kind
         ``following`` if later visits of i meet later visits of j, ``head-on`` if they meet earlier
         ones, ``vertex`` if both robots just visit one vertex, else ``crossing``.
-    pairs
-        The pairs, in the order of i.
+    i, j, i_starts, j_starts
+        The pairs in the order of i, each number of an `IncompatiblePair` by itself: a run of
+        vertices is a few ranges.
     i_first, j_first
         The first visit of each robot that starts later if that robot waits.
     i_vertices, j_vertices
@@ -64,26 +66,34 @@ class Segment:
     """
 
     kind: Literal["vertex", "head-on", "following", "crossing"]
-    pairs: tuple[IncompatiblePair, ...]
+    i: Sequence[int]
+    j: Sequence[int]
+    i_starts: Sequence[int]
+    j_starts: Sequence[int]
     i_first: int
     j_first: int
     i_vertices: tuple[VertexId, ...]
     j_vertices: tuple[VertexId, ...]
 
+    @property
+    def pairs(self) -> tuple[IncompatiblePair, ...]:
+        """The pairs of visits, in the order of i."""
+        return tuple(map(IncompatiblePair, self.i, self.j, self.i_starts, self.j_starts))
+
     def meetings(self) -> list[tuple[int, int]]:
         """Return (visit of i, visit of j that starts later if j waits) of all pairs."""
-        return [(pair.i, pair.j_starts) for pair in self.pairs]
+        return list(zip(self.i, self.j_starts, strict=True))
 
     def if_j_waits(self) -> list[tuple[int, int]]:
         """Return the visits (of i, of j) of which i's ends before j's starts if j waits.
 
         Only those that the others do not imply, in the order of j.
         """
-        return [(i, j) for j, i in _implying((pair.j_starts, pair.i) for pair in self.pairs)]
+        return [(i, j) for j, i in _implying(zip(self.j_starts, map(neg, self.i), strict=True))]
 
     def if_i_waits(self) -> list[tuple[int, int]]:
         """Return the visits (of i, of j) of which j's ends before i's starts if i waits."""
-        return _implying((pair.i_starts, pair.j) for pair in self.pairs)
+        return _implying(zip(self.i_starts, map(neg, self.j), strict=True))
 
     def ahead(self, waits: int) -> tuple[VertexId, ...]:
         """Return the vertices of the robot that goes first; 0: i waits, 1: j waits."""
@@ -91,12 +101,17 @@ class Segment:
 
 
 def _implying(waits: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Return, of (start, end before it), those with an end that no earlier start waits for."""
-    pairs: list[tuple[int, int]] = []
-    for start, end in sorted(waits, key=lambda wait: (wait[0], -wait[1])):
-        if not pairs or end > pairs[-1][1]:
-            pairs.append((start, end))
-    return pairs
+    """Return (start, end before it) of those pairs whose end no earlier start waits for.
+
+    Given are pairs (start, minus the end), so that sorting puts the latest end of a start first.
+    """
+    implying: list[tuple[int, int]] = []
+    latest = -1
+    for start, minus_end in sorted(waits):
+        if -minus_end > latest:
+            latest = -minus_end
+            implying.append((start, latest))
+    return implying
 
 
 def linked_segments(
@@ -120,28 +135,29 @@ def linked_segments(
             around = [(pair.i + di, pair.j + dj) for di in (-1, 0, 1) for dj in (-1, 0, 1)]
             near = [left[at] for at in around if at in left]
             linked += [left.pop((shared.i, shared.j)) for shared in near if pair.is_linked(shared)]
-        segment = _segment_of(first, other, tuple(sorted(linked)))
+        segment = _segment_of(first, other, tuple(zip(*sorted(linked), strict=True)))
         segments |= dict.fromkeys(((shared.i, shared.j) for shared in linked), segment)
     return segments
 
 
-def _segment_of(first: Route, other: Route, pairs: tuple[IncompatiblePair, ...]) -> Segment:
-    i, j = [pair.i for pair in pairs], [pair.j for pair in pairs]
-    i_first = min(pair.i_starts for pair in pairs)
-    j_first = min(pair.j_starts for pair in pairs)
-    together = len(pairs) * sum(a * b for a, b in zip(i, j, strict=True)) - sum(i) * sum(j)
+def _segment_of(first: Route, other: Route, columns: tuple[Sequence[int], ...]) -> Segment:
+    i, j, i_starts, j_starts = columns
+    together = len(i) * sum(map(mul, i, j)) - sum(i) * sum(j)  # above 0: i and j rise together
     kind: Literal["vertex", "head-on", "following", "crossing"] = "crossing"
     if together:
         kind = "following" if together > 0 else "head-on"
-    elif len(pairs) == 1 and first.vertices[i[0]] == other.vertices[j[0]]:
+    elif len(i) == 1 and first.vertices[i[0]] == other.vertices[j[0]]:
         kind = "vertex"
     return Segment(
         kind=kind,
-        pairs=pairs,
-        i_first=i_first,
-        j_first=j_first,
-        i_vertices=first.vertices[min(i) : max(pair.i_starts for pair in pairs) + 1],
-        j_vertices=other.vertices[min(j) : max(pair.j_starts for pair in pairs) + 1],
+        i=i,
+        j=j,
+        i_starts=i_starts,
+        j_starts=j_starts,
+        i_first=min(i_starts),
+        j_first=min(j_starts),
+        i_vertices=first.vertices[min(i) : max(i_starts) + 1],
+        j_vertices=other.vertices[min(j) : max(j_starts) + 1],
     )
 
 
@@ -155,7 +171,7 @@ def crossing(first: Route, i: int, other: Route, j: int) -> Segment:
     other, j
         Route of robot j and the index of its visit, to the same vertex.
     """
-    return _segment_of(first, other, (IncompatiblePair(i, j, i, j),))
+    return _segment_of(first, other, ((i,), (j,), (i,), (j,)))
 
 
 def shared_segment(first: Route, i: int, other: Route, j: int) -> Segment:
@@ -175,8 +191,9 @@ def shared_segment(first: Route, i: int, other: Route, j: int) -> Segment:
         j_step = 1
         before = _run(first, i, other, j, i_step=-1, j_step=-1)
         after = _run(first, i, other, j, i_step=1, j_step=1)
-    visits = [(i + step, j + j_step * step) for step in range(-before, after + 1)]
-    return _segment_of(first, other, tuple(IncompatiblePair(a, b, a, b) for a, b in visits))
+    i_visits = range(i - before, i + after + 1)
+    j_visits = range(j - j_step * before, j + j_step * (after + 1), j_step)
+    return _segment_of(first, other, (i_visits, j_visits, i_visits, j_visits))
 
 
 def _run(first: Route, i: int, other: Route, j: int, *, i_step: int, j_step: int) -> int:

@@ -55,6 +55,8 @@ class Bookings:
             n_rows = len(self.resources.lists.first) - 1
             self._books_edges = True
         self.table = _core.BookingTable(n_rows)
+        # Bookings of robots with a size may overlap in a row from which both exclude others.
+        self._put = self.table.book if self.resources.are_points else self.table.mark
         if closed is not None:
             arrays = (closed.row, closed.start, closed.end)
             for row, start, end in zip(*(array.tolist() for array in arrays), strict=True):
@@ -77,9 +79,8 @@ class Bookings:
 
     def book(self, row: int, booking: Booking) -> None:
         """Book one vertex, or mark what one row excludes."""
-        put = self.table.book if self.resources.are_points else self.table.mark
-        for mark in self.resources.excluded_by(row).tolist():
-            put(mark, *booking)
+        for mark in self.resources.excluded_by(row):
+            self._put(mark, *booking)
             self._of[booking.robot].append((mark, booking.start))
 
     def release(self, robot: int) -> None:
@@ -92,17 +93,17 @@ class Bookings:
         problem, vertices, enter = self.problem, track.vertices.tolist(), track.enter.tolist()
         drives = drives_along(problem.roadmap, problem.itineraries[robot], vertices)
         approaches = drives if problem.books_ahead else [0] * len(drives)
-        ends = [*(Tick(tick + problem.headway) for tick in enter[1:]), NEVER]
+        headway, first_row = problem.headway, self.vertex_row(robot, 0)
+        ends = [*(Tick(tick + headway) for tick in enter[1:]), NEVER]
         for vertex, tick, approach, end in zip(
             vertices, enter, [0, *approaches], ends, strict=True
         ):
-            row = self.vertex_row(robot, vertex)
-            yield row, Booking(Tick(tick - approach), end, robot)
+            yield first_row + vertex, Booking(Tick(tick - approach), end, robot)
         if not self._books_edges:
             return
         edges = problem.roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
         for edge, tick, drive, end in zip(edges, enter[1:], drives, ends[:-1], strict=True):
-            row = self.vertex_row(robot, self._n_vertices + edge)
+            row = first_row + self._n_vertices + edge
             yield row, Booking(Tick(tick - drive), end, robot)
 
     def in_the_way(self, robot: int, track: Track) -> set[int]:

@@ -359,19 +359,20 @@ class Roadmap:
     def edges(self, tails: NDArray[np.int32], heads: NDArray[np.int32]) -> NDArray[np.int32]:
         """Return the indices of the edges from ``tails`` to ``heads``, -1 without one; int32."""
         for place, ends in (("tails", tails), ("heads", heads)):
-            is_list = ends.ndim == 1 and np.issubdtype(ends.dtype, np.integer)
+            is_list = ends.ndim == 1 and ends.dtype.kind in "iu"
             if not is_list or len(ends) != len(tails):
                 message = f"{shown(ends)} are no vertices (give as many tails as heads)"
                 raise InputError.at(place, message)
-            if len(ends):  # the least and the largest one stand for all
+            # Negative numbers wrap round to large ones. The least and the largest stand for all.
+            if len(ends) and ends.astype(np.uint64).max() >= self.n_vertices:
                 self._refuse_unknown(place, ends.min())
                 self._refuse_unknown(place, ends.max())
         edge_of_pair = np.full(len(tails), -1, np.int32)
         first, last = self.indptr[tails], self.indptr[tails + 1]
-        for offset in range(int((last - first).max(initial=0))):
-            edge = np.minimum(first + offset, len(self.heads) - 1)
-            fits = (first + offset < last) & (self.heads[edge] == heads) & (edge_of_pair < 0)
-            edge_of_pair[fits] = edge[fits]
+        for offset in reversed(range(int((last - first).max(initial=0)))):  # the first edge counts
+            edge = first + offset
+            fits = (edge < last) & (self.heads.take(edge, mode="clip") == heads)
+            np.copyto(edge_of_pair, edge, where=fits)
         return edge_of_pair
 
 
