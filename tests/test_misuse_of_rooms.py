@@ -51,6 +51,7 @@ STEPS = {
         "visits_of_laps",
     },
     "native": {
+        "booked_times",
         "bound",
         "compiler",
         "lists_of",

@@ -16,6 +16,7 @@ from rightofway.arguments import checks_arguments, one_for_each
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, stays_of
 from rightofway.model.resources import Resources
 from rightofway.model.sorting import order_by
+from rightofway.native import booked_times
 from rightofway.site import VertexId
 
 
@@ -34,15 +35,9 @@ def bookings_of(
     scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> BookedPlaces:
     """Return what a fleet books under the scenario's rules."""
-    lengths = [len(track) for track in tracks]
-    last = np.cumsum(lengths) - 1
-    enter = np.concatenate([track.enter for track in tracks])
-    end = np.append(enter[1:] + scenario.problem.headway, NEVER)
-    end[last] = NEVER
+    start, end = booked_times(scenario, tracks, stays)
     vertex = np.concatenate([track.vertices for track in tracks])
-    robot = np.repeat(np.arange(len(tracks)), lengths)
-    drive_in = np.roll(np.concatenate([stay.drive for stay in stays]), 1)  # that of the last is 0
-    start = enter - drive_in * scenario.rules.books_ahead
+    robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
     order = order_by(vertex, start)  # stable, so by robot where all else is equal
     return BookedPlaces(
         visit=order, robot=robot[order], vertex=vertex[order], start=start[order], end=end[order]

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import NEVER, Plan, Route, Scenario, Stays, Tick, Track, Wait
+from rightofway.model import Plan, Route, Scenario, Stays, Tick, Track, Wait
 from rightofway.model.given import checked_plan
-from rightofway.native import BookedRows
+from rightofway.native import BookedRows, booked_times
 from rightofway.precedence import PrecedenceGraph, order_of
 from rightofway.precedence.graph import Pairs
 from rightofway.site import VertexId
@@ -89,18 +89,13 @@ def freed_by(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
     ndarray
         Numbers of visits, counted robot by robot along the tracks, or `NOBODY`; int64, shape (n,).
     """
-    problem, last = scenario.problem, np.cumsum([len(track) for track in tracks]) - 1
-    enter = np.concatenate([track.enter for track in tracks])
-    drive_in = np.roll(np.concatenate([stay.drive for stay in stays]), 1)  # that of the last is 0
-    start = enter - drive_in * scenario.rules.books_ahead
-    end = np.append(enter[1:] + problem.headway, NEVER)
-    end[last] = NEVER
+    problem, (start, end) = scenario.problem, booked_times(scenario, tracks, stays)
     robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
     first, second = rights_of_way(scenario, tracks, stays).T
     # Where rotations are forbidden, planners keep one tick between two bookings of a vertex.
     gap = 0 if problem.rotations or problem.headway else 1
     binds = np.isin(start[second] - end[first], (0, gap)) & (robot[first] != robot[second])
-    frees = np.full(len(enter), NOBODY)
+    frees = np.full(len(start), NOBODY)
     frees[second[binds][::-1]] = first[binds][::-1]  # of several, the first in order
     return frees
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Lap, Route, Scenario, Tick
+from rightofway.model import NEVER, Lap, Route, Scenario, Stays, Tick, Track
 from rightofway.model.resources import ExcludedRows
 
 
@@ -141,6 +141,25 @@ class ClosedPlaces:
             start=np.array([start for start, _ in times], np.int64),
             end=np.array([end for _, end in times], np.int64),
         )
+
+
+def booked_times(
+    scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return from when to when each visit books its vertex, robot after robot; int64, shape (N,).
+
+    Parameters
+    ----------
+    scenario
+        The problem; its rules say when bookings begin and end.
+    tracks, stays
+        One track for each robot, and the parts of its visits.
+    """
+    enter = np.concatenate([track.enter for track in tracks])
+    drive_in = np.roll(np.concatenate([stay.drive for stay in stays]), 1)  # that of the last is 0
+    end = np.append(enter[1:] + scenario.problem.headway, NEVER)
+    end[np.cumsum([len(track) for track in tracks]) - 1] = NEVER
+    return enter - drive_in * scenario.problem.books_ahead, end
 
 
 def native_rows(rows: BookedRows | None) -> _core.VisitRows | None:

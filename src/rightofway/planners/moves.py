@@ -460,9 +460,7 @@ class _Floor:
     def _excluded_by(self, row: int) -> int:
         """Return the rows that a booking excludes, as bits."""
         if row not in self._excluded:
-            self._excluded[row] = sum(
-                1 << other for other in self._resources.excluded_by(row)
-            )
+            self._excluded[row] = sum(1 << other for other in self._resources.excluded_by(row))
         return self._excluded[row]
 
 
