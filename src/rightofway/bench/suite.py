@@ -26,9 +26,9 @@ from rightofway.values import written
 if TYPE_CHECKING:
     from rightofway.io.suite import (
         MapCasesDocument,
-        PlannerDocument,
         SuiteDocument,
         SuiteFleetDocument,
+        SuitePlannerDocument,
     )
 
 LAPS = "laps"
@@ -295,7 +295,7 @@ def _try_out(speeds: Sequence[Fraction], rules: Mapping[str, Any]) -> None:
         raise InputError.at(where, first.message) from None
 
 
-def _planner(document: PlannerDocument) -> tuple[str, Mapping[str, Any]]:
+def _planner(document: SuitePlannerDocument) -> tuple[str, Mapping[str, Any]]:
     """Return the name of a planner and a value for each of its options."""
     # Options come as on a command line: no True, but true.
     options = {

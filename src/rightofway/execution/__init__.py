@@ -12,11 +12,11 @@ from rightofway.execution.simulation import replay, simulate
 from rightofway.execution.statistics import (
     Collisions,
     Lateness,
+    LatenessSource,
     PolicyGain,
     Quantiles,
     RobotLateness,
     SimulationResult,
-    Source,
 )
 
 __all__ = [
@@ -26,11 +26,11 @@ __all__ = [
     "Collisions",
     "Delay",
     "Lateness",
+    "LatenessSource",
     "PolicyGain",
     "Quantiles",
     "RobotLateness",
     "SimulationResult",
-    "Source",
     "delay_model_of",
     "read_delays",
     "replay",

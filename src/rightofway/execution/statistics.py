@@ -80,7 +80,7 @@ class Collisions:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Source:
+class LatenessSource:
     """Lateness that began with one robot at one vertex.
 
     Attributes
@@ -138,7 +138,7 @@ class Lateness:
     robots: tuple[RobotLateness, ...]
     flowtime: Quantiles
     makespan: Quantiles
-    sources: tuple[Source, ...]
+    sources: tuple[LatenessSource, ...]
 
     @classmethod
     def of(cls, adg: ActionDependencyGraph, batch: RunBatch) -> Lateness:
@@ -170,7 +170,7 @@ class Lateness:
         )
 
 
-def _sources(adg: ActionDependencyGraph, batch: RunBatch) -> tuple[Source, ...]:
+def _sources(adg: ActionDependencyGraph, batch: RunBatch) -> tuple[LatenessSource, ...]:
     """Return the sources of lateness: sums over the visits of one robot at one vertex."""
     own, of_others = Counter[tuple[int, int]](), Counter[tuple[int, int]]()
     for visit in np.flatnonzero(batch.own + batch.of_others).tolist():
@@ -179,7 +179,7 @@ def _sources(adg: ActionDependencyGraph, batch: RunBatch) -> tuple[Source, ...]:
         of_others[place] += int(batch.of_others[visit])
     total, runs = own + of_others, len(batch.completion)
     return tuple(
-        Source(
+        LatenessSource(
             robot=place[0],
             vertex=VertexId(place[1]),
             own=round(own[place] / runs, 6),

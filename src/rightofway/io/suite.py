@@ -129,7 +129,7 @@ class SuiteFleetDocument(RulesDocument):
     )
 
 
-class PlannerDocument(Document):
+class SuitePlannerDocument(Document):
     """A planner and its options."""
 
     name: Name = Field(description="the name of a planner")
@@ -141,7 +141,7 @@ class SuiteDocument(Document):
 
     format: Literal["rightofway-suite/1"] = Field(description="rightofway-suite/1")
     maps: list[MapCasesDocument] = Field(min_length=1, description="one or more maps")
-    planners: list[PlannerDocument] = Field(min_length=1, description="one or more planners")
+    planners: list[SuitePlannerDocument] = Field(min_length=1, description="one or more planners")
     fleets: list[SuiteFleetDocument] = optional(
         "one or more fleets; one of speed 1 by default", min_length=1
     )

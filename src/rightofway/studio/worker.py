@@ -40,10 +40,10 @@ def main() -> None:
     limit_memory()
     end_before_others()
     confine(folder, scratch)
-    Worker(sys.stdin.buffer, answers).run()
+    WorkerLoop(sys.stdin.buffer, answers).run()
 
 
-class Worker:
+class WorkerLoop:
     """Takes jobs one after the other; a thread listens meanwhile."""
 
     def __init__(self, orders: IO[bytes], answers: IO[bytes]) -> None:

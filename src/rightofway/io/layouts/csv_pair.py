@@ -10,7 +10,7 @@ from pathlib import Path
 
 from rightofway.errors import InputError, Location
 from rightofway.io.layouts.attributes import add_lanes, add_vertex
-from rightofway.io.layouts.draft import Draft, LevelDraft
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.source import Source
 from rightofway.io.text import is_regular, read_text
 from rightofway.site.layout import Layout
@@ -49,7 +49,7 @@ def read(text: str, path: Path) -> Layout:
         raise InputError.at("", "has no headings of nodes or edges (give name, x, y or from, to)",
                             str(beside))  # fmt: skip
     nodes, edges = (text, other) if "x" in _headings(text) else (other, text)
-    draft = Draft("CSV pair")
+    draft = LayoutDraft("CSV pair")
     level = draft.level()
     for row in _rows(nodes):
         draft.faults.attempt("", _add_node, level, row)

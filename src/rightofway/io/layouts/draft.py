@@ -30,7 +30,7 @@ SHORTEST = Fraction(1, 1000)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lane:
+class DraftLane:
     """A lane as a file gives it.
 
     Attributes
@@ -67,7 +67,7 @@ class LevelDraft:
 
     name: str
     vertices: dict[str, LayoutVertex] = field(default_factory=dict)
-    lanes: list[Lane] = field(default_factory=list)
+    lanes: list[DraftLane] = field(default_factory=list)
     stations: list[Station] = field(default_factory=list)
     zones: list[NamedZone] = field(default_factory=list)
     picture: Picture | None = None
@@ -84,7 +84,7 @@ class LevelDraft:
             raise source.fault(f"more than {MAX_VERTICES} vertices (give a part of it)")
         self.vertices[vertex.name] = vertex
 
-    def connect(self, lane: Lane) -> None:
+    def connect(self, lane: DraftLane) -> None:
         """Take a lane; InputError if there are too many."""
         if len(self.lanes) == MAX_EDGES:
             raise lane.source.fault(f"more than {MAX_EDGES} lanes (give a part of it)")
@@ -117,7 +117,7 @@ class _Straight(dict[int, Fraction]):
         return length
 
 
-class Draft:
+class LayoutDraft:
     """A layout while a file is read.
 
     Parameters
@@ -205,7 +205,7 @@ class Draft:
             picture=level.picture,
         )
 
-    def _no_lengths(self, lanes: Sequence[Lane], squares: Sequence[int]) -> set[str]:
+    def _no_lengths(self, lanes: Sequence[DraftLane], squares: Sequence[int]) -> set[str]:
         """Return attributes that contradict the positions of one lane: they mean something else."""
         wrong = Counter(
             lane.attribute
@@ -220,7 +220,7 @@ class Draft:
             )
         return set(wrong)
 
-    def _edge(self, lane: Lane, square: int, straight: Fraction) -> LayoutEdge:
+    def _edge(self, lane: DraftLane, square: int, straight: Fraction) -> LayoutEdge:
         length = lane.length
         if square == 0:
             self.repair("a lane between two vertices at one position counts as 1 mm long")
@@ -239,7 +239,7 @@ class Draft:
         )
 
     def _add_curve(
-        self, edge: LayoutEdge, lane: Lane, vertices: dict[str, LayoutVertex]
+        self, edge: LayoutEdge, lane: DraftLane, vertices: dict[str, LayoutVertex]
     ) -> LayoutEdge:
         """Return an edge with its curve, if that leads from its tail to its head."""
         ends = vertices[lane.tail].at, vertices[lane.head].at

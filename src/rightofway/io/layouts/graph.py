@@ -6,7 +6,7 @@ from typing import Any
 
 from rightofway.errors import InputError, shown
 from rightofway.io.layouts.attributes import PAIRS, add_lanes, add_vertex
-from rightofway.io.layouts.draft import Draft, LevelDraft
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.source import Source
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout
@@ -41,7 +41,7 @@ def layout_of_graph(graph: Any) -> Layout:
     """
     if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
         raise InputError.at("graph", f"{shown(graph)} is no graph (give a networkx graph)")
-    draft = Draft("networkx graph")
+    draft = LayoutDraft("networkx graph")
     level, both_ways = draft.level(), not graph.is_directed()
     for node, data in graph.nodes(data=True):
         name = f"node {shown(str(node))}"

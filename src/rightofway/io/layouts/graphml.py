@@ -6,7 +6,7 @@ import re
 
 from rightofway.errors import shown
 from rightofway.io.layouts.attributes import PAIRS, add_lanes, add_vertex
-from rightofway.io.layouts.draft import Draft, LevelDraft
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.io.source import Source
 from rightofway.site.geometry import Point
@@ -26,7 +26,7 @@ def read(root: Element) -> Layout:
     InputError
         With every node without coordinates, and every edge that leads nowhere.
     """
-    draft = Draft("GraphML graph")
+    draft = LayoutDraft("GraphML graph")
     level = draft.level()
     keys = {key.need("id").value: key.need("attr.name", "id").value for key in root.all("key")}
     for graph in root.all("graph"):
@@ -47,7 +47,7 @@ def _attributes(element: Element, keys: dict[str, str]) -> Source:
     return Source(attributes, element.path, element.line)
 
 
-def _add_node(level: LevelDraft, node: Element, keys: dict[str, str], draft: Draft) -> None:
+def _add_node(level: LevelDraft, node: Element, keys: dict[str, str], draft: LayoutDraft) -> None:
     own, name = _attributes(node, keys), node.need("id").text()
     drawn, pair = next(node.descendants("Geometry"), None), own.get(*PAIRS)
     if own.get("x") and own.get("y"):

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from rightofway.errors import InputError
-from rightofway.io.layouts.draft import MICRO, Draft, Lane, LevelDraft
+from rightofway.io.layouts.draft import MICRO, DraftLane, LayoutDraft, LevelDraft
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.source import Source
 from rightofway.site.geometry import Point
@@ -55,7 +55,7 @@ def read(document: Any) -> Layout:
     InputError
         With every node, edge and station that cannot be used.
     """
-    draft, root = Draft("LIF layout"), Source(document)
+    draft, root = LayoutDraft("LIF layout"), Source(document)
     for _ in _numbers_as_text(document):
         draft.repair("a number is written as text")
     origins = [root] if root.get("origins") is None else root.need("origins").items()
@@ -81,7 +81,7 @@ def _level_names(layouts: list[Source]) -> list[str]:
     return [str(number) for number in range(1, len(layouts) + 1)]
 
 
-def _items(part: Source, key: str, draft: Draft) -> list[Source]:
+def _items(part: Source, key: str, draft: LayoutDraft) -> list[Source]:
     value = part.get(key)
     if value is None:
         draft.repair(f"the list of {key} is missing and counts as empty")
@@ -118,12 +118,12 @@ def _add_node(level: LevelDraft, node: Source) -> None:
     )
 
 
-def _add_edge(level: LevelDraft, edge: Source, draft: Draft) -> None:
+def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
     tail, head = edge.need("startNodeId").text(), edge.need("endNodeId").text()
     own = edge.items_under(*EDGE_PROPERTIES)
     if not own:
         draft.repair("an edge without a vehicle type is free for all")
-        level.connect(Lane(source=edge, tail=tail, head=head))
+        level.connect(DraftLane(source=edge, tail=tail, head=head))
     ways: dict[tuple[Fraction | None, Curve], set[str]] = {}
     for properties in own:
         speed = properties.get(*SPEEDS)
@@ -132,7 +132,7 @@ def _add_edge(level: LevelDraft, edge: Source, draft: Draft) -> None:
         ways.setdefault(limit_and_curve, set()).update(_types(properties))
     for (limit, (curve, error)), types in ways.items():  # one lane for all types with one way
         level.connect(
-            Lane(
+            DraftLane(
                 source=edge,
                 tail=tail,
                 head=head,
@@ -152,7 +152,7 @@ def _types(own: Source) -> list[str]:
     return [robot_type.need("seriesName").text() for robot_type in series.items()]
 
 
-def _curve(own: Source, draft: Draft) -> Curve:
+def _curve(own: Source, draft: LayoutDraft) -> Curve:
     """Return points of a trajectory [m], and how far it is from the lines between them [m]."""
     trajectory = own.get("trajectory")
     if trajectory is None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from rightofway.errors import InputError, shown
-from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
+from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
 from rightofway.io.source import Source
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout, LayoutVertex
@@ -34,14 +34,14 @@ def read(document: Any) -> Layout:
     InputError
         With every feature that is not a node and no edge.
     """
-    draft = Draft("Nav2 route graph")
+    draft = LayoutDraft("Nav2 route graph")
     level = draft.level()
     for feature in Source(document).need("features").items():
         draft.faults.attempt("", _add, level, feature, draft)
     return draft.layout()
 
 
-def _add(level: LevelDraft, feature: Source, draft: Draft) -> None:
+def _add(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
     geometry, own = feature.need("geometry"), feature.need("properties")
     kind = geometry.need("type")
     if kind.value == "Point":
@@ -54,7 +54,7 @@ def _add(level: LevelDraft, feature: Source, draft: Draft) -> None:
         raise kind.fault(f"{shown(kind.value)} is no node and no edge (give one of {known})")
 
 
-def _add_edge(level: LevelDraft, feature: Source, draft: Draft) -> None:
+def _add_edge(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
     own = feature.need("properties")
     metadata = own.get("metadata")
     limit = None if metadata is None else metadata.get("speed_limit")
@@ -65,7 +65,7 @@ def _add_edge(level: LevelDraft, feature: Source, draft: Draft) -> None:
     elif max_speed is not None:
         draft.repair("a speed_limit counts as m/s; Nav2 may be set to read it as a percentage")
     level.connect(
-        Lane(
+        DraftLane(
             source=feature,
             tail=own.need("startid").text(),
             head=own.need("endid").text(),
@@ -75,7 +75,7 @@ def _add_edge(level: LevelDraft, feature: Source, draft: Draft) -> None:
     )
 
 
-def _shape(geometry: Source, draft: Draft) -> tuple[Point, ...]:
+def _shape(geometry: Source, draft: LayoutDraft) -> tuple[Point, ...]:
     """Return the points between the ends of a line; a drawing that cannot be read is left out."""
     coordinates = geometry.get("coordinates")
     if coordinates is None:

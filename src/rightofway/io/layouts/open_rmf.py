@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, listed, shown
-from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
+from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
 from rightofway.io.source import Source
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import Point
@@ -56,7 +56,7 @@ def read(document: Any, path: Path) -> Layout:
         for vertex in level.items_under("vertices")[:1]
         if isinstance(vertex.value, list)
     )
-    draft = Draft("Open-RMF building" if is_building else "Open-RMF navigation graph")
+    draft = LayoutDraft("Open-RMF building" if is_building else "Open-RMF navigation graph")
     transforms = _transforms(root, draft) if is_building else {}
     for name, part in root.need("levels").entries():
         level = draft.level(name)
@@ -67,7 +67,7 @@ def read(document: Any, path: Path) -> Layout:
     return draft.layout()
 
 
-def _note_lifts(root: Source, draft: Draft) -> None:
+def _note_lifts(root: Source, draft: LayoutDraft) -> None:
     """Note that plans use no lift, and which levels there are to choose from."""
     lifts = root.get("lifts")
     if lifts is None or not lifts.mapping():
@@ -79,7 +79,9 @@ def _note_lifts(root: Source, draft: Draft) -> None:
     draft.repair(f"{several} not used, a plan stays on one level{remedy}")
 
 
-def _picture(level: Source, transform: Transform, folder: Path, draft: Draft) -> Picture | None:
+def _picture(
+    level: Source, transform: Transform, folder: Path, draft: LayoutDraft
+) -> Picture | None:
     """Return the picture that a level is drawn over, and where its pixels lie."""
     drawing = level.value.get("drawing")
     name = drawing.get("filename") if isinstance(drawing, dict) else None
@@ -107,7 +109,9 @@ def _picture(level: Source, transform: Transform, folder: Path, draft: Draft) ->
     return Picture(file=folder / name, pixel=pixel, corner=(x, y), yaw=yaw)
 
 
-def _read_level(level: LevelDraft, part: Source, transform: Transform | None, draft: Draft) -> None:
+def _read_level(
+    level: LevelDraft, part: Source, transform: Transform | None, draft: LayoutDraft
+) -> None:
     """Read vertices and lanes; with a transform, of a building."""
     groups: Groups = {}
     names = [
@@ -189,7 +193,9 @@ def _add_lane(
     types = frozenset([f"graph {_name_in(own, 'graph_idx', lane)}"]) if has_graphs else None
     max_speed = speed if speed > 0 else None
     for start, end in ((tail, head), (head, tail)) if both else ((tail, head),):
-        level.connect(Lane(source=lane, tail=start, head=end, max_speed=max_speed, types=types))
+        level.connect(
+            DraftLane(source=lane, tail=start, head=end, max_speed=max_speed, types=types)
+        )
         if own.get("mutex"):
             groups.setdefault(_name_in(own, "mutex", lane), ([], []))[1].append((start, end))
 
@@ -202,7 +208,7 @@ def _vertex(item: Source, names: list[str | None]) -> str | None:
     return names[index]
 
 
-def _transforms(root: Source, draft: Draft) -> dict[str, Transform]:
+def _transforms(root: Source, draft: LayoutDraft) -> dict[str, Transform]:
     """Return for each level of a building how its points become metres of the site."""
     system = root.value.get("coordinate_system")
     levels = dict(root.need("levels").entries())

@@ -10,7 +10,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.errors import shown
-from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
+from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.site.layout import Layout, LayoutVertex, Station
 from rightofway.site.zones import NamedZone
@@ -34,7 +34,7 @@ def read(root: Element) -> Layout:
         For a version before 0.0.4, and with every point, path and location that cannot be used.
     """
     _check_version(root)
-    draft = Draft("openTCS plant model")
+    draft = LayoutDraft("openTCS plant model")
     level = draft.level()
     paths: dict[str, list[tuple[str, str]]] = {}
     for point in root.all("point"):
@@ -81,7 +81,7 @@ def _add_point(level: LevelDraft, point: Element) -> None:
 
 
 def _add_path(
-    level: LevelDraft, path: Element, paths: dict[str, list[tuple[str, str]]], draft: Draft
+    level: LevelDraft, path: Element, paths: dict[str, list[tuple[str, str]]], draft: LayoutDraft
 ) -> None:
     tail, head = path.need("sourcePoint").text(), path.need("destinationPoint").text()
     lanes = paths.setdefault(path.need("name").text(), [])
@@ -94,7 +94,7 @@ def _add_path(
         if speed > 0:
             lanes.append(ends)
             level.connect(
-                Lane(
+                DraftLane(
                     source=path,
                     tail=ends[0],
                     head=ends[1],
@@ -104,7 +104,7 @@ def _add_path(
             )
 
 
-def _add_location(level: LevelDraft, location: Element, draft: Draft) -> list[str]:
+def _add_location(level: LevelDraft, location: Element, draft: LayoutDraft) -> list[str]:
     """Add a location as a station, and return its points."""
     points = [link.need("point").text() for link in location.all("link")]
     if location.value.get("locked") == "true":
@@ -115,7 +115,7 @@ def _add_location(level: LevelDraft, location: Element, draft: Draft) -> list[st
 
 
 def _add_block(
-    level: LevelDraft, block: Element, paths: dict[str, list[tuple[str, str]]], draft: Draft
+    level: LevelDraft, block: Element, paths: dict[str, list[tuple[str, str]]], draft: LayoutDraft
 ) -> None:
     members = [member.need("name").text() for member in block.all("member")]
     if block.value.get("type") == "SAME_DIRECTION_ONLY":

@@ -22,7 +22,7 @@ SHARE_OF_SENDING = 0.1
 """The part of the time that may go into sending plans to the server."""
 
 
-class Progress:
+class PlanningProgress:
     """Sends what a planner reaches, and keeps its best plan.
 
     Attributes
@@ -85,7 +85,7 @@ def improve(emit: Emit, blobs: Blobs, **settings: Any) -> Result:
 
 def _searched(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
     """Return the plan of a search; a stop returns the best plan of any planner."""
-    progress = Progress(emit)
+    progress = PlanningProgress(emit)
     keep = {"report": progress.report, "on_plan": progress.on_plan, "keep_best": True}
     try:
         best = search(keep)

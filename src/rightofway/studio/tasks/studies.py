@@ -20,7 +20,7 @@ from rightofway.report.laps_data import laps_data
 from rightofway.report.plan_data import measures
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import digest_of, figures, loaded_of
-from rightofway.studio.tasks.planning import Progress
+from rightofway.studio.tasks.planning import PlanningProgress
 from rightofway.values import exact
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import payload_of
@@ -51,7 +51,7 @@ def _repeated(
     """Let robots repeat their trips, under a rule or by a timetable."""
     from rightofway.cyclic import TIMETABLE, best_timetable, run_laps
 
-    report = Progress(emit).report
+    report = PlanningProgress(emit).report
     if rule == TIMETABLE:
         return best_timetable(
             scenario,
@@ -154,7 +154,7 @@ def simulate(
     from rightofway.execution import DEFAULT_DELAYS
     from rightofway.execution import simulate as execute
 
-    given, report = plan_of(parse_json(blobs[0].decode())), Progress(emit).report
+    given, report = plan_of(parse_json(blobs[0].decode())), PlanningProgress(emit).report
     causes = list(delays) or [DEFAULT_DELAYS]
     outcome = execute(given, causes, runs, keep_runs=True, report=report, **settings)
     named = {"typical": outcome.typical, "worst": outcome.worst}
