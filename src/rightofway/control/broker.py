@@ -25,6 +25,9 @@ PASSWORD = "RIGHTOFWAY_BROKER_PASSWORD"  # noqa: S105 (the name of a variable)
 PORTS = {"mqtt": 1883, "mqtts": 8883}
 """The usual port of each scheme."""
 
+MANY = 10_000
+"""Messages of one turn that may wait for their sending before aiomqtt complains."""
+
 KEEP_ALIVE = 10
 """Seconds after which a broker and its client miss each other."""
 
@@ -114,7 +117,7 @@ class Broker:
         """
         import aiomqtt
 
-        return aiomqtt.Client(
+        client = aiomqtt.Client(
             self.host,
             self.port,
             username=self.user,
@@ -126,6 +129,8 @@ class Broker:
             timeout=KEEP_ALIVE,
             will=None if will is None else aiomqtt.Will(will.topic, will.payload, 1, retain=True),
         )
+        client.pending_calls_threshold = MANY
+        return client
 
 
 def _tls(ca_file: str | None) -> ssl.SSLContext:

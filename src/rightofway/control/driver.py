@@ -253,8 +253,8 @@ class Driver:
         self._fails = False
         self._answer()
         sent, self._outbox = self._outbox, []
-        for letter in sent:
-            await client.publish(letter.topic, letter.payload, qos=0)
+        # All go to the client at once and in their order; then their sending is awaited together.
+        await asyncio.gather(*(client.publish(topic, payload, qos=0) for topic, payload in sent))
         for sentence in self._story.go_on():
             self._report(sentence)
         if self._metrics is not None:
