@@ -42,7 +42,8 @@ RobotId ChosenMoves::next_ahead(const FleetState& now, RobotId robot, Ahead& ahe
 // else the robot that chose first.
 bool ChosenMoves::goes_first(const FleetState& now, RobotId other, RobotId robot) const {
     const auto is_in_the_way_of = [&](RobotId one, RobotId mover) {
-        return any_near(now, mover, next_[index(mover)],
+        return next_[index(mover)] != nowhere &&
+               any_near(now, mover, next_[index(mover)],
                         [&](std::int32_t resource, std::int32_t size, bool) {
                             return resource == now.at(one) && size == problem_.first_row(one);
                         });
