@@ -26,9 +26,17 @@ cardinal : bool
 bypass : bool
     Whether tracks of equal cost with fewer conflicts replace others without a split.
 clear : bool
-    Whether tracks of equal cost without any conflict are looked for.
+    Whether tracks with the fewest conflicts are looked for.
+targets : bool
+    Whether conflicts with robots that have reached their ends are resolved as such.
+mdds : bool
+    Whether pairs are solved by all their tracks, where a tree of `pair_nodes` does not.
+pairs : bool
+    Whether nodes are split by the completion times of pairs that lose to each other.
 pair_nodes : int
-    Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.)";
+    Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.
+factor : int
+    A plan that costs at most this factor times the bound is enough, 1 or more. [millionths])";
 
 constexpr auto run_doc = R"(Search on; the search can be continued.
 
@@ -49,7 +57,7 @@ time_limit : float or None
 Returns
 -------
 tuple of (int, int)
-    How it ended (0: a plan of least cost, 1: proven that none costs less than `upper`, 2: stopped),
+    How it ended (0: a plan within the factor, 1: proven that none costs less than `upper`, 2: stopped),
     and the proven bound, NEVER where no plan exists. [ticks])";
 
 constexpr auto tracks_doc = R"(Return the tracks of the plan found, of no robot before.
@@ -142,12 +150,16 @@ void bind_cbs(nb::module_& module) {
         .def(
             "__init__",
             [](ConflictBasedSearch* self, const Problem& problem, bool cardinal, bool bypass,
-               bool clear, std::int64_t pair_nodes) {
+               bool clear, bool targets, bool mdds, bool pairs, std::int64_t pair_nodes,
+               std::int64_t factor) {
                 require_range("pair_nodes", pair_nodes, 0, never);
-                new (self) ConflictBasedSearch(problem, {cardinal, bypass, clear, pair_nodes});
+                require_range("factor", factor, 1'000'000, Tick{1} << 40);
+                new (self) ConflictBasedSearch(
+                    problem, {cardinal, bypass, clear, targets, mdds, pairs, pair_nodes, factor});
             },
             nb::arg("problem"), nb::arg("cardinal"), nb::arg("bypass"), nb::arg("clear"),
-            nb::arg("pair_nodes"), nb::keep_alive<1, 2>())
+            nb::arg("targets"), nb::arg("mdds"), nb::arg("pairs"), nb::arg("pair_nodes"),
+            nb::arg("factor"), nb::keep_alive<1, 2>())
         .def("run", &run, nb::arg("upper"), nb::arg("enough"), nb::arg("most_nodes"),
              nb::arg("most_bytes"), nb::arg("time_limit").none(), run_doc)
         .def(

@@ -9,7 +9,11 @@
 // What makes it fast can be switched (CbsOptions): conflicts that cost both robots something are
 // resolved first, tracks of equal cost with fewer conflicts replace others without a split, and the
 // losses of pairs of robots, each solved for itself, raise the bound of a node by the least
-// weighted vertex cover.
+// weighted vertex cover. Two symmetries are one split each: a robot that has reached its end, and a
+// pair of which one robot or the other has to complete later (decision 36).
+//
+// With a factor above 1 it is a focal search: it takes in turn the node of least bound, and the
+// node with the fewest conflicts of those whose tracks cost little enough.
 //
 // Sharon, Stern, Felner & Sturtevant, "Conflict-based search for optimal multi-agent pathfinding",
 // Artificial Intelligence 219, 2015.
@@ -17,14 +21,20 @@
 // IJCAI 2015 (cardinal conflicts, bypass).
 // Li, Felner, Boyarski, Ma & Koenig, "Improved heuristics for multi-agent path finding with
 // conflict-based search", IJCAI 2019 (WDG).
+// Barer, Sharon, Stern & Felner, "Suboptimal variants of the conflict-based search algorithm for
+// the multi-agent pathfinding problem", SoCS 2014 (focal search). Li et al., "Pairwise symmetry
+// reasoning for multi-agent path finding search", Artificial Intelligence 301, 2021 (targets,
+// corridors, rectangles).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "cbs/constrained_tracks.hpp"
@@ -39,10 +49,23 @@ namespace rightofway {
 struct CbsOptions {
     bool cardinal = true;  // resolve conflicts first that cost both robots something
     bool bypass = true;    // replace tracks by others of equal cost with fewer conflicts
-    bool clear = true;     // look for tracks of equal cost without any conflict
+    bool clear = true;     // look for tracks with the fewest conflicts
+    bool targets = true;   // resolve conflicts with robots that have reached their ends as such
+    bool mdds = true;      // solve pairs by all their tracks where a tree does not
+    bool pairs = true;     // split by completion times of pairs that lose to each other
     // Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: no
     // such losses.
-    std::int64_t pair_nodes = 100;
+    std::int64_t pair_nodes = 20;
+    // A plan that costs at most this factor times the bound is enough [millionths].
+    std::int64_t factor = 1'000'000;
+};
+
+// What two robots lose by each other, above their least costs under their constraints: lower
+// bounds.
+struct PairLoss {
+    Tick together = 0;  // `never` if they have no plan
+    // The first robot loses this or more, or the second robot does; not known before it is asked.
+    std::array<Tick, 2> either{-1, -1};
 };
 
 // The losses of pairs of robots, each pair solved for itself and kept.
@@ -53,26 +76,33 @@ class PairLosses {
         options_.clear = false;  // it costs more than the trees of most pairs
     }
 
-    // A lower bound of what two robots lose together by each other, above their least costs under
-    // their constraints; `never` if they have no plan.
-    Tick of(RobotId first, SetId first_set, RobotId second, SetId second_set,
-            const StopCondition& is_over);
+    // A lower bound of what two robots lose together. Throws Stopped.
+    Tick together(std::array<RobotId, 2> robots, std::array<SetId, 2> sets,
+                  const StopCondition& is_over);
+
+    // Bounds of which one or the other holds in every plan; only for pairs that lose something
+    // together. Throws Stopped.
+    std::array<Tick, 2> either(std::array<RobotId, 2> robots, std::array<SetId, 2> sets,
+                               const StopCondition& is_over);
 
   private:
     struct Key {
-        RobotId first;
-        RobotId second;
-        SetId first_set;
-        SetId second_set;
+        std::array<RobotId, 2> robots;
+        std::array<SetId, 2> sets;
         bool operator==(const Key&) const = default;
     };
     struct Hash {
         std::size_t operator()(const Key& key) const;
     };
 
+    PairLoss& of(const Key& key, const StopCondition& is_over);
+    std::optional<PairLoss> by_mdds(const Key& key, const StopCondition& is_over);
+    Tick bound_within(const Key& key, std::array<Tick, 2> costs, const StopCondition& is_over);
+
     ConstrainedTracks& tracks_;
     CbsOptions options_;
-    std::unordered_map<Key, Tick, Hash> known_;
+    JointTracks joint_;
+    std::unordered_map<Key, PairLoss, Hash> known_;
 };
 
 // One tree, for some of the robots.
@@ -82,11 +112,15 @@ class ConflictTree {
     ConflictTree(ConstrainedTracks& tracks, std::vector<RobotId> robots, const CbsOptions& options,
                  PairLosses* losses);
 
+    // Costs that the robots' tracks must not exceed; empty: none.
+    void limit(std::vector<Tick> most) { most_ = std::move(most); }
+
     // Makes the root. False if a robot has no track, so that no plan exists. Throws Stopped.
     bool start(std::span<const SetId> sets, const StopCondition& is_over);
 
     // Expands nodes until there is a plan, or the bound is `enough` or more, or no node is left:
-    // found, stopped with that bound, proven none. Nodes with a bound of `upper` or more are left
+    // found, stopped with that bound, proven none. A plan is enough if it costs at most the factor
+    // times the bound. Nodes with a bound of `upper` or more are left
     // out; the bound ends at `upper` if no other is left. Stops after `most_nodes`. Throws
     // Stopped; the bound is valid then, has the losses of pairs that were solved, and the search
     // can go on.
@@ -104,23 +138,38 @@ class ConflictTree {
         std::vector<SetId> sets;
         std::vector<const ConstrainedTrack*> tracks;
         std::vector<TrackConflict> conflicts;
-        Tick cost = 0;
-        Tick bound = 0;
+        Tick cost = 0;             // of the tracks
+        Tick least = 0;            // of the best tracks under the constraints
+        Tick bound = 0;            // of all plans that keep the constraints
         bool is_measured = false;  // its bound has the losses of pairs
-        bool is_clear = false;     // tracks without conflict were looked for
+        bool is_clear = false;     // tracks with fewer conflicts were looked for
+        bool is_open = false;
     };
 
     void push(Node&& node, Tick upper);
+    std::int32_t least_open();
+    std::int32_t take(std::int32_t least);
+    Tick most_cost() const;
     void raise_bound(Tick upper);
+    void load(const Node& node);
+    std::vector<std::pair<RobotId, RobotId>> pairs_in_conflict(const Node& node) const;
     void measure(Node& node, const StopCondition& is_over);
     bool split(Node& node, Tick upper, const StopCondition& is_over);
     void clear(Node& node, const StopCondition& is_over);
-    const TrackConflict* choose(Node& node, const StopCondition& is_over);
+    const ConstrainedTrack* clearest(const Node& node, RobotId robot, const StopCondition& is_over);
+    void take_best(Node& node, const StopCondition& is_over);
+    std::optional<TrackConflict> choose(Node& node, const StopCondition& is_over);
+    std::optional<TrackConflict> split_pair(const Node& node, RobotId first, RobotId second,
+                                            const StopCondition& is_over);
     void weigh(const Node& node, TrackConflict& conflict, const StopCondition& is_over);
     bool bypass(Node& node, const TrackConflict& conflict, const StopCondition& is_over);
-    void branch(const Node& node, RobotId robot, SetId set, Tick upper,
-                const StopCondition& is_over);
+    bool offer(Node& node, RobotId robot, const ConstrainedTrack* track);
+    void meet_others(const Node& node, RobotId robot, const ConstrainedTrack& track,
+                     std::vector<TrackConflict>& conflicts);
+    std::optional<Node> child(const Node& node, RobotId robot, SetId set, Tick upper,
+                              const StopCondition& is_over);
     void replace(Node& node, RobotId robot, const ConstrainedTrack* track);
+    static std::ptrdiff_t count_conflicts(const Node& node, RobotId robot);
     static std::size_t bytes_of(const Node& node);
 
     ConstrainedTracks& tracks_;
@@ -128,9 +177,13 @@ class ConflictTree {
     CbsOptions options_;
     PairLosses* losses_;
     ConflictFinder finder_;
-    std::optional<Traffic> traffic_;  // made at the first use
+    std::optional<Traffic> traffic_;  // of the node at hand; not for pairs
     std::deque<Node> nodes_;
-    OpenList open_;
+    OpenList open_;    // all open nodes, least bound first, and some that are not open any more
+    OpenList costly_;  // those whose tracks cost too much to be enough, least cost first
+    OpenList focal_;   // those whose tracks do not, fewest conflicts first
+    bool takes_least_ = false;  // whether the next node is that of least bound
+    std::vector<Tick> most_;    // cost of each robot's track; empty: any
     std::vector<TrackConflict> met_;
     std::vector<const ConstrainedTrack*> found_;
     Tick first_ = 0;  // bound of the root

@@ -7,6 +7,12 @@
 namespace rightofway {
 namespace {
 
+// How often a search for a track with few overlaps may ask whether it is over, each some hundred
+// states: it has many where a robot can wait at many places. No proof needs its track.
+constexpr int most_questions = 20;
+
+constexpr std::size_t most_phases = 50'000;  // of all tracks of a robot, where they are one graph
+
 // Swaps and rotations at one instant are forbidden on edges, which points do not book otherwise.
 std::int32_t count_rows(const Problem& problem) {
     return problem.may_follow() && !problem.has_sizes() ? problem.n_resources() : problem.n_rows();
@@ -55,6 +61,34 @@ void Traffic::exchange(RobotId robot, const ConstrainedTrack* track) {
     }
 }
 
+const std::vector<RobotId>& Traffic::robots_met(RobotId robot, const ConstrainedTrack& track) {
+    met_.clear();
+    const auto meet = [&](RobotId other) {
+        if (other != robot && other != nobody) {
+            met_.push_back(other);
+        }
+    };
+    for (const RowBooking& booking : track.bookings) {
+        const auto here = table_.at(booking.row);
+        for (auto k = BookingTable::started(here, booking.time.end - 1);
+             k > 0 && here[index(k - 1)].reach > booking.time.start; --k) {
+            if (here[index(k - 1)].time.end > booking.time.start) {
+                meet(here[index(k - 1)].robot);
+            }
+        }
+    }
+    for (const Move& move : track.moves) {  // a robot that swaps enters the tail at this instant
+        const auto here = table_.at(problem_.vertex_row(robot, move.tail));
+        for (auto k = BookingTable::started(here, move.enter);
+             k > 0 && here[index(k - 1)].time.start == move.enter; --k) {
+            meet(here[index(k - 1)].robot);
+        }
+    }
+    std::sort(met_.begin(), met_.end());
+    met_.erase(std::unique(met_.begin(), met_.end()), met_.end());
+    return met_;
+}
+
 ConstrainedTracks::ConstrainedTracks(const Problem& problem, SharedDistances& distances)
     : problem_(problem), no_traffic_(problem), search_(problem.roads(), problem.rules()) {
     for (RobotId robot = 0; robot < problem.n_robots(); ++robot) {
@@ -70,33 +104,85 @@ const ConstrainedTrack* ConstrainedTracks::best(RobotId robot, SetId set,
     if (known != known_.end()) {
         return known->second;
     }
-    const ConstrainedTrack* track = search(robot, set, never, no_traffic_.table(), is_over);
+    BookingTable& table = no_traffic_.table();
+    const SearchRequest request{trips_[index(robot)].read(robot), table};
+    const ConstrainedTrack* track = search(robot, set, request, table, is_over);
     bytes_ += sets_.at(set).size_bytes() + 64;
     known_.emplace(key, track);
     return track;
 }
 
-const ConstrainedTrack* ConstrainedTracks::clear(RobotId robot, SetId set, Tick cost,
-                                                 Traffic& traffic, const StopCondition& is_over) {
+// A price above the greatest cost makes the fewest overlaps the cheapest. Prices cannot be told
+// from surcharges, so where there are surcharges no overlap is for sale.
+const ConstrainedTrack* ConstrainedTracks::clearest(RobotId robot, SetId set, Tick cost,
+                                                    Traffic& traffic,
+                                                    const StopCondition& is_over) {
     traffic.exchange(robot, nullptr);
-    return search(robot, set, cost / problem_.weight(robot), traffic.table(), is_over);
+    const Trip& trip = trips_[index(robot)].read(robot);
+    const Tick limit = cost / problem_.weight(robot);
+    SearchRequest request{trip, traffic.table()};
+    if (trip.surcharges.empty()) {
+        prices_.assign(static_cast<std::size_t>(problem_.n_robots()), limit + 1);
+        request.prices = prices_;
+        request.latest = limit;
+    } else {
+        request.limit = limit;
+    }
+    int n_questions = 0;
+    bool is_stopped = false;
+    try {
+        return search(robot, set, request, traffic.table(), [&] {
+            is_stopped = is_over();
+            return is_stopped || ++n_questions > most_questions;
+        });
+    } catch (const Stopped&) {
+        if (is_stopped) {
+            throw;
+        }
+        return nullptr;
+    }
 }
 
-const ConstrainedTrack* ConstrainedTracks::search(RobotId robot, SetId set, Tick limit,
+// Puts constraints into the table and, those of the end of the track, into the request.
+SearchRequest ConstrainedTracks::constrained(SetId set, SearchRequest request,
+                                             BookingTable& table) const {
+    for (const Constraint& one : sets_.at(set)) {
+        if (one.row >= 0) {
+            table.insert(one.row, {one.start, one.end}, nobody);
+            continue;
+        }
+        Tick& earliest = one.row == Constraint::completion ? request.ends_from : request.stays_from;
+        earliest = std::max(earliest, one.end);
+    }
+    return request;
+}
+
+// The last one first: of equal starts in a row, the table erases the latest.
+void ConstrainedTracks::release(SetId set, BookingTable& table) const {
+    const auto constraints = sets_.at(set);
+    for (std::size_t k = constraints.size(); k-- > 0 && constraints[k].row >= 0;) {
+        table.erase(constraints[k].row, constraints[k].start, nobody);
+    }
+}
+
+const TrackGraph* ConstrainedTracks::graph(RobotId robot, SetId set, Tick latest) {
+    BookingTable& table = no_traffic_.table();
+    SearchRequest request{trips_[index(robot)].read(robot), table};
+    request.latest = latest;
+    is_second_ = !is_second_;
+    TrackGraph& graph = graphs_[is_second_ ? 1 : 0];
+    const bool is_built =
+        graph.build(problem_, constrained(set, request, table), robot, search_, most_phases);
+    release(set, table);
+    return is_built ? &graph : nullptr;
+}
+
+const ConstrainedTrack* ConstrainedTracks::search(RobotId robot, SetId set, SearchRequest request,
                                                   BookingTable& table,
                                                   const StopCondition& is_over) {
     ++n_searches_;
-    const auto constraints = sets_.at(set);
-    for (const Constraint& one : constraints) {
-        table.insert(one.row, {one.start, one.end}, nobody);
-    }
-    SearchRequest request{trips_[index(robot)].read(robot), table};
-    request.limit = limit;
-    const SearchEnd end = search_.run(request, is_over);
-    // The last one first: of equal starts in a row, the table erases the latest.
-    for (std::size_t k = constraints.size(); k-- > 0;) {
-        table.erase(constraints[k].row, constraints[k].start, nobody);
-    }
+    const SearchEnd end = search_.run(constrained(set, request, table), is_over);
+    release(set, table);
     if (end == SearchEnd::stopped) {
         throw Stopped{};
     }
@@ -105,7 +191,10 @@ const ConstrainedTrack* ConstrainedTracks::search(RobotId robot, SetId set, Tick
     }
     ConstrainedTrack& track = tracks_.emplace_back();
     search_.track(track.visits);
-    track.cost = problem_.weight(robot) * search_.cost();
+    // Prices are paid only where there are no surcharges, and are no cost.
+    track.completion = search_.completion();
+    track.cost =
+        problem_.weight(robot) * (request.prices.empty() ? search_.cost() : track.completion);
     book(robot, track);
     bytes_ += sizeof(track) + track.visits.size() * sizeof(Visit) +
               track.bookings.size() * sizeof(RowBooking) + track.moves.size() * sizeof(Move);

@@ -2,6 +2,7 @@
 // conflict-based search. Each robot and set of constraints is searched once.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "cbs/constraint_sets.hpp"
+#include "cbs/joint_tracks.hpp"
 #include "core/search_end.hpp"
 #include "distances/shared_distances.hpp"
 #include "distances/trip.hpp"
@@ -36,6 +38,7 @@ struct ConstrainedTrack {
     std::vector<Visit> visits;
     std::vector<RowBooking> bookings;  // by row, then by start
     std::vector<Move> moves;           // by time; only where robots may follow each other at once
+    Tick completion = 0;
     Tick cost = 0;  // completion time and surcharges of the edges, by the robot's weight
 };
 
@@ -48,6 +51,9 @@ class Traffic {
     // Gives a robot another track; null for none. Borrows the track.
     void exchange(RobotId robot, const ConstrainedTrack* track);
 
+    // The other robots that a track of this robot conflicts with, in order.
+    const std::vector<RobotId>& robots_met(RobotId robot, const ConstrainedTrack& track);
+
     BookingTable& table() { return table_; }
 
   private:
@@ -57,10 +63,8 @@ class Traffic {
     const Problem& problem_;
     BookingTable table_;
     std::vector<const ConstrainedTrack*> tracks_;
+    std::vector<RobotId> met_;
 };
-
-// Thrown where the stop condition ends a search.
-struct Stopped {};
 
 class ConstrainedTracks {
   public:
@@ -74,18 +78,26 @@ class ConstrainedTracks {
     // proven that there is none. Throws Stopped. The pointer stays valid.
     const ConstrainedTrack* best(RobotId robot, SetId set, const StopCondition& is_over);
 
-    // A track of at most this cost, by the robot's weight, that keeps the constraints and has no
-    // conflict with the tracks of others in the traffic; null if there is none. Throws Stopped.
-    const ConstrainedTrack* clear(RobotId robot, SetId set, Tick cost, Traffic& traffic,
-                                  const StopCondition& is_over);
+    // A track of at most this cost, by the robot's weight, that keeps the constraints and overlaps
+    // the fewest bookings of others in the traffic; with surcharges, one that overlaps none. Null
+    // if there is none, or none is found in some thousand states. The traffic has no track of the
+    // robot afterwards. Throws Stopped.
+    const ConstrainedTrack* clearest(RobotId robot, SetId set, Tick cost, Traffic& traffic,
+                                     const StopCondition& is_over);
+
+    // All tracks that keep the constraints and complete by this tick; null if they are too many.
+    // The pointer stays valid until the next call but one.
+    const TrackGraph* graph(RobotId robot, SetId set, Tick latest);
 
     std::int64_t n_searches() const { return n_searches_; }
     // About how much memory the tracks take [bytes].
     std::size_t bytes() const { return bytes_; }
 
   private:
-    const ConstrainedTrack* search(RobotId robot, SetId set, Tick limit, BookingTable& table,
-                                   const StopCondition& is_over);
+    const ConstrainedTrack* search(RobotId robot, SetId set, SearchRequest request,
+                                   BookingTable& table, const StopCondition& is_over);
+    SearchRequest constrained(SetId set, SearchRequest request, BookingTable& table) const;
+    void release(SetId set, BookingTable& table) const;
     void book(RobotId robot, ConstrainedTrack& track) const;
 
     const Problem& problem_;
@@ -93,6 +105,9 @@ class ConstrainedTracks {
     std::deque<TripReader> trips_;  // one per robot: a reader keeps one trip
     SafeIntervalSearch search_;
     ConstraintSets sets_;
+    std::vector<Tick> prices_;  // of an overlap with each robot
+    std::array<TrackGraph, 2> graphs_;
+    bool is_second_ = false;
     std::deque<ConstrainedTrack> tracks_;
     std::unordered_map<std::uint64_t, const ConstrainedTrack*> known_;
     std::int64_t n_searches_ = 0;

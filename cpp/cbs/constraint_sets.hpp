@@ -12,8 +12,12 @@
 
 namespace rightofway {
 
-// The robot may not book the row at any tick of [start, end).
+// The robot may not book the row at any tick of [start, end). Two rows that no robot books stand
+// for the end of its track: what it must not have begun, or completed, before `end`.
 struct Constraint {
+    static constexpr std::int32_t last_visit = -1;  // the booking of its last visit
+    static constexpr std::int32_t completion = -2;  // its completion
+
     std::int32_t row;
     Tick start;
     Tick end;

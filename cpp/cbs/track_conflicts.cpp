@@ -55,6 +55,10 @@ void ConflictFinder::meet(RobotId other, const ConstrainedTrack& track,
             if (one->time.start >= booking.time.end || booking.time.start >= one->time.end) {
                 continue;
             }
+            if (targets_ && (one->time.end >= never) != (booking.time.end >= never)) {
+                conflicts.push_back(meet_at_end(*one, other, booking));
+                continue;
+            }
             Tick tick = std::min(one->time.end, booking.time.end) - 1;
             if (tick >= never - 1) {  // both are there for ever
                 tick = std::max(one->time.start, booking.time.start);
@@ -67,6 +71,19 @@ void ConflictFinder::meet(RobotId other, const ConstrainedTrack& track,
     if (problem_.may_follow()) {
         meet_swaps(other, track, conflicts);
     }
+}
+
+// Where one robot stays for ever, the other one passes its last vertex, or what excludes that: if
+// it does so at the last tick of the overlap or later, the first robot's last visit begins later
+// still. All visits that pass later are one constraint.
+TrackConflict ConflictFinder::meet_at_end(const Mark& own, RobotId other,
+                                          const RowBooking& booking) const {
+    const Tick tick = std::min(own.time.end, booking.time.end) - 1;
+    const Constraint ends{Constraint::last_visit, tick, tick + 1};
+    if (own.time.end >= never) {
+        return {.robot = {robot_, other}, .constraint = {ends, {booking.row, tick, never}}};
+    }
+    return {.robot = {robot_, other}, .constraint = {{{own.own, tick, never}, ends}}};
 }
 
 void ConflictFinder::meet_swaps(RobotId other, const ConstrainedTrack& track,

@@ -24,8 +24,9 @@ struct TrackConflict {
 // What the tracks of other robots are compared with.
 class ConflictFinder {
   public:
-    // Borrows the problem.
-    explicit ConflictFinder(const Problem& problem) : problem_(problem) {}
+    // Borrows the problem. With `targets`, a robot that has reached its end for ever is a conflict
+    // of its own kind.
+    ConflictFinder(const Problem& problem, bool targets) : problem_(problem), targets_(targets) {}
 
     // Prepares the comparison of a robot's track with many others. Borrows the track.
     void take(RobotId robot, const ConstrainedTrack& track);
@@ -44,7 +45,10 @@ class ConflictFinder {
     void meet_swaps(RobotId other, const ConstrainedTrack& track,
                     std::vector<TrackConflict>& conflicts) const;
 
+    TrackConflict meet_at_end(const Mark& own, RobotId other, const RowBooking& booking) const;
+
     const Problem& problem_;
+    bool targets_;
     RobotId robot_ = nobody;
     const ConstrainedTrack* track_ = nullptr;
     std::vector<Mark> marks_;  // by row

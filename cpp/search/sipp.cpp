@@ -19,6 +19,9 @@ void SafeIntervalSearch::begin(const SearchRequest& request) {
     books_edges_ = bookings_->n_rows() > roads_.graph.n_vertices();
     prices_ = request.prices;
     limit_ = request.limit;
+    latest_ = request.latest;
+    stays_from_ = request.stays_from;
+    ends_from_ = request.ends_from;
     goal_ = none;
     greed_ = request.greed;
     // Overlaps that no price buys make an earlier, dearer node worth keeping.
@@ -90,6 +93,9 @@ SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const StopConditi
 // Lines 4 and 5. Besides a drive, a robot can serve a stage, end its track, and pay for a booking.
 void SafeIntervalSearch::expand(std::int32_t node) {
     finish(node);
+    if (index(states_[node].gap) > at(states_[node].vertex).size()) {
+        return;  // it stays
+    }
     serve(node);
     if (!prices_.empty()) {
         stay_on(node);
@@ -121,10 +127,12 @@ void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
     const bool never_ends = index(here.gap) == from.size();
     const Tick latest = never_ends ? never : from[index(here.gap)].time.start - rules_.headway;
     const Tick way = rest(candidate);
-    if (candidate.ready > latest || way < 0 || candidate.ready + way + candidate.cost > limit_) {
+    if (candidate.ready > latest || way < 0 || candidate.ready + way + candidate.cost > limit_ ||
+        candidate.ready + way > latest_) {
         return;
     }
-    const Tick in_time = limit_ == never ? latest : std::min(latest, limit_ - way - candidate.cost);
+    Tick in_time = limit_ == never ? latest : std::min(latest, limit_ - way - candidate.cost);
+    in_time = std::min(in_time, latest_ - way);
     const Tick approach = rules_.books_ahead ? ticks : 0;
     const auto along = books_edges_ ? at(roads_.graph.n_vertices() + edge) : no_bookings;
     if (prices_.empty()) {
@@ -154,6 +162,9 @@ void SafeIntervalSearch::drive_between(SearchNode candidate, Tick way, Tick late
             reach(candidate, way);             // 13
         }
     }
+    if (!may_stay_at_once() && is_at_end(candidate)) {
+        stay_between(candidate, way, latest, approach, along);
+    }
 }
 
 // The earliest end of a drive, from `tick` on, that overlaps no booking of its edge.
@@ -170,7 +181,7 @@ Tick SafeIntervalSearch::free_drive(std::span<const BookedBy> along, Tick tick, 
 // Line 13: adds a state to OPEN unless it is known to be reached as early and as cheaply.
 void SafeIntervalSearch::reach(const SearchNode& candidate, Tick way) {
     const Tick f = candidate.ready + way + candidate.cost;
-    if (way < 0 || f > limit_) {
+    if (way < 0 || f > limit_ || candidate.ready + way > latest_) {
         return;
     }
     const std::int32_t node = states_.add(candidate);

@@ -33,6 +33,9 @@
 // Where robots have sizes, a drive also needs its edge to be free of bookings: within one gap of
 // the head, the earliest drive that does is the best.
 //
+// The last visit may have an earliest start. Then a robot may still pass the last vertex before:
+// "entered late enough to stay" is one more gap there, from which nothing follows but the end.
+//
 // Closures are bookings of nobody: they have no price and swap with no robot. Surcharges of edges
 // count as costs, as prices do.
 //
@@ -65,6 +68,9 @@ struct SearchRequest {
     // Above 0: a faster search for a good, not the best, track. The remaining ticks weigh greed / 8
     // more, and each state keeps only its node of least time plus prices.
     Tick greed = 0;
+    Tick latest = never;  // greatest completion time, whatever is paid [ticks]
+    Tick stays_from = 0;  // earliest start of the last visit's booking
+    Tick ends_from = 0;   // least completion time
 };
 
 class SafeIntervalSearch {
@@ -79,6 +85,18 @@ class SafeIntervalSearch {
     void track(std::vector<Visit>& visits) const;
     Tick completion() const { return states_[goal_].ready; }
     Tick cost() const { return completion() + states_[goal_].cost; }
+
+    // Prepares `rest` for a trip. Borrows the trip.
+    void measure(const Trip& trip) {
+        trip_ = &trip;
+        measure_stages(trip);
+    }
+    // The least ticks from a vertex, entered along an edge (-1: none), to completion, alone on the
+    // roads; -1 if no path exists.
+    Tick rest(VertexId vertex, EdgeId edge, std::int32_t stage) const {
+        return stage == n_stages() || !trip_->with_turns ? rest(vertex, stage)
+                                                         : trip_->with_turns->from(edge, stage);
+    }
 
     // The number of states expanded by all searches: effort, independent of the clock.
     std::int64_t n_expanded() const { return n_expanded_; }
@@ -99,11 +117,7 @@ class SafeIntervalSearch {
         const Tick way = trip_->to_stage[index(stage)].from(vertex);
         return way < 0 ? way : way + to_go_[index(stage)];
     }
-    Tick rest(const SearchNode& node) const {
-        return node.stage == n_stages() || !trip_->with_turns
-                   ? rest(node.vertex, node.stage)
-                   : trip_->with_turns->from(node.edge, node.stage);
-    }
+    Tick rest(const SearchNode& node) const { return rest(node.vertex, node.edge, node.stage); }
     void expand(std::int32_t node);
     void finish(std::int32_t node);
     void serve(std::int32_t node);
@@ -125,6 +139,11 @@ class SafeIntervalSearch {
     Tick price(RobotId robot) const {
         return prices_.empty() || robot == nobody ? never : prices_[index(robot)];
     }
+    bool is_at_end(const SearchNode& node) const;
+    bool may_stay_at_once() const { return stays_from_ <= 0 && ends_from_ <= 0; }
+    Tick earliest_stay(const SearchNode& candidate, Tick approach) const;
+    void stay_between(SearchNode candidate, Tick way, Tick latest, Tick approach,
+                      std::span<const BookedBy> along);
     void reach(const SearchNode& candidate, Tick way);
     // The bookings of a vertex, or of edge `n_vertices + edge`, as the robot's size class sees
     // them.
@@ -140,6 +159,9 @@ class SafeIntervalSearch {
     bool books_edges_ = false;  // drives book edges
     std::span<const Tick> prices_;
     Tick limit_ = never;
+    Tick latest_ = never;
+    Tick stays_from_ = 0;
+    Tick ends_from_ = 0;
     std::vector<Tick> to_go_;      // least ticks from each stage's vertex to completion
     std::int32_t first_last_ = 0;  // first of the final stages at the last vertex
     SearchStates states_;

@@ -29,7 +29,7 @@ void SafeIntervalSearch::stay_on(std::int32_t node) {
 void SafeIntervalSearch::drive_across(const SearchNode& soonest, Tick way, Tick latest,
                                       Tick approach, std::span<const BookedBy> along) {
     const auto to = at(soonest.vertex);
-    const auto enter = [&](Tick tick) {
+    const auto enter = [&](Tick tick, bool to_stay) {
         SearchNode candidate = soonest;
         candidate.ready = tick;
         candidate.gap = BookingTable::started(to, tick + rules_.headway);
@@ -40,24 +40,41 @@ void SafeIntervalSearch::drive_across(const SearchNode& soonest, Tick way, Tick 
         if (candidate.cost < never) {
             candidate.cost += price_of_drive(along, tick, candidate.drive);
         }
+        if (to_stay) {
+            for (auto k = index(candidate.gap); k < to.size() && candidate.cost < never; ++k) {
+                candidate.cost += price(to[k].robot);
+            }
+            candidate.gap = static_cast<std::int32_t>(to.size()) + 1;
+        }
         if (candidate.cost < never) {
             reach(candidate, way);
         }
     };
-    enter(soonest.ready);
+    const Tick stays =
+        !may_stay_at_once() && is_at_end(soonest) ? earliest_stay(soonest, approach) : never;
+    const auto enter_at = [&](Tick tick) {
+        enter(tick, false);
+        if (tick >= stays) {
+            enter(tick, true);
+        }
+    };
+    enter_at(soonest.ready);
+    if (stays > soonest.ready && stays <= latest) {
+        enter(stays, true);
+    }
     const auto first = std::partition_point(to.begin(), to.end(), [&](const BookedBy& one) {
         return one.reach + approach <= soonest.ready;
     });
     for (auto one = first; one != to.end() && one->time.start + approach < latest; ++one) {
         const Tick tick = one->time.end + approach;
         if (one->time.end < never && tick > soonest.ready && tick <= latest) {
-            enter(tick);
+            enter_at(tick);
         }
     }
     for (const BookedBy& one : along) {
         const Tick tick = one.time.end + soonest.drive;
         if (one.time.end < never && tick > soonest.ready && tick <= latest) {
-            enter(tick);
+            enter_at(tick);
         }
     }
 }

@@ -36,7 +36,8 @@ Tick SafeIntervalSearch::least_end() const {
         least = std::min(least, paid + free_end(last.first(k)));
         paid += price(last[k - 1].robot);
     }
-    return std::min(least, paid + trip_->stage_work.back());
+    least = std::min(least, paid + trip_->stage_work.back());
+    return std::max({least, ends_from_, stays_from_ + trip_->stage_work.back()});
 }
 
 // The least completion time after all these bookings of the last vertex.
@@ -48,11 +49,11 @@ Tick SafeIntervalSearch::free_end(std::span<const BookedBy> before) const {
     return before.back().time.end + approach + trip_->stage_work.back();
 }
 
-// Whether bookings of the last vertex raise the bound above the completion time alone, and the
-// bound is to wait for all of them.
+// Whether bookings of the last vertex, or its earliest start, raise the bound above the completion
+// time alone, and the bound is to wait for all of them.
 bool SafeIntervalSearch::is_worth_aiming() const {
     const auto last = at(trip_->stage_vertex.back());
-    return least_f_ > rest(trip_->home, 0) && least_f_ == free_end(last);
+    return least_f_ > rest(trip_->home, 0) && least_f_ >= free_end(last);
 }
 
 SearchEnd SafeIntervalSearch::aim(const StopCondition& is_over) {
@@ -66,10 +67,10 @@ SearchEnd SafeIntervalSearch::aim(const StopCondition& is_over) {
 // Ends the track: the last visit needs a gap without end, or pays for later bookings.
 void SafeIntervalSearch::finish(std::int32_t node) {
     SearchNode after = states_[node];
-    if (after.stage < first_last_ || after.vertex != trip_->stage_vertex.back()) {
+    const auto here = at(after.vertex);
+    if (!is_at_end(after) || (!may_stay_at_once() && index(after.gap) <= here.size())) {
         return;
     }
-    const auto here = at(after.vertex);
     for (auto k = index(after.gap); k < here.size(); ++k) {
         after.cost += price(here[k].robot);
         if (after.cost >= never) {
@@ -82,6 +83,29 @@ void SafeIntervalSearch::finish(std::int32_t node) {
     after.parent = node;
     after.drive = 0;
     reach(after, rest(after));
+}
+
+// Whether a visit of this node's vertex can be the last one.
+bool SafeIntervalSearch::is_at_end(const SearchNode& node) const {
+    return node.stage >= first_last_ && node.stage < n_stages() &&
+           node.vertex == trip_->stage_vertex.back();
+}
+
+// The earliest enter of a last visit.
+Tick SafeIntervalSearch::earliest_stay(const SearchNode& candidate, Tick approach) const {
+    return std::max(
+        {candidate.ready, stays_from_ + approach, ends_from_ - to_go_[index(candidate.stage)]});
+}
+
+// Enters the gap without end to stay, as early as a last visit may begin.
+void SafeIntervalSearch::stay_between(SearchNode candidate, Tick way, Tick latest, Tick approach,
+                                      std::span<const BookedBy> along) {
+    candidate.gap = static_cast<std::int32_t>(at(candidate.vertex).size());
+    candidate.ready = free_drive(along, earliest_stay(candidate, approach), candidate.drive);
+    if (candidate.ready <= latest && candidate.ready < never && price_of_swaps(candidate) == 0) {
+        ++candidate.gap;
+        reach(candidate, way);
+    }
 }
 
 // Serves the next stage if the vertex is right and the gap is long enough.

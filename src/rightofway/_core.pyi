@@ -806,12 +806,20 @@ class ConflictBasedSearch:
     bypass : bool
         Whether tracks of equal cost with fewer conflicts replace others without a split.
     clear : bool
-        Whether tracks of equal cost without any conflict are looked for.
+        Whether tracks with the fewest conflicts are looked for.
+    targets : bool
+        Whether conflicts with robots that have reached their ends are resolved as such.
+    mdds : bool
+        Whether pairs are solved by all their tracks, where a tree of `pair_nodes` does not.
+    pairs : bool
+        Whether nodes are split by the completion times of pairs that lose to each other.
     pair_nodes : int
         Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.
+    factor : int
+        A plan that costs at most this factor times the bound is enough, 1 or more. [millionths]
     """
 
-    def __init__(self, problem: Problem, cardinal: bool, bypass: bool, clear: bool, pair_nodes: int) -> None: ...
+    def __init__(self, problem: Problem, cardinal: bool, bypass: bool, clear: bool, targets: bool, mdds: bool, pairs: bool, pair_nodes: int, factor: int) -> None: ...
 
     def run(self, upper: int, enough: int, most_nodes: int, most_bytes: int, time_limit: float | None) -> tuple[int, int]:
         """
@@ -834,7 +842,7 @@ class ConflictBasedSearch:
         Returns
         -------
         tuple of (int, int)
-            How it ended (0: a plan of least cost, 1: proven that none costs less than `upper`, 2: stopped),
+            How it ended (0: a plan within the factor, 1: proven that none costs less than `upper`, 2: stopped),
             and the proven bound, NEVER where no plan exists. [ticks]
         """
 

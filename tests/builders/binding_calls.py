@@ -470,7 +470,9 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     },
     "ConflictBasedSearch": lambda rng: {
         "problem": _problem(rng), "cardinal": rng.random() < 1 / 2, "bypass": rng.random() < 1 / 2,
-        "clear": rng.random() < 1 / 2, "pair_nodes": rng.randrange(9),
+        "clear": rng.random() < 1 / 2, "targets": rng.random() < 1 / 2,
+        "mdds": rng.random() < 1 / 2, "pairs": rng.random() < 1 / 2, "pair_nodes": rng.randrange(9),
+        "factor": rng.choice((10**6, 11 * 10**5)),
     },
     "ConflictBasedSearch.run": _timed(
         upper=_core.NEVER, enough=_core.NEVER, most_nodes=50, most_bytes=2**24

@@ -26,6 +26,9 @@ switches = st.fixed_dictionaries(
         "cardinal": st.booleans(),
         "bypass": st.booleans(),
         "clear": st.booleans(),
+        "targets": st.booleans(),
+        "mdds": st.booleans(),
+        "pairs": st.booleans(),
         "pair_nodes": st.sampled_from([0, 3, 100]),
     }
 )
@@ -117,6 +120,27 @@ def test_a_bounded_plan_keeps_its_factor(kind: str, seed: int, factor: Fraction)
     assert outcome.bound <= least <= plan.flowtime
     if outcome.kind is not OutcomeKind.BEST_FOUND:
         assert plan.flowtime <= factor * least
+
+
+@law(kinds, seeds, st.sampled_from([Fraction(51, 50), Fraction(6, 5), Fraction(3)]), switches)
+def test_a_focal_search_finds_a_plan_within_its_factor_of_a_bound_that_holds(
+    kind: str, seed: int, factor: Fraction, options: dict[str, Any]
+) -> None:
+    scenario = KINDS[kind](seed)
+    search = _search(scenario, factor=factor, **options)
+    least = least_flowtime(kind, scenario)
+    search.run(nodes=NODES)
+    if least is None:
+        assert search.tracks is None
+        return
+    assert search.bound is not None
+    assert search.bound <= least
+    if search.tracks is None:
+        assert not search.is_proven
+        return
+    plan = Plan(scenario=scenario, tracks=search.tracks, run=PlannerRun(name="cbs"))
+    assert check(plan).ok
+    assert least <= plan.flowtime <= factor * search.bound
 
 
 @law(seeds)

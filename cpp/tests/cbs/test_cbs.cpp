@@ -22,14 +22,16 @@ TEST_CASE(
     SharedDistances distances(problem);
     for (const std::int64_t pair_nodes : {0, 100}) {
         ConstrainedTracks tracks(problem, distances);
-        const CbsOptions options{true, true, true, pair_nodes};
+        const CbsOptions options{.pair_nodes = pair_nodes};
         PairLosses losses(tracks, options);
         ConflictTree tree(tracks, {0, 1}, options, pair_nodes > 0 ? &losses : nullptr);
         REQUIRE(tree.start(std::vector<SetId>{0, 0}, never_over));
         CHECK(tree.bound() == 4);
         CHECK(tree.run(never, never, 1000, never_over) == SearchEnd::found);
         CHECK(tree.bound() == 7);
-        CHECK(losses.of(0, 0, 1, 0, never_over) == (pair_nodes > 0 ? 3 : 0));
+        CHECK(losses.together({0, 1}, {0, 0}, never_over) == 3);
+        // One loses 1 and the other 2, or the other way round.
+        CHECK(losses.either({0, 1}, {0, 0}, never_over) == std::array<Tick, 2>{2, 2});
     }
 }
 

@@ -16,6 +16,9 @@ algorithm for multi-agent pathfinding*, IJCAI 2015.
 Li, Felner, Boyarski, Ma & Koenig, *Improved heuristics for multi-agent path finding with
 conflict-based search*, IJCAI 2019.
 
+Barer, Sharon, Stern & Felner, *Suboptimal variants of the conflict-based search algorithm for the
+multi-agent pathfinding problem*, SoCS 2014.
+
 Notes
 -----
 Optimal where it ends; deterministic where `nodes` ends it before the time limit does.
@@ -53,7 +56,11 @@ def cbs(task: Task) -> Draft:
         cardinal=task.options["cardinal"] == "first",
         bypass=task.options["bypass"] == "yes",
         clear=task.options["clear"] == "yes",
+        targets=task.options["targets"] == "yes",
+        mdds=task.options["mdds"] == "yes",
+        pairs=task.options["pairs"] == "yes",
         pair_nodes=task.options["pair_nodes"],
+        factor=factor,
     )
     ended = "time ran out"
     try:
@@ -70,9 +77,13 @@ def cbs(task: Task) -> Draft:
     done = f"{search.n_nodes} nodes"
     if search.tracks is not None:
         task.has_plan()
-        found = search.tracks
-        task.better(lambda: found)
-        status, tracks = f"optimal: found in {done}", found
+        tracks = search.tracks
+        kind = "optimal" if factor == 1 else f"within {float(factor):g} of the optimum"
+        status = f"{kind}: found in {done}"
+        if first is not None and cost_of(scenario, tracks) >= cost_of(scenario, first.tracks):
+            tracks = first.tracks
+            status = f"{kind}: {done} prove it (first plan: {first.status})"
+        task.better(lambda: tracks)
     elif first is not None:
         tracks = first.tracks
         if search.is_proven:

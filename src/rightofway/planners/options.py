@@ -284,9 +284,21 @@ class CbsOptions(PlannerOptions):
     ] = "yes"
     clear: Annotated[
         Literal["yes", "no"],
-        "Look for tracks of equal cost without any conflict before a node is split; or do not.",
+        "Look for tracks with the fewest conflicts for each node; or do not.",
+    ] = "yes"
+    targets: Annotated[
+        Literal["yes", "no"],
+        "Resolve conflicts with robots that have reached their ends for all later ticks at once.",
+    ] = "yes"
+    mdds: Annotated[
+        Literal["yes", "no"],
+        "Solve pairs that need more nodes by all their tracks (MDDs); or do not.",
+    ] = "yes"
+    pairs: Annotated[
+        Literal["yes", "no"],
+        "Split nodes by the completion times of two robots that lose to each other.",
     ] = "yes"
     pair_nodes: Annotated[
         int,
         "Nodes for each pair of robots, whose losses by each other raise bounds; 0: none.",
-    ] = 100
+    ] = 20

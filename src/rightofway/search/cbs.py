@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from rightofway import _core
 from rightofway.model import NEVER, Problem, Tick, Track
 from rightofway.native import bound, tracks_of
@@ -12,6 +14,9 @@ MOST_BYTES = 2 * 2**30
 """How much memory nodes and tracks may take [bytes]."""
 
 UNLIMITED = 2**62
+
+MILLION, MOST_FACTOR = 10**6, 10**6
+"""Factors are rounded down to millionths, so that no plan above the factor is enough."""
 
 
 class ConflictBasedSearch:
@@ -26,19 +31,27 @@ class ConflictBasedSearch:
     bypass
         Whether tracks of equal cost with fewer conflicts replace others without a split.
     clear
-        Whether tracks of equal cost without any conflict are looked for.
+        Whether tracks with the fewest conflicts are looked for.
+    targets
+        Whether conflicts with robots that have reached their ends are resolved as such.
+    mdds
+        Whether pairs are solved by all their tracks, where a tree of `pair_nodes` does not.
+    pairs
+        Whether nodes are split by the completion times of pairs that lose to each other.
     pair_nodes
         Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.
+    factor
+        A plan that costs at most this factor times the bound is enough; 1 or more.
 
     Attributes
     ----------
     bound
         No plan costs less [ticks]; None where it is proven that there is no plan.
     tracks
-        A plan of least cost; None until there is one.
+        A plan of least cost, or within the factor of the bound; None until there is one.
     is_proven
-        Whether it is proven that `tracks` is a plan of least cost or, without them, that no plan
-        costs less than the plan that was known.
+        Whether it is proven that `tracks` is within the factor or, without them, that no plan costs
+        less than the plan that was known.
 
     Notes
     -----
@@ -52,9 +65,16 @@ class ConflictBasedSearch:
         cardinal: bool = True,
         bypass: bool = True,
         clear: bool = True,
-        pair_nodes: int = 100,
+        targets: bool = True,
+        mdds: bool = True,
+        pairs: bool = True,
+        pair_nodes: int = 20,
+        factor: Fraction | int = 1,
     ) -> None:
-        self._core = _core.ConflictBasedSearch(bound(problem), cardinal, bypass, clear, pair_nodes)
+        self._core = _core.ConflictBasedSearch(
+            bound(problem), cardinal, bypass, clear, targets, mdds, pairs, pair_nodes,
+            int(min(factor, MOST_FACTOR) * MILLION),
+        )  # fmt: skip
         self.bound: Tick | None = Tick(0)
         self.tracks: tuple[Track, ...] | None = None
         self.is_proven = False
