@@ -84,6 +84,10 @@ kills count:
 judge count *args:
     python -m tests.campaigns.plans judge {{ count }} {{ args }}
 
+# Compare plans of random fleets with lower bounds
+bounds count *args:
+    python -m tests.campaigns.plans bound {{ count }} {{ args }}
+
 # Make delayed runs of plans of random fleets: ten million take a quarter of an hour
 delay count *args:
     python -m tests.campaigns.plans delay {{ count }} {{ args }}

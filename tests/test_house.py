@@ -18,6 +18,7 @@ ROOMS = [
     "lacam",
     "lns",
     "cbs",
+    "bounds",
     "cyclic",
     "execution",
     "bind",

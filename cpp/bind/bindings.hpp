@@ -125,6 +125,7 @@ void bind_timed_event_graph(nb::module_& module);
 void bind_lacam(nb::module_& module);
 void bind_problem(nb::module_& module);
 void bind_fleet(nb::module_& module);
+void bind_bounds(nb::module_& module);
 void bind_cbs(nb::module_& module);
 void bind_adg(nb::module_& module);
 void bind_graph(nb::module_& module);

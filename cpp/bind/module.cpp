@@ -35,6 +35,7 @@ NB_MODULE(_core, module) {
     rightofway::bind::bind_timed_event_graph(module);
     rightofway::bind::bind_lacam(module);
     rightofway::bind::bind_fleet(module);
+    rightofway::bind::bind_bounds(module);
     rightofway::bind::bind_cbs(module);
     rightofway::bind::bind_adg(module);
     rightofway::bind::bind_graph(module);

@@ -793,6 +793,46 @@ class FleetSearch:
     def n_expanded(self) -> int:
         """States expanded by `improve`."""
 
+class PriceAscent:
+    """
+    A lower bound of all plans, raised step by step by prices of places.
+
+    Parameters
+    ----------
+    problem : Problem
+        What the fleet has to do; every robot can reach its places.
+    """
+
+    def __init__(self, problem: Problem) -> None: ...
+
+    def run(self, steps: int, time_limit: float | None) -> None:
+        """
+        Take more steps; more can follow.
+
+        Parameters
+        ----------
+        steps : int
+            The number of steps at most.
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+        """
+
+    @property
+    def bound(self) -> int:
+        """No plan costs less. [ticks]"""
+
+    @property
+    def value(self) -> float:
+        """x"""
+
+    @property
+    def n_steps(self) -> int:
+        """The number of steps taken."""
+
+    @property
+    def is_over(self) -> bool:
+        """Whether more steps change nothing."""
+
 class ConflictBasedSearch:
     """
     Conflict-based search for a plan of least cost, with its proof.

@@ -21,7 +21,7 @@ STRICT = [name for name in ALL if Feature.LEAVES_SWAPS not in SPECS[name].featur
 """Planners whose plans keep all rules; the paper's method leaves swaps."""
 
 QUICK = {
-    "auto": {"iterations": 10},
+    "auto": {"iterations": 10, "nodes": 20},
     "cbs": {"nodes": 50},
     "lns": {"iterations": 10},
     "local-search": {"rounds": 3},

@@ -25,6 +25,7 @@ import rightofway
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.io import plan_text, scenario_text
 from rightofway.model import Plan, Scenario
+from rightofway.planners.bounds import prove_bound
 from rightofway.precedence import ReleaseGraph
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import ALL, QUICK, STRICT, broken, by_both_judges, knows
@@ -138,6 +139,27 @@ def _judge_broken(plan: Plan, into: Round, *, by_both: bool) -> None:
         into.find(f"check: {sorted(by_check)}; second judge: {sorted(by_the_other)}", plan)
 
 
+def bound(scenario: Scenario, chance: int, into: Round) -> None:
+    """Compare plans of all planners with lower bounds, by few steps or by many."""
+    steps = random.Random(chance).choice([1, 10, 100])  # noqa: S311
+    for planner in STRICT:
+        if not knows(planner, scenario):
+            continue
+        with into.unless_it_fails(scenario):
+            try:
+                plan = into.plan(scenario, planner, chance)
+                if plan is None:
+                    continue
+                proof, _ = prove_bound(scenario, nodes=steps, steps=steps)
+            except NoPlanExists:
+                continue
+            into.counts["judged"] += 1
+            cost = proof.objective.of(scenario, plan.tracks)
+            if cost < proof.bound:
+                into.counts["above a plan"] += 1
+                into.find(f"{planner}: bound {proof.bound}, but the plan costs {cost}", plan)
+
+
 def delay(scenario: Scenario, chance: int, into: Round) -> None:
     """Run a plan with delays, also with switching and replanning; judge traces of it."""
     draw = random.Random(chance)  # noqa: S311
@@ -195,13 +217,14 @@ def chaos(scenario: Scenario, chance: int, into: Round) -> None:
 
 
 Case = Callable[[Scenario, int, Round], None]
-CAMPAIGNS: dict[str, Case] = {"judge": judge, "delay": delay, "chaos": chaos}
+CAMPAIGNS: dict[str, Case] = {"judge": judge, "delay": delay, "chaos": chaos, "bound": bound}
 
 
 COUNTS = {
     "judge": ("disagreements",),
     "delay": ("collisions", "deadlocks"),
     "chaos": ("faults",),
+    "bound": ("above a plan",),
 }
 """What a campaign reports even where there is none."""
 

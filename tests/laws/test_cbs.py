@@ -13,7 +13,7 @@ from rightofway import OutcomeKind, check, solve
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Plan, PlannerRun, Scenario, cost_of
 from rightofway.model.outcome import minimized
-from rightofway.planners.cbs import prove_bound
+from rightofway.planners.bounds import prove_bound
 from rightofway.search import ConflictBasedSearch, least_completions
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import planned
@@ -167,7 +167,7 @@ def test_robots_count_by_their_weights(seed: int) -> None:
 @law(any_fleet(), st.integers(1, 30))
 def test_no_plan_of_any_fleet_is_below_a_proven_bound(scenario: Scenario, nodes: int) -> None:
     plan = planned(scenario, "lns")
-    proof, is_reached = prove_bound(scenario, nodes=nodes)
+    proof, is_reached = prove_bound(scenario, nodes=nodes, steps=nodes)
     assert proof.objective is minimized(scenario)
     assert proof.bound <= proof.objective.of(scenario, plan.tracks)
     if is_reached:

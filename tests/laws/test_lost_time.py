@@ -22,7 +22,7 @@ planners = st.sampled_from(STRICT)
 """Planners of any plan."""
 
 SEARCHES = {"auto", "lns"}
-"""These look for the best order of moves of a few robots first, which takes seconds."""
+"""These search for long where their options do not end them."""
 
 
 def planned_quickly(scenario: Scenario, planner: str) -> Plan:

@@ -30,7 +30,8 @@ def test_where_nothing_better_is_found_the_decisions_of_two_level_are_kept() -> 
     door = rightofway.load("examples/door.yaml")
     plan, two_level = rightofway.solve(door), rightofway.solve(door, "two-level")
     assert plan.run.decisions == two_level.run.decisions
-    assert plan.run.status == "two-level, waits only; 2000 neighbourhoods found nothing better"
+    proof = "optimal: proven by 0 nodes of conflict-based search"
+    assert plan.run.status == f"{proof} (two-level, waits only)"
 
 
 def test_it_tells_when_its_first_plan_was_there(tmp_path: Path) -> None:
@@ -68,7 +69,7 @@ def test_where_lacam_finds_no_plan_the_cheap_plan_is_first(planner: str) -> None
 
 def test_a_proven_optimum_ends_it() -> None:
     plan = rightofway.solve(rightofway.load("examples/floor.yaml"), time_limit=None)
-    assert plan.run.status.startswith("optimal: every robot as fast as alone")
+    assert plan.run.status == "optimal: found by 1 node of conflict-based search"
 
 
 def test_a_large_fleet_is_not_held_up_by_two_level() -> None:

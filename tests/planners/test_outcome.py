@@ -174,7 +174,7 @@ def test_a_spare_tick_against_rotations_is_no_proof() -> None:
     """R1 makes room at its home for R2, which has a stop there.
 
     Planners keep a spare tick between two robots where rotations are forbidden, which the rules do
-    not ask for. So the best order of moves with spare ticks is not the best plan.
+    not ask for. So the best plan with spare ticks is not the best plan.
     """
     fleet = FleetBuilder(occupancy="both", rotations=False)
     fleet.add_vertex("A", 0, 0).add_vertex("B", 1, 0).add_vertex("C", 0, 1)

@@ -169,11 +169,11 @@ def bound(
     """Print the flowtime and the makespan that no plan of a SCENARIO can be below.
 
     Both follow from the times at which the robots would be done if each drove alone. With a time
-    limit, conflict-based search then raises the bound of the flowtime. A SCENARIO of - is standard
-    input.
+    limit, conflict-based search and prices of places then raise the bound of the flowtime. A
+    SCENARIO of - is standard input.
     """
     from rightofway.metrics import alone_completions
-    from rightofway.planners.cbs import prove_bound
+    from rightofway.planners.bounds import prove_bound
     from rightofway.report.lines import short
     from rightofway.report.plan import MAX_LINES
     from rightofway.report.plan_data import measures

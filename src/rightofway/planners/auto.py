@@ -1,23 +1,31 @@
-"""The default: a plan as early as possible, then better plans until time is up.
+"""The default: a plan as early as possible, then better plans until it is optimal or time is up.
 
 A small fleet is planned by two-level, whose decisions are explained; a large one by LaCAM and by
 prioritized planning, whichever plan is better. Large neighbourhood search improves the best of
-these. Where it finds nothing better than two-level did, the plan of two-level is returned, with its
-decisions. It starts from a given plan unless the plan of two-level is better.
+these. Conflict-based search proves how good a plan is, and finds the optimum where it can: of a
+small fleet within some nodes before the improvement, of any fleet in the time that is left after
+it; then prices of places raise the bound. Where nothing better than the plan of two-level is found,
+that is returned, with its decisions. It starts from a given plan unless the plan of two-level is
+better.
 """
 
 from __future__ import annotations
 
-from contextlib import suppress
+from collections.abc import Sequence
 from dataclasses import replace
 
-from rightofway.errors import GaveUp, InputError
-from rightofway.model import cost_of
+from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.model import Proof, Tick, Track, cost_of
+from rightofway.model.outcome import minimized
+from rightofway.planners.bounds import SHARE as SHARE_OF_NODES
+from rightofway.planners.bounds import bound_by_prices
 from rightofway.planners.features import refuse_with_swaps_left
+from rightofway.planners.impossible import blocking_set
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Draft, Task
 from rightofway.planners.two_level import paper, two_level
+from rightofway.search import ConflictBasedSearch
 
 FEW = 60
 """A fleet is small with at most this many robots."""
@@ -25,9 +33,19 @@ FEW = 60
 SHARE = 0.3
 """The part of the time for two-level."""
 
+FIRST_NODES, SHARE_OF_FIRST_NODES = 100, 0.2
+"""Nodes of conflict-based search before the improvement of a small fleet, and their part of the
+time left."""
+
+MOST_PROVEN = 1000
+"""Larger fleets get no conflict-based search: the conflicts of its root would fill the memory."""
+
+LEAST_IDLE = 0.02
+"""With a smaller part of the time left after the improvement, nothing more is proven."""
+
 
 def auto(task: Task) -> Draft:
-    """Plan by several methods and improve the best plan; options: `AutoOptions`.
+    """Plan by several methods, and improve the best plan or prove it; options: `AutoOptions`.
 
     With ``swaps=leave`` it is `paper`, for points only.
     """
@@ -37,34 +55,159 @@ def auto(task: Task) -> Draft:
             raise InputError.at(("options", "swaps"), message)
         refuse_with_swaps_left(task.scenario.problem)
         return paper(task)
-    explained = None
-    if len(task.scenario.robots) <= FEW:
-        options = {"swaps": "resolve", "routes": "clear"}
-        hurried = replace(task, options=options, start=None, deadline=task.deadline.sooner(SHARE))
-        with suppress(GaveUp):
-            explained = two_level(hurried)
-            task.has_plan()
-            task.better(lambda: explained.tracks)
-    if explained is None or not _is_preferred(task, explained):
+    prover = _Prover(task)
+    first = _explained(task)
+    if first is not None:
+        first = prover.proven(first, FIRST_NODES, SHARE_OF_FIRST_NODES)
+        if _is_optimal(task, first):
+            return first
+    try:
+        better = _improved(task, first)
+    except GaveUp:
+        if len(task.scenario.robots) > FEW:
+            raise
+        optimum = prover.searched()
+        if optimum is None:
+            raise
+        return optimum
+    is_interrupted = better.improvement is not None and better.improvement.interrupted
+    if is_interrupted or _is_optimal(task, better):
+        return better
+    better = prover.proven(better, task.options["nodes"], SHARE_OF_NODES)
+    return better if _is_optimal(task, better) else prover.priced(better)
+
+
+def _explained(task: Task) -> Draft | None:
+    """Return the plan of two-level for a small fleet, unless a plan given is better."""
+    if len(task.scenario.robots) > FEW:
+        return None
+    options = {"swaps": "resolve", "routes": "clear"}
+    hurried = replace(task, options=options, start=None, deadline=task.deadline.sooner(SHARE))
+    try:
+        explained = two_level(hurried)
+    except GaveUp:
+        return None
+    task.has_plan()
+    task.better(lambda: explained.tracks)
+    is_given = task.start is not None and explained.tracks != task.start
+    if is_given and _cost(task, task.start or ()) <= _cost(task, explained.tracks):
+        return None
+    return replace(explained, status=f"two-level, {explained.status}")
+
+
+def _improved(task: Task, first: Draft | None) -> Draft:
+    """Improve the first plan by large neighbourhood search; keep it where nothing is better."""
+    if first is None:
         return lns(task)
-    first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
     try:
         if task.start is None:
             better = improved(task, fleet_search(task), first=first)
         else:
-            better = lns(replace(task, start=explained.tracks))
+            better = replace(lns(replace(task, start=first.tracks)), proof=first.proof)
     except GaveUp:
-        return explained
-    before, after = (cost_of(task.scenario, draft.tracks) for draft in (explained, better))
-    if after < before:
+        return first
+    if _cost(task, better.tracks) < _cost(task, first.tracks):
         return better
-    return replace(
-        explained, status=better.status, improvement=better.improvement, proof=better.proof
-    )
+    return replace(first, status=better.status, improvement=better.improvement)
 
 
-def _is_preferred(task: Task, explained: Draft) -> bool:
-    """Whether the plan of two-level is better than the plan given, or is that plan."""
-    if task.start is None or explained.tracks == task.start:
-        return True
-    return cost_of(task.scenario, explained.tracks) < cost_of(task.scenario, task.start)
+class _Prover:
+    """Conflict-based search beside other methods: it goes on where it was."""
+
+    def __init__(self, task: Task) -> None:
+        self._task = task
+        self._whole = task.deadline.seconds_left()
+        self._search: ConflictBasedSearch | None = None
+
+    def proven(self, draft: Draft, nodes: int, share: float = 1.0) -> Draft:
+        """Return a plan with what is proven of it, or the optimum.
+
+        Parameters
+        ----------
+        draft
+            A plan that keeps the rules; not worse than that of any call before.
+        nodes
+            Stop after this number of nodes; 0: when time is up.
+        share
+            The part of the time left.
+        """
+        task = self._task
+        search = self._run(nodes, share, upper=_cost(task, draft.tracks))
+        if search is None or search.bound is None:
+            return draft
+        proof = Proof(bound=search.bound, objective=minimized(task.scenario))
+        tracks, done = search.tracks, _nodes_of(search)
+        if tracks is not None:
+            task.better(lambda: tracks)
+            return Draft(tracks=tracks, status=f"optimal: found by {done}", proof=proof)
+        if search.is_proven:
+            draft = replace(draft, status=f"optimal: proven by {done} ({draft.status})")
+        return replace(draft, proof=proof)
+
+    def priced(self, draft: Draft) -> Draft:
+        """Return a plan with a bound by prices of places, where that is higher."""
+        task = self._task
+        if not self._has_time():
+            return draft
+        least = bound_by_prices(task.scenario, task.deadline, task.options["nodes"])
+        if draft.proof is not None and draft.proof.bound >= least:
+            return draft
+        return replace(draft, proof=Proof(bound=least, objective=minimized(task.scenario)))
+
+    def searched(self) -> Draft | None:
+        """Return the optimum of a fleet of which no plan is known; None if none was found.
+
+        Raises
+        ------
+        NoPlanExists
+            If that is proven.
+        """
+        task = self._task
+        search = self._run(task.options["nodes"], 1, upper=None)
+        if search is None:
+            return None
+        if search.tracks is not None:
+            task.has_plan()
+            proof = Proof(bound=search.bound or Tick(0), objective=minimized(task.scenario))
+            status = f"optimal: found by {_nodes_of(search)}"
+            return Draft(tracks=search.tracks, status=status, proof=proof)
+        if search.is_proven:
+            everybody = range(len(task.scenario.robots))
+            blockage = blocking_set(
+                task.scenario, everybody, seed=task.seed, deadline=task.deadline
+            )
+            raise NoPlanExists([blockage])
+        return None
+
+    def _run(self, nodes: int, share: float, upper: int | None) -> ConflictBasedSearch | None:
+        """Search on; None where there is no time, or where the fleet is too large."""
+        task = self._task
+        if len(task.scenario.robots) > MOST_PROVEN or not self._has_time():
+            return None
+        if self._search is None:
+            self._search = ConflictBasedSearch(task.scenario.problem)
+        limit = task.deadline.sooner(share).seconds_left()
+        try:
+            self._search.run(upper=upper, nodes=nodes or None, time_limit=limit)
+        except KeyboardInterrupt:
+            if not task.keep_best or upper is None:
+                raise
+        return self._search
+
+    def _has_time(self) -> bool:
+        left = self._task.deadline.seconds_left()
+        return left is None or left > LEAST_IDLE * (self._whole or 0)
+
+
+def _nodes_of(search: ConflictBasedSearch) -> str:
+    nodes = "node" if search.n_nodes == 1 else "nodes"
+    return f"{search.n_nodes} {nodes} of conflict-based search"
+
+
+def _is_optimal(task: Task, draft: Draft) -> bool:
+    """Return whether a plan is proven to be optimal."""
+    return draft.proof is not None and _cost(task, draft.tracks) == draft.proof.bound
+
+
+def _cost(task: Task, tracks: Sequence[Track]) -> Tick:
+    return cost_of(task.scenario, tracks)

@@ -31,7 +31,7 @@ from fractions import Fraction
 from math import ceil
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Proof, Scenario, Tick, cost_of
+from rightofway.model import Proof, Tick, cost_of
 from rightofway.model.outcome import Objective, minimized
 from rightofway.planners.impossible import blocking_set
 from rightofway.planners.lns import improved
@@ -119,39 +119,3 @@ def _first_plan(task: Task) -> Draft | None:
         return improved(hurried, fleet_search(hurried))
     except GaveUp:
         return None
-
-
-def prove_bound(
-    scenario: Scenario, *, time_limit: float | None = None, nodes: int = 0
-) -> tuple[Proof, bool]:
-    """Prove a lower bound of what planners minimize; the longer, the higher.
-
-    Parameters
-    ----------
-    scenario
-        The problem; every robot can reach its places.
-    time_limit
-        When to stop [s].
-    nodes
-        Stop after this number of nodes; 0: never.
-
-    Returns
-    -------
-    tuple of (Proof, bool)
-        The bound, and whether there is a plan that reaches it.
-
-    Raises
-    ------
-    NoPlanExists
-        If that is proven.
-
-    Notes
-    -----
-    At first the bound is the sum of the robots alone. Pairs of robots whose best tracks conflict
-    raise it by what they lose to each other, and then the nodes of the tree do.
-    """
-    search = ConflictBasedSearch(scenario.problem)
-    search.run(nodes=nodes or None, time_limit=time_limit)
-    if search.bound is None:
-        raise NoPlanExists("the tree of constraints ends without a plan")
-    return Proof(bound=search.bound, objective=minimized(scenario)), search.tracks is not None

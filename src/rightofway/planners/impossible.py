@@ -13,8 +13,10 @@ on Computing 3, 1991 (the deletion filter).
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
+from fractions import Fraction
 from itertools import pairwise
 
 from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists, listed
@@ -291,16 +293,88 @@ def blocking_set(
     Deterministic, as long as there is time. That the set has no plan is proven. It is minimal where
     no trial without one of its robots ended undecided.
     """
+    everybody = list(robots)
+    effort = EFFORT // min(len(everybody), MOST_TRIALS)
+
+    def is_blocked(fewer: Sequence[int]) -> bool:
+        return _is_blocked(scenario, fewer, seed=seed, effort=effort, deadline=deadline)
+
+    return _described(scenario, smallest_set(everybody, is_blocked))
+
+
+def smallest_set(
+    robots: Sequence[int], is_blocked: Callable[[Sequence[int]], bool]
+) -> Sequence[int]:
+    """Return a small set of robots that have no plan, given that some robots have none.
+
+    Parameters
+    ----------
+    robots
+        Robots that are proven to have no plan together.
+    is_blocked
+        Whether it is proven that some of them have no plan; it may raise `GaveUp`.
+
+    Notes
+    -----
+    The deletion filter takes out halves, quarters and so on. The set is minimal where no trial
+    without one of its robots ended undecided.
+    """
     left = list(robots)
-    effort = EFFORT // min(len(left), MOST_TRIALS)
     size = len(left)
     while size > 1:
         size = -(-size // 2)
         for begin in range(0, len(left), size)[::-1]:
             fewer = left[:begin] + left[begin + size :]
-            if _is_blocked(scenario, fewer, seed=seed, effort=effort, deadline=deadline):
-                left = fewer
-    return _described(scenario, left)
+            with suppress(GaveUp):
+                if len(fewer) > 1 and is_blocked(fewer):
+                    left = fewer
+    return left
+
+
+def fleet_of(scenario: Scenario, robots: Iterable[int]) -> Scenario:
+    """Return some of the robots as a fleet of their own, in the same ticks.
+
+    Its rules ask no more of them, so that what has no plan here has none in the whole fleet.
+
+    Parameters
+    ----------
+    scenario
+        The whole fleet.
+    robots
+        The robots.
+    """
+    fleet = tuple(scenario.robots[robot] for robot in robots)
+    rules = scenario.rules
+    if not any(robot.radius for robot in fleet):
+        rules = replace(rules, clearance=Fraction(0))  # which is for robots with a size
+    return replace(scenario, robots=fleet, rules=rules, clock=scenario.problem.clock)
+
+
+def no_room(scenario: Scenario, robots: Sequence[int]) -> Blockage:
+    """Return why robots that are proven to have no plan together have none.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    robots
+        The robots.
+    """
+    names = tuple(scenario.robots[robot].name for robot in robots)
+    blocked_robots = listed(names)
+    if len(names) > LARGEST_SET:
+        blocked_robots = Phrase("all {number} robots", number=str(len(names)))
+        if len(names) < len(scenario.robots):
+            blocked_robots = Phrase("{number} robots", number=str(len(names)))
+    reason = Phrase("{robots} have no room to pass each other", robots=blocked_robots)
+    if scenario.problem.closures is not None:
+        reason = Phrase(
+            "{robots} have no room to pass each other at the times that closures leave them",
+            robots=blocked_robots,
+        )
+    if len(names) < len(scenario.robots):
+        reason = Phrase("{fact}, whatever the other robots do", fact=reason)
+    return Blockage(reason, names, (), Phrase("give more room, or other places"))
 
 
 def fleet_at_home(scenario: Scenario) -> Plan:
@@ -332,7 +406,7 @@ def _is_blocked(
     if len(robots) < 2:  # noqa: PLR2004 (a robot alone is never blocked)
         return False
     left = deadline.seconds_left()
-    fleet = replace(scenario, robots=tuple(scenario.robots[robot] for robot in robots))
+    fleet = fleet_of(scenario, robots)
     try:
         plan_by_lacam(
             fleet.problem.in_steps(),

@@ -32,6 +32,7 @@ from rightofway.planners.impossible import (
 )
 from rightofway.planners.moves import plan_by_moves
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
+from rightofway.planners.timed_moves import plan_by_timed_moves
 from rightofway.precedence import graph_on
 from rightofway.search import Distances, FleetSearch, plan_by_lacam
 from rightofway.site import VertexId
@@ -59,6 +60,8 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         draft = plan_by_instants(task, spreads=spreads)
         if draft is not None:
             return draft
+    if problem.closures is not None and (moved := plan_by_timed_moves(task)) is not None:
+        return moved
     if not problem.resources.are_points:
         task.report("no end by instants: planning the order of single moves")
         search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)

@@ -26,7 +26,6 @@ from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick, Track, cost_of
 from rightofway.model.outcome import minimized
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
-from rightofway.planners.moves import plan_few
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.precedence import graph_of
@@ -68,18 +67,10 @@ def lns(task: Task) -> Draft:
 
 
 def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> Draft:
-    """Improve the best of several first plans: the given one, one by LaCAM, one by prioritized.
-
-    For a few robots with a size it begins with their best order of moves instead.
-    """
+    """Improve the best of several first plans: the given one, one by LaCAM, one by prioritized."""
     problem = task.scenario.problem
-    few = None
-    if not problem.resources.are_points or problem.closures is not None:
-        few = plan_few(task, search)
     drafts: tuple[Draft | None, ...]
-    if few is not None:
-        drafts = (first, few)
-    elif not problem.is_open:
+    if not problem.is_open:
         drafts = (first, _if_found(task, search, needed=first is None))
     elif len(problem.itineraries) > MOST_ROBOTS and problem.resources.are_points:
         drafts = (first, _together(task))
@@ -95,7 +86,7 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
     if not plans:
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
     best = min(plans, key=lambda plan: cost_of(task.scenario, plan.tracks))
-    proof = next((plan.proof for plan in plans if plan.proof is not None), None)
+    proof = None if first is None else first.proof
     return _improve(task, search, replace(best, proof=proof))
 
 
@@ -152,7 +143,8 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
     deadline = task.deadline.earlier(retiming * sum(map(len, spaced)))
     weights = [itinerary.weight for itinerary in task.scenario.problem.itineraries]
-    bound, before = int(np.dot(weights, search.alone())), search.cost
+    alone, before = int(np.dot(weights, search.alone())), search.cost
+    bound = alone if first.proof is None else max(alone, first.proof.bound)
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED
     done, ended = 0, ""
@@ -180,7 +172,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     tracks = _found(task, search, tuple(spaced), is_better=search.cost < before)
     measured = partial(cost_of, task.scenario)
     cost = measured(tracks)
-    if cost == bound:
+    if cost == alone:
         status = f"optimal: every robot as fast as alone (first plan: {first.status})"
     elif cost == before:
         status = f"{ended}{first.status}; {done} neighbourhoods found nothing better"

@@ -195,6 +195,11 @@ class AutoOptions(PlannerOptions):
 
     swaps: Swaps = "resolve"
     iterations: Iterations = 0
+    nodes: Annotated[
+        int,
+        "Number of nodes of conflict-based search and of steps of prices, for proofs; 0: until time"
+        " is up.",
+    ] = 1000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -128,6 +128,14 @@ def proof_in_words(plan: Plan) -> str:
         return Phrase(
             "at most {factor} times the least {objective}", factor=factor, objective=objective
         )
+    is_above_alone = outcome.bound is not None and outcome.bound > metrics.lower_bound
+    if outcome.kind is OutcomeKind.BEST_FOUND and outcome.bound and is_above_alone:
+        cost = outcome.objective.of(plan.scenario, plan.tracks)
+        return Phrase(
+            "at most {gap} above the least {objective}",
+            gap=f"{cost / outcome.bound - 1:.1%}",
+            objective=OBJECTIVES[outcome.objective],
+        )
     return ""
 
 

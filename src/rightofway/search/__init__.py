@@ -1,5 +1,6 @@
 """Shortest distances and searches for one robot, with and without others in the way."""
 
+from rightofway.search.bounds import PriceAscent
 from rightofway.search.cbs import ConflictBasedSearch
 from rightofway.search.congestion import Congestion
 from rightofway.search.distances import Distances, Path
@@ -17,6 +18,7 @@ __all__ = [
     "FleetSearch",
     "Path",
     "PeriodicBookings",
+    "PriceAscent",
     "RoundTrip",
     "RowsOfLaps",
     "earliest_track",
