@@ -73,6 +73,38 @@ def test_no_two_classes_have_one_name() -> None:
     assert {name: files for name, files in twice.items() if name not in TWICE} == {}
 
 
+def exported_names(module: ast.Module) -> set[str]:
+    """Return the names in ``__all__``, none where it is computed."""
+    for node in module.body:
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
+            constants = (name.value for name in ast.walk(node) if isinstance(name, ast.Constant))
+            return {str(constant) for constant in constants}
+    return set()
+
+
+def described_functions(module: ast.Module) -> Iterator[str]:
+    """Yield what has a section on its parameters: functions, and ``Class.method``."""
+    bodies = {"": module.body}
+    bodies |= {node.name: node.body for node in module.body if isinstance(node, ast.ClassDef)}
+    for owner, body in bodies.items():
+        for part in body:
+            if not isinstance(part, ast.FunctionDef | ast.AsyncFunctionDef):
+                continue
+            if "\nParameters\n---" in (ast.get_docstring(part) or ""):
+                yield f"{owner}.{part.name}".lstrip(".")
+
+
+def test_sections_on_parameters_stand_at_what_is_exported() -> None:
+    exported = set().union(*(exported_names(module) for module in modules().values()))
+    inside = [
+        f"{path.relative_to(SOURCES)}: {function}"
+        for path, module in modules().items()
+        for function in described_functions(module)
+        if function.partition(".")[0] not in exported or function.rpartition(".")[2][:1] == "_"
+    ]
+    assert not inside, "a sentence is enough there"
+
+
 STOPPED = {
     *("each", "found", "here", "it", "kept", "made", "one", "such"),
     *("that", "there", "thing", "this", "way", "what", "who"),

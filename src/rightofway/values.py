@@ -31,14 +31,6 @@ _NUMBER = re.compile(PATTERN.replace("([eE][+-]?[0-9]+)", "([eE](?P<exponent>[+-
 def exact(value: object, *, digits: int = DIGITS) -> Fraction:
     """Return the number that was written, exactly.
 
-    Parameters
-    ----------
-    value
-        A whole number, a decimal, a fraction, or text like ``0.1``, ``2e-3``, ``1/3``. A float
-        counts as the shortest decimal that stands for it.
-    digits
-        The most digits of numerator and denominator.
-
     Raises
     ------
     ValueError
@@ -86,16 +78,6 @@ def written(number: Fraction) -> int | str:
 
 def coerced(value: object, source: str, **readers: Callable[[object], object]) -> None:
     """Replace fields of a frozen value by what their readers make of them.
-
-    Parameters
-    ----------
-    value
-        A frozen dataclass that is being made.
-    source
-        The name of the value in messages.
-    readers
-        For each field a function that returns the value to keep; a ``ValueError`` of the function
-        is the fault. None stays None where that is the default.
 
     Raises
     ------

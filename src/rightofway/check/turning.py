@@ -26,13 +26,6 @@ def turns_of(
 ) -> tuple[NDArray[np.int64], NDArray[Any]]:
     """Return the angle that a robot turns in each visit before its drive, and the ticks for it.
 
-    Parameters
-    ----------
-    plan
-        The plan.
-    robot, vertex, edge
-        Of each visit, whose it is, where, and the edge that ends it, -1 for none; shape (n,).
-
     Returns
     -------
     tuple of ndarray

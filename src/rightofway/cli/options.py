@@ -27,17 +27,7 @@ Callback = Callable[[click.Context, click.Parameter, Any], Any]
 def writable(
     *suffixes: str, instead: dict[str, str] | None = None, stdout: bool = True
 ) -> Callback:
-    """Return a callback that refuses, before any work, a file that could not be written after it.
-
-    Parameters
-    ----------
-    suffixes
-        Endings of the file, if not all are good. A device or a pipe needs none.
-    instead
-        For further endings, what to do to get a file of that kind.
-    stdout
-        Whether ``-`` is good, for standard output.
-    """
+    """Return a callback that refuses, before any work, a file that cannot be written after it."""
 
     def check(_context: click.Context, _parameter: click.Parameter, path: str | None) -> str | None:
         if path is None or (path == "-" and stdout):

@@ -375,21 +375,7 @@ def plan_entry(
     committed: Sequence[int],
     names: Sequence[str] = (),
 ) -> Entry:
-    """Return the entry of routes and their release graph.
-
-    Parameters
-    ----------
-    kind
-        ``plan`` for the first one, ``splice`` for a later one.
-    run
-        A name that no other journal has; orders begin with it.
-    routes, graph
-        The routes of all robots, and who waits for whom.
-    committed
-        The last released part of each robot; parts up to it wait for nothing any more.
-    names
-        Of the robots, for people.
-    """
+    """Return the entry of routes and their release graph."""
     documents = [asdict(route) for route in routes]
     waits = _written_waits(graph, committed)
     return {"kind": kind, "run": run, "names": names, "routes": documents, "waits": waits}

@@ -234,13 +234,7 @@ def _trajectory(lane: Lane | None) -> _Trajectory | None:
 
 
 def edge_id(tail: str, head: str) -> str:
-    """Return the id of the edge between two places.
-
-    Parameters
-    ----------
-    tail, head
-        The names of the vertices.
-    """
+    """Return the id of the edge between two places."""
     return f"{tail}-{head}"
 
 

@@ -246,11 +246,6 @@ def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
 def without_closed_places(scenario: Scenario) -> Scenario:
     """Return the scenario without the places of its roadmap that are closed for ever, and closures.
 
-    Parameters
-    ----------
-    scenario
-        The problem.
-
     Raises
     ------
     InputError

@@ -139,15 +139,6 @@ def _shares(
 def stages_at(roadmap: Roadmap, itinerary: Itinerary, lap: Lap) -> list[list[tuple[int, Stage]]]:
     """Return for each visit of a lap the stages served, with their numbers.
 
-    Parameters
-    ----------
-    roadmap
-        The graph of the lap.
-    itinerary
-        The stages of one lap or of several laps.
-    lap
-        One lap of a robot.
-
     Notes
     -----
     If a lap visits a vertex twice, stages without work and turning belong to the first visit that

@@ -78,21 +78,7 @@ def simulated_progress(
     now: int,
     broken: frozenset[int] = frozenset(),
 ) -> Progress:
-    """Return the progress of a simulated run at a tick; later times are not looked at.
-
-    Parameters
-    ----------
-    adg
-        The plan that is carried out.
-    delay_sample
-        The delays of the run.
-    execution
-        The times of the run.
-    now
-        The instant [ticks].
-    broken
-        Robots that are known to have broken down.
-    """
+    """Return the progress of a simulated run at a tick; later times are not looked at."""
     enter = np.where(execution.enter <= now, execution.enter, NEVER)
     start = np.where(execution.start <= now, execution.start, NEVER)
     progress = Progress(now=Tick(now), enter=enter, start=start, activity=(), broken=broken)

@@ -30,15 +30,7 @@ _JSON_ONLY = re.compile(r"\\u[dD][89a-fA-F][0-9a-fA-F]{2}|\\/|\t")
 
 @contextmanager
 def document_of(path: Path, text: str | None = None) -> Iterator[Any]:
-    """Yield the data of a YAML or JSON file; faults raised inside name the file and the line.
-
-    Parameters
-    ----------
-    path
-        The file.
-    text
-        Its content, where that is known already.
-    """
+    """Yield the data of a YAML or JSON file; faults raised inside name the file and the line."""
     with in_file(str(path)):
         text = read_text(path) if text is None else text
         data = parse_document(text, path)
@@ -48,13 +40,7 @@ def document_of(path: Path, text: str | None = None) -> Iterator[Any]:
 
 @contextmanager
 def lines_of(text: str) -> Iterator[None]:
-    """Add lines and names to the faults that are raised inside.
-
-    Parameters
-    ----------
-    text
-        The text of the document that is read inside.
-    """
+    """Add lines and names to the faults that are raised inside."""
     try:
         yield
     except InputError as error:
@@ -62,15 +48,7 @@ def lines_of(text: str) -> Iterator[None]:
 
 
 def locate(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
-    """Yield faults of a document with lines and names, as far as its text shows them.
-
-    Parameters
-    ----------
-    faults
-        The faults, with paths into the document.
-    text
-        The text that the document was read from.
-    """
+    """Yield faults of a document with lines and names, as far as its text shows them."""
     faults = list(faults)
     has_no_lines = [bool(fault.path) and fault.line is None and not fault.file for fault in faults]
     root = _root(text) if any(has_no_lines) else None

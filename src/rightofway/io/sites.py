@@ -65,16 +65,6 @@ class Choice:
 def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = None) -> Sites:
     """Return the sites of a layout, a map or a scenario.
 
-    Parameters
-    ----------
-    path
-        The file.
-    choice
-        Which part of a layout is wanted; by default all levels, and of vehicle types the one that
-        has the most lanes.
-    robots
-        A file with the fleet for it, a scenario's robots or a CSV file; None for none.
-
     Raises
     ------
     InputError
@@ -192,15 +182,7 @@ def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
 
 
 def sites_of(scenario: Scenario, notes: tuple[str, ...]) -> Sites:
-    """Return a scenario as the one site that it is about.
-
-    Parameters
-    ----------
-    scenario
-        The scenario.
-    notes
-        Sentences of its reader.
-    """
+    """Return a scenario as the one site that it is about."""
     site = Site(
         roadmap=scenario.roadmap,
         units=scenario.units,

@@ -114,23 +114,6 @@ def records_of(
 ) -> CellDocument:
     """Return the rows of a table as a list of mappings.
 
-    Parameters
-    ----------
-    rows
-        The rows that are not empty; the first holds the headings.
-    cell
-        Returns the place of a cell.
-    path
-        Where the list stands in the document.
-    known
-        The keys of a mapping.
-    what
-        What a mapping is, as in "no key of a robot".
-    words
-        Keys whose values are text, also where they look like numbers.
-    has_stops
-        Whether headings may be ``stop 1``, ``work 1`` and so on.
-
     Returns
     -------
     CellDocument
@@ -170,13 +153,7 @@ def records_of(
 
 
 def robots_of_rows(rows: Iterable[Row], cell: CellOf, known: Iterable[str]) -> CellDocument:
-    """Return the robots of a table; columns ``stop 1``, ``work 1``, … become stops.
-
-    Parameters
-    ----------
-    rows, cell, known
-        As for `records_of`; the keys are those of a robot.
-    """
+    """Return the robots of a table; columns ``stop 1``, ``work 1``, … become stops."""
     keys = [key for key in known if key != "stops"]
     table = records_of(rows, cell, ("robots",), keys, what="a robot", has_stops=True)
     if not table.part:
@@ -233,15 +210,6 @@ def value_of(key: str, value: Any, words: Collection[str] = WORD_KEYS) -> Any:
 
 def robots_of_csv(path: Path, known: Iterable[str], names_it: Where) -> CellDocument:
     """Return the robots of a CSV file: columns between commas, semicolons or tabs.
-
-    Parameters
-    ----------
-    path
-        The file.
-    known
-        The keys of a robot.
-    names_it
-        Where the document names the file.
 
     Raises
     ------

@@ -113,13 +113,6 @@ def read_text(path: Path) -> str:
 def content_of(path: Path, most: int | None = None) -> bytes | bytearray:
     """Return the bytes of a file, a pipe, or of standard input as ``-``.
 
-    Parameters
-    ----------
-    path
-        What the user named; files that a document names go through `refuse_special` first.
-    most
-        The largest number of bytes that is read, by default `MAX_BYTES`.
-
     Raises
     ------
     InputError
@@ -191,11 +184,6 @@ def is_regular(path: Path) -> bool:
 
 def refuse_special(path: Path) -> None:
     """Refuse a device or a pipe where a document names a file.
-
-    Parameters
-    ----------
-    path
-        The file; one that is not there, or is a directory, is refused by its reader.
 
     Raises
     ------
@@ -296,13 +284,7 @@ def _path_to(target: dict[str, Any], data: Any) -> tuple[str | int, ...]:
 
 
 def check_depth(data: Any) -> None:
-    """Refuse data in which mappings and lists are inside each other more than `MAX_DEPTH` deep.
-
-    Parameters
-    ----------
-    data
-        Plain data.
-    """
+    """Refuse data in which mappings and lists are inside each other more than `MAX_DEPTH` deep."""
     level = [data] if isinstance(data, dict | list) else []
     for _ in range(MAX_DEPTH):
         level = [

@@ -46,13 +46,7 @@ class Ways:
 
 
 def ways_of(roadmap: Roadmap) -> Ways:
-    """Return the edges of a roadmap as lists.
-
-    Parameters
-    ----------
-    roadmap
-        The roadmap.
-    """
+    """Return the edges of a roadmap as lists."""
     scale = lcm(*(length.denominator for length in roadmap.lengths))
     steps = [int(length * scale) for length in roadmap.lengths]
     heads, first = roadmap.heads.tolist(), roadmap.indptr.tolist()
@@ -72,11 +66,6 @@ def ways_of(roadmap: Roadmap) -> Ways:
 
 def strong_parts(ways: Ways) -> list[list[int]]:
     """Return the largest sets of vertices that all reach each other, the largest set first.
-
-    Parameters
-    ----------
-    ways
-        The edges.
 
     References
     ----------
@@ -110,17 +99,7 @@ def strong_parts(ways: Ways) -> list[list[int]]:
 def grown_from(
     roots: Collection[int], neighbours: Neighbours, may_enter: Callable[[int], bool]
 ) -> list[int]:
-    """Return the vertices that can be reached from roots, in the order of a breadth-first search.
-
-    Parameters
-    ----------
-    roots
-        Where the search begins.
-    neighbours
-        The vertices next to each vertex.
-    may_enter
-        Whether the search may go on to a vertex.
-    """
+    """Return the vertices that can be reached from roots, in order of a breadth-first search."""
     reached, seen = list(roots), set(roots)
     for vertex in reached:  # grows as it goes
         for other in neighbours[vertex]:
@@ -132,13 +111,6 @@ def grown_from(
 
 def immediate_dominators(along: Neighbours, against: Neighbours, root: int) -> dict[int, int]:
     """Return, for each vertex that the root reaches, the last vertex that no way to it avoids.
-
-    Parameters
-    ----------
-    along, against
-        Heads of the edges that leave each vertex; tails of those that enter it.
-    root
-        Where all ways begin; it has no dominator.
 
     References
     ----------
@@ -195,13 +167,6 @@ def _depth_first(along: Neighbours, root: int) -> tuple[list[int], list[int]]:
 def separations(ways: Ways, places: Sequence[int]) -> dict[int, set[int]]:
     """Return what each vertex separates: the places that robots cannot drive to, or back, past it.
 
-    Parameters
-    ----------
-    ways
-        The edges.
-    places
-        Vertices that all reach each other.
-
     Returns
     -------
     dict
@@ -245,11 +210,6 @@ def corridors(ways: Ways) -> list[Corridor]:
     """Return all corridors, the longest first.
 
     A ring is none, also where one vertex joins it to the rest: robots pass each other on it.
-
-    Parameters
-    ----------
-    ways
-        The edges.
     """
 
     def is_inside(vertex: int) -> bool:
@@ -279,15 +239,7 @@ def corridors(ways: Ways) -> list[Corridor]:
 
 
 def distances_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
-    """Return the vertices that a source reaches, by distance, and their distances [steps].
-
-    Parameters
-    ----------
-    ways
-        The edges.
-    source
-        Where the ways begin.
-    """
+    """Return the vertices that a source reaches, by distance, and their distances [steps]."""
     if ways.even:
         return _levels_from(ways, source)
     distance, order, settled = {source: 0}, list[int](), set[int]()
@@ -333,13 +285,6 @@ def _before(ways: Ways, vertex: int, distance: Mapping[int, int]) -> list[int]:
 
 def route_load(ways: Ways, trips: Mapping[int, Mapping[int, float]]) -> dict[int, float]:
     """Return how many shortest routes pass each vertex; their own ends do not count.
-
-    Parameters
-    ----------
-    ways
-        The edges.
-    trips
-        How many routes lead from each source to each target.
 
     Notes
     -----

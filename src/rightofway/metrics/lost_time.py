@@ -261,13 +261,7 @@ def _visitor(bookings: BookedPlaces, robot: int, vertex: int, leave: int, until:
 
 
 def _least_dwell_of_trip(itinerary: Itinerary) -> int:
-    """Return how long all visits of a trip last at least, without drives and turns to them [ticks].
-
-    Parameters
-    ----------
-    itinerary
-        The trip; stages that follow each other at one vertex share a visit.
-    """
+    """Return the least ticks of all visits of a trip, without drives and turns to them."""
     visits = [list(stages) for _, stages in groupby(itinerary.stages, lambda stage: stage.vertex)]
     moving = sum(least_dwell(stages, leaves=True) for stages in visits[:-1])
     return moving + least_dwell(visits[-1], leaves=False)

@@ -26,13 +26,7 @@ MOST_NAMED = 200
 
 
 def nearness(site: Site) -> Iterator[Finding]:
-    """Yield vertices, lanes and walls that are nearer than robots are wide, and lanes that cross.
-
-    Parameters
-    ----------
-    site
-        The site.
-    """
+    """Yield vertices, lanes and walls nearer than robots are wide, and lanes that cross."""
     yield from _beside_walls(site)
     yield from _near(site)
 

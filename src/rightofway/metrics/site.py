@@ -262,13 +262,7 @@ def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
 
 
 def extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:
-    """Return how wide and high a roadmap is; cells reach beyond their middles [length unit].
-
-    Parameters
-    ----------
-    roadmap
-        The roadmap.
-    """
+    """Return how wide and high a roadmap is; cells reach beyond their middles [length unit]."""
     if roadmap.grid is not None:
         grid = roadmap.grid
         return grid.columns * grid.cell_size, grid.rows * grid.cell_size

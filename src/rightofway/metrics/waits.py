@@ -75,15 +75,6 @@ def freed_by(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
     A right of way binds where the second visit begins to book as soon as the first one, and the
     headway, is over: were the first one later, the second one would be.
 
-    Parameters
-    ----------
-    scenario
-        The problem.
-    tracks
-        One track for each robot.
-    stays
-        The parts of their visits.
-
     Returns
     -------
     ndarray
@@ -102,11 +93,6 @@ def freed_by(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 
 def rights_of_way(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]) -> Pairs:
     """Return which visit goes before which, as the tracks have it, by the second visit.
-
-    Parameters
-    ----------
-    scenario, tracks, stays
-        As for `freed_by`.
 
     Returns
     -------

@@ -83,15 +83,7 @@ def _ends(value: object) -> Ends:
 
 
 def closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFault]:
-    """Yield what is wrong with a closure.
-
-    Parameters
-    ----------
-    closure
-        The closure.
-    roadmap
-        What it closes a part of.
-    """
+    """Yield what is wrong with a closure."""
     if (closure.at is None) == (closure.edge is None):
         yield InputFault("", "closes not exactly one of a vertex and an edge (give at, or edge)")
     if closure.from_ < 0:
@@ -177,21 +169,7 @@ def closures_of(
     clearance: Fraction,
     clock: Clock,
 ) -> Closures | None:
-    """Return the bookings of nobody, or None without a closure.
-
-    Parameters
-    ----------
-    closures
-        Valid closures.
-    roadmap
-        The vertices and edges.
-    radii
-        Radius of each robot [length unit].
-    clearance
-        Least distance between two robots of which one has a size [length unit].
-    clock
-        How long a tick is.
-    """
+    """Return the bookings of nobody, or None without a closure."""
     if not closures:
         return None
     sizes, n_rows = sorted(set(radii)), roadmap.n_vertices + roadmap.n_edges

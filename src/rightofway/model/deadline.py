@@ -82,13 +82,7 @@ _limit: ContextVar[WorkLimit] = ContextVar("work limit")
 
 @contextmanager
 def limited_work(limit: WorkLimit) -> Iterator[None]:
-    """Limit the work on scenarios that are made inside.
-
-    Parameters
-    ----------
-    limit
-        It begins with the first piece of work that asks for it: reading a file does not count.
-    """
+    """Limit the work on scenarios that are made inside."""
     token = _limit.set(limit)
     try:
         yield
@@ -97,13 +91,7 @@ def limited_work(limit: WorkLimit) -> Iterator[None]:
 
 
 def check_work(doing: str) -> None:
-    """Raise `GaveUp` if the time for such work is over; to be called in long loops.
-
-    Parameters
-    ----------
-    doing
-        What takes the time: "measuring angles".
-    """
+    """Raise `GaveUp` if the time for such work is over; to be called in long loops."""
     limit = _limit.get(None)
     if limit is not None:
         limit.begun().check(doing)

@@ -18,13 +18,6 @@ LARGEST_SEED = 2**32 - 1
 def checked_scenario(scenario: Scenario, place: Where = "scenario") -> Scenario:
     """Return what a caller gave as a scenario.
 
-    Parameters
-    ----------
-    scenario
-        Anything.
-    place
-        The name of the argument.
-
     Raises
     ------
     InputError
@@ -64,17 +57,6 @@ def checked_seed(seed: int) -> int:
 
 def checked_number(place: Where, value: int, least: int, most: int, what: str = "") -> int:
     """Return what a caller gave as a whole number from ``least`` to ``most``.
-
-    Parameters
-    ----------
-    place
-        The name of the argument.
-    value
-        Anything.
-    least, most
-        The bounds, both included.
-    what
-        What is wrong with another value.
 
     Raises
     ------

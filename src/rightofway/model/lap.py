@@ -93,15 +93,6 @@ def dwell_between_laps(
     """Return how much longer a robot stays at home between two laps than before its first [ticks].
 
     It serves the stages with which a lap ends, and turns from the last edge to the first one.
-
-    Parameters
-    ----------
-    roadmap
-        The graph of the lap.
-    itinerary
-        What the robot has to do in one lap or several; it ends at home and leads elsewhere before.
-    vertices
-        Where each visit of the lap is; the first is at home.
     """
     turn = int(turns_of_lap(roadmap, itinerary, vertices)[0])
     return Tick(least_dwell(_stages_at_home(itinerary), leaves=True) + turn)
@@ -110,17 +101,7 @@ def dwell_between_laps(
 def turns_of_lap(
     roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]
 ) -> NDArray[np.int64]:
-    """Return how long a robot turns between two edges in each visit of a lap [ticks]; int64.
-
-    Parameters
-    ----------
-    roadmap
-        The graph of the lap.
-    itinerary
-        The robot; how it turns is in `Itinerary.turning`.
-    vertices
-        Where each visit of the lap is; after the last one the first one follows.
-    """
+    """Return how long a robot turns between two edges in each visit of a lap [ticks]; int64."""
     around = np.array((vertices[-1], *vertices, vertices[0]), np.int32)
     return turns_along(roadmap, itinerary, around)[1:-1]
 

@@ -57,13 +57,7 @@ class Objective(StrEnum):
 
 
 def minimized(scenario: Scenario) -> Objective:
-    """Return what the planners of this package minimize for a scenario.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    """
+    """Return what the planners of this package minimize for a scenario."""
     if any(itinerary.weight != 1 for itinerary in scenario.problem.itineraries):
         return Objective.WEIGHTED
     return Objective.COST if scenario.roadmap.has_surcharges else Objective.FLOWTIME
@@ -139,13 +133,6 @@ class Outcome:
 def outcome_of_cost(cost: Tick, proof: Proof) -> Outcome:
     """Return the outcome of a search that found a plan.
 
-    Parameters
-    ----------
-    cost
-        The objective of the plan [ticks]; not below the bound.
-    proof
-        What is proven.
-
     Notes
     -----
     The plan is optimal where the cost is the bound, and bounded where the planner claims a factor
@@ -160,13 +147,7 @@ def outcome_of_cost(cost: Tick, proof: Proof) -> Outcome:
 
 
 def outcome_of_error(error: NoPlanExists | GaveUp) -> Outcome:
-    """Return the outcome of a search that found no plan.
-
-    Parameters
-    ----------
-    error
-        What `rightofway.solve` raised.
-    """
+    """Return the outcome of a search that found no plan."""
     if isinstance(error, NoPlanExists):
         return Outcome(kind=OutcomeKind.NO_PLAN_EXISTS)
     bound = None if error.lower_bound is None else Tick(error.lower_bound)

@@ -15,15 +15,7 @@ DECIMALS = 3
 
 
 def middle(roadmap: Roadmap, vertex: int) -> str:
-    """Return the middle of a cell in the site's frame: ``7.25, 4.75``.
-
-    Parameters
-    ----------
-    roadmap
-        The roadmap.
-    vertex
-        A vertex of it.
-    """
+    """Return the middle of a cell in the site's frame: ``7.25, 4.75``."""
     return ", ".join(decimal(part, DECIMALS) for part in roadmap.point(vertex))
 
 
@@ -48,13 +40,7 @@ class PlaceNames:
         self.is_measured = scenario.roadmap.has_cells and bool(scenario.units.length)
 
     def where(self, vertex: int) -> str:
-        """Return where a vertex is, in a list: ``Press``, ``(7.25, 4.75)``, ``N5``.
-
-        Parameters
-        ----------
-        vertex
-            The vertex.
-        """
+        """Return where a vertex is, in a list: ``Press``, ``(7.25, 4.75)``, ``N5``."""
         roadmap = self.scenario.roadmap
         if not self.is_measured:
             return roadmap.name(vertex)
@@ -64,13 +50,7 @@ class PlaceNames:
         return f"{number}({middle(roadmap, vertex)})"
 
     def __call__(self, vertex: int) -> str:
-        """Return what a sentence calls a vertex: ``the home of R1``, else where it is.
-
-        Parameters
-        ----------
-        vertex
-            The vertex.
-        """
+        """Return what a sentence calls a vertex: ``the home of R1``, else where it is."""
         if not self.is_measured or vertex in self._stations:
             return self.where(vertex)
         if vertex in self._of_robots:

@@ -180,15 +180,6 @@ class Problem:
 def refuse_closures(problem: Problem, what: str, remedy: str) -> None:
     """Refuse a fleet for which something is closed for a while.
 
-    Parameters
-    ----------
-    problem
-        The fleet in ticks.
-    what
-        What does not know closures.
-    remedy
-        What to do instead.
-
     Raises
     ------
     InputError
@@ -200,15 +191,6 @@ def refuse_closures(problem: Problem, what: str, remedy: str) -> None:
 
 def refuse_turn_rates(problem: Problem, what: str, remedy: str) -> None:
     """Refuse a fleet in which a robot needs time to turn on the spot.
-
-    Parameters
-    ----------
-    problem
-        The fleet in ticks.
-    what
-        What does not know turn rates.
-    remedy
-        What to do instead.
 
     Raises
     ------

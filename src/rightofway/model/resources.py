@@ -66,15 +66,6 @@ Exact = NDArray[Any]
 def refuse_sizes(resources: Resources, what: str, remedy: str) -> None:
     """Refuse a fleet in which a robot has a size, or whose roadmap has zones.
 
-    Parameters
-    ----------
-    resources
-        The resources of the fleet.
-    what
-        What does not know sizes yet.
-    remedy
-        What to do instead.
-
     Raises
     ------
     InputError
@@ -88,11 +79,6 @@ def refuse_sizes(resources: Resources, what: str, remedy: str) -> None:
 def circle_around(length: Fraction, width: Fraction) -> Fraction:
     """Return the radius of the circle around a rectangle, rounded up to `RADIUS_STEP`.
 
-    Parameters
-    ----------
-    length, width
-        Sides of the rectangle [length unit].
-
     Examples
     --------
     >>> circle_around(Fraction(3), Fraction(4)), circle_around(Fraction(1), Fraction(1))
@@ -104,13 +90,7 @@ def circle_around(length: Fraction, width: Fraction) -> Fraction:
 
 
 def exact_positions(roadmap: Roadmap) -> list[Point]:
-    """Return the position of each vertex; a coordinate is the shortest decimal that stands for it.
-
-    Parameters
-    ----------
-    roadmap
-        The vertices; on a grid a position is a whole number of cells.
-    """
+    """Return the position of each vertex; a coordinate is its shortest decimal."""
     if roadmap.grid is not None:
         grid = roadmap.grid
         steps = [k * grid.cell_size for k in range(max(grid.rows, grid.columns))]
@@ -121,31 +101,13 @@ def exact_positions(roadmap: Roadmap) -> list[Point]:
 
 
 def are_nearer(roadmap: Roadmap, first: int, other: int, distance: Fraction) -> bool:
-    """Return whether two vertices are nearer than a distance; exact.
-
-    Parameters
-    ----------
-    roadmap
-        The vertices.
-    first, other
-        Two of them.
-    distance
-        The distance [length unit].
-    """
+    """Return whether two vertices are nearer than a distance; exact."""
     at = exact_positions(roadmap)
     return squared_distance(at[first], at[other]) < distance**2
 
 
 def distance(roadmap: Roadmap, first: int, other: int) -> float:
-    """Return the distance of two vertices [length unit].
-
-    Parameters
-    ----------
-    roadmap
-        The vertices.
-    first, other
-        Two of them.
-    """
+    """Return the distance of two vertices [length unit]."""
     at = exact_positions(roadmap)
     return sqrt(squared_distance(at[first], at[other]))
 
@@ -154,11 +116,6 @@ def too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, floa
     """Yield tail, head, length and straight distance of edges that are shorter than straight.
 
     A part in 10**9 is rounding: positions are decimals, and pieces of lanes are not.
-
-    Parameters
-    ----------
-    roadmap
-        The edges; those of a grid have the right length.
     """
     if roadmap.grid is not None:
         return
@@ -196,15 +153,7 @@ class ClosePairs:
 
 
 def close_pairs(roadmap: Roadmap, distance: Fraction) -> ClosePairs:
-    """Return the vertices and lanes that are nearer than a distance, and lanes that cross; exact.
-
-    Parameters
-    ----------
-    roadmap
-        The vertices and lanes.
-    distance
-        The distance [length unit], above 0.
-    """
+    """Return the vertices and lanes nearer than a distance, and lanes that cross; exact."""
     return _Drawing(roadmap, [distance]).close_pairs(distance)
 
 
@@ -307,15 +256,6 @@ class Resources:
 def resources_of(roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fraction) -> Resources:
     """Return the resources of a fleet.
 
-    Parameters
-    ----------
-    roadmap
-        The vertices and edges.
-    radii
-        Radius of each robot [length unit], not negative.
-    clearance
-        Least distance between two robots of which one has a size [length unit].
-
     Raises
     ------
     InputError
@@ -332,15 +272,7 @@ def resources_of(roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fractio
 
 
 def points_on(roadmap: Roadmap, n_robots: int) -> Resources:
-    """Return the resources of a fleet of points.
-
-    Parameters
-    ----------
-    roadmap
-        The vertices and edges.
-    n_robots
-        How many robots there are.
-    """
+    """Return the resources of a fleet of points."""
     return Resources(
         n_vertices=roadmap.n_vertices,
         n_edges=roadmap.n_edges,
@@ -403,13 +335,6 @@ def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
     """Return the resources of a zone.
 
     An edge that ends at a vertex of the zone is left out, because the vertex is booked as long.
-
-    Parameters
-    ----------
-    roadmap
-        The vertices and edges.
-    zone
-        A zone of the roadmap.
     """
     inside = {*zone.vertices}
     numbers = [roadmap.edge(*ends) for ends in zone.edges if inside.isdisjoint(ends)]

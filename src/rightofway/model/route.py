@@ -290,15 +290,7 @@ def serving_visits(
 def least_dwells(
     stages: Sequence[Stage], serves: Sequence[int], n_visits: int
 ) -> NDArray[np.int64]:
-    """Return the least ticks of each visit, without its drive; int64, shape (n,).
-
-    Parameters
-    ----------
-    stages, serves
-        What the robot has to do, and the visit that serves each stage.
-    n_visits
-        How many visits there are; the last one has no drive.
-    """
+    """Return the least ticks of each visit, without its drive; int64, shape (n,)."""
     dwell = np.zeros(n_visits, np.int64)
     for stage, visit in zip(stages, serves, strict=False):
         dwell[visit] += least_dwell([stage], leaves=visit < n_visits - 1)

@@ -14,11 +14,6 @@ MOST_BITS = 63
 def order_by(*columns: NDArray[Any]) -> NDArray[np.int64]:
     """Return the indices that sort rows by the first column, then by the second, and so on.
 
-    Parameters
-    ----------
-    columns
-        Booleans, integers below 2**62 in size, or Python integers; each of shape (n,).
-
     Returns
     -------
     ndarray

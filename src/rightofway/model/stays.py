@@ -134,15 +134,7 @@ def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
 
 
 def costs_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
-    """Return the completion time of each robot and the surcharges of its edges [ticks].
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    tracks
-        One track for each robot.
-    """
+    """Return the completion time of each robot and the surcharges of its edges [ticks]."""
     costs, roadmap = completions_of(scenario, tracks), scenario.roadmap
     if not roadmap.has_surcharges:
         return costs

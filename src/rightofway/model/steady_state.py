@@ -64,13 +64,6 @@ def refuse_unknown_robots(
 ) -> None:
     """Refuse groups that do not fit a plan.
 
-    Parameters
-    ----------
-    steady
-        Groups of its robots.
-    names, visits
-        Name of each robot of the plan, and number of visits of its track.
-
     Raises
     ------
     InputError
@@ -94,15 +87,7 @@ def refuse_unknown_robots(
 
 
 def within(steady: Sequence[SteadyState], visits: Sequence[int]) -> tuple[SteadyState, ...]:
-    """Return the groups for a plan with shorter tracks, without critical cycles beyond their ends.
-
-    Parameters
-    ----------
-    steady
-        Groups of the robots of a plan.
-    visits
-        Number of visits of the track of each robot.
-    """
+    """Return groups for a plan with shorter tracks, without critical cycles beyond their ends."""
     return tuple(
         group
         if all(visit < visits[robot] for robot, visit in group.critical)

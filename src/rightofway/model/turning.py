@@ -64,26 +64,13 @@ class Turning:
     ticks: NDArray[np.int64]
 
     def of(self, before: int, after: int) -> Tick:
-        """Return how long the robot turns between two edges [ticks]; before the first one, -1, 0.
-
-        Parameters
-        ----------
-        before, after
-            Two edges, the second of which begins where the first ends.
-        """
+        """Return how long the robot turns between two edges [ticks]; 0 before the first, -1."""
         if before < 0:
             return Tick(0)
         return Tick(int(self.ticks[self.angles.kind[self.angles.offset[before] + after]]))
 
     def between(self, edges: NDArray[np.int32]) -> NDArray[np.int64]:
-        """Return how long the robot turns between each edge and the next [ticks]; int64.
-
-        Parameters
-        ----------
-        edges
-            Edges that follow each other; -1 for none, where no turn takes place. Shape (n,); the
-            answer has shape (n - 1,).
-        """
+        """Return how long the robot turns between each edge and the next [ticks]; int64."""
         before, after = edges[:-1], edges[1:]
         turns = np.zeros(len(before), np.int64)
         known = np.flatnonzero((before >= 0) & (after >= 0))
@@ -96,15 +83,6 @@ def turnings_of(
     roadmap: Roadmap, rates: Sequence[Fraction | None], clock: Clock
 ) -> list[Turning | None]:
     """Return how long each robot turns; None for a robot without a rate.
-
-    Parameters
-    ----------
-    roadmap
-        The edges.
-    rates
-        The turn rate of each robot [degrees per time unit], positive, or None.
-    clock
-        How long a tick is.
 
     Raises
     ------
@@ -126,13 +104,7 @@ def turnings_of(
 
 @lru_cache(maxsize=4)
 def angles_of(roadmap: Roadmap) -> Angles:
-    """Return the angles between the edges of a roadmap.
-
-    Parameters
-    ----------
-    roadmap
-        The edges.
-    """
+    """Return the angles between the edges of a roadmap."""
     heading, has_heading = _headings(roadmap)
     first, degree = roadmap.indptr[roadmap.heads].astype(np.int64), np.diff(roadmap.indptr)
     counts = degree[roadmap.heads].astype(np.int64)

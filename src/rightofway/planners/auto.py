@@ -120,17 +120,7 @@ class _Prover:
         self._search: ConflictBasedSearch | None = None
 
     def proven(self, draft: Draft, nodes: int, share: float = 1.0) -> Draft:
-        """Return a plan with what is proven of it, or the optimum.
-
-        Parameters
-        ----------
-        draft
-            A plan that keeps the rules; not worse than that of any call before.
-        nodes
-            Stop after this number of nodes; 0: when time is up.
-        share
-            The part of the time left.
-        """
+        """Return a plan with what is proven of it, or the optimum."""
         task = self._task
         search = self._run(nodes, share, upper=_cost(task, draft.tracks))
         if search is None or search.bound is None:

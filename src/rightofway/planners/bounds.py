@@ -29,16 +29,6 @@ def prove_bound(
 ) -> tuple[Proof, bool]:
     """Prove a lower bound of what planners minimize; the longer, the higher.
 
-    Parameters
-    ----------
-    scenario
-        The problem; every robot can reach its places.
-    time_limit
-        When to stop [s].
-    nodes, steps
-        Stop conflict-based search after this number of nodes, and prices after this number of
-        steps; 0: never.
-
     Returns
     -------
     tuple of (Proof, bool)
@@ -61,17 +51,7 @@ def prove_bound(
 
 
 def bound_by_prices(scenario: Scenario, deadline: Deadline, steps: int) -> Tick:
-    """Return a lower bound by prices of places.
-
-    Parameters
-    ----------
-    scenario
-        The problem; every robot can reach its places.
-    deadline
-        When to stop.
-    steps
-        The number of steps at most; 0: until time is up, or no step helps.
-    """
+    """Return a lower bound by prices of places."""
     prices = PriceAscent(scenario.problem)
     prices.run(steps=steps or None, time_limit=deadline.seconds_left())
     return prices.bound

@@ -215,17 +215,7 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
 
 
 def deadlock_in_words(names: Sequence[str], place: str, circle: Sequence[str] = ()) -> Phrase:
-    """Return which two robots no waiting keeps apart, and the circle that a wait would close.
-
-    Parameters
-    ----------
-    names
-        The two robots.
-    place
-        Where they meet.
-    circle
-        The robots that would each wait for the next; at least three if these are not the two.
-    """
+    """Return which two robots no waiting keeps apart, and the circle that a wait would close."""
     pair = Phrase(
         "waiting cannot keep {one} and {other} apart at {place}",
         one=names[0],

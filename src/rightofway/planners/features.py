@@ -50,17 +50,6 @@ def refuse_unknown(
 ) -> None:
     """Refuse a problem that needs a feature which is not there.
 
-    Parameters
-    ----------
-    problem
-        The problem.
-    features
-        What is there.
-    what
-        What refuses, as in "planner paper".
-    remedy
-        What to do where a feature is missing.
-
     Raises
     ------
     InputError
@@ -82,11 +71,6 @@ def refuse_unknown(
 
 def refuse_with_swaps_left(problem: Problem) -> None:
     """Refuse ``swaps=leave`` for a problem that the published method does not know.
-
-    Parameters
-    ----------
-    problem
-        The problem.
 
     Raises
     ------

@@ -43,20 +43,6 @@ def flipped(
 ) -> Flipped:
     """Return the timetable of a plan in which a robot that waits goes first instead.
 
-    Parameters
-    ----------
-    plan
-        A plan.
-    waits
-        The robot that waits, by index.
-    goes_first
-        The robot that it waits for.
-    tick
-        When the wait ends. Of the rights of way between both robots, the one that ends nearest to
-        it is flipped, with all others in the segment that both share.
-    time_limit
-        When to stop [s]; None for no limit.
-
     Returns
     -------
     Flipped

@@ -68,15 +68,7 @@ def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
 
 
 def refuse_stranded(scenario: Scenario, stranded: Iterable[int]) -> None:
-    """Raise `NoPlanExists` if some robots have no way to a place, or robots share an end.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    stranded
-        The robots that have no way to a place.
-    """
+    """Raise `NoPlanExists` if some robots have no way to a place, or robots share an end."""
     blockages = [*missing_ways(scenario, stranded), *_shared_ends(scenario), *_clashes(scenario)]
     if blockages:
         raise NoPlanExists(blockages)
@@ -165,15 +157,6 @@ def refuse_closed_ways(
 ) -> None:
     """Raise if closures leave a robot no track, even if it is alone; distances are known.
 
-    Parameters
-    ----------
-    scenario
-        The problem.
-    deadline
-        When to stop looking for the closures that block a robot.
-    robots
-        The robots in question; None for all.
-
     Raises
     ------
     NoPlanExists
@@ -249,15 +232,6 @@ def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -
     A search over the whole fleet tries what the robots of one part do with all that the others do.
     Part by part, the proof takes far fewer steps; the search ends undecided after a number of them.
 
-    Parameters
-    ----------
-    scenario
-        The problem.
-    seed
-        For the search.
-    deadline
-        When to stop.
-
     Raises
     ------
     NoPlanExists
@@ -277,17 +251,6 @@ def blocking_set(
 ) -> Blockage:
     """Return a small set of robots that have no plan, given that some robots have none.
 
-    Parameters
-    ----------
-    scenario
-        The problem.
-    robots
-        Robots that are proven to have no plan together.
-    seed
-        For the search.
-    deadline
-        When to stop taking robots out.
-
     Notes
     -----
     Deterministic, as long as there is time. That the set has no plan is proven. It is minimal where
@@ -306,13 +269,6 @@ def smallest_set(
     robots: Sequence[int], is_blocked: Callable[[Sequence[int]], bool]
 ) -> Sequence[int]:
     """Return a small set of robots that have no plan, given that some robots have none.
-
-    Parameters
-    ----------
-    robots
-        Robots that are proven to have no plan together.
-    is_blocked
-        Whether it is proven that some of them have no plan; it may raise `GaveUp`.
 
     Notes
     -----
@@ -335,13 +291,6 @@ def fleet_of(scenario: Scenario, robots: Iterable[int]) -> Scenario:
     """Return some of the robots as a fleet of their own, in the same ticks.
 
     Its rules ask no more of them, so that what has no plan here has none in the whole fleet.
-
-    Parameters
-    ----------
-    scenario
-        The whole fleet.
-    robots
-        The robots.
     """
     fleet = tuple(scenario.robots[robot] for robot in robots)
     rules = scenario.rules
@@ -351,15 +300,7 @@ def fleet_of(scenario: Scenario, robots: Iterable[int]) -> Scenario:
 
 
 def no_room(scenario: Scenario, robots: Sequence[int]) -> Blockage:
-    """Return why robots that are proven to have no plan together have none.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    robots
-        The robots.
-    """
+    """Return why robots that are proven to have no plan together have none."""
     names = tuple(scenario.robots[robot].name for robot in robots)
     blocked_robots = listed(names)
     if len(names) > LARGEST_SET:
@@ -378,13 +319,7 @@ def no_room(scenario: Scenario, robots: Sequence[int]) -> Blockage:
 
 
 def fleet_at_home(scenario: Scenario) -> Plan:
-    """Return a fleet that stays at home, to draw where robots block each other.
-
-    Parameters
-    ----------
-    scenario
-        A fleet that has no plan.
-    """
+    """Return a fleet that stays at home, to draw where robots block each other."""
     alone = least_completions(scenario)
     assert alone is not None, "no time limit was given"
     return Plan(

@@ -99,17 +99,7 @@ def _refuse_blocked(task: Task) -> NoReturn:
 def plan_by_instants(
     task: Task, *, spreads: bool = True, effort: int | None = None
 ) -> Draft | None:
-    """Plan the whole fleet by the search by instants alone; None if it ends without a plan.
-
-    Parameters
-    ----------
-    task
-        The problem.
-    spreads
-        Whether robots prefer paths that were spread before.
-    effort
-        Choices of robots at most, where they are to be fewer than usual.
-    """
+    """Plan the whole fleet by the search by instants alone; None if it ends without a plan."""
     scenario, robots, share = task.scenario, len(task.scenario.robots), SHARE_OF_TIME
     most_effort = max(LEAST_EFFORT, EFFORT_PER_PLACE * robots * scenario.roadmap.n_vertices)
     refuse_stranded(scenario, ())
@@ -132,15 +122,7 @@ def plan_by_instants(
 
 
 def timetable_of(scenario: Scenario, tracks: Sequence[Track]) -> list[Track]:
-    """Return the earliest tracks that keep the routes and the order of visits of other tracks.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    tracks
-        A plan of the fleet by any clock, as for `timetable_in_order`.
-    """
+    """Return the earliest tracks that keep the routes and the order of visits of other tracks."""
     visited = [track.vertices.tolist() for track in tracks]
     return timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
 
@@ -148,13 +130,7 @@ def timetable_of(scenario: Scenario, tracks: Sequence[Track]) -> list[Track]:
 def timetable_in_order(
     scenario: Scenario, visited: Sequence[list[VertexId]], arrivals: Sequence[list[int]]
 ) -> list[Track]:
-    """Return the earliest tracks along some routes that keep an order of arrivals.
-
-    Parameters
-    ----------
-    scenario, visited, arrivals
-        As for `timetable_if_possible`; the order is that of a plan, and nothing is closed.
-    """
+    """Return the earliest tracks along some routes that keep an order of arrivals."""
     tracks = timetable_if_possible(scenario, visited, arrivals)
     assert tracks is not None, "what took place in some order can take place in it again"
     return tracks
@@ -166,16 +142,6 @@ def timetable_if_possible(
     """Return the earliest tracks along some routes that keep an order of arrivals and closures.
 
     None where closures leave no such tracks.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    visited
-        The vertices that each robot visits, in order.
-    arrivals
-        When each visit begins, by any clock; of two visits at one vertex the earlier stays first.
-        No visit begins when another one at that vertex ends, unless bookings allow a rotation.
     """
     routes = [
         route_through(scenario.roadmap, itinerary, vertices)

@@ -65,13 +65,6 @@ class Move(NamedTuple):
 def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
     """Plan robots with a size by an order of single moves.
 
-    Parameters
-    ----------
-    task
-        The problem; its robots have sizes.
-    search
-        The search for its fleet, to shift visits.
-
     Raises
     ------
     NoPlanExists
@@ -92,15 +85,6 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
 
 def tracks_by_moves(task: Task, *, ends_anywhere: Collection[int], most_states: int) -> list[Track]:
     """Return tracks in which robots with a size make one move after another.
-
-    Parameters
-    ----------
-    task
-        The problem; its robots have sizes.
-    ends_anywhere
-        Robots that serve all stages but the last one, and may end at any vertex.
-    most_states
-        States that are expanded at most.
 
     Raises
     ------

@@ -186,13 +186,7 @@ def _of_other_packages(_path: tuple[str, ...]) -> dict[str, PlannerSpec]:
 
 
 def able(feature: Feature) -> str:
-    """Return the names of all planners that have a feature, joined by "or".
-
-    Parameters
-    ----------
-    feature
-        What a planner has to be able to do.
-    """
+    """Return the names of all planners that have a feature, joined by "or"."""
     return " or ".join(name for name, spec in registered().items() if feature in spec.features)
 
 

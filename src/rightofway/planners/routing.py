@@ -56,11 +56,6 @@ def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
 def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
     """Return the tracks of robots that drive their shortest routes and never wait.
 
-    Parameters
-    ----------
-    scenario
-        The problem.
-
     Raises
     ------
     NoPlanExists

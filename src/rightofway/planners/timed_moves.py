@@ -39,11 +39,6 @@ BETWEEN_CHECKS = 500
 def plan_by_timed_moves(task: Task) -> Draft | None:
     """Plan a few robots among closures by an order of single moves; None where it ends undecided.
 
-    Parameters
-    ----------
-    task
-        A fleet with closures; nothing is found or proven for more than `FEW_ROBOTS`.
-
     Raises
     ------
     NoPlanExists

@@ -131,15 +131,6 @@ def movement_groups(
 ) -> tuple[MovementGroup | None, MovementGroup | None]:
     """Return both movement groups of a decision; the planner is run again to find them.
 
-    Parameters
-    ----------
-    plan
-        A plan of this planner, or of `auto` where that kept its decisions.
-    decision
-        One of ``plan.run.decisions``.
-    time_limit
-        When to stop [s]; None for no limit.
-
     Returns
     -------
     tuple

@@ -77,13 +77,6 @@ class _Kept:
 def first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
     """Return a valid plan that keeps what it can of the old one; None if the repair found none.
 
-    Parameters
-    ----------
-    task
-        The changed scenario. Half of its time may be used.
-    old
-        The old plan, of another scenario. It may have faults.
-
     Raises
     ------
     NoPlanExists
@@ -108,15 +101,7 @@ def first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
 
 
 def kept_of(old: Plan, scenario: Scenario, tracks: Sequence[Track]) -> StartPlan:
-    """Return how much of an old plan the plan that was made from it has kept.
-
-    Parameters
-    ----------
-    old
-        The old plan.
-    scenario, tracks
-        The changed scenario, and its plan.
-    """
+    """Return how much of an old plan the plan that was made from it has kept."""
     vertex = vertex_map(old.scenario.roadmap, scenario.roadmap)
     old_tick, tick = old.scenario.problem.clock.tick, scenario.problem.clock.tick
     routes = times = 0
@@ -135,11 +120,6 @@ def vertex_map(old: Roadmap, new: Roadmap) -> NDArray[np.int32]:
 
     Vertices with names are the same if their names are; others, as those of grids, if they lie at
     the same place of the site.
-
-    Parameters
-    ----------
-    old, new
-        The maps.
     """
     if old == new:
         return np.arange(old.n_vertices, dtype=np.int32)

@@ -117,15 +117,7 @@ def _implying(waits: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
 def linked_segments(
     first: Route, other: Route, pairs: Iterable[IncompatiblePair]
 ) -> Mapping[tuple[int, int], Segment]:
-    """Return the segment of each pair of incompatible visits of two robots.
-
-    Parameters
-    ----------
-    first, other
-        Routes of robots i and j.
-    pairs
-        All incompatible visits of the two.
-    """
+    """Return the segment of each pair of incompatible visits of two robots."""
     left = {(pair.i, pair.j): pair for pair in pairs}
     segments: dict[tuple[int, int], Segment] = {}
     while left:

@@ -114,15 +114,6 @@ def circuit_in_words(
     """Return what the robots of a critical circuit do, in one sentence.
 
     That is ``R2 enters N4 once R1 has left N4, drives to N8, works at N8, drives home; …``.
-
-    Parameters
-    ----------
-    pieces
-        The pieces of the circuit, at least one.
-    scenario
-        The scenario, for names of robots and places.
-    most
-        Number of steps to name; further steps are counted.
     """
     names = [robot.name for robot in scenario.robots]
     steps = circuit_steps(pieces, scenario)

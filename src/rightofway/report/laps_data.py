@@ -40,15 +40,7 @@ BY_VISIT = ("conflicts", "first_lap", "bottleneck", "sensitivity", "curves")
 
 
 def laps_data(run: CyclicResult, *, by_visit: bool = True) -> dict[str, Any]:
-    """Return a result for programs: plain data, exact times [time unit].
-
-    Parameters
-    ----------
-    run
-        The result.
-    by_visit
-        Whether waits, bottlenecks and curves are wanted, which take longest.
-    """
+    """Return a result for programs: plain data, exact times [time unit]."""
     return {
         "rule": run.rule,
         "routes": run.routes,

@@ -32,15 +32,7 @@ def _legs_without_a_way(
 
 
 def missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blockage]:
-    """Yield where robots have no way, and whether parts of the map or one-way edges are why.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    stranded
-        The robots that have no way to a place.
-    """
+    """Yield where robots have no way, and whether parts of the map or one-way edges are why."""
     place, parts, distances = PlaceNames(scenario), RoadmapParts(scenario.roadmap), None
     name_of = scenario.roadmap.name
     for robot in stranded:

@@ -147,18 +147,6 @@ def free_cells(
 ) -> NDArray[np.bool_]:
     """Cut a floor into square cells.
 
-    Parameters
-    ----------
-    floor
-        The floor.
-    cell_size
-        Side of a cell [length unit]; what is left of the floor at its right and lower border is
-        not used.
-    max_cells
-        The most cells to make.
-    key
-        What messages call the size of the cells.
-
     Returns
     -------
     ndarray

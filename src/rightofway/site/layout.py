@@ -118,11 +118,6 @@ class Level:
     def lanes_of(self, vehicle_type: str | None) -> tuple[LayoutEdge, ...]:
         """Return the lanes that a vehicle type may use.
 
-        Parameters
-        ----------
-        vehicle_type
-            A name; None where every lane is open to the same types.
-
         Raises
         ------
         InputError
@@ -217,23 +212,6 @@ def roadmap_of_level(
     cuts_curves: bool = False,
 ) -> LevelRoadmap:
     """Make the roadmap of a level.
-
-    Parameters
-    ----------
-    level
-        The level.
-    vehicle_type
-        As for `Level.lanes_of`.
-    robot_types
-        Where no vehicle type is named and lanes differ: the vehicle types of all robots, None for a
-        robot without one. Lanes are then barred for the types that may not use them.
-    metre, second
-        A metre in length units, and a second in time units, of the roadmap.
-    spacing
-        The longest piece of a lane [length unit]; None to split none.
-    cuts_curves
-        Whether curves are split into straight pieces, as robots with a size need them; for others a
-        curve is a lane of its length.
 
     Raises
     ------

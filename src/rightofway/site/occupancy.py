@@ -144,15 +144,6 @@ class CellMap:
 def grown(blocked: NDArray[np.bool_], by: Fraction, *, outside: bool) -> NDArray[np.bool_]:
     """Return the pixels that have a point nearer than a distance to a blocked pixel.
 
-    Parameters
-    ----------
-    blocked
-        The pixels; bool, shape (rows, columns).
-    by
-        The distance [pixels]; a pixel at just that distance stays free.
-    outside
-        Whether all that lies outside is blocked.
-
     Returns
     -------
     ndarray

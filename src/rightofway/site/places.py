@@ -48,13 +48,6 @@ DECIMALS = 20
 def as_place(value: object, roadmap: Roadmap | None = None) -> Place:
     """Return a value of a document as a place.
 
-    Parameters
-    ----------
-    value
-        The value: text, a pair of whole numbers, or a mapping with x and y.
-    roadmap
-        The map that it is for, so that the message knows what may be meant.
-
     Raises
     ------
     InputError
@@ -129,17 +122,6 @@ def vertex_at(
     what_blocks: Callable[[int, int], str] | None = None,
 ) -> VertexId:
     """Return the vertex at a place.
-
-    Parameters
-    ----------
-    roadmap
-        The map.
-    place
-        The place: ``N<k>`` or (row, column) on a grid, a vertex name on other roadmaps; or a point.
-    units
-        Units of lengths in messages.
-    what_blocks
-        Names what blocks the cell (row, column) of a grid, for the message.
 
     Raises
     ------

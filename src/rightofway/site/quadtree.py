@@ -80,19 +80,6 @@ def squares_of(
 ) -> Squares:
     """Join free cells to the largest squares of a balanced quadtree.
 
-    Parameters
-    ----------
-    free
-        Which smallest cells are free, the least x and y first; bool, shape (rows, columns).
-    largest
-        The most smallest cells that a square may be wide.
-    near
-        Whether an edge may pass a corner at 1/sqrt(10) of a smallest cell. If not, a square of two
-        by two cells is not joined where only one of the two cells beside it is free. All other
-        edges keep at least half a smallest cell from what is not free.
-    max_squares
-        The most squares to make.
-
     Raises
     ------
     InputError
@@ -188,26 +175,6 @@ def roadmap_of_squares(
     max_squares: int = MAX_CELLS,
 ) -> Roadmap:
     """Make the roadmap of a floor whose cells are squares of a quadtree.
-
-    Parameters
-    ----------
-    free
-        Which smallest cells are free, the least x and y first; bool, shape (rows, columns).
-    smallest
-        Side of a smallest cell [length unit].
-    largest
-        Limit on the side of a square [length unit]; by default `LARGEST` smallest cells.
-    radius
-        Radius of the largest robot [length unit]. What is above half a smallest cell is to be kept
-        clear by ``free``.
-    y_up
-        Whether y grows upwards in the site's frame.
-    corner
-        The corner of the floor that has the least x and y, in the site's frame before its yaw.
-    origin, yaw
-        The point about which the floor is turned, and the angle [rad].
-    max_squares
-        The most squares to make.
 
     Raises
     ------

@@ -60,19 +60,6 @@ def split_lanes(
     Both directions of a lane share the new vertices, which are named by the direction that is given
     first: ``A-B/1``, ``A-B/2``, …. Directions that are driven along different curves share none.
 
-    Parameters
-    ----------
-    positions
-        Name and (x, y) of every vertex [length unit].
-    edges
-        Directed edges; their ends are vertices.
-    spacing
-        The longest piece [length unit], above 0; None to split curves only.
-    shapes
-        Points between the ends of curved edges, by tail and head [length unit].
-    is_drawn
-        Whether the positions say how long lanes are; those of a graph without positions do not.
-
     Raises
     ------
     InputError
@@ -136,13 +123,6 @@ def split_lanes(
 def refuse_many_pieces(lengths: Iterable[Fraction], spacing: Fraction | None) -> None:
     """Refuse a spacing that makes too many pieces, before any is made.
 
-    Parameters
-    ----------
-    lengths
-        Of each lane [length unit].
-    spacing
-        The longest piece [length unit], above 0; None for none.
-
     Raises
     ------
     InputError
@@ -192,11 +172,6 @@ def lengths_along(points: Sequence[Point]) -> list[Fraction]:
     """Return the lengths of the straight parts of a curve, each rounded up [length unit].
 
     Parts that differ by rounding only get one length, so that a tick need not be short.
-
-    Parameters
-    ----------
-    points
-        Both ends of each part, in order [length unit].
     """
     parts = [straight_length(squared_distance(*ends)) for ends in pairwise(points)]
     longest = max(parts)
@@ -220,13 +195,6 @@ def pieces_by_name(
     names: Collection[str], edges: Collection[tuple[str, str]]
 ) -> dict[tuple[str, str], list[tuple[str, str]]]:
     """Return the pieces of lanes that were split before a file was written, from their names.
-
-    Parameters
-    ----------
-    names
-        Names of the vertices of the file.
-    edges
-        Tail and head of each of its edges.
 
     Returns
     -------

@@ -23,13 +23,6 @@ from rightofway.site.roadmap import EdgeClass, Roadmap
 def reaches_walls(roadmap: Roadmap, radius: Fraction) -> NDArray[np.bool_]:
     """Return at which vertices a robot reaches into a blocked cell or over the border.
 
-    Parameters
-    ----------
-    roadmap
-        The roadmap of a grid.
-    radius
-        Radius of the robot [length unit].
-
     Returns
     -------
     ndarray
@@ -54,15 +47,7 @@ def reaches_walls(roadmap: Roadmap, radius: Fraction) -> NDArray[np.bool_]:
 
 
 def clear_of_walls(roadmap: Roadmap, radii: Collection[Fraction]) -> Roadmap:
-    """Return the same grid with edges barred for robots that would reach into walls.
-
-    Parameters
-    ----------
-    roadmap
-        The roadmap of a grid.
-    radii
-        Radius of each robot [length unit].
-    """
+    """Return the same grid with edges barred for robots that would reach into walls."""
     grid = roadmap.grid
     assert grid is not None, "only grids have walls"
     wide = sorted({radius for radius in radii if 2 * radius > grid.cell_size})

@@ -53,17 +53,6 @@ def zones_of(
 ) -> tuple[Zone, ...]:
     """Return zones by vertex numbers.
 
-    Parameters
-    ----------
-    named
-        The zones.
-    ids
-        Number of each vertex.
-    edges
-        Tail and head of each edge of the roadmap, by name.
-    pieces
-        Tail and head of every piece of each lane that was split. A lane in a zone stands for them.
-
     Raises
     ------
     InputError

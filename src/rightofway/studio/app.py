@@ -31,17 +31,7 @@ the names of its list items. Times in plans are ticks unless a key says otherwis
 
 
 def create_app(studio: Studio, access: Access, *, has_page: bool = True) -> FastAPI:
-    """Return the server of a studio.
-
-    Parameters
-    ----------
-    studio
-        What it serves; it is started and closed with the server.
-    access
-        Who may send requests.
-    has_page
-        Whether it serves the page, beside the API.
-    """
+    """Return the server of a studio."""
 
     @asynccontextmanager
     async def life(_app: FastAPI) -> AsyncIterator[None]:

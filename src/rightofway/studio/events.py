@@ -53,15 +53,6 @@ class Listeners:
     ) -> AsyncGenerator[Event | None]:
         """Yield the events of a run, or of all; None from time to time.
 
-        Parameters
-        ----------
-        number
-            The run; None for all.
-        first
-            What is known already.
-        is_over
-            Whether nothing will follow.
-
         Raises
         ------
         Busy

@@ -102,15 +102,7 @@ class Access:
 
     @classmethod
     def on(cls, host: str, port: int) -> Access:
-        """Return the access to a server that listens on an address.
-
-        Parameters
-        ----------
-        host
-            Where it listens.
-        port
-            The port.
-        """
+        """Return the access to a server that listens on an address."""
         if is_loopback(host):
             names = ("127.0.0.1", "localhost", "[::1]", host)
             usual = names if port == HTTP else ()
@@ -360,15 +352,7 @@ class _Answer:
 
 
 def error_body(status: int, error: dict[str, Any]) -> bytes:
-    """Return the one form of all errors.
-
-    Parameters
-    ----------
-    status
-        The status of HTTP.
-    error
-        ``message``, and what else is known.
-    """
+    """Return the one form of all errors."""
     return json.dumps(
         {"error": {"status": status, "kind": "refused", "faults": [], **error}}
     ).encode()

@@ -24,38 +24,18 @@ Emit = Callable[..., None]
 
 
 def packed(message: dict[str, Any], blobs: Blobs = ()) -> bytes:
-    """Return a message as it is sent.
-
-    Parameters
-    ----------
-    message
-        Plain data.
-    blobs
-        Bytes that travel as they are.
-    """
+    """Return a message as it is sent."""
     text = json.dumps({**message, "sizes": list(map(len, blobs))}, allow_nan=False).encode()
     return b"".join([LENGTH.pack(len(text)), text, *blobs])
 
 
 def zipped(text: str) -> bytes:
-    """Return a large answer as browsers take it: the worker compresses it, not the server.
-
-    Parameters
-    ----------
-    text
-        JSON or HTML.
-    """
+    """Return a large answer as browsers take it: the worker compresses it, not the server."""
     return gzip.compress(text.encode(), 1, mtime=0)
 
 
 def as_error(error: BaseException) -> dict[str, Any]:
-    """Return what went wrong as plain data: ``kind``, ``message``, and details by kind.
-
-    Parameters
-    ----------
-    error
-        What a task raised.
-    """
+    """Return what went wrong as plain data: ``kind``, ``message``, and details by kind."""
     match error:
         case InputError():
             listed = [fault_data(fault) for fault in error.faults]
@@ -76,13 +56,7 @@ def as_error(error: BaseException) -> dict[str, Any]:
 
 
 def fault_data(fault: InputFault) -> dict[str, Any]:
-    """Return a fault as plain data.
-
-    Parameters
-    ----------
-    fault
-        One thing wrong with an input.
-    """
+    """Return a fault as plain data."""
     inner = str(fault.location.inner or "")
     return {
         "place": fault.place,

@@ -59,23 +59,6 @@ def serve(
 ) -> None:
     """Serve a studio until it is interrupted.
 
-    Parameters
-    ----------
-    studio
-        What to serve.
-    host
-        The address to listen on.
-    port
-        The port; None for a free one.
-    certificate, key
-        Files in PEM format for TLS; the key may be in the file of the certificate.
-    has_page
-        Whether the page is served, beside the API.
-    opens_browser
-        Whether a browser is opened.
-    say
-        Takes what the user shall read: the address.
-
     Raises
     ------
     InputError
@@ -166,11 +149,6 @@ def _called(host: str) -> str:
 
 def folder_and_file(given: Path) -> tuple[Path, str | None]:
     """Return the folder that a studio is for, and the file in it that is opened first.
-
-    Parameters
-    ----------
-    given
-        A file or a folder.
 
     Raises
     ------

@@ -99,13 +99,7 @@ class Studio:
 
 
 def checked_json(data: Any) -> bytes:
-    """Return data as JSON; InputError for what JSON has no place for.
-
-    Parameters
-    ----------
-    data
-        As it came from JSON, whose readers take more than the norm has.
-    """
+    """Return data as JSON; InputError for what JSON has no place for."""
     check_depth(data)
     try:
         text = json.dumps(data, allow_nan=False)

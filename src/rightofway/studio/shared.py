@@ -23,15 +23,7 @@ class SharedAnswers:
         self._making: dict[Hashable, asyncio.Task[bytes]] = {}
 
     async def get(self, key: Hashable, make: Callable[[], Coroutine[Any, Any, bytes]]) -> bytes:
-        """Return the answer of a key; a second request during the making waits for the same one.
-
-        Parameters
-        ----------
-        key
-            Whatever the answer depends on.
-        make
-            Makes it. Its faults go to all requests that wait, and are not kept.
-        """
+        """Return the answer of a key; a second request during the making waits for the same one."""
         if key in self._made:
             self._made.move_to_end(key)
             return self._made[key]

@@ -87,15 +87,6 @@ class Store:
     ) -> tuple[float, str]:
         """Keep a draft, and return when [s since 1970], and its revision.
 
-        Parameters
-        ----------
-        name
-            Its name.
-        document
-            What was drawn.
-        revision
-            What the draft must be before; empty if there must be none; None for whatever there is.
-
         Raises
         ------
         Refused

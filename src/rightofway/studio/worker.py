@@ -106,11 +106,6 @@ def confine(*folders: str) -> None:
 
     Documents name other files, and so do these; whichever reader opens them, Python asks here
     first. Python's own folders are open, because modules are imported when they are first used.
-
-    Parameters
-    ----------
-    folders
-        Without symbolic links.
     """
     package = Path(__file__).parents[2]
     own = {sys.prefix, sys.base_prefix, str(package), "/dev/null", "/proc", "/sys", *sys.path}

@@ -78,11 +78,6 @@ class Workspace:
     def path(self, name: str) -> Path:
         """Return where a file is.
 
-        Parameters
-        ----------
-        name
-            From the folder on, with ``/`` between names.
-
         Raises
         ------
         Refused
@@ -124,15 +119,6 @@ class Workspace:
 
     def write(self, name: str, content: bytes, *, revision: str | None = None) -> str:
         """Write a file whole, and return its revision.
-
-        Parameters
-        ----------
-        name
-            From the folder on; folders in it must be there.
-        content
-            All that is in it then.
-        revision
-            What the file must hold before; empty if there must be none; None for whatever it holds.
 
         Raises
         ------

@@ -85,13 +85,6 @@ def vertices_in_line(
 ) -> dict[int, float]:
     """Order the vertices of all routes so that every robot passes its own nearly in order.
 
-    Parameters
-    ----------
-    routes
-        The vertices that each robot visits.
-    distance
-        The length of the edge between two vertices [length unit].
-
     Returns
     -------
     dict

@@ -103,15 +103,6 @@ def plan_of_trajectories(
 ) -> Plan:
     """Return a plan of another program as one of ours.
 
-    Parameters
-    ----------
-    foreign
-        The plan.
-    path
-        Its file; a map that it names is looked for beside it.
-    map_file, scen
-        The map, and the starts and goals, where the user names files.
-
     Raises
     ------
     InputError

@@ -97,11 +97,6 @@ class Nurbs:
         Between corners, which are knots as often as the degree, pieces are equally long. A curve
         and the same curve driven back have the same ends.
 
-        Parameters
-        ----------
-        chord_error
-            How far the pieces may be from the curve, above 0 [m].
-
         Raises
         ------
         ValueError
@@ -118,26 +113,14 @@ class Nurbs:
         return np.concatenate(samples)
 
     def cut(self, count: int) -> Points:
-        """Return the ends of some pieces that are equally long along the curve.
-
-        Parameters
-        ----------
-        count
-            How many pieces, 1 or more.
-        """
+        """Return the ends of some pieces that are equally long along the curve."""
         first, last = self.knots[self.degree], self.knots[len(self.points)]
         samples = self.at(np.linspace(first, last, max(SAMPLES, 20 * count)))
         return _ends(samples, _along(samples), count)[1]
 
 
 def bezier(points: Points) -> Nurbs:
-    """Return a Bézier curve as a NURBS of one part.
-
-    Parameters
-    ----------
-    points
-        Its ends and the control points between them; float64, shape (n, 2).
-    """
+    """Return a Bézier curve as a NURBS of one part."""
     knots = np.repeat([0.0, 1.0], len(points))
     return Nurbs(degree=len(points) - 1, knots=knots, points=points, weights=np.ones(len(points)))
 

@@ -71,15 +71,7 @@ def layout_text(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
 
 
 def losses_of(layout: Layout, says: frozenset[str]) -> Iterator[str]:
-    """Yield what a layout has beside vertices, lanes and speed limits, and a format cannot say.
-
-    Parameters
-    ----------
-    layout
-        The layout.
-    says
-        What the format has a place for.
-    """
+    """Yield what a layout has beside vertices, lanes and speed limits, and a format cannot say."""
     vertices = [vertex for level in layout.levels for vertex in level.vertices]
     edges = [edge for level in layout.levels for edge in level.edges]
     counts = {

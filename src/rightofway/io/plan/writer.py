@@ -112,13 +112,7 @@ def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str,
 
 
 def outcome_document(outcome: Outcome) -> dict[str, Any]:
-    """Return an outcome as plan files and reports for programs have it.
-
-    Parameters
-    ----------
-    outcome
-        What is proven of a plan.
-    """
+    """Return an outcome as plan files and reports for programs have it."""
     factor = outcome.factor
     return {
         "kind": str(outcome.kind),

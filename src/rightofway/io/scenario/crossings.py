@@ -21,13 +21,7 @@ MAX_LANES = 5_000
 
 
 def crossing_note(scenario: Scenario) -> Iterator[str]:
-    """Yield a note on lanes that cross without a vertex, if no robot has a size.
-
-    Parameters
-    ----------
-    scenario
-        The problem; a grid has no such lanes.
-    """
+    """Yield a note on lanes that cross without a vertex, if no robot has a size."""
     roadmap = scenario.roadmap
     if roadmap.grid is not None or any(robot.radius for robot in scenario.robots):
         return

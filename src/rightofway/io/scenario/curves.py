@@ -53,13 +53,6 @@ class LaneCurve(NamedTuple):
 def lane_curve(tail: Point, controls: Sequence[Point], head: Point) -> LaneCurve:
     """Return the Bézier curve between two points.
 
-    Parameters
-    ----------
-    tail, head
-        Its ends [length unit].
-    controls
-        One or two points that pull it to their side [length unit].
-
     Raises
     ------
     InputError
@@ -84,17 +77,7 @@ def lane_curve(tail: Point, controls: Sequence[Point], head: Point) -> LaneCurve
 def points_along(
     curve: LaneCurve, tail: Point, head: Point, spacing: Fraction
 ) -> tuple[Point, ...]:
-    """Return points on a curve, as far apart along it as equal pieces of at most a spacing are.
-
-    Parameters
-    ----------
-    curve
-        The curve.
-    tail, head
-        Its ends [length unit].
-    spacing
-        The longest piece [length unit], above 0.
-    """
+    """Return points on a curve, as far apart along it as equal pieces of at most a spacing are."""
     whole = bezier(_floats([tail, *curve.controls, head]))
     return tuple(_exact(whole.cut(ceil(curve.length / spacing))[1:-1]))
 

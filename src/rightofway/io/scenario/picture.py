@@ -25,15 +25,7 @@ MOST_PIXELS = 50_000_000
 def with_picture(
     loaded: LoadedMap, document: PictureDocument | None, base: Path | None
 ) -> LoadedMap:
-    """Return a map with the picture that it is drawn over; a note where the file is missing.
-
-    Parameters
-    ----------
-    loaded
-        The map.
-    document, base
-        As for `picture_of`; without a document, the map stays as it is.
-    """
+    """Return a map with the picture that it is drawn over; a note where the file is missing."""
     if document is None:
         return loaded
     with under("picture"):
@@ -48,14 +40,6 @@ def with_picture(
 
 def picture_of(document: PictureDocument, base: Path | None) -> tuple[Picture, bool]:
     """Return a picture, and whether its file is there; no plan depends on it.
-
-    Parameters
-    ----------
-    document
-        What the scenario says of it.
-    base
-        The directory that its name is relative to; None for a scenario in no file, whose picture
-        is known by name only.
 
     Raises
     ------

@@ -89,13 +89,7 @@ def scenario_text(scenario: Scenario) -> str:
 
 
 def yaml_of(document: dict[str, Any]) -> str:
-    """Return a scenario's document as YAML.
-
-    Parameters
-    ----------
-    document
-        Plain data.
-    """
+    """Return a scenario's document as YAML."""
     import yaml
 
     class Dumper(yaml.SafeDumper):

@@ -93,15 +93,6 @@ class Sheet:
 def read_sheets(path: Path, wanted: Collection[str], faults: Faults) -> dict[str, Sheet]:
     """Return those sheets of a workbook that are wanted, by lower-case name.
 
-    Parameters
-    ----------
-    path
-        The file.
-    wanted
-        Names in lower case; sheets of other names are not looked at.
-    faults
-        Takes the cells that have no value that can be read.
-
     Raises
     ------
     InputError

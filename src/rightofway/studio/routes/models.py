@@ -42,17 +42,7 @@ def unzipped(
     media: str = "application/json",
     headers: Mapping[str, str] | None = None,
 ) -> Response:
-    """Return an answer that a worker has compressed; whole to a client that cannot take it so.
-
-    Parameters
-    ----------
-    request
-        What is answered.
-    content
-        Compressed or not.
-    media, headers
-        As for any answer.
-    """
+    """Return an answer that a worker has compressed; whole to a client that cannot take it so."""
     more = {**(headers or {}), "vary": "accept-encoding"}
     if content.startswith(GZIP):
         if "gzip" in request.headers.get("accept-encoding", ""):

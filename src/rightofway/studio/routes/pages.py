@@ -70,13 +70,7 @@ def _file(request: Request, path: str) -> Response:
 
 @cache
 def page_file(path: str) -> bytes:
-    """Return a file of the page; `Refused` if there is none.
-
-    Parameters
-    ----------
-    path
-        The path below the package, which begins with one of `FOLDERS`.
-    """
+    """Return a file of the page; `Refused` if there is none."""
     if path == STYLE:
         return style_sheet().encode()
     text = _text(path)

@@ -27,13 +27,6 @@ class Origin(TypedDict):
 def as_drawn(plan: Plan, origin: Origin | None) -> Plan:
     """Return a plan on the map of the document that it was made from.
 
-    Parameters
-    ----------
-    plan
-        The plan.
-    origin
-        The document; None for a plan that stays as it is.
-
     Notes
     -----
     A plan whose map is another one by now stays as it is.

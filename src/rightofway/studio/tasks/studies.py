@@ -188,13 +188,7 @@ def replayed(
 
 
 def spread_of(outcome: SimulationResult) -> dict[str, Any] | None:
-    """Return how often the flowtime of a run is in each of some classes; None if none completes.
-
-    Parameters
-    ----------
-    outcome
-        Runs with delays. Those in which a robot never completes are left out.
-    """
+    """Return how often the flowtime of a run is in each of some classes; None if none completes."""
     whole = outcome.completion[(outcome.completion >= 0).all(axis=1)]
     if not len(whole):
         return None
@@ -214,13 +208,7 @@ def spread_of(outcome: SimulationResult) -> dict[str, Any] | None:
 
 
 def ranks_of(outcome: SimulationResult) -> dict[str, Any]:
-    """Return runs from the best to the worst: the rank, number and flowtime of each [ticks].
-
-    Parameters
-    ----------
-    outcome
-        Runs with delays. The flowtime of a run in which a robot never completes is None.
-    """
+    """Return runs from the best to the worst: the rank, number and flowtime of each [ticks]."""
     order = outcome.ranked()
     ranks = np.unique(np.linspace(0, len(order) - 1, min(len(order), RANKS)).round().astype(int))
     completion = outcome.completion[order[ranks]]

@@ -99,13 +99,7 @@ class Background:
 
 
 def background_of(roadmap: Roadmap) -> Background | None:
-    """Return the picture that a roadmap is drawn over; None where a scenario's is missing.
-
-    Parameters
-    ----------
-    roadmap
-        The roadmap.
-    """
+    """Return the picture that a roadmap is drawn over; None where a scenario's is missing."""
     picture = roadmap.drawing.picture
     is_missing = picture is None or (picture.name and not picture.file.is_file())
     return None if is_missing or picture is None else Background.of(picture)
@@ -113,13 +107,6 @@ def background_of(roadmap: Roadmap) -> Background | None:
 
 def background_data(roadmap: Roadmap, background: Background) -> BackgroundData:
     """Return the picture and where it lies in the drawing, as plain data for JSON.
-
-    Parameters
-    ----------
-    roadmap
-        The roadmap that the picture lies under.
-    background
-        The picture and its place.
 
     Returns
     -------
@@ -139,15 +126,7 @@ def background_data(roadmap: Roadmap, background: Background) -> BackgroundData:
 
 
 def place_of(roadmap: Roadmap, background: Background, columns: int, rows: int) -> PlaceData:
-    """Return where a picture lies in the drawing, as `background_data` has it.
-
-    Parameters
-    ----------
-    roadmap, background
-        As for `background_data`.
-    columns, rows
-        Size of the picture [pixels].
-    """
+    """Return where a picture lies in the drawing, as `background_data` has it."""
     plane, frame = plane_of(roadmap), roadmap.frame
 
     def drawn(point: tuple[float, float]) -> tuple[float, float]:
@@ -172,11 +151,6 @@ def place_of(roadmap: Roadmap, background: Background, columns: int, rows: int) 
 
 def background_place(roadmap: Roadmap, background: Background) -> BackgroundData:
     """Return where a picture lies in the drawing, for a page that has the picture itself.
-
-    Parameters
-    ----------
-    roadmap, background
-        As for `background_data`.
 
     Returns
     -------

@@ -94,15 +94,6 @@ def page_of(
 def document_of(about: str, payload: Mapping[str, object], entry: str) -> str:
     """Return a page of style, plain data and scripts, as one HTML document.
 
-    Parameters
-    ----------
-    about
-        The title of the document.
-    payload
-        Plain data for JSON.
-    entry
-        Name of the module under ``assets/`` that runs the page, without ``.js``.
-
     Returns
     -------
     str

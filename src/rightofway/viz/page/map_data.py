@@ -32,15 +32,6 @@ def map_data(
 ) -> MapData:
     """Return a map as plain data for JSON: graph, frame, places, zones, limits, picture.
 
-    Parameters
-    ----------
-    roadmap
-        The roadmap.
-    room
-        The distance that the two largest robots need [length unit]; 0 for points.
-    background
-        A picture below the map; by default that of the roadmap's drawing.
-
     Raises
     ------
     InputError

@@ -235,15 +235,7 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> F
 
 
 def closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
-    """Return the vertices of a closure, along a lane in order, and when it is.
-
-    Parameters
-    ----------
-    closure
-        The closure.
-    scenario
-        The scenario that has it.
-    """
+    """Return the vertices of a closure, along a lane in order, and when it is."""
     begin, end = closed_ticks(closure, scenario)
     return {
         "vertices": list(closed_vertices(closure, scenario)),

@@ -29,15 +29,7 @@ def asset(name: str) -> str:
 
 @cache
 def scripts_of(entry: str, text_of: Callable[[str], str] = asset) -> tuple[str, ...]:
-    """Return a module and its imports in the order in which a browser runs them: imports first.
-
-    Parameters
-    ----------
-    entry
-        Name of the module, without ``.js``.
-    text_of
-        Returns the text of a file.
-    """
+    """Return a module and its imports in the order in which a browser runs them: imports first."""
     modules: dict[str, None] = {}
     entered = set[str]()
 
@@ -54,12 +46,6 @@ def scripts_of(entry: str, text_of: Callable[[str], str] = asset) -> tuple[str, 
 
 @cache
 def classic_script(name: str) -> str:
-    """Return a module as a classic script, without notes.
-
-    Parameters
-    ----------
-    name
-        Name of the module, without ``.js``.
-    """
+    """Return a module as a classic script, without notes."""
     text = EXPORT.sub("", IMPORT.sub("", asset(f"{name}.js")))
     return f'"use strict";\n{ASIDES.sub("", NOTES.sub("", text))}'

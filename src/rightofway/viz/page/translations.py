@@ -20,13 +20,7 @@ def tables() -> Mapping[str, Mapping[str, str]]:
 
 
 def translations_for(*parts: object) -> dict[str, dict[str, str]]:
-    """Return what plain data need of the tables.
-
-    Parameters
-    ----------
-    parts
-        Phrases as `parts_of` and `PhraseBook` make them, or lists and mappings that hold some.
-    """
+    """Return what plain data need of the tables."""
     said = set(_texts(parts))
     return {
         language: {template: own for template, own in table.items() if template in said}

@@ -52,13 +52,6 @@ GRID_GREY = "E3E1DA"
 def write_result(plan: Plan, path: str | os.PathLike[str]) -> None:
     """Write all that is known of a plan as an Excel workbook.
 
-    Parameters
-    ----------
-    plan
-        The plan; its faults are marked in the table and listed with the collisions.
-    path
-        Where.
-
     Raises
     ------
     InputError

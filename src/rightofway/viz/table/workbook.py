@@ -58,11 +58,6 @@ def workbook_of(table: TimeSpaceTable) -> bytes:
 def sheets_of(lists: Sequence[Listing]) -> bytes:
     """Return a workbook with a sheet for each list, named by its title.
 
-    Parameters
-    ----------
-    lists
-        The lists.
-
     Raises
     ------
     InputError
