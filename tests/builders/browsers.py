@@ -1,7 +1,7 @@
 """A headless Chromium for tests, and what goes wrong on a page.
 
 The browser is the one that ``RIGHTOFWAY_CHROMIUM`` names, or the first of the usual names on the
-path.
+path. The one that has no window comes first: it takes half of the CPU.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import pytest
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
-NAMES = ("chromium", "chromium-browser", "google-chrome")
+NAMES = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 FOUND = os.environ.get("RIGHTOFWAY_CHROMIUM") or next(filter(None, map(shutil.which, NAMES)), "")
 CHROMIUM = FOUND if find_spec("playwright") else ""
 """Path of the browser; empty where there is none, or no Playwright."""

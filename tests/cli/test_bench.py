@@ -261,7 +261,7 @@ def test_bad_use_ends_with_2_and_one_message(cli: Cli, args: list[str], message:
 def test_what_is_missing_is_told_before_any_case_is_run(
     cli: Cli, monkeypatch: pytest.MonkeyPatch, args: list[str], message: str
 ) -> None:
-    monkeypatch.setattr("rightofway.bench.results.find_spec", lambda _: None)
+    monkeypatch.setattr("rightofway.extras.find_spec", lambda _: None)
     write_suite("two-level")
     ended = cli("bench", "suite.toml", *args)
     assert (ended.code, ended.err) == (2, f"{message}\n")

@@ -138,6 +138,8 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     """
     task.better(lambda: first.tracks)
     spaced = _spaced(task, first.tracks)
+    if spaced is None:
+        return replace(first, status=f"{first.status}; closures leave no time for longer headways")
     search.start(spaced)
     is_open = task.scenario.problem.closures is None
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
@@ -209,9 +211,15 @@ def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
     return tuple(graph.tracks())
 
 
-def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:
-    """Return the tracks with the headway of planning, where that is more than the scenario's."""
+def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track] | None:
+    """Return the tracks with the headway of planning, where that is more than the scenario's.
+
+    None where a closure begins too soon for it.
+    """
     headway = planning_headway(task.scenario)
     if headway == task.scenario.problem.headway:
         return tracks
-    return graph_of(task.scenario, tracks, headway=headway).tracks()
+    try:
+        return graph_of(task.scenario, tracks, headway=headway).tracks()
+    except ValueError:
+        return None

@@ -198,9 +198,15 @@ class PrecedenceGraph:
         when
             For each robot, a number for each of its visits; of two visits to one vertex, the one
             with the smaller number goes first. The ticks of a plan, or steps.
+
+        Raises
+        ------
+        ValueError
+            If some visit cannot take place: what took place in an order can take place in it
+            again, but not always with a longer headway before a closure.
         """
-        possible = self.keeps_order(when)
-        assert possible, "what took place in some order can take place in it again"
+        if not self.keeps_order(when):
+            raise ValueError("when: in this order some visit cannot take place")
 
     def keeps_order(self, when: Sequence[Sequence[int] | NDArray[np.int64]]) -> bool:
         """Do as `keep_order`; false, with nothing changed, if some visit cannot take place."""
