@@ -40,7 +40,6 @@ void bind_bounds(nb::module_& module) {
             },
             nb::arg("steps"), nb::arg("time_limit").none(), run_doc)
         .def_prop_ro("bound", &PriceAscent::bound, "No plan costs less. [ticks]")
-        .def_prop_ro("value", &PriceAscent::value, "x")
         .def_prop_ro("n_steps", &PriceAscent::n_steps, "The number of steps taken.")
         .def_prop_ro("is_over", &PriceAscent::is_over, "Whether more steps change nothing.");
 }

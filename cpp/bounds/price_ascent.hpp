@@ -32,7 +32,6 @@ class PriceAscent {
     // No plan costs less, by the weights of the robots and with surcharges; 0 before the first
     // step.
     Tick bound() const { return (std::max<Tick>(best_, 0) + parts_per_tick - 1) / parts_per_tick; }
-    double value() const { return double(value_) / parts_per_tick; }
     std::int64_t n_steps() const { return n_steps_; }
     // No step is left that would change a price: the tracks have no conflict, or steps got too
     // small.

@@ -822,10 +822,6 @@ class PriceAscent:
         """No plan costs less. [ticks]"""
 
     @property
-    def value(self) -> float:
-        """x"""
-
-    @property
     def n_steps(self) -> int:
         """The number of steps taken."""
 

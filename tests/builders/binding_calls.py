@@ -480,6 +480,11 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "ConflictBasedSearch.tracks": _always(),
     "ConflictBasedSearch.n_nodes": _always(),
     "ConflictBasedSearch.n_searches": _always(),
+    "PriceAscent": lambda rng: {"problem": _problem(rng)},
+    "PriceAscent.run": _timed(steps=50),
+    "PriceAscent.bound": _always(),
+    "PriceAscent.n_steps": _always(),
+    "PriceAscent.is_over": _always(),
     "FleetSearch": lambda rng: {
         "problem": _problem(rng), "seed": rng.randrange(99), "n_threads": rng.randrange(1, 4),
         "alone": rng.choice((None, int64(14, 17, 7))),

@@ -46,6 +46,7 @@ def test_laps_go_on_for_ever_and_all_jobs_are_done(plan: Plan) -> None:
 def test_what_a_control_knows_and_keeps_does_not_grow(tmp_path: Path) -> None:
     """After 40 and after 400 laps the ledger is as large; the journal has some snapshots' worth."""
     journal = SqliteJournal(tmp_path / "run.journal")
+    journal._database.execute("PRAGMA synchronous = OFF")  # nobody takes the current away here
     dispatcher = begun(chosen_timetable(), journal)
     floor, sizes, laps = Floor(dispatcher), [], []
     for steps in (1000, 9000):
@@ -60,6 +61,7 @@ def test_what_a_control_knows_and_keeps_does_not_grow(tmp_path: Path) -> None:
 
 def test_a_start_from_a_snapshot_knows_all_that_was_known(tmp_path: Path) -> None:
     journal = SqliteJournal(tmp_path / "run.journal")
+    journal._database.execute("PRAGMA synchronous = OFF")  # nobody takes the current away here
     dispatcher = begun(chosen_timetable(), journal)
     Floor(dispatcher).drive(1000)
     again = FleetControl(journal)

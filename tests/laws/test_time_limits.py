@@ -30,6 +30,7 @@ from rightofway.search import (
     Distances,
     FleetSearch,
     PeriodicBookings,
+    PriceAscent,
     RoundTrip,
     earliest_track,
     least_completions,
@@ -164,6 +165,11 @@ def least_plan(scenario: Scenario, limit: float) -> None:
     ConflictBasedSearch(scenario.problem).run(time_limit=limit)
 
 
+def raise_prices(scenario: Scenario, limit: float) -> None:
+    with suppress(NoPlanExists):
+        PriceAscent(scenario.problem).run(time_limit=limit)
+
+
 CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "ActionDependencyGraph.runs": runs,
     "ConflictBasedSearch.run": least_plan,
@@ -175,6 +181,7 @@ CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "FleetSearch.repair": repair,
     "PeriodicBookings.find_route": find_route,
     "PeriodicBookings.search": search,
+    "PriceAscent.run": raise_prices,
     "critical_circuit": lambda _, limit: event_graph().critical_circuit(time_limit=limit),
     "earliest_times": lambda _, limit: event_graph().earliest(Tick(10**6), time_limit=limit),
     "earliest_track": track,

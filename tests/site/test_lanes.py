@@ -215,7 +215,10 @@ def test_a_convoy_on_a_lane_of_40_drives_as_close_as_its_pieces_allow(
     pieces = ceil(Fraction(40) / spacing)
     lane = [label for label in scenario.roadmap.labels or () if label.startswith("A-B/")]
     assert len(lane) == pieces - 1
-    given: dict[str, Any] = {"prioritized": {"order": "file"}, "auto": {"iterations": 9}}
+    given: dict[str, Any] = {
+        "prioritized": {"order": "file"},
+        "auto": {"iterations": 9, "nodes": 9},
+    }
     plan = rightofway.solve(scenario, planner, options=given.get(planner))
     tick, at_b = scenario.problem.clock.tick, scenario.roadmap.vertex("B")
     passing = [
