@@ -58,7 +58,7 @@ def test_without_its_closures_a_fleet_is_at_least_as_quick(seed: int) -> None:
 OPEN = pytest.mark.xfail(
     strict=True, reason="some trees of conflict-based search have more nodes than auto expands"
 )
-"""Since the search splits by ends and completions, and the best order of moves is no planner."""
+"""Marks kinds of which `auto` leaves one of the twenty fleets or more without a proof."""
 
 
 @pytest.mark.slow
