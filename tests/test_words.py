@@ -112,7 +112,7 @@ STOPPED = {
 """Names of variables that do not say what they hold."""
 
 MOST = {
-    **{room: 0 for room in ROOMS if room != "control"},
+    **dict.fromkeys(ROOMS, 0),
     "cyclic": 1,
     "execution": 1,
     "io": 9,

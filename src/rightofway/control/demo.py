@@ -239,7 +239,7 @@ class _Demo:
                 partial(durations.stay, number, own),
                 partial(durations.drive, number, own),
                 stoppages[number],
-                kept=1 if dispatcher.is_endless else None,
+                times_kept=1 if dispatcher.is_endless else None,
             )
             for number, (own, identity) in enumerate(
                 zip(control.ledger.robots, identities, strict=True)
@@ -345,7 +345,7 @@ class _DemoRobot:
         How long work and turning of a visit take, and the drive into it [ticks].
     stoppages
         When it stands still, in order: first tick and length [ticks].
-    kept
+    times_kept
         How many visits have their times kept; None for all.
     """
 
@@ -355,13 +355,13 @@ class _DemoRobot:
         stay: Callable[[int], int],
         drive_into: Callable[[int], int],
         stoppages: tuple[tuple[Tick, Tick | None], ...],
-        kept: int | None,
+        times_kept: int | None,
     ) -> None:
         self.end, self._stay, self._drive_into, self.stoppages = end, stay, drive_into, stoppages
         self.visit = 0  # the number of the last one
-        self.enter = deque([0], kept)  # when each visit began
-        self.dwell = deque([stay(0)], kept)
-        self.drive = deque([0], kept)
+        self.enter = deque([0], times_kept)  # when each visit began
+        self.dwell = deque([stay(0)], times_kept)
+        self.drive = deque([0], times_kept)
         self.since = 0  # when its last step ended
         self.is_busy = False
         self._left = self.dwell[0]  # what is left of work and turning of this visit

@@ -377,8 +377,12 @@ class Dispatcher:
         """Return how much longer a robot drives for a job at best, and before which stop."""
         own, roadmap = self.ledger.robots[robot], self.plan.scenario.roadmap
         itinerary = self.plan.scenario.problem.itineraries[robot]
-        way = [own.route.place(own.released), *(one.place for one in stops), own.route.places[-1]]
-        vertices = [roadmap.vertex(place) for place in way]
+        stations = [
+            own.route.place(own.released),
+            *(stop.place for stop in stops),
+            own.route.places[-1],
+        ]
+        vertices = [roadmap.vertex(place) for place in stations]
 
         def ticks(start: int, end: int) -> int:
             to_end = self._distances.to(VertexId(end), itinerary.edge_ticks)[start]

@@ -153,10 +153,10 @@ class FleetControl:
         _refuse_rotation(graph, names)
         for robot, (own, new, end) in enumerate(zip(robots, routes, committed, strict=True)):
             old, begin = own.route, max(own.route.first, new.first)
-            kept = range(begin, end + 1)
+            released_visits = range(begin, end + 1)
             if begin > own.arrived or any(
                 (old.place(visit), old.jobs_at(visit)) != (new.place(visit), new.jobs_at(visit))
-                for visit in kept
+                for visit in released_visits
             ):
                 message = "the route changes what is released (begin it with the released parts)"
                 raise InputError.at(("routes", robot), message)
@@ -164,7 +164,7 @@ class FleetControl:
             if lost := sorted(old.all_jobs() - own.finished - new.all_jobs() - unwanted):
                 raise InputError.at(("routes", robot), f"{lost[0]} is in no visit (keep each job)")
         entry = plan_entry("splice", self.ledger.run, routes, graph, committed=committed)
-        self._commit({**entry, "withdrawn": [list(one) for one in withdrawn]}, *notes)
+        self._commit({**entry, "withdrawn": [list(job) for job in withdrawn]}, *notes)
         if self._since_snapshot >= self._snapshot_every:
             self._journal.begin_again(self.ledger.snapshot())
             self._since_snapshot = 0

@@ -161,8 +161,8 @@ class OrderMap:
         shape = self._shapes.get((start, end))
         points = tuple[tuple[float, float], ...]()
         if shape is not None:
-            way = (roadmap.point(start), *shape[0], roadmap.point(end))
-            points = tuple(map(self._point, way))
+            course = (roadmap.point(start), *shape[0], roadmap.point(end))
+            points = tuple(map(self._point, course))
         return Lane(
             length=float(kind.length * self._metre),
             max_speed=float(speed * self._metre / (scenario.units.seconds or 1)),

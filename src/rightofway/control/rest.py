@@ -65,7 +65,7 @@ def stops_to_make(own: RobotLedger, released: int) -> list[StopToMake]:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Kept:
+class _Commitment:
     """What a robot keeps, from the visit on at which it has arrived."""
 
     route: RouteToDrive  # up to the last released part
@@ -120,21 +120,23 @@ class RestPlanner:
         GaveUp
             If no plan was found, or the judge refuses it.
         """
-        kept = [
-            self._kept(robot, own, end)
+        commitments = [
+            self._commitment(robot, own, end)
             for robot, (own, end) in enumerate(zip(robots, released, strict=True))
         ]
         moving = [robot for robot, own in enumerate(robots) if not own.is_off]
         reasons = ""
         for aside in range(MOST_ASIDE):
             try:
-                ways = {k: self._way(robots[k], kept[k], stops[k], aside) for k in moving}
-                found = self._routes(kept, ways, self._closures(kept, closed))
+                ways = {k: self._way(robots[k], commitments[k], stops[k], aside) for k in moving}
+                planned_routes = self._routes(
+                    commitments, ways, self._closures(commitments, closed)
+                )
             except (NoPlanExists, GaveUp, InputError) as error:
                 reasons = str(error)
                 continue
             routes = [own.route.since(own.arrived) for own in robots]
-            for robot, route in zip(moving, found, strict=True):
+            for robot, route in zip(moving, planned_routes, strict=True):
                 routes[robot] = route
             ends = [
                 own.route.end if own.is_off else end
@@ -165,7 +167,9 @@ class RestPlanner:
         """
         moving = [robot for robot, own in enumerate(robots) if not own.is_off]
         routes = [own.route.since(own.arrived) for own in robots]
-        kept = {robot: self._kept(robot, robots[robot], released[robot]) for robot in moving}
+        commitments = {
+            robot: self._commitment(robot, robots[robot], released[robot]) for robot in moving
+        }
         stops = {
             robot: [*stops_to_make(robots[robot], released[robot]), StopToMake(route.places[-1])]
             for robot, route in enumerate(routes)
@@ -174,12 +178,12 @@ class RestPlanner:
         fleet = [
             self._robot(
                 robot,
-                one.vertices[0],
-                one.vertices[-1],
-                one.work + (span if robot in stuck else 0),
+                own_commitment.vertices[0],
+                own_commitment.vertices[-1],
+                own_commitment.work + (span if robot in stuck else 0),
                 stops[robot],
             )
-            for robot, one in kept.items()
+            for robot, own_commitment in commitments.items()
         ]
         whole = replace(self._scenario, robots=tuple(fleet))
         visited = [
@@ -203,7 +207,7 @@ class RestPlanner:
         committed = {
             visit
             for first, robot in zip(accumulate(map(len, visited), initial=0), moving, strict=False)
-            for visit in range(first, first + len(kept[robot].vertices))
+            for visit in range(first, first + len(commitments[robot].vertices))
         }
         before = graph.flowtime()
         LocalSearch(Task(scenario=whole), graph, lambda visit: visit not in committed).descend()
@@ -221,7 +225,7 @@ class RestPlanner:
         released_first = graph_behind_released(self._scenario, routes, ends)
         return None if released_first.rotation() else (routes, released_first)
 
-    def _kept(self, robot: int, own: RobotLedger, released: int) -> _Kept:
+    def _commitment(self, robot: int, own: RobotLedger, released: int) -> _Commitment:
         route = own.route.since(own.arrived)
         length = released - own.arrived + 1
         roadmap = self._scenario.roadmap
@@ -234,7 +238,7 @@ class RestPlanner:
         )
         itinerary = self._scenario.problem.itineraries[robot]
         drives = drives_along(roadmap, itinerary, vertices) if length > 1 else []
-        return _Kept(
+        return _Commitment(
             route=replace(
                 route,
                 places=route.places[:length],
@@ -250,27 +254,33 @@ class RestPlanner:
 
     def _routes(
         self,
-        kept: Sequence[_Kept],
+        commitments: Sequence[_Commitment],
         ways: Mapping[int, Sequence[StopToMake]],
         closures: tuple[Closure, ...],
     ) -> list[RouteToDrive]:
         """Return the whole route of each robot on the floor."""
         moving = list(ways)
-        ends = {robot: kept[robot].vertices[-1] for robot in moving}
+        ends = {robot: commitments[robot].vertices[-1] for robot in moving}
         begun = [
-            self._robot(robot, ends[robot], ends[robot], kept[robot].busy, ways[robot])
+            self._robot(robot, ends[robot], ends[robot], commitments[robot].busy, ways[robot])
             for robot in moving
         ]
         rest = replace(self._scenario, robots=tuple(begun), closures=closures)
         plan = solve(rest, self._planner, time_limit=self._time_limit)
         fleet = [
-            self._robot(robot, kept[robot].vertices[0], ends[robot], kept[robot].work, ways[robot])
+            self._robot(
+                robot,
+                commitments[robot].vertices[0],
+                ends[robot],
+                commitments[robot].work,
+                ways[robot],
+            )
             for robot in moving
         ]
         whole = replace(rest, robots=tuple(fleet))
         visited, arrivals = [], []
         for robot, track in zip(moving, plan.tracks, strict=True):
-            before = kept[robot].vertices[:-1]
+            before = commitments[robot].vertices[:-1]
             visited.append([*before, *track.vertices.tolist()])
             arrivals.append([*range(-len(before), 0), *track.enter.tolist()])
         tracks = timetable_if_possible(whole, visited, arrivals)
@@ -280,34 +290,36 @@ class RestPlanner:
         if not judged.ok:
             raise GaveUp(f"the whole has {judged.summary}")
         return [
-            self._route(whole, index, track, kept[robot], ways[robot])
+            self._route(whole, index, track, commitments[robot], ways[robot])
             for index, (robot, track) in enumerate(zip(moving, tracks, strict=True))
         ]
 
     def _way(
-        self, own: RobotLedger, kept: _Kept, stops: Sequence[StopToMake], aside: int
+        self, own: RobotLedger, commitment: _Commitment, stops: Sequence[StopToMake], aside: int
     ) -> list[StopToMake]:
         """Return the stops behind what is kept, with one beside it where the robot comes back.
 
         An action is done at a node that is new: a robot that stands where it has work to do drives
         away and comes back.
         """
-        roadmap, here = self._scenario.roadmap, kept.vertices[-1]
-        way = [*stops, StopToMake(own.route.places[-1])]
-        if way[0].job and roadmap.vertex(way[0].place) == here:
-            heads = roadmap.heads[roadmap.indptr[here] : roadmap.indptr[here + 1]].tolist()
-            back = [head for head in heads if roadmap.edge(head, here) is not None]
+        roadmap, place = self._scenario.roadmap, commitment.vertices[-1]
+        stops_ahead = [*stops, StopToMake(own.route.places[-1])]
+        if stops_ahead[0].job and roadmap.vertex(stops_ahead[0].place) == place:
+            heads = roadmap.heads[roadmap.indptr[place] : roadmap.indptr[place + 1]].tolist()
+            back = [head for head in heads if roadmap.edge(head, place) is not None]
             if not back:
-                raise GaveUp(f"{way[0].place} cannot be left and entered again")
-            way.insert(0, StopToMake(roadmap.name(back[aside % len(back)])))
-        return way
+                raise GaveUp(f"{stops_ahead[0].place} cannot be left and entered again")
+            stops_ahead.insert(0, StopToMake(roadmap.name(back[aside % len(back)])))
+        return stops_ahead
 
-    def _closures(self, kept: Sequence[_Kept], closed: Sequence[str]) -> tuple[Closure, ...]:
+    def _closures(
+        self, commitments: Sequence[_Commitment], closed: Sequence[str]
+    ) -> tuple[Closure, ...]:
         """Return the closed vertices: from the begin on, or once robots may have left them."""
         roadmap, time = self._scenario.roadmap, self._scenario.problem.clock.time
-        held = {vertex for one in kept for vertex in one.vertices}
-        longest = max(max(one.edge_ticks) for one in self._scenario.problem.itineraries)
-        later = time(Tick(max(one.busy for one in kept) + 2 * longest))
+        held = {vertex for commitment in commitments for vertex in commitment.vertices}
+        longest = max(max(itinerary.edge_ticks) for itinerary in self._scenario.problem.itineraries)
+        later = time(Tick(max(commitment.busy for commitment in commitments) + 2 * longest))
         vertices = [roadmap.vertex(place) for place in closed]
         return tuple(
             Closure(at=vertex, from_=later if vertex in held else Fraction(0))
@@ -315,18 +327,18 @@ class RestPlanner:
         )
 
     def _robot(
-        self, robot: int, home: int, end: int, busy: int, way: Sequence[StopToMake]
+        self, robot: int, home: int, end: int, busy: int, stops: Sequence[StopToMake]
     ) -> Robot:
         """Return a robot that is busy at the end of what it keeps, and then makes its stops."""
         time = self._scenario.problem.clock.time
-        stops = [Stop(at=VertexId(end), work=time(Tick(busy)))]
-        for stop in way:
+        work = [Stop(at=VertexId(end), work=time(Tick(busy)))]
+        for stop in stops:
             vertex = self._scenario.roadmap.vertex(stop.place)
-            stops.append(Stop(at=vertex, work=time(Tick(stop.work))))
+            work.append(Stop(at=vertex, work=time(Tick(stop.work))))
         return replace(
             self._scenario.robots[robot],
             home=VertexId(home),
-            stops=tuple(stops),
+            stops=tuple(work),
             turn=Fraction(0),
             ends="none",
             laps=1,
@@ -334,15 +346,19 @@ class RestPlanner:
 
     @staticmethod
     def _route(
-        whole: Scenario, index: int, track: Track, kept: _Kept, way: Sequence[StopToMake]
+        whole: Scenario,
+        index: int,
+        track: Track,
+        commitment: _Commitment,
+        stops: Sequence[StopToMake],
     ) -> RouteToDrive:
         """Return the route of a whole track, with its jobs and ends of laps."""
-        route, last = kept.route, len(kept.vertices) - 1
+        route, last = commitment.route, len(commitment.vertices) - 1
         serves = route_of(whole.roadmap, whole.problem.itineraries[index], track).serves[1:]
         jobs = [*map(list, route.jobs), *([] for _ in range(last + 1, len(track)))]
         work = [*map(list, route.work), *([] for _ in range(last + 1, len(track)))]
         lap_ends = set(route.lap_ends)
-        for stop, visit in zip(way, serves, strict=True):
+        for stop, visit in zip(stops, serves, strict=True):
             if stop.job and visit == last:
                 raise GaveUp(f"{stop.job} would be done at a node that was sent already")
             if stop.job:
