@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import sqlite3
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-from rightofway.control import Entry, JournalFailed, SqliteJournal
+from rightofway.control import Entry, JournalFailed, JournalReader, SqliteJournal
+from rightofway.control.journal import BatchedJournal, JournalRow
 from rightofway.errors import InputError
 
 ENTRIES: list[Entry] = [{"kind": "started"}, {"kind": "arrived", "robot": 0, "visit": 3}]
@@ -54,4 +58,74 @@ def test_on_a_full_disk_nothing_is_half_written(tmp_path: Path) -> None:
     with pytest.raises(JournalFailed, match="full"):
         journal.commit([ENTRIES[0], large])
     assert list(journal.entries()) == []
+    journal.close()
+
+
+def test_another_process_reads_what_is_committed_while_the_journal_is_written(
+    tmp_path: Path,
+) -> None:
+    moments = iter((10.5, 11.0))
+    path = tmp_path / "run.journal"
+    journal = SqliteJournal(path, lambda: next(moments))
+    journal.commit(ENTRIES)
+    reads = (
+        "from pathlib import Path; from rightofway.control import JournalReader;"
+        f"reader = JournalReader(Path({str(path)!r}));"
+        "print(reader.is_written, *(row[:2] for row in reader.rows()))"
+    )
+    shown = subprocess.run([sys.executable, "-c", reads], capture_output=True, check=True)
+    assert shown.stdout.decode().strip() == "True (1, 10.5) (2, 10.5)"
+    reader = JournalReader(path)
+    journal.commit(ENTRIES[:1])
+    assert reader.rows(after=2) == [JournalRow(3, 11.0, ENTRIES[0])]
+    journal.close()
+    assert not reader.is_written
+    reader.close()
+
+
+def test_who_looks_at_a_journal_does_not_keep_a_control_from_starting(tmp_path: Path) -> None:
+    path = tmp_path / "run.journal"
+    SqliteJournal(path).close()
+    reader = JournalReader(path)
+    assert not reader.is_written
+    SqliteJournal(path).close()
+    reader.close()
+
+
+def test_what_is_no_journal_is_not_read(tmp_path: Path) -> None:
+    (tmp_path / "a text").write_text("not a database, and long enough to be looked at " * 40)
+    for name in ("a text", "nothing"):
+        with pytest.raises(InputError, match="cannot be read as a journal"):
+            JournalReader(tmp_path / name)
+
+
+def test_a_journal_of_an_earlier_version_goes_on_with_moments(tmp_path: Path) -> None:
+    path = tmp_path / "run.journal"
+    database = sqlite3.connect(path)
+    database.execute("CREATE TABLE entries (number INTEGER PRIMARY KEY, entry TEXT)")
+    database.execute("CREATE TABLE snapshots (number INTEGER)")
+    database.execute("""INSERT INTO entries (entry) VALUES ('{"kind": "started"}')""")
+    database.commit()
+    database.close()
+    reader = JournalReader(path)
+    assert reader.rows() == [JournalRow(1, None, ENTRIES[0])]
+    reader.close()
+    journal = SqliteJournal(path, lambda: 7.0)
+    journal.commit(ENTRIES[1:])
+    assert list(journal.entries()) == ENTRIES
+    reader = JournalReader(path)
+    assert [row.moment for row in reader.rows()] == [None, 7.0]
+    reader.close()
+    journal.close()
+
+
+def test_a_snapshot_leaves_the_notices_that_are_not_on_the_disk_yet(tmp_path: Path) -> None:
+    """It says all that they would say of robots, and nothing of what people were told."""
+    journal = SqliteJournal(tmp_path / "run.journal")
+    batched = BatchedJournal(journal)
+    told: Entry = {"kind": "notice", "robot": 0, "about": "", "over": False, "text": "is late"}
+    batched.commit([*ENTRIES, told])
+    batched.begin_again({"kind": "snapshot"})
+    batched.flush()
+    assert list(journal.entries()) == [{"kind": "snapshot"}, told]
     journal.close()

@@ -1,7 +1,14 @@
 """Fleet control: a plan released to real robots by right of way, with a journal."""
 
 from rightofway.control.fleet_control import FleetControl
-from rightofway.control.journal import Entry, Journal, JournalFailed, SqliteJournal
+from rightofway.control.journal import (
+    Entry,
+    Journal,
+    JournalFailed,
+    JournalReader,
+    JournalRow,
+    SqliteJournal,
+)
 from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive
 from rightofway.control.messages import (
     Condition,
@@ -21,6 +28,8 @@ __all__ = [
     "InstantAction",
     "Journal",
     "JournalFailed",
+    "JournalReader",
+    "JournalRow",
     "Ledger",
     "Message",
     "Order",

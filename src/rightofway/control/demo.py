@@ -277,8 +277,8 @@ class _Demo:
                 if not robot.is_busy and (end := robot.begin_step(self._now)) is not None:
                     heapq.heappush(agenda, (end, number))
             if not agenda or agenda[0][0] > self._now:
-                for sentence in self._story.go_on():
-                    self._report(Tick(self._now), sentence)
+                for happening in self._story.go_on():
+                    self._report(Tick(self._now), happening.text)
             if not agenda:
                 return
             moment, number = heapq.heappop(agenda)

@@ -21,15 +21,16 @@ from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity
-from rightofway.control.journal import BatchedJournal, Journal, JournalFailed
+from rightofway.control.journal import BatchedJournal, Entry, Journal, JournalFailed
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.messages import Message
-from rightofway.control.notices import Notices
+from rightofway.control.notices import Notices, notice
 from rightofway.control.order_map import OrderMap
 from rightofway.control.story import Story
 from rightofway.errors import InputError
 from rightofway.io import plan_text
 from rightofway.model import Plan
+from rightofway.phrases import Phrase, parts_of
 
 if TYPE_CHECKING:
     import aiomqtt
@@ -43,6 +44,9 @@ REMIND = 1.0
 
 SILENCE = 35.0
 """Seconds without a state after which a robot is lost: it has to send one every 30 seconds."""
+
+BROKER, JOURNAL = "broker", "journal"
+"""Kinds of trouble that are not of a robot."""
 
 RETRY = (0.2, 5.0)
 """Seconds until the next try to connect: the first time, and at most."""
@@ -97,8 +101,8 @@ class Driver:
     ) -> None:
         names = [robot.name for robot in plan.scenario.robots]
         maps = [OrderMap(plan.scenario, *numbered) for numbered in enumerate(identities)]
-        notices = Notices(names, report)
         self._journal, self._report = BatchedJournal(journal), report
+        notices = Notices(names, report, keep=self._keep)
         self._metrics = metrics
         self.control = FleetControl(self._journal, report=notices.about)
         self._laps = laps
@@ -121,6 +125,15 @@ class Driver:
         self._answers: list[tuple[int, Answer]] = []  # to commands, once all is on the disk
         self._fails = False
 
+    def _keep(self, entry: Entry) -> None:
+        """Write into the journal what people were told."""
+        self._journal.commit([entry])
+
+    def _tell(self, text: str, kind: str = "", *, is_over: bool = False) -> None:
+        """Report a sentence, and write it into the journal."""
+        self._report(text)
+        self._keep(notice(parts_of(text), kind=kind, is_over=is_over))
+
     async def run(self, broker: Broker, *, stays: bool = False) -> None:
         """Drive over any number of connections, until robots are at their ends or made all laps.
 
@@ -137,13 +150,23 @@ class Driver:
         while stays or not self.is_done:
             try:
                 async with broker.client("rightofway") as client:
-                    self._report(f"connected to {broker.address}")
+                    self._tell(
+                        Phrase("connected to {broker}", broker=broker.address),
+                        BROKER,
+                        is_over=True,
+                    )
                     wait, is_lost = RETRY[0], False
                     await self._serve(client, stays=stays)
             except* aiomqtt.MqttError as errors:
                 if not is_lost:
                     reason = str(errors.exceptions[0])
-                    self._report(f"no connection to {broker.address}: {reason}; trying again")
+                    sentence = Phrase(
+                        "no connection to {broker}: {reason}; trying again",
+                        broker=broker.address,
+                        reason=reason,
+                    )
+                    self._tell(sentence, BROKER)
+                    self._flush()
                 is_lost = True
                 await asyncio.sleep(wait)
                 wait = min(2 * wait, RETRY[1])
@@ -207,7 +230,8 @@ class Driver:
         self._answers += answers
         for _, answer in answers:
             if answer["text"]:
-                self._report(answer["text"] if answer["done"] else f"refused: {answer['text']}")
+                text = answer["text"]
+                self._tell(text if answer["done"] else Phrase("refused: {reason}", reason=text))
         return [*switched, *self.end.letters(messages)]
 
     def _answer(self) -> None:
@@ -225,7 +249,7 @@ class Driver:
         now = time.monotonic()
         for robot, heard in enumerate(self._heard):
             if now - heard > SILENCE:
-                why = f"has been silent for {SILENCE:g} s"
+                why = Phrase("has been silent for {seconds} s", seconds=f"{SILENCE:g}")
                 letters += self.end.connect(robot, is_connected=False, why=why)
         return letters
 
@@ -240,25 +264,34 @@ class Driver:
             if letter.name == "state":
                 self._heard[robot] = time.monotonic()
             self._outbox += self.end.receive(letter)
-        try:
-            self._journal.flush()
-        except JournalFailed as error:
-            if not self._fails:
-                message = f"the journal cannot be written: {error}; nothing is sent until it can"
-                self._report(message)
-            self._fails = True
+        if not self._flush():
             return
-        if self._fails:
-            self._report("the journal can be written again")
-        self._fails = False
         self._answer()
         sent, self._outbox = self._outbox, []
         # All go to the client at once and in their order; then their sending is awaited together.
         await asyncio.gather(*(client.publish(topic, payload, qos=0) for topic, payload in sent))
-        for sentence in self._story.go_on():
-            self._report(sentence)
+        for happening in self._story.go_on():
+            self._report(happening.text)
         if self._metrics is not None:
             self._metrics.turn(inbox, sent, self._story.waits)
+
+    def _flush(self) -> bool:
+        """Bring the journal to the disk; return whether that was possible."""
+        try:
+            self._journal.flush()
+        except JournalFailed as error:
+            if not self._fails:
+                sentence = Phrase(
+                    "the journal cannot be written: {error}; nothing is sent until it can",
+                    error=str(error),
+                )
+                self._tell(sentence, JOURNAL)
+            self._fails = True
+            return False
+        if self._fails:
+            self._tell(Phrase("the journal can be written again"), JOURNAL, is_over=True)
+        self._fails = False
+        return True
 
 
 def _digest(plan: Plan, maps: Sequence[OrderMap]) -> str:

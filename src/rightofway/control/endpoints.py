@@ -19,7 +19,8 @@ from rightofway.control.messages import Condition, InstantAction, Message, Order
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import Lane, OrderMap, Place
 from rightofway.control.simulated_robot import SimulatedRobot
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, printable, shown
+from rightofway.phrases import Phrase
 
 __all__ = ["ControlEnd", "Letter", "RobotEnd"]
 
@@ -168,7 +169,8 @@ class ControlEnd:
             self._compare(robot, vda5050.read(vda5050.Factsheet, document, "factsheet"))
         except InputError as error:
             path = ".".join(step for step in error.faults[0].path if isinstance(step, str))
-            self.notices.once(robot, f"message {path}", f"sent what cannot be read: {error}")
+            reason = Phrase("sent what cannot be read: {error}", error=printable(str(error)))
+            self.notices.once(robot, f"message {path}", reason)
         return []
 
     def connect(self, robot: int, *, is_connected: bool, why: str = "") -> list[Letter]:
@@ -186,8 +188,10 @@ class ControlEnd:
         if is_connected:
             self._welcome(robot)
         elif robot not in self.control.lost:
-            reason = why or "is not connected"
-            sentence = f"{reason}: it keeps what it holds and gets nothing more"
+            reason = why or Phrase("is not connected")
+            sentence = Phrase(
+                "{reason}: it keeps what it holds and gets nothing more", reason=reason
+            )
             if self.notices.once(robot, "lost", sentence):
                 self._missed.add(robot)
         return self.letters(self.control.connect(robot, is_connected=is_connected))
@@ -195,7 +199,7 @@ class ControlEnd:
     def _welcome(self, robot: int) -> None:
         if robot in self._missed:
             self._missed.discard(robot)
-            self.notices.about(robot, "is connected again")
+            self.notices.about(robot, Phrase("is connected again"), "lost", is_over=True)
 
     def _compare(self, robot: int, sheet: vda5050.Factsheet) -> None:
         """Report where a robot is slower or larger than the plan takes it to be."""
@@ -205,16 +209,25 @@ class ControlEnd:
         speed, radius = float(own.speed * metre / second), float(own.radius * metre)
         top = physical.speedMax
         if top is not None and top < speed - ROUNDING:
-            sentence = f"drives at most {top:g} m/s, and the plan takes {speed:g} m/s"
-            self.notices.once(robot, "speed", f"{sentence}: it will be late")
+            sentence = Phrase(
+                "drives at most {top} m/s, and the plan takes {speed} m/s: it will be late",
+                top=f"{top:g}",
+                speed=f"{speed:g}",
+            )
+            self.notices.once(robot, "speed", sentence)
         if radius and physical.length is not None and physical.width is not None:
             needed = hypot(physical.length, physical.width) / 2
             if needed > radius + ROUNDING:
-                size = f"{physical.length:g} m long and {physical.width:g} m wide"
-                sentence = f"is {size}, and the plan takes a radius of {radius:g} m"
-                remedy = f"plan with a radius of {needed:.3g} m"
+                sentence = Phrase(
+                    "is {length} m long and {width} m wide, and the plan takes a radius of"
+                    " {radius} m: it gets nothing more (plan with a radius of {needed} m)",
+                    length=f"{physical.length:g}",
+                    width=f"{physical.width:g}",
+                    radius=f"{radius:g}",
+                    needed=f"{needed:.3g}",
+                )
                 self.control.refuse(robot)
-                self.notices.once(robot, "size", f"{sentence}: it gets nothing more ({remedy})")
+                self.notices.once(robot, "size", sentence)
 
     def letters(self, messages: Iterable[Message]) -> list[Letter]:
         """Return messages of the control as they are sent.

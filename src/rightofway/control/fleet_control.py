@@ -22,7 +22,8 @@ from rightofway.control.messages import (
     OrderNode,
     RobotState,
 )
-from rightofway.errors import InputError
+from rightofway.errors import InputError, printable
+from rightofway.phrases import Phrase
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 
 LOOK_AHEAD = 4
@@ -323,7 +324,7 @@ class FleetControl:
             if status == "FINISHED":
                 yield {"kind": "finished", "robot": robot, "job": job}
             elif status == "FAILED" and self._is_failure(own, action_id, job):
-                self._report(robot, f"has failed in {job}: it goes no further")
+                self._report(robot, Phrase("has failed in {job}: it goes no further", job=job))
                 yield {"kind": "failed", "robot": robot, "job": job}
         visit = self._proven(own, state)
         if visit is not None and visit > own.arrived:
@@ -334,7 +335,8 @@ class FleetControl:
 
     def _fault_entry(self, robot: int, fault: str, state: RobotState) -> Entry:
         """Report a fault; return its entry."""
-        self._report(robot, f"is faulty: {fault}; a person has to look after it")
+        sentence = Phrase("is faulty: {fault}; a person has to look after it", fault=fault)
+        self._report(robot, sentence)
         place = state.last_place or None
         return {"kind": "fault", "robot": robot, "fault": fault, "place": place}
 
@@ -371,9 +373,16 @@ class FleetControl:
         sent = own.orders.get(state.order_id)
         if sent is None:
             is_known = not state.order_id or self.ledger.owns(robot, state.order_id)
-            return None if is_known else f"it has order {state.order_id!r}, which is not ours"
+            order = printable(state.order_id[:80])
+            return (
+                None if is_known else Phrase("it has order {order}, which is not ours", order=order)
+            )
         if state.update_id >= sent.updates:
-            return f"it has update {state.update_id} of an order with {sent.updates}"
+            return Phrase(
+                "it has update {update} of an order with {updates}",
+                update=str(state.update_id),
+                updates=str(sent.updates),
+            )
         visit = sent.offset + state.last_sequence_id // 2
         if state.update_id not in sent.ends or visit < own.route.first:
             return None  # of long ago: where it was is not kept
@@ -381,10 +390,10 @@ class FleetControl:
         base = range(sent.offset, end + 1)
         beyond = [number for number in state.nodes if sent.offset + number // 2 not in base]
         if beyond:
-            return f"it drives to node {beyond[0]}, which was not released"
+            return Phrase("it drives to node {node}, which was not released", node=str(beyond[0]))
         places = own.route.stretch(sent.offset, end + 1)
         if state.order_id == own.order_id and state.last_place not in {*places, ""}:
-            return f"it is at {state.last_place!r}, off its way"
+            return Phrase("it is at {place}, off its way", place=printable(state.last_place[:80]))
         return None
 
     # --- what follows for its orders (rules 6, 8, 9) ---------------------------------------------
@@ -419,7 +428,8 @@ class FleetControl:
             if stands_at is not None:
                 yield self._new_order(robot, stands_at, own.released)
             elif own.fault is None:
-                fault = f"it stands at {state.last_place!r}, which it does not hold"
+                place = printable(state.last_place[:80])
+                fault = Phrase("it stands at {place}, which it does not hold", place=place)
                 yield self._fault_entry(robot, fault, state)
 
     def _is_taken_back(self, robot: int, state: RobotState) -> bool:

@@ -1,22 +1,46 @@
 """The journal of a control: entries that are on the disk before anything is sent.
 
-One process may have a journal open. There is no journal in memory: without a journal, nobody knows
-what robots hold.
+One process may write a journal, and any may read it. There is no journal in memory: without a
+journal, nobody knows what robots hold. Each entry has the moment at which it was written, for
+people who look at it later; no release depends on it.
 """
 
 from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from rightofway.errors import InputError, shown
 
 Entry = Mapping[str, Any]
 """A journal entry as JSON has it, with its ``kind``."""
+
+
+UNFOLDED = ("notice", "pace")
+"""Kinds of entries that are for people only: no snapshot has them, and no control reads them."""
+
+
+class JournalRow(NamedTuple):
+    """An entry as it stands in a journal, with its number and moment.
+
+    Attributes
+    ----------
+    number
+        Rises from entry to entry.
+    moment
+        When it was written [s]; None in journals of earlier versions.
+    entry
+        The entry.
+    """
+
+    number: int
+    moment: float | None
+    entry: Entry
 
 
 class JournalFailed(Exception):
@@ -51,12 +75,14 @@ class Journal(Protocol):
 
 
 class SqliteJournal:
-    """A journal in a file of SQLite, locked for other processes.
+    """A journal in a file of SQLite, locked for other processes that want to write it.
 
     Parameters
     ----------
     path
-        The file; it is made where there is none.
+        The file; it is made where there is none, with another one beside it that is locked.
+    now
+        Returns the moment that entries get [s].
 
     Raises
     ------
@@ -64,23 +90,30 @@ class SqliteJournal:
         If the file is no journal, cannot be written, or is open in another process.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, now: Callable[[], float] = time.time) -> None:
+        self._now = now
         try:
-            self._database = sqlite3.connect(path, timeout=0.5, isolation_level=None)
+            self._lock = sqlite3.connect(_lock_of(path), timeout=0.5, isolation_level=None)
         except sqlite3.Error as error:
             raise self._refused(path, error) from error
         try:
-            self._database.execute("PRAGMA locking_mode = EXCLUSIVE")
+            self._lock.execute("BEGIN EXCLUSIVE")  # the lock ends with the process
+            self._database = sqlite3.connect(path, timeout=5, isolation_level=None)
+        except sqlite3.Error as error:
+            self._lock.close()
+            raise self._refused(path, error) from error
+        try:
             self._database.execute("PRAGMA journal_mode = WAL")
             self._database.execute("PRAGMA synchronous = FULL")
             self._database.execute(
-                "CREATE TABLE IF NOT EXISTS entries (number INTEGER PRIMARY KEY, entry TEXT)"
+                "CREATE TABLE IF NOT EXISTS entries"
+                " (number INTEGER PRIMARY KEY, entry TEXT, moment REAL)"
             )
+            if not _has_moments(self._database):  # of an earlier version
+                self._database.execute("ALTER TABLE entries ADD COLUMN moment REAL")
             self._database.execute("CREATE TABLE IF NOT EXISTS snapshots (number INTEGER)")
-            self._database.execute("BEGIN IMMEDIATE")  # takes the lock, which is kept
-            self._database.execute("COMMIT")
         except sqlite3.Error as error:
-            self._database.close()
+            self.close()
             raise self._refused(path, error) from error
 
     @staticmethod
@@ -111,14 +144,15 @@ class SqliteJournal:
     def commit(self, entries: Iterable[Entry]) -> None:
         """Append entries in one transaction."""
         with self._transaction() as database:
-            rows = [(_text_of(entry),) for entry in entries]
-            database.executemany("INSERT INTO entries (entry) VALUES (?)", rows)
+            moment = self._now()
+            rows = [(_text_of(entry), moment) for entry in entries]
+            database.executemany("INSERT INTO entries (entry, moment) VALUES (?, ?)", rows)
 
     def begin_again(self, snapshot: Entry) -> None:
         """Append a snapshot; drop the entries from before the last snapshot but one."""
         with self._transaction() as database:
-            query = "INSERT INTO entries (entry) VALUES (?)"
-            number = database.execute(query, (_text_of(snapshot),)).lastrowid
+            query = "INSERT INTO entries (entry, moment) VALUES (?, ?)"
+            number = database.execute(query, (_text_of(snapshot), self._now())).lastrowid
             last = database.execute("SELECT max(number) FROM snapshots").fetchone()[0] or 0
             database.execute("DELETE FROM entries WHERE number < ?", (last,))
             database.execute("DELETE FROM snapshots WHERE number < ?", (last,))
@@ -138,6 +172,62 @@ class SqliteJournal:
                 raise
         except sqlite3.Error as error:
             raise JournalFailed(str(error)) from error
+
+    def close(self) -> None:
+        """Give the file free."""
+        self._database.close()
+        self._lock.close()
+
+
+class JournalReader:
+    """A journal that is read while another process may write it.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Raises
+    ------
+    InputError
+        If the file is no journal.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        try:
+            self._database = sqlite3.connect(f"{path.absolute().as_uri()}?mode=rw", uri=True)
+            self._database.execute("PRAGMA query_only = TRUE")
+            self._database.execute("SELECT 1 FROM entries LIMIT 1")
+        except sqlite3.Error as error:
+            message = f"cannot be read as a journal: {error} (name the journal of a control)"
+            raise InputError.at(str(path), message) from error
+        self._moment = "moment" if _has_moments(self._database) else "NULL"
+
+    def rows(self, after: int = 0) -> list[JournalRow]:
+        """Return the entries behind one, in their order, as far as they are still kept.
+
+        Parameters
+        ----------
+        after
+            The number of an entry.
+        """
+        query = f"SELECT number, {self._moment}, entry FROM entries WHERE number > ? ORDER BY 1"  # noqa: S608 (no text of others)
+        rows = self._database.execute(query, (after,))
+        return [JournalRow(number, moment, json.loads(text)) for number, moment, text in rows]
+
+    @property
+    def is_written(self) -> bool:
+        """Whether a process has the journal open to write it."""
+        lock = _lock_of(self._path)
+        if not lock.exists():
+            return False
+        with closing(sqlite3.connect(lock, timeout=0)) as database:
+            try:
+                database.execute("SELECT count(*) FROM sqlite_master")
+            except sqlite3.OperationalError:
+                return True
+        return False
 
     def close(self) -> None:
         """Give the file free."""
@@ -171,7 +261,8 @@ class BatchedJournal:
 
     def begin_again(self, snapshot: Entry) -> None:
         """Append a snapshot, in place of entries that are not on the disk yet."""
-        self._pending, self._snapshot = [], snapshot
+        self._pending = [entry for entry in self._pending if entry["kind"] in UNFOLDED]
+        self._snapshot = snapshot
 
     def flush(self) -> None:
         """Bring all entries to the disk, in one transaction behind a snapshot, if there is one.
@@ -191,3 +282,12 @@ class BatchedJournal:
 
 def _text_of(entry: Entry) -> str:
     return json.dumps(entry, separators=(",", ":"))
+
+
+def _lock_of(path: Path) -> Path:
+    return path.with_name(f"{path.name}-lock")
+
+
+def _has_moments(database: sqlite3.Connection) -> bool:
+    columns = database.execute("SELECT name FROM pragma_table_info('entries')")
+    return ("moment",) in columns.fetchall()

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from rightofway.control.journal import Entry
+from rightofway.control.journal import UNFOLDED, Entry
 from rightofway.control.messages import Order
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 
@@ -326,6 +326,8 @@ class Ledger:
             self.closed.discard(entry["place"])
         elif kind == "command":
             self.commands, self.answer = entry["number"], entry["answer"]
+        elif kind in UNFOLDED:
+            pass
         else:
             _APPLY[kind](self.robots[entry["robot"]], entry)
 

@@ -5,10 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 
+from rightofway.control.journal import Entry
 from rightofway.control.messages import AUTOMATIC, Condition
 from rightofway.errors import printable
+from rightofway.phrases import Phrase, parts_of
+from rightofway.report.driving import about_robot
 
-__all__ = ["Notices"]
+__all__ = ["Notices", "notice"]
 
 QUIET = 600.0
 """Seconds after which a kind of trouble that comes and goes is reported again."""
@@ -28,6 +31,8 @@ class Notices:
         Receives each sentence.
     clock
         Returns seconds; no release depends on them.
+    keep
+        Receives an entry for the journal with each sentence, and when a kind of trouble has ended.
     """
 
     def __init__(
@@ -35,13 +40,14 @@ class Notices:
         names: Sequence[str],
         report: Callable[[str], None],
         clock: Callable[[], float] = time.monotonic,
+        keep: Callable[[Entry], None] = lambda _: None,
     ) -> None:
-        self._names, self._report, self._clock = names, report, clock
+        self._names, self._report, self._clock, self._keep = names, report, clock, keep
         self._last: list[dict[str, float]] = [{} for _ in names]
         self._present: list[dict[str, str]] = [{} for _ in names]
         self._conditions = [Condition()] * len(names)
 
-    def about(self, robot: int, sentence: str) -> None:
+    def about(self, robot: int, sentence: str, kind: str = "", *, is_over: bool = False) -> None:
         """Report a sentence on a robot.
 
         Parameters
@@ -49,9 +55,18 @@ class Notices:
         robot
             The robot.
         sentence
-            What it does or is, without its name.
+            What it does or is, without its name; empty where trouble ends without a word.
+        kind
+            The kind of trouble that begins or ends; empty for news.
+        is_over
+            Whether it ends.
         """
-        self._report(printable(f"{self._names[robot]} {sentence}"))
+        text = ""
+        if sentence:
+            plain = sentence if isinstance(sentence, Phrase) else printable(sentence)
+            text = about_robot(printable(self._names[robot]), plain)
+            self._report(text)
+        self._keep(notice(parts_of(text), robot, kind, is_over=is_over))
 
     def once(self, robot: int, kind: str, sentence: str) -> bool:
         """Report a sentence unless one of its kind was reported lately; return whether it was.
@@ -71,10 +86,12 @@ class Notices:
         if kind not in last and len(last) >= MAX_KINDS:
             if len(last) == MAX_KINDS:
                 last["more"] = now
-                self.about(robot, "reports further kinds of trouble, which are left out here")
+                self.about(
+                    robot, Phrase("reports further kinds of trouble, which are left out here")
+                )
             return False
         last[kind] = now
-        self.about(robot, sentence)
+        self.about(robot, sentence, kind)
         return True
 
     def take(self, robot: int, condition: Condition) -> None:
@@ -97,23 +114,49 @@ class Notices:
             if kind in before or self.once(robot, kind, sentence)
         }
         for kind, end in before.items():
-            if kind not in present and end:
-                self.about(robot, end)
+            if kind not in present:
+                self.about(robot, end, kind, is_over=True)
         self._present[robot] = reported
+
+
+def notice(text: object, robot: int = -1, kind: str = "", *, is_over: bool = False) -> Entry:
+    """Return the entry of what people were told.
+
+    Parameters
+    ----------
+    text
+        The sentence, as `parts_of` returns it.
+    robot
+        The robot that it is about; -1 for none.
+    kind
+        The kind of trouble; empty for news.
+    is_over
+        Whether the trouble has ended.
+    """
+    return {"kind": "notice", "robot": robot, "about": kind, "over": is_over, "text": text}
 
 
 def _troubles(condition: Condition) -> Iterator[tuple[str, tuple[str, str]]]:
     """Yield kinds of trouble, each with a sentence on its begin, and on its end."""
     if condition.mode not in AUTOMATIC:
-        mode = condition.mode[:40]
-        begin = f"is in mode {mode}: it gets nothing more until it is in AUTOMATIC again"
-        yield "mode", (begin, "is in an automatic mode again")
+        begin = Phrase(
+            "is in mode {mode}: it gets nothing more until it is in AUTOMATIC again",
+            mode=printable(condition.mode[:40]),
+        )
+        yield "mode", (begin, Phrase("is in an automatic mode again"))
     if condition.is_paused:
-        yield "pause", ("is paused: it gets nothing more until it goes on", "is paused no longer")
+        begin = Phrase("is paused: it gets nothing more until it goes on")
+        yield "pause", (begin, Phrase("is paused no longer"))
     if condition.emergency_stop not in {"NONE", ""}:
-        begin = f"is in emergency stop ({condition.emergency_stop[:40]}): a person has to look"
-        yield "emergency stop", (begin, "is out of its emergency stop")
+        begin = Phrase(
+            "is in emergency stop ({stop}): a person has to look",
+            stop=printable(condition.emergency_stop[:40]),
+        )
+        yield "emergency stop", (begin, Phrase("is out of its emergency stop"))
     for error in condition.errors:
-        words = f": {error.description[:200]}" if error.description else ""
-        sentence = f"reports {error.level[:40]} {error.kind[:60]}{words}"
+        level, kind = printable(error.level[:40]), printable(error.kind[:60])
+        sentence = Phrase("reports {level} {error}", level=level, error=kind)
+        if error.description:
+            words = printable(error.description[:200])
+            sentence = Phrase("{report}: {words}", report=sentence, words=words)
         yield f"error {error.level[:40]} {error.kind[:60]}", (sentence, "")

@@ -2,13 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
 from rightofway.control.ledger import Ledger, RobotLedger
+from rightofway.phrases import Phrase
 from rightofway.precedence import Part
+from rightofway.report.driving import ends_way, finishes_work, goes_on, sets_out, waits_until
 
-__all__ = ["Story"]
+__all__ = ["Happening", "Story"]
+
+
+class Happening(NamedTuple):
+    """Something new that a robot does.
+
+    Attributes
+    ----------
+    robot
+        Its number.
+    kind
+        Whether it has done work, drives, waits for others, or is at the end of its route.
+    text
+        A sentence about it.
+    others
+        The robots that it waits for.
+    """
+
+    robot: int
+    kind: Literal["work", "drive", "wait", "end"]
+    text: Phrase
+    others: tuple[int, ...] = ()
 
 
 @dataclass(slots=True)
@@ -39,34 +63,45 @@ class Story:
 
     def __init__(self, ledger: Ledger, names: Sequence[str]) -> None:
         self._ledger, self._names = ledger, names
-        self._chapters = [_Chapter() for _ in names]
+        self._chapters = [  # of a journal of before, the story goes on
+            _Chapter(finished=own.jobs_done, has_set_out=own.arrived > 0, has_ended=own.is_done)
+            for own in ledger.robots
+        ]
         self.waits = [0] * len(names)
 
-    def go_on(self) -> Iterator[str]:
-        """Yield a sentence for all that is new.
+    def go_on(self, robots: Iterable[int] | None = None) -> Iterator[Happening]:
+        """Yield all that is new, of all robots or of some.
 
         Call it at the end of an instant: within one, a robot may wait for a state that has come.
-        """
-        for robot, own in enumerate(self._ledger.robots):
-            yield from self._of_robot(robot, own, self._chapters[robot])
 
-    def _of_robot(self, robot: int, own: RobotLedger, chapter: _Chapter) -> Iterator[str]:
+        Parameters
+        ----------
+        robots
+            Numbers of robots; all by default.
+        """
+        for robot in range(len(self._names)) if robots is None else robots:
+            yield from self._of_robot(robot, self._ledger.robots[robot], self._chapters[robot])
+
+    def _of_robot(self, robot: int, own: RobotLedger, chapter: _Chapter) -> Iterator[Happening]:
         name, place = self._names[robot], own.route.place(own.arrived)
         if own.jobs_done > chapter.finished:
             chapter.finished = own.jobs_done
             jobs = own.jobs_done + len(own.route.all_jobs() - own.finished)
-            yield f"{name} has done its work at {place} ({chapter.finished} of {jobs})"
+            yield Happening(robot, "work", finishes_work(name, place, chapter.finished, jobs))
         waited = chapter.waits_for is not None and own.released >= chapter.waits_for
         if waited or (own.released > own.arrived and not chapter.has_set_out):
-            verb = "goes on" if chapter.has_set_out else "sets out"
+            drives = goes_on if chapter.has_set_out else sets_out
             chapter.waits_for, chapter.has_set_out = None, True
-            yield f"{name} {verb} from {place} to {own.route.place(own.released)}"
+            target = own.route.place(own.released)
+            yield Happening(robot, "drive", drives(name, place, target))
         next_part = own.released + 1
         if next_part == own.route.end:
             if own.is_done and not chapter.has_ended:
                 chapter.has_ended = True
-                yield f"{name} is at the end of its way, {place}"
+                yield Happening(robot, "end", ends_way(name, place))
             return
+        if chapter.has_ended:  # it was given more to do
+            chapter.has_ended = chapter.has_set_out = False
         is_at_end = own.arrived == own.released and own.finished.issuperset(
             own.route.jobs_at(own.arrived)
         )
@@ -74,11 +109,12 @@ class Story:
         if is_at_end and missing and chapter.waits_for is None:
             chapter.waits_for = next_part
             self.waits[robot] += 1
-            others = " and ".join(
-                f"{self._names[arrival.robot]} is at {self._place(arrival.robot, arrival.visit)}"
+            others = [
+                (self._names[arrival.robot], self._place(arrival.robot, arrival.visit))
                 for arrival in missing
-            )
-            yield f"{name} waits at {place} until {others}"
+            ]
+            awaited = tuple(arrival.robot for arrival in missing)
+            yield Happening(robot, "wait", waits_until(name, place, others), awaited)
 
     def _place(self, robot: int, visit: int) -> str:
         return self._ledger.robots[robot].route.place(visit)
