@@ -164,3 +164,16 @@ InputFault(("robots", 3, "speed"), message)
 InputError.at("speed", message)
 """
     assert len(places_as_text(source)) == 3
+
+
+def test_every_action_of_a_workflow_is_pinned_to_a_commit() -> None:
+    """A tag can be moved to other code after it was read; the 40 digits of a commit cannot."""
+    uses = [
+        line.split("uses:", 1)[1].strip()
+        for file in sorted((TESTS.parent / ".github/workflows").glob("*.yml"))
+        for line in file.read_text().splitlines()
+        if "uses:" in line
+    ]
+    assert len(uses) > 10
+    pinned = re.compile(r"[\w./-]+@[0-9a-f]{40} # v[\d.]+\b.*")
+    assert [line for line in uses if not pinned.fullmatch(line)] == []
