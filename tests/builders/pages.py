@@ -7,10 +7,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-__all__ = ["DOCS", "PAGES", "ROOT", "Block", "blocks", "title_of"]
+__all__ = ["DOCS", "PAGES", "ROOT", "SDIST", "Block", "blocks", "title_of"]
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
+SDIST = (ROOT / "PKG-INFO").exists()
+"""Whether this is a source distribution: all that a checkout has, but for pictures."""
 PAGES = [
     *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")),
     *(page for page in sorted(DOCS.rglob("*.md")) if "_build" not in page.parts),
