@@ -127,7 +127,7 @@ std::optional<Backjumping::Choice> Backjumping::choice(CyclicVisit i, CyclicVisi
                                                        Outcome& outcome) {
     const bool is_run = !routes_.books_edges();
     const LinkedVisits linked = is_run ? run_through(i, j) : linked_to(i, j);
-    Choice choice{linked.front().i_starts, linked.front().j_starts, {}, {}};
+    Choice choice{linked.front().i_starts(), linked.front().j_starts(), {}, {}};
     CyclicVisit i_last = i;
     CyclicVisit j_last = j;
     Waits of_i;
@@ -138,12 +138,12 @@ std::optional<Backjumping::Choice> Backjumping::choice(CyclicVisit i, CyclicVisi
     std::int64_t sum_i = 0;
     std::int64_t sum_j = 0;
     for (const IncompatiblePair& pair : linked) {
-        choice.i_first = std::min(choice.i_first, pair.i_starts);
-        choice.j_first = std::min(choice.j_first, pair.j_starts);
+        choice.i_first = std::min(choice.i_first, pair.i_starts());
+        choice.j_first = std::min(choice.j_first, pair.j_starts());
         i_last = std::max(i_last, pair.i);
-        j_last = std::max(j_last, pair.j_starts);
-        of_i.emplace_back(pair.i_starts, pair.j);
-        of_j.emplace_back(pair.j_starts, pair.i);
+        j_last = std::max(j_last, pair.j_starts());
+        of_i.emplace_back(pair.i_starts(), pair.j);
+        of_j.emplace_back(pair.j_starts(), pair.i);
         const std::int64_t a = pair.i.number - i.number;
         const std::int64_t b = pair.j.number - j.number;
         products += a * b;
@@ -184,10 +184,10 @@ Backjumping::LinkedVisits Backjumping::linked_to(CyclicVisit i, CyclicVisit j) c
         return routes_.incompatible(one, i_leaves, other, j_leaves);
     };
     const auto is_linked = [](const IncompatiblePair& one, const IncompatiblePair& other) {
-        return one.j_starts.number <= other.j.number + 1 &&
-               other.i_starts.number <= one.i.number + 1 &&
-               one.i_starts.number <= other.i.number + 1 &&
-               other.j_starts.number <= one.j.number + 1;
+        return one.j_starts().number <= other.j.number + 1 &&
+               other.i_starts().number <= one.i.number + 1 &&
+               one.i_starts().number <= other.i.number + 1 &&
+               other.j_starts().number <= one.j.number + 1;
     };
     LinkedVisits linked{*pair_of(i, j)};
     std::set<std::pair<std::int32_t, std::int32_t>> known{{i.number, j.number}};
@@ -239,7 +239,7 @@ Backjumping::LinkedVisits Backjumping::run_through(CyclicVisit i, CyclicVisit j)
     LinkedVisits run;
     run.reserve(static_cast<std::size_t>(before + after + 1));
     for (std::int32_t k = -before; k <= after; ++k) {
-        run.push_back({at(i, k), at(j, k * j_step), at(i, k), at(j, k * j_step)});
+        run.push_back({at(i, k), at(j, k * j_step), ExcludingBookings::vertices()});
     }
     return run;
 }

@@ -92,9 +92,13 @@ void ConflictSweep::replace_first_upcoming(RobotId robot) {
     upcoming_[at] = own;
 }
 
-Booking ConflictSweep::booking(CyclicVisit visit, CyclicVisit starts) const {
-    return {timetable_.enter(starts) - routes_.approach(starts),
-            timetable_.enter(visit.next()) + routes_.headway()};
+BookingStarts ConflictSweep::starts(CyclicVisit visit) const {
+    const auto start = [&](CyclicVisit at) { return timetable_.enter(at) - routes_.approach(at); };
+    return {start(visit), leaves(visit) ? start(visit.next()) : never};
+}
+
+Tick ConflictSweep::end(CyclicVisit visit) const {
+    return timetable_.enter(visit.next()) + routes_.headway();
 }
 
 bool ConflictSweep::leaves(CyclicVisit visit) const {
@@ -108,12 +112,10 @@ std::optional<Conflict> ConflictSweep::conflict(CyclicVisit one, CyclicVisit oth
     if (!found) {
         return std::nullopt;
     }
-    const Booking left = booking(a, found->i_starts);
-    const Booking right = booking(b, found->j_starts);
-    if (overlap(left, right) <= 0) {
+    const Tick tick = found->bookings.begin(starts(a), starts(b));
+    if (tick >= std::min(end(a), end(b))) {
         return std::nullopt;
     }
-    const Tick tick = std::max(left.start, right.start);
     return Conflict{tick, a.robot, b.robot, a.number, b.number, ConflictKind::vertex};
 }
 

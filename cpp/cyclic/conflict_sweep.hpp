@@ -58,7 +58,8 @@ class ConflictSweep {
         Tick start = never;  // of its booking; `never` outside the window
     };
 
-    Booking booking(CyclicVisit visit, CyclicVisit starts) const;
+    BookingStarts starts(CyclicVisit visit) const;
+    Tick end(CyclicVisit visit) const;
     std::optional<Conflict> conflict(CyclicVisit one, CyclicVisit other) const;
     bool leaves(CyclicVisit visit) const;
     bool holds(const Conflict& conflict) const;

@@ -118,16 +118,20 @@ bool CyclicRoutes::excludes(std::int32_t row, std::int32_t other) const {
 
 std::optional<IncompatiblePair> CyclicRoutes::incompatible(CyclicVisit i, bool i_leaves,
                                                            CyclicVisit j, bool j_leaves) const {
-    if (excludes(vertex_row(i), vertex_row(j))) {
-        return IncompatiblePair{i, j, i, j};
+    if (excludes(vertex_row(i), vertex_row(j))) {  // starts before all else, ends with it
+        return IncompatiblePair{i, j, ExcludingBookings::vertices()};
     }
-    const bool i_stays = j_leaves && excludes(vertex_row(i), edge_row(j));
-    const bool j_stays = i_leaves && excludes(edge_row(i), vertex_row(j));
-    const bool on_edges = i_leaves && j_leaves && excludes(edge_row(i), edge_row(j));
-    if (!i_stays && !j_stays && !on_edges) {
-        return std::nullopt;
+    IncompatiblePair pair{i, j, {}};
+    if (j_leaves && excludes(vertex_row(i), edge_row(j))) {
+        pair.bookings.add(false, true);
     }
-    return IncompatiblePair{i, j, i_stays ? i : i.next(), j_stays ? j : j.next()};
+    if (i_leaves && excludes(edge_row(i), vertex_row(j))) {
+        pair.bookings.add(true, false);
+    }
+    if (i_leaves && j_leaves && excludes(edge_row(i), edge_row(j))) {
+        pair.bookings.add(true, true);
+    }
+    return pair.bookings.empty() ? std::nullopt : std::optional(pair);
 }
 
 Tick CyclicRoutes::unimpeded_enter(CyclicVisit visit) const {

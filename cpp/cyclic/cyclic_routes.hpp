@@ -12,6 +12,7 @@
 
 #include "core/excluded_rows.hpp"
 #include "core/types.hpp"
+#include "precedence/incompatible_visits.hpp"
 
 namespace rightofway {
 
@@ -45,14 +46,16 @@ struct LapArrays {
     std::span<const std::int32_t> excluded = {};
 };
 
-// Two incompatible visits, and the visits whose starts are the earliest
+// Two incompatible visits. `i_starts` and `j_starts` are the visits whose starts are the earliest
 // incompatible ones: each is the visit itself, or the next one if only the edge driven out of the
 // visit takes part.
 struct IncompatiblePair {
     CyclicVisit i;
     CyclicVisit j;
-    CyclicVisit i_starts;
-    CyclicVisit j_starts;
+    ExcludingBookings bookings;
+
+    CyclicVisit i_starts() const { return bookings.own_is_later() ? i.next() : i; }
+    CyclicVisit j_starts() const { return bookings.is_later() ? j.next() : j; }
 };
 
 class CyclicRoutes {

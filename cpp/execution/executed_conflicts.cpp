@@ -70,8 +70,9 @@ ConflictCount ExecutedConflicts::count(const ActualTimes& times) {
 
 // All incompatible visits book ahead: a swap is an overlap of bookings.
 void ExecutedConflicts::count_incompatible(const ActualTimes& times, ConflictCount& found) const {
-    const auto start = [&](VisitId x, VisitId starts) {
-        return starts > plan_.last_of(plan_.robot(x)) ? never : times.start[index(starts)];
+    const auto starts = [&](VisitId x) {
+        return BookingStarts{times.start[index(x)],
+                             plan_.is_last(x) ? never : times.start[index(x + 1)]};
     };
     const Tick headway = plan_.headway();
     for (VisitId one = 0; one < plan_.n_visits(); ++one) {
@@ -79,18 +80,12 @@ void ExecutedConflicts::count_incompatible(const ActualTimes& times, ConflictCou
             if (other.visit < one) {
                 continue;
             }
-            const Tick one_start = start(one, other.own_starts(one));
-            const Tick other_start = start(other.visit, other.starts());
-            const Tick one_end = leave(one, times);
-            const Tick other_end = leave(other.visit, times);
-            const Tick begin = std::max(one_start, other_start);
-            if (begin >= never || one_start >= other_end + headway ||
-                other_start >= one_end + headway) {
-                continue;
+            const Tick begin = other.bookings.begin(starts(one), starts(other.visit));
+            const Tick end = std::min(leave(one, times), leave(other.visit, times));
+            if (begin < never && begin < end + headway) {
+                ++(begin < end ? found.vertex : found.headway);
+                found.first = std::min(found.first, begin);
             }
-            const Tick first_end = one_start <= other_start ? one_end : other_end;
-            ++(begin < first_end ? found.vertex : found.headway);
-            found.first = std::min(found.first, begin);
         }
     }
 }

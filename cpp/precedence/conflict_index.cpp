@@ -79,7 +79,7 @@ ConflictIndex::ConflictIndex(const Routes& routes)
 }
 
 Tick ConflictIndex::add(VisitId visit, const Timetable& timetable) {
-    if (stay(visit).start != never) {
+    if (stay(visit).starts[0] != never) {
         return 0;
     }
     move(visit, timetable);
@@ -100,9 +100,9 @@ void ConflictIndex::move(VisitId visit, const Timetable& timetable) {
         return;
     }
     Stay& stay = *stays_.find(visit);
-    stay.start = timetable.enter(visit) - routes_.approach(visit);
+    stay.starts[0] = timetable.enter(visit) - routes_.approach(visit);
     if (!routes_.is_last(visit)) {
-        stay.edge_start = timetable.leave(visit) - routes_.approach(visit + 1);
+        stay.starts[1] = timetable.leave(visit) - routes_.approach(visit + 1);
         stay.end = timetable.leave(visit) + routes_.headway();
     }
     if (Tick* const enter = enters_.find(visit)) {
@@ -114,19 +114,21 @@ template <class Use>
 void ConflictIndex::for_each_conflict(VisitId visit, Use&& use) const {
     if (routes_.has_sizes()) {
         for (const IncompatibleVisit& other : routes_.incompatible(visit)) {
-            const Booking own = stay(visit).from(other.own_is_later != 0);
-            const Booking its = stay(other.visit).from(other.is_later != 0);
-            if (const Tick weight = overlap(own, its); weight > 0) {
-                use(Other{other.visit, routes_.robot(other.visit)}, std::max(own.start, its.start),
-                    weight, ConflictKind::vertex);
+            const Stay& own = stay(visit);
+            const Stay& its = stay(other.visit);
+            const Tick begin = other.bookings.begin(own.starts, its.starts);
+            if (const Tick weight = overlap({begin, own.end}, {begin, its.end}); weight > 0) {
+                use(Other{other.visit, routes_.robot(other.visit)}, begin, weight,
+                    ConflictKind::vertex);
             }
         }
         return;
     }
-    const Booking own = stay(visit).from(false);
+    const Booking own = stay(visit).booking();
     stays_.for_each_other(visit, [&](const auto& other) {
-        if (const Tick weight = overlap(own, other.value.from(false)); weight > 0) {
-            use(other, std::max(own.start, other.value.start), weight, ConflictKind::vertex);
+        const Booking its = other.value.booking();
+        if (const Tick weight = overlap(own, its); weight > 0) {
+            use(other, std::max(own.start, its.start), weight, ConflictKind::vertex);
         }
     });
     if (enters_.slot_of[index(visit)] == none) {

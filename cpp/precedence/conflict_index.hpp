@@ -45,11 +45,10 @@ class ConflictIndex {
   private:
     // What a visit books: its vertex, and later the edge driven out.
     struct Stay {
-        Tick start = never;
-        Tick edge_start = never;
+        BookingStarts starts{never, never};
         Tick end = never;
 
-        Booking from(bool is_edge) const { return {is_edge ? edge_start : start, end}; }
+        Booking booking() const { return {starts[0], end}; }
     };
 
     // Visits with a value each, grouped by a key. Each visit can have conflicts with the slots of

@@ -64,7 +64,8 @@ IncompatibleVisits::IncompatibleVisits(std::span<const RobotId> robot, const Boo
             for (std::int32_t k = rows.first[index(row)]; k < rows.first[index(row + 1)]; ++k) {
                 for (const BookedBy& other : booked[index(rows.excluded[index(k)])]) {
                     if (robot[index(other.visit)] != robot[index(x)]) {
-                        found.push_back({other.visit, other.is_edge, is_edge});
+                        found.push_back({other.visit, {}});
+                        found.back().bookings.add(is_edge != 0, other.is_edge != 0);
                     }
                 }
             }
@@ -73,8 +74,7 @@ IncompatibleVisits::IncompatibleVisits(std::span<const RobotId> robot, const Boo
                   [](const auto& left, const auto& right) { return left.visit < right.visit; });
         for (const IncompatibleVisit& one : found) {
             if (others_.size() > first_.back() && others_.back().visit == one.visit) {
-                others_.back().is_later &= one.is_later;
-                others_.back().own_is_later &= one.own_is_later;
+                others_.back().bookings.add(one.bookings);
             } else {
                 others_.push_back(one);
             }

@@ -243,19 +243,20 @@ def _end(track: Track, booking: Held) -> float:
     return float("inf") if is_last else float(track.enter[booking.end + 1])
 
 
-def bookings_meet(
+def first_overlap(
     scenario: Scenario, tracks: Sequence[Track], start: Sequence[Sequence[int]]
-) -> bool:
-    """Return whether bookings overlap in an execution; ``start``: of the drive into each visit."""
+) -> int | None:
+    """Return when bookings overlap first, if they do; ``start``: of the drive into each visit."""
     headway = int(scenario.problem.headway)
     excludes = cache(partial(incompatible, scenario))
+    begins = []
     for i, j in combinations(range(len(tracks)), 2):
         for one, other in product(held(tracks[i]), held(tracks[j])):
             begin = max(start[i][one.start], start[j][other.start])
             end = min(_end(tracks[i], one), _end(tracks[j], other)) + headway
             if begin < end and excludes(i, one.shape, j, other.shape):
-                return True
-    return False
+                begins.append(begin)
+    return min(begins, default=None)
 
 
 def discs_meet(scenario: Scenario, tracks: Sequence[Track], start: Sequence[Sequence[int]]) -> bool:

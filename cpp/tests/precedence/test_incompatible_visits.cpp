@@ -47,6 +47,19 @@ TEST_CASE("of a vertex and an edge the earlier start counts") {
     CHECK(visits.of(2)[0].own_starts(2) == 2);
 }
 
+TEST_CASE("vertex and edge crosswise: each pair of bookings begins by itself") {
+    Lanes lanes;
+    lanes.first = {0, 2, 3, 5, 6, 8, 10};
+    lanes.excluded = {0, 5, 1, 2, 4, 3, 2, 4, 0, 5};  // A and C to D; C and A to B
+    const IncompatibleVisits visits = lanes.visits();
+    REQUIRE(visits.of(0).size() == 1);
+    CHECK(visits.of(0)[0].starts() == 2);
+    CHECK(visits.of(0)[0].own_starts(0) == 0);
+    CHECK(visits.of(0)[0].bookings.begin({0, 17}, {5, 22}) == 17);
+    CHECK(visits.of(0)[0].bookings.begin({0, 40}, {5, 22}) == 22);
+    CHECK(visits.of(2)[0].bookings.begin({5, 22}, {0, 40}) == 22);
+}
+
 TEST_CASE("a row that does not exist is refused") {
     Lanes lanes;
     lanes.first = {0, 0, 0, 0, 0};
