@@ -148,6 +148,86 @@ def test_variables_say_what_they_hold(room: str) -> None:
     assert count.total() <= MOST[room], count
 
 
+FIRST_WORDS = """
+    accepts add advance allow answer apply as ask attempt avoid begin book bundle cancel change
+    check checkpoint choose clear close cluster comes commit compare complain compute confine
+    connect convert create cut deal decide defer delay delete derive descend describe download draw
+    drive dump empty enter enters evict exclude execute explain export extract fill find finish flip
+    flush forget free get give go goes handle hang happens has have hold holds improve inline insert
+    inspect is judge keep keeps kill limit listen load locate may measure mix name need note obey
+    open order owns parse pause perturb plan prepare prioritize prove put reaches read receive
+    recognizes refuse release relocate remind remove rename repair repeat replan replay report
+    reroute reset resolve restore resume retime reverse rollback run save say search send serve set
+    settle share show simulate solve speak splice split spread start stay step stop stretch submit
+    survey switch take tell to trace turn upload validate wait widen withdraw work write
+"""
+VERBS = frozenset(FIRST_WORDS.split())
+"""First words of functions: verbs, claims (``is_empty``), ``as_``, ``to_``; add what is missing."""
+
+ESTABLISHED = {
+    *("auto", "cbs", "fixed_priority", "lacam", "lns", "paper", "prioritized"),
+    *("priority_search", "random_priority", "two_level"),
+    *("main",),
+}
+"""Published names of methods, and the entry point of a program."""
+
+NOUNS = {
+    "arguments": 6,
+    "bench": 14,
+    "check": 12,
+    "cli": 36,
+    "control": 47,
+    "cyclic": 64,
+    "errors": 14,
+    "execution": 12,
+    "extras": 1,
+    "figures": 5,
+    "files": 2,
+    "fleet_builder": 13,
+    "io": 76,
+    "metrics": 32,
+    "model": 85,
+    "native": 9,
+    "phrases": 5,
+    "planners": 44,
+    "precedence": 52,
+    "quantities": 9,
+    "report": 40,
+    "search": 19,
+    "site": 35,
+    "studio": 89,
+    "values": 19,
+    "viz": 76,
+}
+"""How many public functions and methods begin with another word; the numbers may only fall."""
+
+
+def called_names(module: ast.Module) -> Iterator[str]:
+    """Yield the public functions and methods that are called: no properties, no constructors."""
+    bodies = [module.body, *(node.body for node in module.body if isinstance(node, ast.ClassDef))]
+    for node in (node for body in bodies for node in body):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name[0] != "_":
+            decorators = {ast.unparse(each).rpartition(".")[2] for each in node.decorator_list}
+            if not decorators & NOT_CALLED:
+                yield node.name
+
+
+NOT_CALLED = {"property", "cached_property", "setter", "classmethod", "staticmethod"}
+"""Decorators of attributes and of constructors."""
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_functions_begin_with_a_verb(room: str) -> None:
+    nouns = [
+        f"{path.relative_to(SOURCES)}: {name}"
+        for path, module in modules().items()
+        if room_of(path) == room
+        for name in called_names(module)
+        if name.partition("_")[0] not in VERBS and name not in ESTABLISHED
+    ]
+    assert len(nouns) <= NOUNS.get(room, 0), nouns
+
+
 IDIOM = {
     r"\bso many\b": "name the number",
     r"\bwhoever\b": "name the person or the program",
