@@ -438,9 +438,9 @@ class _World:
                 robot = draw.choice([*names, None])
                 messages = dispatcher.add_job(at, draw.randint(0, 5), robot)[1]
             elif kind == "closed":
-                messages = dispatcher.close_place(at)
+                messages = dispatcher.close(*self._any_place(at))
             elif kind == "opened" or not jobs:
-                messages = dispatcher.open_place(draw.choice([*sorted(ledger.closed), at]))
+                messages = dispatcher.open(*draw.choice([*sorted(ledger.closed), (at,)]))
             else:
                 number, job = draw.choice(jobs)
                 name = f"{names[number]}/{job}"
@@ -455,10 +455,17 @@ class _World:
         self.counts[kind] += 1
         return messages
 
+    def _any_place(self, at: str) -> tuple[str, ...]:
+        """Return a vertex, or both ends of a lane that leaves it."""
+        roadmap = self.scenario.roadmap
+        vertex = roadmap.vertex(at)
+        heads = roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist()
+        return (at, roadmap.name(self.draw.choice(heads))) if self._chance(0.5) else (at,)
+
     def _ask_a_person(self) -> None:
         """Have a person look after faulty robots, and open what is closed."""
         for place in sorted(self.control.ledger.closed):
-            self.call(partial(self.dispatcher.open_place, place))
+            self.call(partial(self.dispatcher.open, *place))
         for robot, own in enumerate(self.control.ledger.robots):
             if own.fault is not None:
                 self.counts["cleared"] += 1

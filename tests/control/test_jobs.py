@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+import rightofway
 from rightofway.control import FleetControl, SqliteJournal
 from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.laps import LapsToDrive
 from rightofway.errors import InputError
+from rightofway.io import scenario_of
 from tests.builders.chaos import MemoryJournal
 from tests.builders.floors import Floor
 from tests.builders.plans import door
@@ -89,15 +93,15 @@ def test_a_job_nowhere_or_of_nobody_is_refused(at: str, robot: str | None, messa
 def test_a_closed_place_is_entered_by_nobody_until_it_is_open() -> None:
     """N1 and N4 are the door; R1 has not set out when N4 is closed, and there is no other way."""
     floor = driven(2)
-    floor.send(floor.dispatcher.close_place("N4"))
+    floor.send(floor.dispatcher.close("N4"))
     floor.drive(60)
     assert floor.robots[0].place in {"N0", "N1"}
     assert jobs_of(floor) == {"R1/job0": "N6"}
-    floor.send(floor.dispatcher.open_place("N4"))
+    floor.send(floor.dispatcher.open("N4"))
     floor.drive(80)
     assert jobs_of(floor) == {}
-    with pytest.raises(InputError, match="'N4' is not closed"):
-        floor.dispatcher.open_place("N4")
+    with pytest.raises(InputError, match="N4 is not closed"):
+        floor.dispatcher.open("N4")
 
 
 def test_a_command_is_carried_out_once_though_its_answer_was_lost(tmp_path: Path) -> None:
@@ -157,3 +161,109 @@ def test_all_robots_are_held_and_let_go(tmp_path: Path) -> None:
 def test_commands_need_a_folder(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="cannot be used for commands"):
         Commands(tmp_path / "no folder" / "run.journal")
+
+
+RING: dict[str, Any] = {
+    "format": "rightofway-scenario/1",
+    "map": {"grid": ["...", ".@.", "..."]},
+    "rules": {"rotations": False},
+    "robots": [{"name": "R1", "home": "N0", "target": "N2", "work": 1}],
+}
+"""Two ways lead from N0 to N2: one through N1, and one twice as long."""
+
+
+def ring(*more: dict[str, object]) -> Floor:
+    """Return the robots of the ring, before anything is released to them."""
+    document = {**RING, "robots": [*RING["robots"], *more]}
+    plan = rightofway.solve(scenario_of(document), "prioritized")
+    dispatcher = Dispatcher(FleetControl(MemoryJournal(), look_ahead=1), plan)
+    dispatcher.begin("run")
+    return Floor(dispatcher)
+
+
+def places_of(floor: Floor, robot: int = 0) -> tuple[str, ...]:
+    """Return the places that are still before a robot."""
+    own = floor.dispatcher.ledger.robots[robot]
+    return own.route.stretch(own.arrived, own.route.end)
+
+
+@pytest.mark.parametrize("closed", [("N1",), ("N0", "N1"), ("N2", "N1")])
+def test_robots_drive_round_what_is_closed(closed: tuple[str, ...]) -> None:
+    """Of a lane both directions are closed, whichever end is named first."""
+    floor = ring()
+    floor.dispatcher.control.hold(0, on=True)
+    floor.send(floor.dispatcher.close(*closed))
+    floor.send(floor.dispatcher.control.hold(0, on=False))
+    floor.drive(60)
+    assert jobs_of(floor) == {}
+    assert floor.robots[0].place == "N0"
+
+
+def test_what_is_closed_can_be_left() -> None:
+    """R1 stands in N1 when it is closed, and goes round on its way home."""
+    floor = ring()
+    while floor.robots[0].place != "N1":
+        floor.drive(1)
+    floor.send(floor.dispatcher.close("N1"))
+    assert "N1" not in places_of(floor)[1:]
+    floor.drive(60)
+    assert floor.robots[0].place == "N0"
+    assert jobs_of(floor) == {}
+
+
+def test_a_robot_whose_work_is_closed_waits_and_the_others_go_on() -> None:
+    floor = ring({"name": "R2", "home": "N8", "target": "N6", "work": 1})
+    floor.send(floor.dispatcher.close("N2"))
+    floor.drive(60)
+    assert jobs_of(floor) == {"R1/job0": "N2"}
+    assert floor.robots[1].place == "N8"
+    floor.send(floor.dispatcher.open("N2"))
+    floor.drive(60)
+    assert jobs_of(floor) == {}
+
+
+def test_a_closed_lane_is_closed_with_its_pieces() -> None:
+    """No robot begins to drive along; one that is between its ends drives out."""
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {
+            "roadmap": {
+                "vertices": {"A": [0, 0], "B": [3, 0], "C": [4, 0]},
+                "edges": [["A", "B"], ["B", "C"]],
+            },
+            "spacing": 1,
+        },
+        "rules": {"rotations": False},
+        "robots": [{"name": "R1", "home": "A", "target": "C"}],
+    }
+    plan = rightofway.solve(scenario_of(document), "prioritized")
+    dispatcher = Dispatcher(FleetControl(MemoryJournal(), look_ahead=1), plan)
+    dispatcher.begin("run")
+    floor = Floor(dispatcher)
+    while floor.robots[0].place != "A-B/1":
+        floor.drive(1)
+    floor.send(floor.dispatcher.close("B", "A"))
+    floor.drive(60)
+    assert floor.robots[0].place in {"B", "C"}  # its way home is closed
+    assert dispatcher.ledger.robots[0].jobs_done == 1
+    with pytest.raises(InputError, match="no lane joins A and C"):
+        floor.dispatcher.close("A", "C")
+    floor.send(floor.dispatcher.open("A", "B"))
+    floor.drive(60)
+    assert floor.robots[0].place == "A"
+
+
+def test_laps_are_driven_round_what_is_closed() -> None:
+    """The laps lead through N1; each of those that follow is replanned."""
+    document = {**RING, "rules": {"rotations": False, "laps": 2}}
+    plan = rightofway.solve(scenario_of(document), "prioritized")
+    dispatcher = Dispatcher(FleetControl(MemoryJournal()), plan, LapsToDrive(plan))
+    dispatcher.begin("run")
+    floor = Floor(dispatcher)
+    floor.drive(4)
+    floor.send(dispatcher.close("N1"))
+    own = dispatcher.ledger.robots[0]
+    before = own.laps_done
+    floor.drive(400)
+    assert own.laps_done > before + 4
+    assert "N1" not in places_of(floor)[1 : own.released + 2 - own.arrived]

@@ -16,8 +16,8 @@ ACTIONS = {
     "add": "give a robot a job: --at, perhaps --work and --robot",
     "change": "change a job NAME that is not released: --at, --work",
     "withdraw": "take back a job NAME that is not released",
-    "close": "let no robot enter the vertex NAME",
-    "open": "open the vertex NAME again",
+    "close": "let no robot enter the vertex NAME, or the lane from NAME to --to",
+    "open": "open it again",
     "hold": "release nothing more to the robot NAME, or to all",
     "go": "release again to the robot NAME, or to all",
     "cancel": "take back what is released to the robot NAME, as far as it can stop before",
@@ -31,6 +31,7 @@ Examples:
   rightofway jobs plan.journal add --at N7 --work 5
   rightofway jobs plan.journal withdraw R1/job7
   rightofway jobs plan.journal close N4
+  rightofway jobs plan.journal close N4 --to N7
   rightofway jobs plan.journal hold
 """
 
@@ -47,6 +48,7 @@ def _time(_context: click.Context, _parameter: click.Parameter, given: str | Non
 @click.argument("name", required=False)
 @click.option("--at", metavar="VERTEX", help="Where the job is.")
 @click.option("--work", metavar="TIME", callback=_time, help="How long it lasts [time unit].")
+@click.option("--to", metavar="VERTEX", help="The other end of a lane, to close or open it.")
 @click.option("--robot", metavar="ROBOT",
               help="Whose job it is; by default that of the robot which drives least more.",
               )  # fmt: skip
@@ -59,6 +61,7 @@ def jobs(
     action: str,
     name: str | None,
     at: str | None,
+    to: str | None,
     work: str | None,
     robot: str | None,
     wait: float,
@@ -79,7 +82,7 @@ def jobs(
     from rightofway.control.commands import Commands
 
     commands = Commands(Path(journal))
-    values = {"name": name, "at": at, "work": work, "robot": robot}
+    values = {"name": name, "at": at, "to": to, "work": work, "robot": robot}
     given = {key: value for key, value in values.items() if value is not None}
     number = commands.ask({"kind": action, **given})
     answer = commands.wait_for(number, wait)

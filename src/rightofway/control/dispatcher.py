@@ -7,15 +7,18 @@ due. A dispatcher keeps nothing that is not in the journal.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
+
+import numpy as np
 
 from rightofway.control.commands import Answer, Commands
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive, graph_behind_released
-from rightofway.control.ledger import Ledger
+from rightofway.control.ledger import Edge, Ledger
 from rightofway.control.messages import Message
 from rightofway.control.rest import RestPlanner, StopToMake, stops_to_make
 from rightofway.control.routes import routes_to_drive
@@ -23,7 +26,7 @@ from rightofway.errors import GaveUp, InputError, nearest, shown
 from rightofway.model import Plan
 from rightofway.precedence import ReleaseGraph
 from rightofway.search import Distances
-from rightofway.site import VertexId
+from rightofway.site import Roadmap, VertexId
 
 __all__ = ["Dispatcher"]
 
@@ -103,7 +106,12 @@ class Dispatcher:
         if routes is None:
             return []
         graph = graph_behind_released(self.plan.scenario, routes, self.control.committed())
-        return self.control.splice(routes, graph)
+        messages = self.control.splice(routes, graph)
+        closed = self.ledger.closed_edges
+        if closed and any(not closed.isdisjoint(pairwise(route.places)) for route in routes):
+            with suppress(GaveUp):  # robots stop before what is closed
+                messages += self._plan_rest(self._stops())
+        return messages
 
     # --- jobs (splices, rule 10) -----------------------------------------------------------------
 
@@ -221,43 +229,48 @@ class Dispatcher:
         better = self._rest.switched(ledger.robots, control.committed(), stuck)
         return control.splice(*better) if better else []
 
-    def close_place(self, place: str) -> list[Message]:
-        """Let no robot enter a vertex; those that hold it drive on. The rest is replanned round it.
+    def close(self, *names: str) -> list[Message]:
+        """Let no robot enter a vertex or a lane; those that hold it drive on.
 
-        Where no plan is found, the old one stands: robots stop before the vertex.
+        The rest is replanned round it as far as a way is left; where no plan is found, the old one
+        stands, and robots stop before it.
 
         Parameters
         ----------
-        place
-            The name of a vertex.
+        names
+            The name of a vertex, or of both ends of a lane, which is closed in both directions.
 
         Raises
         ------
         InputError
-            If there is no such vertex.
+            If there is no such vertex or lane.
         """
-        self.plan.scenario.roadmap.vertex(place)  # refuses what is none
-        return self._noted({"kind": "closed", "place": place}, f"{place} is closed")
+        edges = _list_edges_into(self.plan.scenario.roadmap, names)
+        return self._noted({"kind": "closed", "names": names, "edges": edges}, "closed")
 
-    def open_place(self, place: str) -> list[Message]:
-        """Open a vertex again that was closed; replan the rest.
+    def open(self, *names: str) -> list[Message]:
+        """Open a vertex or a lane again that was closed; replan the rest.
 
         Parameters
         ----------
-        place
-            The name of a closed vertex.
+        names
+            The name of a closed vertex, or of both ends of a closed lane.
 
         Raises
         ------
         InputError
             If it is not closed.
         """
-        if place not in self.ledger.closed:
-            raise InputError.at("place", f"{shown(place)} is not closed (name a closed vertex)")
-        return self._noted({"kind": "opened", "place": place}, f"{place} is open")
+        closed = self.ledger.closed
+        known = names if names in closed else names[::-1]
+        if known not in closed:
+            remedy = f"closed are: {', '.join(map(_name_place, closed)) or 'none'}"
+            raise InputError.at("place", f"{_name_place(names)} is not closed ({remedy})")
+        return self._noted({"kind": "opened", "names": known}, "open")
 
-    def _noted(self, entry: Entry, text: str) -> list[Message]:
+    def _noted(self, entry: Entry, state: str) -> list[Message]:
         """Commit a change of the floor, then replan the rest if that is possible."""
+        text = f"{_name_place(entry['names'])} is {state}"
         messages = self.control.note(entry, *self._carried_out(text))
         self._command = None
         try:
@@ -303,6 +316,7 @@ class Dispatcher:
         """Carry out a command; return what is to be sent, and the answer."""
         kind, name = command["kind"], command.get("name")
         at, work, robot = command.get("at"), command.get("work"), command.get("robot")
+        names = [str(command[key]) for key in ("name", "to") if key in command]
         ticks = None if work is None else self.plan.scenario.problem.clock.ticks(Fraction(work))
         match kind:
             case "list":
@@ -314,9 +328,9 @@ class Dispatcher:
             case "withdraw":
                 messages = self.withdraw_job(str(name))
             case "close":
-                messages = self.close_place(str(name))
+                messages = self.close(*names)
             case "open":
-                messages = self.open_place(str(name))
+                messages = self.open(*names)
             case _:
                 messages = self._operate(kind, name)
         return messages, {"done": True, "text": self.ledger.answer}
@@ -364,14 +378,22 @@ class Dispatcher:
         *,
         withdrawn: Collection[tuple[int, str]] = (),
         text: str = "replanned",
-        changes: Sequence[Entry] = (),
     ) -> list[Message]:
         """Plan the rest with these stops; then it counts, with the command that it follows."""
-        ledger, released = self.ledger, self.control.committed()
-        routes, graph = self._rest.plan(ledger.robots, released, stops, sorted(ledger.closed))
-        notes = [*changes, *self._carried_out(text)]
-        messages = self.control.splice(routes, graph, withdrawn=withdrawn, notes=notes)
+        notes = self._carried_out(text)
+        messages = self._plan_rest(stops, withdrawn=withdrawn, notes=notes)
         return [*messages, *self._dispatch()]
+
+    def _plan_rest(
+        self,
+        stops: Sequence[Sequence[StopToMake]],
+        *,
+        withdrawn: Collection[tuple[int, str]] = (),
+        notes: Sequence[Entry] = (),
+    ) -> list[Message]:
+        ledger, released = self.ledger, self.control.committed()
+        routes, graph = self._rest.plan(ledger.robots, released, stops, ledger.closed_edges)
+        return self.control.splice(routes, graph, withdrawn=withdrawn, notes=notes)
 
     def _detour(self, robot: int, stops: Sequence[StopToMake], at: str) -> tuple[int, int]:
         """Return how much longer a robot drives for a job at best, and before which stop."""
@@ -413,3 +435,30 @@ class Dispatcher:
             state = "done" if job in own.finished else "released"
             raise InputError.at("job", f"{shown(name)} is {state} already (it cannot be changed)")
         raise InputError.at("job", f"{shown(name)} is no job (see rightofway jobs list)")
+
+
+def _list_edges_into(roadmap: Roadmap, names: Sequence[str]) -> list[Edge]:
+    """Return the edges that lead into a vertex, or into a lane from both its ends.
+
+    Robots between the ends of a lane that was split drive out of it.
+    """
+    vertices = [roadmap.vertex(name) for name in names]
+    if len(vertices) == 1:
+        tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+        into = [(tail, vertices[0]) for tail in tails[roadmap.heads == vertices[0]].tolist()]
+    else:
+        lanes = roadmap.ways_along((vertices[0], vertices[-1]))
+        if not lanes:
+            message = f"no lane joins {names[0]} and {names[-1]} (name both its ends)"
+            raise InputError.at("place", message)
+        into = [ends for lane in lanes for ends in ((lane[0], lane[1]), (lane[-1], lane[-2]))]
+    return [
+        (roadmap.name(tail), roadmap.name(head))
+        for tail, head in into
+        if roadmap.edge(tail, head) is not None
+    ]
+
+
+def _name_place(names: Sequence[str]) -> str:
+    """Return what people call a vertex, or a lane."""
+    return names[0] if len(names) == 1 else f"the lane between {names[0]} and {names[-1]}"

@@ -550,7 +550,7 @@ class FleetControl:
             and part - own.arrived <= self._ahead(robot)
             and own.finished.issuperset(route.jobs_at(part - 1))
             and not self._is_in_base(own, part)
-            and route.place(part) not in self.ledger.closed
+            and not self._is_closed(route.place(part - 1), route.place(part))
             and not self._is_strayed_to(route.place(part))
             and self.ledger.graph.may_go(Part(robot, part), self.ledger.arrived)
         )
@@ -563,6 +563,10 @@ class FleetControl:
         drive it twice.
         """
         return own.route.place(part) in own.route.stretch(own.arrived, part)
+
+    def _is_closed(self, tail: str, head: str) -> bool:
+        """Return whether nobody may enter an edge."""
+        return any((tail, head) in edges for edges in self.ledger.closed.values())
 
     def _is_strayed_to(self, place: str) -> bool:
         """Return whether a faulty robot says that it is at a place."""

@@ -10,6 +10,12 @@ from rightofway.control.journal import UNFOLDED, Entry
 from rightofway.control.messages import Order
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 
+Names = tuple[str, ...]
+"""What a person closes: a vertex, or the two ends of a lane."""
+
+Edge = tuple[str, str]
+"""The names of the vertices that an edge leaves and enters."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RouteToDrive:
@@ -279,7 +285,7 @@ class Ledger:
         self.names: tuple[str, ...] = ()
         self.robots: list[RobotLedger] = []
         self.graph = ReleaseGraph((), {})
-        self.closed: set[str] = set()  # names of vertices that nobody may enter
+        self.closed: dict[Names, tuple[Edge, ...]] = {}  # what nobody may enter
         self.commands = 0  # the number of the last command that was carried out
         self.answer = ""  # to it
 
@@ -287,6 +293,11 @@ class Ledger:
     def arrived(self) -> list[int]:
         """The visit at whose vertex each robot has arrived; past the last one once it is off."""
         return [own.route.end if own.is_off else own.arrived for own in self.robots]
+
+    @property
+    def closed_edges(self) -> set[Edge]:
+        """The edges that nobody may enter, by the names of their vertices."""
+        return {edge for edges in self.closed.values() for edge in edges}
 
     def owns(self, robot: int, order_id: str) -> bool:
         """Return whether an order is one of ours for a robot, however old.
@@ -321,9 +332,9 @@ class Ledger:
         elif kind == "snapshot":
             self._apply_snapshot(entry)
         elif kind == "closed":
-            self.closed.add(entry["place"])
+            self.closed[tuple(entry["names"])] = tuple(map(tuple, entry["edges"]))
         elif kind == "opened":
-            self.closed.discard(entry["place"])
+            self.closed.pop(tuple(entry["names"]), None)
         elif kind == "command":
             self.commands, self.answer = entry["number"], entry["answer"]
         elif kind in UNFOLDED:
@@ -340,7 +351,7 @@ class Ledger:
             "run": self.run,
             "starts": self.starts,
             "names": self.names,
-            "closed": sorted(self.closed),
+            "closed": list(self.closed.items()),
             "commands": self.commands,
             "answer": self.answer,
             "robots": robots,
@@ -358,7 +369,10 @@ class Ledger:
 
     def _apply_snapshot(self, entry: Entry) -> None:
         self.run, self.starts = entry["run"], entry["starts"]
-        self.names, self.closed = tuple(entry["names"]), set(entry["closed"])
+        self.names, self.closed = (
+            tuple(entry["names"]),
+            {tuple(names): tuple(map(tuple, edges)) for names, edges in entry["closed"]},
+        )
         self.commands, self.answer = entry["commands"], entry["answer"]
         self.robots = [RobotLedger.of_document(robot) for robot in entry["robots"]]
         self.graph = _graph_of([own.route for own in self.robots], entry["waits"])

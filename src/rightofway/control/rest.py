@@ -17,13 +17,15 @@ from rightofway.check import check
 from rightofway.control.laps import graph_behind_released
 from rightofway.control.ledger import RobotLedger, RouteToDrive
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Closure, Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, route_of
+from rightofway.execution.replan import list_held
+from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, route_of
 from rightofway.model.route import drives_along, route_through
 from rightofway.planners.lacam import timetable_if_possible
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.task import Task, planning_headway
 from rightofway.precedence import ReleaseGraph, graph_on
-from rightofway.site import VertexId
+from rightofway.search import Distances
+from rightofway.site import Roadmap, VertexId
 from rightofway.solve import solve
 
 __all__ = ["RestPlanner", "StopToMake", "stops_to_make"]
@@ -100,9 +102,13 @@ class RestPlanner:
         robots: Sequence[RobotLedger],
         released: Sequence[int],
         stops: Sequence[Sequence[StopToMake]],
-        closed: Sequence[str] = (),
+        closed: Collection[tuple[str, str]] = (),
+        stuck: Collection[int] = (),
     ) -> tuple[list[RouteToDrive], ReleaseGraph]:
         """Return routes behind what is released, and who waits for whom on them.
+
+        Robots first make the stops to which a way leads that is neither closed nor held by a robot
+        that is stuck. Then, as if nothing was closed, all make the stops that are left.
 
         Parameters
         ----------
@@ -113,7 +119,9 @@ class RestPlanner:
         stops
             What each shall do behind it, in order.
         closed
-            Names of vertices that robots shall not enter any more.
+            Edges that robots shall not enter any more, as names of their vertices.
+        stuck
+            Robots that do not go on for now.
 
         Raises
         ------
@@ -125,13 +133,13 @@ class RestPlanner:
             for robot, (own, end) in enumerate(zip(robots, released, strict=True))
         ]
         moving = [robot for robot, own in enumerate(robots) if not own.is_off]
+        standing = [robot for robot in stuck if not robots[robot].is_off]
+        passable = self._find_passable(commitments, closed, standing)
         reasons = ""
         for aside in range(MOST_ASIDE):
             try:
                 ways = {k: self._way(robots[k], commitments[k], stops[k], aside) for k in moving}
-                planned_routes = self._routes(
-                    commitments, ways, self._closures(commitments, closed)
-                )
+                planned_routes = self._routes(commitments, ways, passable, standing)
             except (NoPlanExists, GaveUp, InputError) as error:
                 reasons = str(error)
                 continue
@@ -252,21 +260,49 @@ class RestPlanner:
             busy=work + sum(drives),
         )
 
+    def _find_passable(
+        self,
+        commitments: Sequence[_Commitment],
+        closed: Collection[tuple[str, str]],
+        stuck: Sequence[int],
+    ) -> Roadmap:
+        """Return the roadmap without what is closed, and what robots that are stuck exclude."""
+        roadmap = self._scenario.roadmap
+        shut = {(roadmap.vertex(tail), roadmap.vertex(head)) for tail, head in closed}
+        held = list_held(self._scenario, {k: commitments[k].vertices for k in stuck})
+        if not shut and not held.vertices:
+            return roadmap
+        return roadmap.without(held.vertices, {*shut, *held.edges})
+
     def _routes(
         self,
         commitments: Sequence[_Commitment],
         ways: Mapping[int, Sequence[StopToMake]],
-        closures: tuple[Closure, ...],
+        passable: Roadmap,
+        stuck: Collection[int],
     ) -> list[RouteToDrive]:
         """Return the whole route of each robot on the floor."""
         moving = list(ways)
         ends = {robot: commitments[robot].vertices[-1] for robot in moving}
-        begun = [
-            self._robot(robot, ends[robot], ends[robot], commitments[robot].busy, ways[robot])
-            for robot in moving
-        ]
-        rest = replace(self._scenario, robots=tuple(begun), closures=closures)
-        plan = solve(rest, self._planner, time_limit=self._time_limit)
+        busy = {robot: commitments[robot].busy for robot in moving}
+        begun = {
+            robot: 0
+            if robot in stuck
+            else self._count_reachable(robot, passable, ends[robot], stops)
+            for robot, stops in ways.items()
+        }
+        first = {robot: ways[robot][: begun[robot]] for robot in moving}
+        visited, arrivals = self._plan_stops(passable, ends, busy, first)
+        if any(begun[robot] < len(ways[robot]) for robot in moving):
+            then = {robot: ways[robot][begun[robot] :] for robot in moving}
+            ends_then = {robot: visited[robot][-1] for robot in moving}
+            begins = 1 + max(times[-1] for times in arrivals.values())
+            more, times = self._plan_stops(
+                self._scenario.roadmap, ends_then, dict.fromkeys(moving, 0), then
+            )
+            for robot in moving:
+                visited[robot] += more[robot][1:]
+                arrivals[robot] += [begins + tick for tick in times[robot][1:]]
         fleet = [
             self._robot(
                 robot,
@@ -277,13 +313,13 @@ class RestPlanner:
             )
             for robot in moving
         ]
-        whole = replace(rest, robots=tuple(fleet))
-        visited, arrivals = [], []
-        for robot, track in zip(moving, plan.tracks, strict=True):
+        whole = replace(self._scenario, robots=tuple(fleet))
+        for robot in moving:
             before = commitments[robot].vertices[:-1]
-            visited.append([*before, *track.vertices.tolist()])
-            arrivals.append([*range(-len(before), 0), *track.enter.tolist()])
-        tracks = timetable_if_possible(whole, visited, arrivals)
+            visited[robot] = [*map(VertexId, before), *visited[robot]]
+            arrivals[robot] = [*range(-len(before), 0), *arrivals[robot]]
+        order = [arrivals[robot] for robot in moving]
+        tracks = timetable_if_possible(whole, [visited[robot] for robot in moving], order)
         if tracks is None:
             raise GaveUp("its order cannot be kept behind what is released")
         judged = check(Plan(scenario=whole, tracks=tuple(tracks), run=PlannerRun()))
@@ -293,6 +329,35 @@ class RestPlanner:
             self._route(whole, index, track, commitments[robot], ways[robot])
             for index, (robot, track) in enumerate(zip(moving, tracks, strict=True))
         ]
+
+    def _plan_stops(
+        self,
+        roadmap: Roadmap,
+        homes: Mapping[int, int],
+        busy: Mapping[int, int],
+        stops: Mapping[int, Sequence[StopToMake]],
+    ) -> tuple[dict[int, list[VertexId]], dict[int, list[int]]]:
+        """Return the visits of robots that make stops on a roadmap, and when each begins."""
+        robots = [self._robot(k, home, home, busy[k], stops[k]) for k, home in homes.items()]
+        rest = replace(self._scenario, roadmap=roadmap, robots=tuple(robots))
+        plan = solve(rest, self._planner, time_limit=self._time_limit)
+        tracks = dict(zip(homes, plan.tracks, strict=True))
+        visited = {k: list(map(VertexId, track.vertices.tolist())) for k, track in tracks.items()}
+        return visited, {k: track.enter.tolist() for k, track in tracks.items()}
+
+    def _count_reachable(
+        self, robot: int, passable: Roadmap, home: int, stops: Sequence[StopToMake]
+    ) -> int:
+        """Return how many stops, from the first one on, a way leads to one after the other."""
+        if passable is self._scenario.roadmap:
+            return len(stops)
+        distances, ticks = Distances(passable), self._scenario.problem.itineraries[robot].edge_ticks
+        for number, stop in enumerate(stops):
+            vertex = passable.vertex(stop.place)
+            if distances.to(vertex, ticks)[home] < 0:
+                return number
+            home = vertex
+        return len(stops)
 
     def _way(
         self, own: RobotLedger, commitment: _Commitment, stops: Sequence[StopToMake], aside: int
@@ -311,20 +376,6 @@ class RestPlanner:
                 raise GaveUp(f"{stops_ahead[0].place} cannot be left and entered again")
             stops_ahead.insert(0, StopToMake(roadmap.name(back[aside % len(back)])))
         return stops_ahead
-
-    def _closures(
-        self, commitments: Sequence[_Commitment], closed: Sequence[str]
-    ) -> tuple[Closure, ...]:
-        """Return the closed vertices: from the begin on, or once robots may have left them."""
-        roadmap, time = self._scenario.roadmap, self._scenario.problem.clock.time
-        held = {vertex for commitment in commitments for vertex in commitment.vertices}
-        longest = max(max(itinerary.edge_ticks) for itinerary in self._scenario.problem.itineraries)
-        later = time(Tick(max(commitment.busy for commitment in commitments) + 2 * longest))
-        vertices = [roadmap.vertex(place) for place in closed]
-        return tuple(
-            Closure(at=vertex, from_=later if vertex in held else Fraction(0))
-            for vertex in vertices
-        )
 
     def _robot(
         self, robot: int, home: int, end: int, busy: int, stops: Sequence[StopToMake]

@@ -21,7 +21,7 @@ cycle: commitments wait only for visits that have begun, and the rest has the or
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations, islice, pairwise
@@ -140,32 +140,35 @@ class Held:
 
 def held_by_broken(forecast: Forecast) -> Held:
     """Return what broken robots book for ever: for robots with a size, the edge driven on, too."""
-    adg, booked = forecast.adg, forecast.booked
-    resources = adg.scenario.problem.resources
-    vertices, rows = set[VertexId](), set[int]()
+    adg, booked, paths = forecast.adg, forecast.booked, dict[int, list[int]]()
     for robot in forecast.broken:
         current, end = forecast.visit_of(robot), int(adg.first_visit[robot + 1])
-        held = adg.vertex[current:end][booked[current:end]].tolist()
-        vertices.update(held)
-        if not resources.are_points:
-            own = [resources.vertex_row(robot, vertex) for vertex in held]
-            own += (
-                resources.edge_row(robot, edge)
-                for ends in pairwise(held)
-                if (edge := adg.scenario.roadmap.edge(*ends)) is not None
-            )
-            rows.update(other for row in own for other in resources.excluded_by(row))
+        paths[robot] = adg.vertex[current:end][booked[current:end]].tolist()
+    return list_held(adg.scenario, paths)
+
+
+def list_held(scenario: Scenario, paths: Mapping[int, Sequence[int]]) -> Held:
+    """Return what robots exclude that stay on the vertices and edges of paths."""
+    resources, roadmap = scenario.problem.resources, scenario.roadmap
+    vertices = frozenset(VertexId(vertex) for path in paths.values() for vertex in path)
     if resources.are_points:
-        return Held(vertices=frozenset(vertices))
+        return Held(vertices=vertices)
+    rows = set[int]()
+    for robot, path in paths.items():
+        own = [resources.vertex_row(robot, vertex) for vertex in path]
+        own += (
+            resources.edge_row(robot, edge)
+            for ends in pairwise(path)
+            if (edge := roadmap.edge(*ends)) is not None
+        )
+        rows.update(other for row in own for other in resources.excluded_by(row))
     n_vertices, count = resources.n_vertices, resources.n_vertices + resources.n_edges
-    others = (robot for robot in range(len(adg.routes)) if robot not in forecast.broken)
-    sizes = {int(resources.size_of[robot]) for robot in others}
+    sizes = {int(resources.size_of[k]) for k in range(len(scenario.robots)) if k not in paths}
     shut = {row % count for row in rows if row // count in sizes}
-    roadmap = adg.scenario.roadmap
     tails = np.repeat(np.arange(n_vertices), np.diff(roadmap.indptr)).tolist()
     ends_of_edges = enumerate(zip(tails, roadmap.heads.tolist(), strict=True), n_vertices)
     edges = (ends for edge, ends in ends_of_edges if edge in shut or ends[1] in shut)
-    return Held(vertices=frozenset(vertices), edges=frozenset(edges))
+    return Held(vertices=vertices, edges=frozenset(edges))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
