@@ -154,8 +154,8 @@ FIRST_WORDS = """
     connect convert create cut deal decide defer delay delete derive descend describe download draw
     drive dump empty enter enters evict exclude execute explain export extract fill find finish flip
     flush forget free get give go goes handle hang happens has have hold holds improve inline insert
-    inspect is judge keep keeps kill limit list listen load locate may measure mix name need note obey
-    open order owns parse pause perturb plan prepare prioritize prove put reaches read receive
+    inspect is judge keep keeps kill limit list listen load locate may measure mix name need note
+    obey open order owns parse pause perturb plan prepare prioritize prove put reaches read receive
     recognizes refuse release relocate remind remove rename repair repeat replan replay report
     reroute reset resolve restore resume retime reverse rollback run save say search send serve set
     settle share show simulate solve speak splice split spread start stay step stop stretch submit
