@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from rightofway.model import Scenario
+from rightofway.model import BookingRules, Scenario
 from rightofway.planners.lacam import timetable_of
 from rightofway.planners.routing import shortest_routes
 from rightofway.precedence import PrecedenceGraph
@@ -23,7 +23,10 @@ def scenario(fleet: Callable[[int], Scenario]) -> Scenario:
 
 def graph_of_routes(scenario: Scenario) -> PrecedenceGraph:
     routes = shortest_routes(scenario, Distances(scenario.roadmap))
-    return PrecedenceGraph(routes, headway=scenario.problem.headway, books_ahead=False)
+    return PrecedenceGraph(
+        routes,
+        rules=BookingRules(headway=scenario.problem.booking_rules.headway, books_ahead=False),
+    )
 
 
 def test_distance_table(benchmark: BenchmarkFixture, scenario: Scenario) -> None:

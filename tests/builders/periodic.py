@@ -7,7 +7,7 @@ import random
 import numpy as np
 from hypothesis import strategies as st
 
-from rightofway.model import Lap, Tick
+from rightofway.model import BookingRules, Lap, Tick
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from rightofway.site import VertexId
 
@@ -122,4 +122,6 @@ def patterns(draw: st.DrawFn) -> TimedEventGraph:
         headway=headway,
         books_ahead=books_ahead,
     )
-    return TimedEventGraph(timetable, headway=Tick(headway), books_ahead=books_ahead)
+    return TimedEventGraph(
+        timetable, rules=BookingRules(headway=Tick(headway), books_ahead=books_ahead)
+    )

@@ -112,4 +112,4 @@ def test_the_rules_of_a_template_are_those_of_a_grid(cli: Cli) -> None:
     Path("rules.yaml").write_text(used, encoding="utf-8")
     problems = [load_with_notes(name).scenario.problem for name in ("rules.yaml", "hall.yaml")]
     assert problems[0].itineraries == problems[1].itineraries
-    assert problems[0].headway == problems[1].headway
+    assert problems[0].booking_rules.headway == problems[1].booking_rules.headway

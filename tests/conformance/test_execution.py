@@ -35,7 +35,7 @@ def test_no_collision_and_no_deadlock_in_any_run(planner: str, name: str) -> Non
             assert (one.collisions, one.deadlocks) == (0, 0)
         assert changed.stranded == 0
         judged = rightofway.check(replace(plan, tracks=outcome.trace(7).tracks))
-        if delays not in EARLY or not plan.scenario.rules.books_ahead:
+        if delays not in EARLY or not plan.scenario.problem.booking_rules.books_ahead:
             assert not MEETINGS & set(judged.counts)
         if delays == DELAYS[0]:
             assert judged.ok

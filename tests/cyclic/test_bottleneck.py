@@ -12,7 +12,7 @@ from fractions import Fraction
 from rightofway.cyclic.bottleneck import bottleneck_of
 from rightofway.cyclic.route import cyclic_routes
 from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects, stages_at
-from rightofway.model import Lap, Rules, Scenario, Tick
+from rightofway.model import BookingRules, Lap, Rules, Scenario, Tick
 from rightofway.precedence import TimedEventGraph
 from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet
@@ -48,10 +48,7 @@ def graph_of(scenario: Scenario) -> TimedEventGraph:
     timetable = timetable_of(
         laps_of(scenario), [[40, 110, 120, 130], [75, 145, 155, 165]], period=100
     )
-    rules = scenario.rules
-    return TimedEventGraph(
-        timetable, headway=scenario.problem.headway, books_ahead=rules.books_ahead
-    )
+    return TimedEventGraph(timetable, rules=scenario.problem.booking_rules)
 
 
 def test_a_bottleneck_is_work_ways_and_rights_of_way() -> None:
@@ -69,7 +66,7 @@ def test_a_way_ends_at_home() -> None:
     timetable = timetable_of(
         laps_of(scenario), [[44, 101, 102, 143], [40, 110, 120, 130]], period=100
     )
-    found = bottleneck_of(TimedEventGraph(timetable, headway=Tick(0), books_ahead=False))
+    found = bottleneck_of(TimedEventGraph(timetable, rules=BookingRules()))
     name = scenario.roadmap.name
     ways = [[name(at) for at in piece.places] for piece in found.pieces if piece.kind == "way"]
     assert ways == [["N3", "N4", "N1"], ["N1", "N4", "N3"]]

@@ -87,8 +87,10 @@ def test_closed_windows_keep_every_rule_across_the_seam(scenario: Scenario) -> N
     short = (window for window in closed_windows(problem, run) if window.n_visits <= 150)
     for window in islice(short, 4):
         timetable = problem.timetable(problem.booked(window)[1], window.period)
-        ahead = context.books_ahead
-        assert oracle.faults(timetable, headway=context.headway, books_ahead=ahead) == []
+        ahead = context.booking_rules.books_ahead
+        assert (
+            oracle.faults(timetable, headway=context.booking_rules.headway, books_ahead=ahead) == []
+        )
 
 
 @law(fleets())
@@ -148,8 +150,10 @@ def test_a_closed_stretch_keeps_every_rule_across_the_seam(
     assert graph.slack().min() >= 0
     assert not graph.has_swaps()
     if sum(map(len, timetable.enter)) <= 400:  # the oracle compares every two visits
-        ahead = context.books_ahead
-        assert oracle.faults(timetable, headway=context.headway, books_ahead=ahead) == []
+        ahead = context.booking_rules.books_ahead
+        assert (
+            oracle.faults(timetable, headway=context.booking_rules.headway, books_ahead=ahead) == []
+        )
 
 
 @law(long_runs())

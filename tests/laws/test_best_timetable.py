@@ -16,8 +16,8 @@ from rightofway.cyclic import (
     run_laps,
 )
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Rules, Scenario
-from rightofway.planners import planning_headway
+from rightofway.model import BookingRules, Rules, Scenario
+from rightofway.planners import planning_problem
 from rightofway.precedence import TimedEventGraph
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.laws import law, leave
@@ -52,13 +52,16 @@ def comparisons(result: CyclicResult) -> list[BaselineComparison]:
 @law(fleets())
 def test_three_periods_of_a_chosen_timetable_have_no_fault(scenario: Scenario) -> None:
     result = chosen(scenario)
-    headway, ahead = planning_headway(scenario), scenario.rules.books_ahead
+    headway, ahead = (
+        planning_problem(scenario).booking_rules.headway,
+        scenario.problem.booking_rules.books_ahead,
+    )
     for group, comparison in zip(result.groups, comparisons(result), strict=True):
         timetable = group.timetable
         assert timetable is not None
         assert oracle.faults(timetable, headway=headway, books_ahead=ahead) == []
         period = timetable.period
-        graph = TimedEventGraph(timetable, headway=headway, books_ahead=ahead)
+        graph = TimedEventGraph(timetable, rules=BookingRules(headway=headway, books_ahead=ahead))
         found = graph.critical_circuit()
         assert found.cycle_time == period or found.cycle_time > period - 1
         assert comparison.throughput == group.rate()

@@ -76,7 +76,7 @@ def booked(plan: Plan, robot: int, visit: int, headway: int) -> set[int]:
 
 
 def meetings(plan: Plan) -> Iterator[Told]:
-    headway = plan.scenario.problem.headway
+    headway = plan.scenario.problem.booking_rules.headway
     visits = [
         (robot, visit) for robot, track in enumerate(plan.tracks) for visit in range(len(track))
     ]

@@ -34,7 +34,7 @@ def test_precedence_graphs_have_the_earliest_times_that_keep_clear_of_closures(
         route_of(scenario.roadmap, one, track)
         for one, track in zip(itineraries, tracks, strict=True)
     ]
-    graph = graph_on(scenario, routes)
+    graph = graph_on(scenario.problem, routes)
     given: list[tuple[int, int]] = []
     for _ in range(30):
         meeting = graph.next_meeting()
@@ -50,6 +50,6 @@ def test_precedence_graphs_have_the_earliest_times_that_keep_clear_of_closures(
                 if draw.random() < 0.2:
                     graph.rollback(mark)
                     given.pop()
-        expected = earliest_times(scenario, routes, given, scenario.problem.headway)
+        expected = earliest_times(scenario, routes, given, scenario.problem.booking_rules.headway)
         times = [tick for track in graph.tracks() for tick in track.enter.tolist()]
         assert times == expected

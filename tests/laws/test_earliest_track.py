@@ -40,8 +40,8 @@ def test_the_search_finds_the_least_completion_and_surcharges(
         scenario.roadmap,
         itinerary,
         booked,
-        headway=problem.headway,
-        books_ahead=problem.books_ahead,
+        headway=problem.booking_rules.headway,
+        books_ahead=problem.booking_rules.books_ahead,
         horizon=HORIZON,
         turn=partial(turn, scenario, 0),
     )

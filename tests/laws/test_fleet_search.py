@@ -93,7 +93,7 @@ def test_retiming_gives_the_timetable_of_the_precedence_graph(
         search.improve(100, patience=10**9)
         before = search.tracks()
         search.retime()
-        assert search.tracks() == tuple(graph_of(scenario, before).tracks())
+        assert search.tracks() == tuple(graph_of(scenario.problem, before).tracks())
         assert search.cost == sum(completions_of(scenario, search.tracks()))
 
 

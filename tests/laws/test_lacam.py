@@ -54,12 +54,14 @@ def fleets(draw: st.DrawFn) -> Scenario:
 def test_the_kernel_finds_the_plan_of_the_oracle(scenario: Scenario, seed: int) -> None:
     """Both tell one robot more where to go where robots that choose alone get stuck."""
     problem = planning_problem(scenario)
-    may_rotate = problem.rotations and not problem.books_ahead and problem.headway == 0
-    oracle = Fleet(scenario, headway=problem.headway, may_rotate=may_rotate, seed=seed)
+    may_rotate = problem.booking_rules.may_rotate
+    oracle = Fleet(
+        scenario, headway=problem.booking_rules.headway, may_rotate=may_rotate, seed=seed
+    )
     expected = tracks_by_lacam(oracle, MOST_EXPANDED)
     if expected is None:
         return
     tracks = [Track.of(vertices, enter) for vertices, enter in expected]
-    earliest = graph_of(scenario, tracks, headway=problem.headway).tracks()
+    earliest = graph_of(problem, tracks).tracks()
     found = plan_by_lacam(problem, seed=seed, most_effort=10**6, spreads=False)
     assert found == list(earliest)

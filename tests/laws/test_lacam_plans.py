@@ -32,7 +32,7 @@ def test_nobody_could_be_earlier_in_the_same_order(scenario: Scenario, seed: int
     tracks = plan_by_lacam(planning_problem(scenario), seed=seed, most_effort=20_000)
     if tracks is None:
         leave("the search gave up")
-    assert graph_of(scenario, tracks).tracks() == tracks
+    assert graph_of(scenario.problem, tracks).tracks() == tracks
 
 
 def in_step(scenario: Scenario) -> Scenario:
@@ -67,8 +67,7 @@ LARGE = {"spacing", "laps", "stops"}
 @law(any_fleet(robots=(1, 3), without={*UNKNOWN, *LARGE, "sizes", "zones"}, tiny=True))
 def test_the_planner_finds_a_plan_exactly_where_there_is_one(scenario: Scenario) -> None:
     """The oracle goes through all configurations of points on vertices."""
-    rules = scenario.rules
-    rotates = rules.rotations and not rules.books_ahead and rules.headway == 0
+    rotates = scenario.problem.booking_rules.may_rotate
     possible = can_get_through(scenario, may_rotate=rotates)
     try:
         rightofway.solve(scenario, "lacam", None)

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from rightofway.cyclic import CyclicResult, best_timetable, run_laps
 from rightofway.cyclic.route import CyclicRoute, GroupContext, cyclic_routes, independent_groups
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Lap, Robot, Rules, Scenario, Stop, Tick
+from rightofway.model import BookingRules, Lap, Robot, Rules, Scenario, Stop, Tick
 from rightofway.precedence import CyclicSchedule
 from rightofway.report.circuits import circuit_in_words
 from rightofway.search import PeriodicBookings, RowsOfLaps
@@ -81,8 +81,7 @@ def bookings_of(scenario: Scenario, period: int) -> PeriodicBookings:
     return PeriodicBookings(
         scenario.roadmap.n_vertices,
         Tick(period),
-        headway=scenario.problem.headway,
-        books_ahead=True,
+        rules=BookingRules(headway=scenario.problem.booking_rules.headway, books_ahead=True),
         rows=RowsOfLaps(roadmap=scenario.roadmap, resources=resources, robots=robots),
     )
 

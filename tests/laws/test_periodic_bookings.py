@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from hypothesis import strategies as st
 
-from rightofway.model import Lap, Tick
+from rightofway.model import BookingRules, Lap, Tick
 from rightofway.precedence import TimedEventGraph
 from rightofway.search import PeriodicBookings
 from rightofway.site import VertexId
@@ -32,11 +32,15 @@ def test_a_track_that_closes_is_found_exactly_where_there_is_one(
     drawn = random_timetable(
         seed, robots=robots, headway=headway, books_ahead=books_ahead, most_laps=1
     )
-    graph = TimedEventGraph(drawn, headway=Tick(headway), books_ahead=books_ahead)
+    graph = TimedEventGraph(
+        drawn, rules=BookingRules(headway=Tick(headway), books_ahead=books_ahead)
+    )
     least = graph.critical_circuit().cycle_time
     timetable = graph.earliest(Tick(-(-least.numerator // least.denominator) + spare))
     period = timetable.period
-    circle = PeriodicBookings(robots + 5, period, headway=Tick(headway), books_ahead=books_ahead)
+    circle = PeriodicBookings(
+        robots + 5, period, rules=BookingRules(headway=Tick(headway), books_ahead=books_ahead)
+    )
     for robot in range(1, robots):
         circle.add(robot, timetable.laps[robot], 1, timetable.enter[robot])
     # A home that others pass: the search has to try all its starts by itself.
@@ -118,7 +122,9 @@ def test_visits_on_a_line_are_found_where_there_are_any_and_end_earliest(
     begins = data.draw(st.integers(0, 6))
     until = begins + count * lap.duration + data.draw(st.integers(0, 12))
     leave = until + 1
-    line = PeriodicBookings(CORRIDOR, None, headway=Tick(headway), books_ahead=books_ahead)
+    line = PeriodicBookings(
+        CORRIDOR, None, rules=BookingRules(headway=Tick(headway), books_ahead=books_ahead)
+    )
     for visit in visits:
         one = Lap(vertices=(VertexId(visit.vertex),), dwell=(Tick(0),), drive=(Tick(1),))
         enter = np.array([visit.enter + books_ahead])  # its drive there is booked before

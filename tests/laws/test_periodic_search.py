@@ -9,8 +9,8 @@ from fractions import Fraction
 from hypothesis import strategies as st
 
 from rightofway.cyclic.route import cyclic_routes
-from rightofway.model import Itinerary, Lap, Rules, Scenario, Tick, drives_along
-from rightofway.planners import planning_headway
+from rightofway.model import BookingRules, Itinerary, Lap, Rules, Scenario, Tick, drives_along
+from rightofway.planners import planning_problem
 from rightofway.precedence import CyclicSchedule
 from rightofway.search import Distances, PeriodicBookings, RoundTrip
 from tests.builders.fleets import grid_fleet, random_fleet
@@ -30,8 +30,7 @@ def crowd(
     circle = PeriodicBookings(
         scenario.roadmap.n_vertices,
         period,
-        headway=planning_headway(scenario),
-        books_ahead=scenario.rules.books_ahead,
+        rules=planning_problem(scenario).booking_rules,
     )
     there = []
     for robot in range(1, len(laps)):
@@ -66,7 +65,10 @@ def test_a_route_is_found_exactly_where_there_is_one(seed: int, robots: int, rul
     circle, others, laps = crowd(scenario, draw)
     itinerary = scenario.problem.itineraries[0]
     trip = RoundTrip.of(itinerary, Distances(scenario.roadmap))
-    headway, ahead = int(planning_headway(scenario)), scenario.rules.books_ahead
+    headway, ahead = (
+        int(planning_problem(scenario).booking_rules.headway),
+        scenario.problem.booking_rules.books_ahead,
+    )
     passed = any(itinerary.home in other.vertices for other in others.laps)
     period = int(circle.period)
     routes = []
@@ -98,7 +100,7 @@ def test_a_route_is_found_exactly_where_there_is_one(seed: int, robots: int, rul
 def test_a_route_does_not_enter_forbidden_vertices() -> None:
     scenario = grid_fleet(["...", "...", "..."], [("N0", "N8")])
     itinerary, distances = scenario.problem.itineraries[0], Distances(scenario.roadmap)
-    circle = PeriodicBookings(9, Tick(20), headway=Tick(0), books_ahead=False)
+    circle = PeriodicBookings(9, Tick(20), rules=BookingRules())
     forbidden = {1, 5, 4}
     found = circle.find_route(RoundTrip.of(itinerary, distances, forbidden=forbidden), 0)
     assert found is not None

@@ -96,7 +96,7 @@ def heedless(fleet: Scenario) -> Plan:
         routes = shortest_routes(fleet, Distances(fleet.roadmap))
     except NoPlanExists:
         leave("a robot has no way")
-    graph = graph_on(replace(fleet, closures=()), routes)
+    graph = graph_on(replace(fleet, closures=()).problem, routes)
     return Plan(scenario=fleet, tracks=tuple(graph.tracks()), run=PlannerRun(name="heedless"))
 
 

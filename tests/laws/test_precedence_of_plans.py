@@ -33,7 +33,7 @@ def test_the_timetable_of_a_plan_is_a_plan_and_nobody_is_later(
     fleet: Scenario, planner: str, delays: list[int]
 ) -> None:
     plan = late(planned(fleet, planner), delays)
-    retimed = graph_of(fleet, plan.tracks).tracks()
+    retimed = graph_of(fleet.problem, plan.tracks).tracks()
     assert by_both_judges(replace(plan, tracks=tuple(retimed))) == (set(), set())
     for before, after in zip(plan.tracks, retimed, strict=True):
         assert np.array_equal(before.vertices, after.vertices)
@@ -45,10 +45,8 @@ def test_the_timetable_of_a_plan_is_a_plan_and_nobody_is_later(
 def test_an_order_kept_at_once_is_the_same_as_right_of_way_given_one_by_one(
     fleet: Scenario, planner: str, delays: list[int]
 ) -> None:
-    at_once = graph_of(fleet, late(planned(fleet, planner), delays).tracks)
-    one_by_one = PrecedenceGraph(
-        at_once.routes, headway=fleet.problem.headway, books_ahead=fleet.rules.books_ahead
-    )
+    at_once = graph_of(fleet.problem, late(planned(fleet, planner), delays).tracks)
+    one_by_one = PrecedenceGraph(at_once.routes, rules=fleet.problem.booking_rules)
     rights = at_once._kernel.rights_of_way().tolist()
     for first, second in rights:
         assert one_by_one.give_way(first, second)

@@ -57,7 +57,7 @@ def most_by_brute_force(forecast: Forecast, stages: Sequence[tuple[Stage, ...]])
         for one in kept
     ]
     scenario = forecast.adg.scenario
-    may_rotate = scenario.rules.occupancy == "one" and scenario.problem.headway == 0
+    may_rotate = scenario.rules.occupancy == "one" and scenario.problem.booking_rules.headway == 0
     return most_who_can_finish(
         scenario,
         [one.vertex for one in kept],

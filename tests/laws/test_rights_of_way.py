@@ -48,7 +48,7 @@ PLANNERS = st.sampled_from(["two-level", "fixed-priority", "prioritized"])
 def undecided(scenario: Scenario) -> PrecedenceGraph:
     """Return the graph of shortest routes, without any right of way."""
     try:
-        return graph_on(scenario, shortest_routes(scenario, Distances(scenario.roadmap)))
+        return graph_on(scenario.problem, shortest_routes(scenario, Distances(scenario.roadmap)))
     except NoPlanExists:
         leave("a robot has no way")
 
@@ -142,7 +142,7 @@ def test_one_robot_goes_first_in_a_whole_segment(scenario: Scenario) -> None:
         if meeting is None:
             continue
         segment = graph.segment(*meeting.visits)
-        if scenario.problem.resources.are_points and not scenario.rules.books_ahead:
+        if scenario.problem.resources.are_points and not scenario.problem.booking_rules.books_ahead:
             leave("points that follow each other at one instant")
         i_first = [(graph.visit(i, p.i), graph.visit(j, p.j_starts)) for p in segment.pairs]
         j_first = [(graph.visit(j, p.j), graph.visit(i, p.i_starts)) for p in segment.pairs]
@@ -178,7 +178,7 @@ def test_lanes_that_cross_are_one_decision() -> None:
 @law(FLEETS, PLANNERS)
 def test_the_order_of_a_plan_gives_the_earliest_times(scenario: Scenario, planner: str) -> None:
     plan = some_plan(scenario, planner)
-    graph = graph_of(plan.scenario, plan.tracks)
+    graph = graph_of(plan.scenario.problem, plan.tracks)
     dwell, drive = ([getattr(route, name) for route in graph.routes] for name in ("dwell", "drive"))
     _, enter = executed(plan.scenario, plan.tracks, dwell, drive)
     assert [track.enter.tolist() for track in graph.tracks()] == enter

@@ -20,7 +20,7 @@ import rightofway
 from rightofway import _core
 from rightofway.cyclic import best_timetable
 from rightofway.errors import NoPlanExists, RightOfWayError
-from rightofway.model import Lap, Plan, Scenario, Tick
+from rightofway.model import BookingRules, Lap, Plan, Scenario, Tick
 from rightofway.planners import registered
 from rightofway.planners.flip import flipped
 from rightofway.precedence import ActionDependencyGraph, DelayModel, TimedEventGraph
@@ -119,7 +119,7 @@ def track(scenario: Scenario, limit: float) -> None:
 
 def periodic() -> tuple[PeriodicBookings, Lap]:
     """Return bookings of a door that are free for a tick now and then, and a lap through it."""
-    made = PeriodicBookings(3, Tick(30_000), headway=Tick(0), books_ahead=False)
+    made = PeriodicBookings(3, Tick(30_000), rules=BookingRules())
     busy = Lap(
         vertices=(VertexId(2), VertexId(1)), dwell=(Tick(0), Tick(1)), drive=(Tick(1), Tick(1))
     )
@@ -134,9 +134,7 @@ def search(_: Scenario, limit: float) -> None:
 
 def find_route(scenario: Scenario, limit: float) -> None:
     problem, distances = scenario.problem, Distances(scenario.roadmap)
-    made = PeriodicBookings(
-        scenario.roadmap.n_vertices, Tick(10**6), headway=Tick(0), books_ahead=False
-    )
+    made = PeriodicBookings(scenario.roadmap.n_vertices, Tick(10**6), rules=BookingRules())
     made.find_route(RoundTrip.of(problem.itineraries[0], distances), 0, time_limit=limit)
 
 
@@ -148,7 +146,7 @@ def lacam(scenario: Scenario, limit: float) -> None:
 
 def event_graph() -> TimedEventGraph:
     timetable = random_timetable(1, robots=5, headway=0, books_ahead=False)
-    return TimedEventGraph(timetable, headway=Tick(0), books_ahead=False)
+    return TimedEventGraph(timetable, rules=BookingRules())
 
 
 @cache

@@ -17,7 +17,9 @@ from tests.oracles import timed_event_graph as oracle
 
 
 def slow_arcs(graph: TimedEventGraph) -> list[oracle.Arc]:
-    return oracle.arcs_of(graph.timetable, headway=graph.headway, books_ahead=graph.books_ahead)
+    return oracle.arcs_of(
+        graph.timetable, headway=graph.rules.headway, books_ahead=graph.rules.books_ahead
+    )
 
 
 @law(patterns())
@@ -53,12 +55,10 @@ def test_the_earliest_timetable_keeps_all_arcs_and_all_orders(
 ) -> None:
     cycle_time = graph.critical_circuit().cycle_time
     times = cycle_time.denominator
-    wide = TimedEventGraph(
-        unrolled(graph.timetable, times), headway=graph.headway, books_ahead=graph.books_ahead
-    )
+    wide = TimedEventGraph(unrolled(graph.timetable, times), rules=graph.rules)
     assert wide.critical_circuit().cycle_time == cycle_time.numerator
     found = wide.earliest(Tick(cycle_time.numerator + spare))
-    again = TimedEventGraph(found, headway=graph.headway, books_ahead=graph.books_ahead)
+    again = TimedEventGraph(found, rules=graph.rules)
     assert again.slack().min() >= 0
     assert spare or (again.slack() == 0).any()
     assert again.critical_circuit().cycle_time == cycle_time.numerator

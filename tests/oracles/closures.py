@@ -61,7 +61,7 @@ def _booked(
     scenario: Scenario, robot: int, track: Track
 ) -> Iterator[tuple[Shape, Fraction, Fraction]]:
     """Yield vertices, with an approach if robots book ahead, and edges; headway included."""
-    headway, ahead = scenario.problem.headway, scenario.rules.occupancy == "both"
+    headway, ahead = scenario.problem.booking_rules.headway, scenario.rules.occupancy == "both"
     vertices, enter = track.vertices.tolist(), [Fraction(tick) for tick in track.enter.tolist()]
     ends = [*(tick + headway for tick in enter[1:]), FAR_AWAY]
     yield (vertices[0],), enter[0], ends[0]

@@ -56,12 +56,12 @@ def routes_of(plan: Plan) -> list[Route]:
 
 def system_of(scenario: Scenario, routes: Sequence[Route]) -> System:
     """Return what routes and the rules of a scenario come to."""
-    ahead = scenario.rules.books_ahead
+    ahead = scenario.problem.booking_rules.books_ahead
     return System(
         routes=tuple(route.vertices for route in routes),
         least=tuple(route.least(visit) for route in routes for visit in range(len(route))),
         approach=tuple(int(drive) if ahead else 0 for route in routes for drive in route.drive),
-        headway=scenario.problem.headway,
+        headway=scenario.problem.booking_rules.headway,
         active=(True,) * len(routes),
     )
 

@@ -43,7 +43,7 @@ class _Fleet:
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
         self.books_ahead = scenario.rules.occupancy == "both"
-        self.headway = int(scenario.problem.headway)
+        self.headway = int(scenario.problem.booking_rules.headway)
         self.stages = [itinerary.stages for itinerary in scenario.problem.itineraries]
         self.excludes = cache(partial(incompatible, scenario))
         self.clash = cache(self._clash)

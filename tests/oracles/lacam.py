@@ -102,7 +102,9 @@ class Fleet:
         return self.trips[robot].edge_ticks[0]
 
     def gap(self, robot: int) -> int:
-        return self.headway + (self.drive(robot) if self.scenario.rules.books_ahead else 0)
+        return self.headway + (
+            self.drive(robot) if self.scenario.problem.booking_rules.books_ahead else 0
+        )
 
     def has_arrived(self, robot: int) -> bool:
         is_last = self.robots[robot].stage == len(self.trips[robot].stages) - 1

@@ -43,8 +43,8 @@ def _loss(window: Window, meeting: Meeting, segment: Segment, waits: int) -> int
     later = 0
     for first, second in rights_if_waits(graph, meeting, segment, waits):
         robot, number = window.number(second)
-        approach = context.routes[robot].drive(number) if context.books_ahead else 0
-        due = graph.enter(first + 1) + context.headway + approach
+        approach = context.routes[robot].drive(number) if context.booking_rules.books_ahead else 0
+        due = graph.enter(first + 1) + context.booking_rules.headway + approach
         later = max(later, due - graph.enter(second))
     return later * max(LAP_LOSS // context.laps[meeting.robots[waits]].duration, 1)
 

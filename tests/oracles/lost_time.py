@@ -61,7 +61,7 @@ def causes(plan: Plan) -> Counter[tuple[int, int | None]]:
     """Return how long each robot waits for each other one, None where no robot is the cause."""
     stays = stays_of(plan.scenario, plan.tracks)
     holders = _holders(plan)
-    ahead = plan.scenario.rules.books_ahead
+    ahead = plan.scenario.problem.booking_rules.books_ahead
     found: Counter[tuple[int, int | None]] = Counter()
     for robot, (track, stay) in enumerate(zip(plan.tracks, stays, strict=True)):
         for visit in range(len(track) - 1):
@@ -82,6 +82,6 @@ def _holders(plan: Plan) -> Holders:
     holders: Holders = {}
     for robot, track in enumerate(plan.tracks):
         for visit, (begin, end) in enumerate(pairwise(track.enter.tolist())):
-            for tick in range(begin, end + problem.headway):
+            for tick in range(begin, end + problem.booking_rules.headway):
                 holders.setdefault((int(track.vertices[visit]), tick), robot)
     return holders

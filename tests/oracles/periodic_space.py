@@ -33,8 +33,8 @@ def cycles_of(timetable: CyclicSchedule) -> list[Cycle]:
 
 def bookings(scenario: Scenario, cycle: Cycle, period: int) -> Iterator[Booked]:
     """Yield what a robot books in one period; without booking ahead, only where it stays."""
-    headway, n = int(scenario.problem.headway), len(cycle.lap)
-    ahead = scenario.problem.books_ahead
+    headway, n = int(scenario.problem.booking_rules.headway), len(cycle.lap)
+    ahead = scenario.problem.booking_rules.books_ahead
     leaves = [*cycle.enter[1:], cycle.enter[0] + period]
     for k, (enter, leave) in enumerate(zip(cycle.enter, leaves, strict=True)):
         here, there = cycle.lap.vertices[k % n], cycle.lap.vertices[(k + 1) % n]
@@ -110,8 +110,8 @@ def load(scenario: Scenario, timetable: CyclicSchedule) -> int:
     from the start of the drive in, until it leaves the last one of consecutive visits; each robot's
     use is followed by the headway at least once.
     """
-    roadmap, headway = scenario.roadmap, int(scenario.problem.headway)
-    ahead = scenario.problem.books_ahead
+    roadmap, headway = scenario.roadmap, int(scenario.problem.booking_rules.headway)
+    ahead = scenario.problem.booking_rules.books_ahead
     cliques = [{vertex} for vertex in {int(v) for lap in timetable.laps for v in lap.vertices}] + [
         set(map(int, zone.vertices)) for zone in roadmap.zones
     ]

@@ -110,7 +110,7 @@ def zones_around(roadmap: Roadmap, vertex: int) -> set[int]:
 def bookings(scenario: Scenario, robot: int, track: Track) -> Iterator[Booked]:
     """Yield what a robot books: vertices with approach and headway, edges, zones."""
     roadmap = scenario.roadmap
-    headway = Fraction(scenario.problem.headway)
+    headway = Fraction(scenario.problem.booking_rules.headway)
     vertices, enter = track.vertices.tolist(), [Fraction(t) for t in track.enter.tolist()]
     ends = [*(tick + headway for tick in enter[1:]), FAR_AWAY]
     for k, vertex in enumerate(vertices):
@@ -207,7 +207,7 @@ def executed(
     A drive starts when the stay before is done and all bookings that exclude what it books, and
     come first in the plan, are over. Goes over all pairs until nothing changes.
     """
-    headway = int(scenario.problem.headway)
+    headway = int(scenario.problem.booking_rules.headway)
     waits = list(_waits(scenario, tracks))
     enter = [[0] * len(track) for track in tracks]
     start = [[0] * len(track) for track in tracks]
@@ -247,7 +247,7 @@ def first_overlap(
     scenario: Scenario, tracks: Sequence[Track], start: Sequence[Sequence[int]]
 ) -> int | None:
     """Return when bookings overlap first, if they do; ``start``: of the drive into each visit."""
-    headway = int(scenario.problem.headway)
+    headway = int(scenario.problem.booking_rules.headway)
     excludes = cache(partial(incompatible, scenario))
     begins = []
     for i, j in combinations(range(len(tracks)), 2):

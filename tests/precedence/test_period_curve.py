@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Lap, Tick
+from rightofway.model import BookingRules, Lap, Tick
 from rightofway.precedence import Growth, PeriodPiece, TimedEventGraph, period_curve
 from rightofway.site import VertexId
 from tests.builders.periodic import timetable_of
@@ -27,9 +27,7 @@ def circle() -> TimedEventGraph:
     """Return four robots that go round four vertices at one instant, for ever."""
     ring = (0, 1, 2, 3)
     laps = [lap(*ring[k:], *ring[:k]) for k in ring]
-    return TimedEventGraph(
-        timetable_of(laps, [[0, 1, 2, 3]] * 4, period=4), headway=Tick(0), books_ahead=False
-    )
+    return TimedEventGraph(timetable_of(laps, [[0, 1, 2, 3]] * 4, period=4), rules=BookingRules())
 
 
 def told(piece: PeriodPiece) -> list[Fraction]:
@@ -45,7 +43,7 @@ def test_a_work_time_costs_nothing_until_its_circuit_is_critical() -> None:
     """Two robots that meet at vertex 1; the lap of the second one takes longer by 3."""
     laps = [lap(0, 1), lap(2, 1, drive=1, dwell=3)]
     timetable = timetable_of(laps, [[1, 5], [0, 1]], period=10)
-    graph = TimedEventGraph(timetable, headway=Tick(0), books_ahead=False)
+    graph = TimedEventGraph(timetable, rules=BookingRules())
     # Laps alone: 2 and 5. Around vertex 1: both stay for their drive away and the work there,
     # 1 + (1 + 3) = 5 in one period. So each tick of work of the first robot at vertex 1 costs one.
     at_one = (graph.arcs.first < 0) & (graph.robot[graph.arcs.tail] == 0)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from rightofway.errors import GaveUp
-from rightofway.model import Lap, Tick
+from rightofway.model import BookingRules, Lap, Tick
 from rightofway.precedence import TimedEventGraph, sensitivity, unrolled
 from rightofway.site import VertexId
 from tests.builders.periodic import timetable_of
@@ -30,7 +30,7 @@ def door(*, turn: int = 0) -> TimedEventGraph:
     """R1 works for 4 ticks, R2 for 2; R2 turns at home."""
     r1, r2 = lap(0, 3, work=4), lap(1, 4, work=2, turn=turn)
     timetable = timetable_of([r1, r2], [[8, 21, 22, 27], [13, 28, 29, 32]], period=20)
-    return TimedEventGraph(timetable, headway=Tick(0), books_ahead=False)
+    return TimedEventGraph(timetable, rules=BookingRules())
 
 
 def test_the_period_is_both_stays_beyond_the_door() -> None:
@@ -43,9 +43,9 @@ def test_the_period_is_both_stays_beyond_the_door() -> None:
 
 def test_each_change_at_the_door_costs_headway_and_the_drive_into_it() -> None:
     timetable = door().timetable
-    headway = TimedEventGraph(timetable, headway=Tick(3), books_ahead=False)
+    headway = TimedEventGraph(timetable, rules=BookingRules(headway=Tick(3), books_ahead=False))
     assert headway.critical_circuit().cycle_time == 12 + 2 * 3
-    both = TimedEventGraph(timetable, headway=Tick(0), books_ahead=True)
+    both = TimedEventGraph(timetable, rules=BookingRules(headway=Tick(0), books_ahead=True))
     assert both.critical_circuit().cycle_time == 12 + 2 * 1
 
 
@@ -53,7 +53,7 @@ def test_the_period_of_two_periods_is_twice_as_long() -> None:
     timetable = unrolled(door().timetable, 2)
     assert timetable.counts == (2, 2)
     assert timetable.enter[1].tolist() == [13, 28, 29, 32, 33, 48, 49, 52]
-    graph = TimedEventGraph(timetable, headway=Tick(0), books_ahead=False)
+    graph = TimedEventGraph(timetable, rules=BookingRules())
     assert graph.critical_circuit().cycle_time == 24
 
 
@@ -69,7 +69,7 @@ def test_the_earliest_timetable_has_no_slack_on_the_critical_circuit() -> None:
     found = graph.earliest(Tick(12))
     # R1 is home at 0, and R2 in the door (12 is 0); R2 is home at 5 = 17, and R1 in the door.
     assert [ticks.tolist() for ticks in found.enter] == [[0, 5, 6, 11], [5, 12, 13, 16]]
-    again = TimedEventGraph(found, headway=Tick(0), books_ahead=False)
+    again = TimedEventGraph(found, rules=BookingRules())
     assert again.slack()[graph.critical_circuit().arcs].tolist() == [0] * 8
 
 
@@ -132,7 +132,7 @@ def ring(robots: int) -> TimedEventGraph:
     ]
     enter = [[3 * k for k in range(robots)]] * robots
     timetable = timetable_of(laps, enter, period=3 * robots)
-    return TimedEventGraph(timetable, headway=Tick(0), books_ahead=False)
+    return TimedEventGraph(timetable, rules=BookingRules())
 
 
 def test_a_swap_is_told_from_a_rotation() -> None:

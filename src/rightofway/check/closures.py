@@ -104,7 +104,7 @@ class _Booked(NamedTuple):
 
 def _bookings(plan: Plan, visits: Visits) -> _Booked:
     """Return what robots book: vertices, and edges while they drive along them."""
-    headway = plan.scenario.problem.headway
+    headway = plan.scenario.problem.booking_rules.headway
     ahead = plan.scenario.rules.occupancy == "both"
     approach = np.where(np.roll(visits.last, 1), 0, np.roll(visits.drive, 1)) if ahead else 0
     never = max(visits.leave.max(), NEVER) + headway

@@ -50,7 +50,7 @@ def _pairs(first: Indices, after: Indices) -> Iterator[tuple[Indices, Indices]]:
 
 def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:
     """Find vertex conflicts, and those that only the headway makes."""
-    headway = plan.scenario.problem.headway
+    headway = plan.scenario.problem.booking_rules.headway
     starts = visits.enter
     if plan.scenario.rules.occupancy == "both":
         starts = starts - np.roll(visits.drive, 1)  # the last visit before a first has no drive

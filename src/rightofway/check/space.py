@@ -286,7 +286,7 @@ def _first_of_each(times: _Times, first: Indices, second: Indices, worth: Exact)
 def _judge_bookings(
     plan: Plan, visits: Visits, shapes: _Shapes, names: Names, collector: FaultCollector
 ) -> None:
-    headway = plan.scenario.problem.headway
+    headway = plan.scenario.problem.booking_rules.headway
     stays, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
     approach = np.roll(visits.drive, 1)  # the last visit before a first has no drive
     begun = visits.leave - visits.drive

@@ -73,7 +73,7 @@ def _integers(plan: Plan, enter: NDArray[np.int64]) -> np.dtype[Any]:
     edge_ticks: Iterable[int] = chain.from_iterable(
         {itinerary.edge_ticks for itinerary in problem.itineraries}
     )
-    largest = max(int(enter.max()), -int(enter.min()), problem.headway, *edge_ticks)
+    largest = max(int(enter.max()), -int(enter.min()), problem.booking_rules.headway, *edge_ticks)
     return np.dtype(np.int64 if largest < SAFE else object)
 
 

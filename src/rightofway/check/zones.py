@@ -45,7 +45,7 @@ def judge_zones(plan: Plan, visits: Visits, names: Names, collector: FaultCollec
 
 
 def _stays(plan: Plan, visits: Visits, zone: Zone) -> Iterator[_Stay]:
-    headway = plan.scenario.problem.headway
+    headway = plan.scenario.problem.booking_rules.headway
     ahead = plan.scenario.rules.occupancy == "both"
     vertices, edges = set(zone.vertices), set(zone.edges)
     vertex, robot = visits.vertex.tolist(), visits.robot.tolist()

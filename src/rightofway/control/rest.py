@@ -22,7 +22,7 @@ from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Trac
 from rightofway.model.route import drives_along, route_through
 from rightofway.planners.lacam import timetable_if_possible
 from rightofway.planners.local_search import LocalSearch
-from rightofway.planners.task import Task, planning_headway
+from rightofway.planners.task import Task, planning_problem
 from rightofway.precedence import ReleaseGraph, graph_on
 from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId
@@ -209,7 +209,7 @@ class RestPlanner:
             ]
             for robot in moving
         ]
-        graph = graph_on(whole, visited, headway=planning_headway(whole))
+        graph = graph_on(planning_problem(whole), visited)
         if not graph.keeps_order(times):
             return None
         committed = {

@@ -56,7 +56,7 @@ def repeated_plan(problem: CyclicProblem) -> Candidate | None:
         laps.append((lap_of(scenario.roadmap, once, route), enter))
         if not problem.forbidden.isdisjoint(rows_of(scenario, robot, laps[-1][0]).booked):
             return None
-    apart = int(context.headway) + max(max(lap.drive) + lap.dwell[0] for lap, _ in laps)
+    apart = context.booking_rules.end(0) + max(max(lap.drive) + lap.dwell[0] for lap, _ in laps)
     period = max(int(enter[-1]) for _, enter in laps) + apart
     for lap, enter in laps:
         visits = enter[:-1].copy()

@@ -132,7 +132,7 @@ def _curves(
         yield from _of_robot(scenario, graph, place, time_limit)
     if len(graph.timetable.robots) > 1:
         is_right, least = graph.arcs.first >= 0, 0 if scenario.rules.rotations else 1
-        pieces = _of_time(scenario, graph, is_right, graph.headway, time_limit, least=least)
+        pieces = _of_time(scenario, graph, is_right, graph.rules.headway, time_limit, least=least)
         value = scenario.rules.headway
         yield ParameterCurve(kind="headway", robot=None, stop=None, value=value, pieces=pieces)
     for place in range(len(graph.timetable.robots)):
@@ -213,9 +213,8 @@ def _of_speed(scenario: Scenario, graph: TimedEventGraph, place: int, robot: Rob
     -----
     A drive along an edge with a speed limit has two entries: at its own speed, and at the limit.
     """
-    arcs, is_right = graph.arcs, graph.arcs.first >= 0
-    drives = (graph.robot[arcs.head] == place) & (~is_right | graph.books_ahead)
-    drive = np.where(drives, graph.drive[arcs.head], 0)
+    arcs = graph.arcs
+    drive = np.where(graph.robot[arcs.head] == place, graph.drives, 0)
     turns = _turns_by_speed(scenario, graph, place, robot)
     of, fixed = np.arange(len(arcs)), arcs.length - drive - turns
     limits = [edge_class.max_speed for edge_class in scenario.roadmap.edge_classes]
@@ -234,7 +233,7 @@ def _of_speed(scenario: Scenario, graph: TimedEventGraph, place: int, robot: Rob
     before[graph.after] = np.arange(len(graph))
     edges = scenario.roadmap.edges(graph.vertex[before[arcs.head]], graph.vertex[arcs.head])
     classes = scenario.roadmap.class_of_edge[edges]
-    limited = np.flatnonzero(drives & (at_limit[classes] > 0))
+    limited = np.flatnonzero((drive > 0) & (at_limit[classes] > 0))
     slow = drive[limited] * at_limit[classes[limited]]
     return Growth(
         of=np.concatenate((of, limited)),

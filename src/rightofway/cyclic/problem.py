@@ -124,8 +124,7 @@ class CyclicProblem:
         return PeriodicBookings(
             roadmap.n_vertices,
             None if period is None else Tick(period),
-            headway=context.headway,
-            books_ahead=context.books_ahead,
+            rules=context.booking_rules,
             rows=rows,
         )
 

@@ -239,7 +239,7 @@ def _waits(
     period: int = NEVER,
 ) -> tuple[LapWait, ...]:
     """Return the waits before visits in ``asked``, for robots with visits in ``seen``."""
-    late: list[tuple[int, int, int, int, int]] = []
+    rules, late = context.booking_rules, list[tuple[int, int, int, int, int]]()
     for robot, visits in enumerate(asked):
         if not visits:
             continue
@@ -248,14 +248,14 @@ def _waits(
         could = enter[:-1] + np.diff(route.undelayed(with_next))
         for index in np.flatnonzero(could < enter[1:]).tolist():
             visit, at = visits[index] + 1, int(enter[index + 1])
-            booked = (at - (route.drive(visit) if context.books_ahead else 0)) % period
+            booked = rules.start(at, int(route.drive(visit))) % period
             late.append((robot, visit, int(could[index]), at, booked))
     ticks = np.array(sorted({booked for *_, booked in late}), np.int64)
     freed_by: dict[tuple[int, int], tuple[int, VertexId]] = {}
     for robot, visits in enumerate(seen):
         if visits:
             leave = enters(robot, range(visits.start + 1, visits.stop + 1))
-            free = (leave + context.headway) % period
+            free = rules.end(leave) % period
             for index in np.flatnonzero(np.isin(free, ticks)).tolist():
                 vertex = context.routes[robot].vertex(visits[index])
                 for row in context.booked_at(robot, visits[index]):

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault
-from rightofway.model import Lap, Robot, Route, Scenario, Tick, lap_of
+from rightofway.model import BookingRules, Lap, Robot, Route, Scenario, Tick, lap_of
 from rightofway.native import BookedRows
-from rightofway.planners import planning_headway
 from rightofway.planners.routing import (
     clear_routes,
     direct_routes,
@@ -138,23 +137,17 @@ class GroupContext:
         return max(lap.duration for lap in self.laps)
 
     @property
-    def headway(self) -> Tick:
-        """The least time between a leave and the next booking of a vertex [ticks]."""
-        return planning_headway(self.scenario)
-
-    @property
-    def books_ahead(self) -> bool:
-        """Whether a robot books a vertex from the start of its drive there."""
-        return self.scenario.rules.books_ahead
+    def booking_rules(self) -> BookingRules:
+        """When visits book: the rules to plan with."""
+        return self.scenario.problem.booking_rules.to_plan_with()
 
     def graph(self, timetable: CyclicSchedule) -> TimedEventGraph:
         """Return the timed event graph of laps of these robots."""
         return TimedEventGraph(
             timetable,
-            headway=self.headway,
-            books_ahead=self.books_ahead,
+            rules=self.booking_rules,
             rows=BookedRows.of_laps(
-                self.scenario, timetable.robots, timetable.laps, timetable.counts
+                self.scenario.problem, timetable.robots, timetable.laps, timetable.counts
             ),
         )
 
@@ -175,8 +168,8 @@ class GroupContext:
     @property
     def reach(self) -> int:
         """The time before a cut that a window includes, for bookings of left vertices [ticks]."""
-        drives = (max(lap.drive) for lap in self.laps)
-        return 1 + self.headway + (max(drives) if self.books_ahead else 0)
+        rules, longest = self.booking_rules, max(max(lap.drive) for lap in self.laps)
+        return 1 + rules.follow(rules.end(0), longest)
 
 
 @checks_arguments

@@ -116,12 +116,10 @@ def _shares(
     """Yield the ticks of each arc due to each parameter of the robots on the circuit."""
     arcs = graph.arcs
     is_right = arcs.first >= 0
-    drive = graph.drive[arcs.head]
     robot_of = graph.robot[arcs.head]
     for place in np.unique(robot_of[circuit]).tolist():
         robot, own = graph.timetable.robots[place], robot_of == place
-        driving = own & (~is_right | graph.books_ahead)
-        yield ("speed", robot, None), np.where(driving, drive, 0)
+        yield ("speed", robot, None), np.where(own, graph.drives, 0)
         lap, itinerary = graph.timetable.laps[place], scenario.problem.itineraries[robot]
         at = stages_at(scenario.roadmap, itinerary, lap)
         dwelling = own & ~is_right
@@ -133,7 +131,7 @@ def _shares(
             for stop, stage in stages:
                 mine = dwelling & (at_visit == visit)
                 yield ("work", robot, stop), np.where(mine, np.int64(stage.work), np.int64(0))
-    yield ("headway", None, None), np.where(is_right, np.int64(graph.headway), np.int64(0))
+    yield ("headway", None, None), graph.headways
 
 
 def stages_at(roadmap: Roadmap, itinerary: Itinerary, lap: Lap) -> list[list[tuple[int, Stage]]]:

@@ -17,7 +17,7 @@ from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.rules import NATIVE_RULES
 from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick
-from rightofway.native import BookedRows, native_rows
+from rightofway.native import BookedRows, native_rows, native_rules
 from rightofway.planners import Deadline
 from rightofway.site import VertexId
 
@@ -76,9 +76,9 @@ class CyclicSimulator:
         self.context = context
         laps, longest = context.laps, context.longest
         pacemaker = choose_pacemaker(laps, -(-longest // params.pacemaker_part))
-        rows = BookedRows.of_laps(context.scenario, context.robots, laps, [1] * len(laps))
+        rows = BookedRows.of_laps(context.scenario.problem, context.robots, laps, [1] * len(laps))
         self._kernel = _core.CyclicSimulator(
-            _core.BookingRules(int(context.headway), context.books_ahead),
+            native_rules(context.booking_rules),
             _core.Routes(
                 np.cumsum([0, *map(len, laps)], dtype=np.int32),
                 np.array([vertex for lap in laps for vertex in lap.vertices], np.int32),

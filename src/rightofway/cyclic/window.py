@@ -72,8 +72,7 @@ class Window:
         known = zip(first[:-1], self.starts, prefix.history, strict=True)
         self.graph = PrecedenceGraph(
             self.routes,
-            headway=context.headway,
-            books_ahead=context.books_ahead,
+            rules=context.booking_rules,
             frozen=[visit for f, s, past in known for visit in range(f, f + len(past) - s)],
             rows=self._rows(),
         )

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rightofway.execution.progress import Activity, Progress, Times
 from rightofway.model import Route, Tick
-from rightofway.planners.task import planning_headway
+from rightofway.planners.task import planning_problem
 from rightofway.precedence import ActionDependencyGraph, PrecedenceGraph, graph_on
 
 
@@ -39,7 +39,7 @@ class Forecast:
         self.adg, self.progress = adg, progress
         self.now, self.broken = progress.now, progress.broken
         self.booked, self.entered = progress.booked, progress.entered
-        self.books_ahead = adg.scenario.rules.books_ahead
+        self.books_ahead = adg.scenario.problem.booking_rules.books_ahead
         begun = self._begun()
         try:
             self.graph = self._graph(begun)
@@ -78,9 +78,8 @@ class Forecast:
     def _graph(self, begun: NDArray[np.bool_]) -> PrecedenceGraph:
         """Return the graph of expected durations, in which closures do not bind what has begun."""
         return graph_on(
-            self.adg.scenario,
+            planning_problem(self.adg.scenario),
             [self._route(robot) for robot in range(len(self.adg.routes))],
-            headway=planning_headway(self.adg.scenario),
             begun=begun,
         )
 

@@ -92,7 +92,7 @@ def _activity(
     """Return what a robot does, from its delays and what has begun."""
     first, end = adg.first_visit[robot : robot + 2].tolist()
     visit = first + int(np.count_nonzero(progress.entered[first:end])) - 1
-    books_ahead = adg.scenario.rules.books_ahead
+    books_ahead = adg.scenario.problem.booking_rules.books_ahead
     if visit == end - 1:
         return Activity.STAYS
     if books_ahead and progress.booked[visit + 1]:

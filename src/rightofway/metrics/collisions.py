@@ -35,7 +35,7 @@ def bookings_of(
     scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> BookedPlaces:
     """Return what a fleet books under the scenario's rules."""
-    start, end = booked_times(scenario, tracks, stays)
+    start, end = booked_times(scenario.problem, tracks, stays)
     vertex = np.concatenate([track.vertices for track in tracks])
     robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
     order = order_by(vertex, start)  # stable, so by robot where all else is equal
@@ -303,7 +303,7 @@ def _places_booked(
     vertices = [VertexId(vertex) for vertex in track.vertices.tolist()]
     edges = scenario.roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
     starts = (track.enter - np.append(0, stay.drive[:-1])).tolist()
-    ends = [*(track.enter[1:] + scenario.problem.headway).tolist(), NEVER]
+    ends = [*scenario.problem.booking_rules.end(track.enter[1:]).tolist(), NEVER]
     for vertex, start, end in zip(vertices, starts, ends, strict=True):
         yield resources.vertex_row(robot, vertex), _Booking(start, end, robot, (vertex,))
     for edge, ends_of_edge, start, end in zip(

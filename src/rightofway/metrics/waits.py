@@ -80,11 +80,14 @@ def freed_by(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
     ndarray
         Numbers of visits, counted robot by robot along the tracks, or `NOBODY`; int64, shape (n,).
     """
-    problem, (start, end) = scenario.problem, booked_times(scenario, tracks, stays)
+    rules, (start, end) = (
+        scenario.problem.booking_rules,
+        booked_times(scenario.problem, tracks, stays),
+    )
     robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
     first, second = rights_of_way(scenario, tracks, stays).T
     # Where rotations are forbidden, planners keep one tick between two bookings of a vertex.
-    gap = 0 if problem.rotations or problem.headway else 1
+    gap = rules.to_plan_with().end(0) - rules.end(0)
     binds = np.isin(start[second] - end[first], (0, gap)) & (robot[first] != robot[second])
     frees = np.full(len(start), NOBODY)
     frees[second[binds][::-1]] = first[binds][::-1]  # of several, the first in order
@@ -101,7 +104,7 @@ def rights_of_way(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[S
         tracks break the rules, so that no order explains them.
     """
     vertices = [track.vertices for track in tracks]
-    rows = BookedRows.of(scenario, vertices)
+    rows = BookedRows.of(scenario.problem, vertices)
     if rows is None:
         enter = np.concatenate([track.enter for track in tracks])
         return order_of(np.concatenate(vertices), enter)
@@ -114,9 +117,7 @@ def rights_of_way(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[S
         for track, stay in zip(tracks, stays, strict=True)
     ]
     may_last = all((np.diff(track.enter) > 0).all() for track in tracks)
-    graph = PrecedenceGraph(
-        routes, headway=scenario.problem.headway, books_ahead=scenario.rules.books_ahead, rows=rows
-    )
+    graph = PrecedenceGraph(routes, rules=scenario.problem.booking_rules, rows=rows)
     if not may_last or not graph.keeps_order([track.enter for track in tracks]):
         return np.empty((0, 2), np.int32)
     rights = graph.rights()

@@ -1,5 +1,6 @@
 """Robot, scenario, problem, plan: frozen, in integer ticks, without files."""
 
+from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures
 from rightofway.model.lap import Lap, lap_of, visits_of_laps
 from rightofway.model.lost_time import Loss, LostTime
@@ -35,6 +36,7 @@ from rightofway.model.units import NEVER, Clock, Tick, checked_time_limit, choos
 
 __all__ = [
     "NEVER",
+    "BookingRules",
     "Clock",
     "Closure",
     "Closures",

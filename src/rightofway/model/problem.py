@@ -9,6 +9,7 @@ from itertools import chain
 from math import gcd, lcm
 
 from rightofway.errors import InputError
+from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures, closures_of
 from rightofway.model.resources import Resources, points_on, resources_of
 from rightofway.model.robot import Robot, Rules
@@ -115,13 +116,8 @@ class Problem:
         The graph that robots drive on.
     clock
         How long a tick is.
-    headway
-        Least ticks between one robot leaving a vertex and the next entering it.
-    books_ahead
-        Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
-    rotations
-        Whether three or more robots may move round a circle at one instant, where bookings allow
-        it.
+    booking_rules
+        When visits book.
     itineraries
         One for each robot.
     resources
@@ -132,9 +128,7 @@ class Problem:
 
     roadmap: Roadmap
     clock: Clock
-    headway: Tick
-    books_ahead: bool
-    rotations: bool
+    booking_rules: BookingRules
     itineraries: tuple[Itinerary, ...]
     resources: Resources
     closures: Closures | None = None
@@ -154,9 +148,10 @@ class Problem:
         """Whether a change of heading takes time for some robot."""
         return any(itinerary.turning is not None for itinerary in self.itineraries)
 
-    def with_headway(self, headway: Tick) -> Problem:
-        """Return the same problem with another headway [ticks]."""
-        return self if headway == self.headway else replace(self, headway=headway)
+    def to_plan_with(self) -> Problem:
+        """Return the same problem with the booking rules that planners keep."""
+        rules = self.booking_rules.to_plan_with()
+        return self if rules == self.booking_rules else replace(self, booking_rules=rules)
 
     def in_steps(self) -> Problem:
         """Return the problem in steps of a tick: in a step, a robot drives along an edge or stays.
@@ -168,9 +163,7 @@ class Problem:
         """
         return replace(
             self,
-            headway=Tick(0),
-            books_ahead=False,
-            rotations=self.rotations and self.headway == 0 and not self.books_ahead,
+            booking_rules=BookingRules(rotations=self.booking_rules.may_rotate),
             itineraries=tuple(itinerary.in_steps() for itinerary in self.itineraries),
             resources=points_on(self.roadmap, len(self.itineraries)),
             closures=None,
@@ -233,9 +226,11 @@ def problem_of(
     return Problem(
         roadmap=roadmap,
         clock=clock,
-        headway=clock.ticks(rules.headway),
-        books_ahead=rules.books_ahead,
-        rotations=rules.rotations,
+        booking_rules=BookingRules(
+            headway=clock.ticks(rules.headway),
+            books_ahead=rules.occupancy == "both",
+            rotations=rules.rotations,
+        ),
         itineraries=tuple(
             _itinerary(roadmap, robot, rules, clock, turning=turning, weight=weight)
             for robot, turning, weight in zip(

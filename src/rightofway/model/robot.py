@@ -289,11 +289,6 @@ class Rules:
     def __post_init__(self) -> None:
         coerced(self, "rules", **readers_of(Rules))
 
-    @property
-    def books_ahead(self) -> bool:
-        """Whether a robot books a vertex from when it starts to drive there."""
-        return self.occupancy == "both"
-
 
 ROBOT_ATTRIBUTES = attributes_of(Robot)
 """What a robot has beside its name and its trip."""

@@ -7,7 +7,7 @@ from rightofway.native.bookings import (
     native_closures,
     native_rows,
 )
-from rightofway.native.problem import bound, compiler, lists_of, roads_of, rules_of, tracks_of
+from rightofway.native.problem import bound, compiler, lists_of, native_rules, roads_of, tracks_of
 
 __all__ = [
     "BookedRows",
@@ -18,7 +18,7 @@ __all__ = [
     "lists_of",
     "native_closures",
     "native_rows",
+    "native_rules",
     "roads_of",
-    "rules_of",
     "tracks_of",
 ]

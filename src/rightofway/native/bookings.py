@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import NEVER, Lap, Route, Scenario, Stays, Tick, Track
+from rightofway.model import NEVER, Lap, Problem, Route, Stays, Tick, Track
 from rightofway.model.resources import ExcludedRows
 
 
@@ -33,24 +33,24 @@ class BookedRows:
 
     @classmethod
     def of(
-        cls, scenario: Scenario, vertices: Sequence[Sequence[int] | NDArray[np.int32]]
+        cls, problem: Problem, vertices: Sequence[Sequence[int] | NDArray[np.int32]]
     ) -> BookedRows | None:
         """Return the rows of visits, or None where no robot has a size.
 
         Parameters
         ----------
-        scenario
-            The problem.
+        problem
+            The scenario in ticks.
         vertices
             The vertices that each robot visits.
         """
-        resources = scenario.problem.resources
+        resources = problem.resources
         if resources.lists is None:
             return None
         at_vertex, along_edge = [], []
         for robot, route in enumerate(vertices):
             visited = np.asarray(route, np.int32)
-            edges = scenario.roadmap.edges(visited[:-1], visited[1:])
+            edges = problem.roadmap.edges(visited[:-1], visited[1:])
             at_vertex.append(resources.vertex_row(robot, 0) + visited)
             along_edge.append(np.append(resources.edge_row(robot, 0) + edges, -1))
         return cls(
@@ -61,23 +61,23 @@ class BookedRows:
 
     @classmethod
     def of_laps(
-        cls, scenario: Scenario, robots: Sequence[int], laps: Sequence[Lap], counts: Sequence[int]
+        cls, problem: Problem, robots: Sequence[int], laps: Sequence[Lap], counts: Sequence[int]
     ) -> BookedRows | None:
         """Return the rows of visits that repeat, or None where no robot has a size.
 
         Parameters
         ----------
-        scenario
-            The problem.
+        problem
+            The scenario in ticks.
         robots, laps, counts
             Robots of the scenario, the lap of each, and how many laps it makes in a period.
         """
-        resources = scenario.problem.resources
+        resources = problem.resources
         if resources.lists is None:
             return None
         at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
         for robot, lap, count in zip(robots, laps, counts, strict=True):
-            rows = resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)
+            rows = resources.rows_of_lap(problem.roadmap, robot, lap.vertices)
             for rows_of_bookings, own in zip((at_vertex, along_edge), rows, strict=True):
                 rows_of_bookings.append(np.tile(own, count))
         return cls(
@@ -107,7 +107,7 @@ class ClosedPlaces:
     @classmethod
     def of(
         cls,
-        scenario: Scenario,
+        problem: Problem,
         routes: Sequence[Route],
         begun: NDArray[np.bool_] | None = None,
     ) -> ClosedPlaces | None:
@@ -115,21 +115,21 @@ class ClosedPlaces:
 
         Parameters
         ----------
-        scenario
-            The problem.
+        problem
+            The scenario in ticks.
         routes
             One for each robot.
         begun
             Stays and drives that have begun, so that it is too late for a closure, by list; bool,
             shape (2 N,).
         """
-        closures = scenario.problem.closures
+        closures = problem.closures
         if closures is None:
             return None
         lists: list[list[tuple[Tick, Tick]]] = []
         for robot, route in enumerate(routes):
             visited = np.array(route.vertices, np.int32)
-            edges = scenario.roadmap.edges(visited[:-1], visited[1:]).tolist()
+            edges = problem.roadmap.edges(visited[:-1], visited[1:]).tolist()
             for vertex, edge in zip(route.vertices, [None, *edges], strict=True):
                 lists.append(closures.at_vertex(robot, vertex))
                 lists.append([] if edge is None else closures.along_edge(robot, edge))
@@ -144,22 +144,22 @@ class ClosedPlaces:
 
 
 def booked_times(
-    scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
+    problem: Problem, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return from when to when each visit books its vertex, robot after robot; int64, shape (N,).
 
     Parameters
     ----------
-    scenario
-        The problem; its rules say when bookings begin and end.
+    problem
+        The scenario in ticks; its booking rules say when bookings begin and end.
     tracks, stays
         One track for each robot, and the parts of its visits.
     """
     enter = np.concatenate([track.enter for track in tracks])
     drive_in = np.roll(np.concatenate([stay.drive for stay in stays]), 1)  # that of the last is 0
-    end = np.append(enter[1:] + scenario.problem.headway, NEVER)
+    end = np.append(problem.booking_rules.end(enter[1:]), NEVER)
     end[np.cumsum([len(track) for track in tracks]) - 1] = NEVER
-    return enter - drive_in * scenario.problem.books_ahead, end
+    return problem.booking_rules.start(enter, drive_in), end
 
 
 def native_rows(rows: BookedRows | None) -> _core.VisitRows | None:

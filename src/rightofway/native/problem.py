@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.errors import InputError, shown
-from rightofway.model import Problem, Tick, Track
+from rightofway.model import BookingRules, Problem, Tick, Track
 from rightofway.model.resources import Resources
 from rightofway.model.turning import Turning
 from rightofway.site import Roadmap
@@ -61,7 +61,7 @@ def bound(problem: Problem) -> _core.Problem:
                 size_of=sizes.size_of,
                 weight=np.array([robot.weight for robot in robots], np.int64),
             ),
-            rules_of(problem),
+            native_rules(problem.booking_rules),
             lists=lists_of(sizes),
             turning=_turning(problem),
             surcharges=np.array(robots[0].surcharges, np.int64) if robots[0].surcharges else None,
@@ -72,15 +72,15 @@ def bound(problem: Problem) -> _core.Problem:
     return native
 
 
-def rules_of(problem: Problem) -> _core.BookingRules:
-    """Return how the visits of a problem are booked.
+def native_rules(rules: BookingRules) -> _core.BookingRules:
+    """Return when visits book as kernels take it.
 
     Parameters
     ----------
-    problem
-        The scenario in ticks.
+    rules
+        Those of a problem.
     """
-    return _core.BookingRules(int(problem.headway), problem.books_ahead, problem.rotations)
+    return _core.BookingRules(int(rules.headway), rules.books_ahead, rules.rotations)
 
 
 def lists_of(resources: Resources) -> _core.ExcludedRows | None:

@@ -22,7 +22,6 @@ from rightofway.planners.task import (
     Draft,
     Planner,
     Task,
-    planning_headway,
     planning_problem,
 )
 
@@ -50,7 +49,6 @@ __all__ = [
     "Task",
     "TwoLevelOptions",
     "find",
-    "planning_headway",
     "planning_problem",
     "registered",
 ]

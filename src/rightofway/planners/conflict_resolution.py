@@ -24,7 +24,7 @@ from rightofway.phrases import Phrase
 from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.prioritized import fleet_search, plan_in_turn
 from rightofway.planners.routing import shortest_route
-from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
+from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.precedence import (
     Meeting,
     PrecedenceGraph,
@@ -88,9 +88,8 @@ class PartialPlan:
         self.settled = np.zeros(len(routes), np.uint8)
         self.deferred: dict[int, str] = {}
         self.decisions: list[Decision] = []
-        headway = planning_headway(task.scenario)
         self.graph = graph or graph_on(
-            task.scenario, routes, headway=headway, forbid_swaps=sees_swaps
+            planning_problem(task.scenario), routes, forbid_swaps=sees_swaps
         )
 
     def resolve_all(self, rule: Rule) -> None:
@@ -192,7 +191,7 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
     ordered = [track for _, track in sorted(tracks.items())]
     status, names = "waits only", [robot.name for robot in task.scenario.robots]
     if made_way:  # shift the visits of robots that waited for a robot on its former route
-        ordered = graph_of(task.scenario, ordered).tracks()
+        ordered = graph_of(task.scenario.problem, ordered).tracks()
     rerouted = [
         robot
         for robot in sorted(made_way)

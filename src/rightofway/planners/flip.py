@@ -15,7 +15,7 @@ from rightofway.model import Plan, Tick, Track, completions_of
 from rightofway.model.deadline import Deadline
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.prioritized import fleet_search
-from rightofway.planners.task import Task, planning_headway
+from rightofway.planners.task import Task, planning_problem
 from rightofway.precedence import PrecedenceGraph, graph_of
 
 SEARCHES = 100
@@ -61,7 +61,7 @@ def flipped(
         remedy = "plan again with a planner that leaves none"
         raise GaveUp(f"the plan has {judged.summary}: no right of way can be flipped ({remedy})")
     task = Task(scenario=scenario, deadline=Deadline.after(time_limit))
-    graph = graph_of(scenario, plan.tracks, headway=planning_headway(scenario))
+    graph = graph_of(planning_problem(scenario), plan.tracks)
     rights = [
         (first, second)
         for first, second in graph.rights_of(waits)

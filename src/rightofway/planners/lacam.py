@@ -31,7 +31,7 @@ from rightofway.planners.impossible import (
     refuse_the_impossible,
 )
 from rightofway.planners.moves import plan_by_moves
-from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
+from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.planners.timed_moves import plan_by_timed_moves
 from rightofway.precedence import graph_on
 from rightofway.search import Distances, FleetSearch, plan_by_lacam
@@ -148,7 +148,7 @@ def timetable_if_possible(
         for itinerary, vertices in zip(scenario.problem.itineraries, visited, strict=True)
     ]
     try:
-        graph = graph_on(scenario, routes, headway=planning_headway(scenario))
+        graph = graph_on(planning_problem(scenario), routes)
     except ValueError:
         return None
     return graph.tracks() if graph.keeps_order(arrivals) else None

@@ -27,7 +27,7 @@ from rightofway.model import Improvement, Tick, Track, cost_of
 from rightofway.model.outcome import minimized
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
-from rightofway.planners.task import Draft, Task, planning_headway
+from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 
@@ -207,7 +207,7 @@ def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
     if problem.closures is None:
         search.retime()
         return search.tracks()
-    graph = graph_of(task.scenario, search.tracks(), headway=planning_headway(task.scenario))
+    graph = graph_of(planning_problem(task.scenario), search.tracks())
     return tuple(graph.tracks())
 
 
@@ -216,10 +216,10 @@ def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track] | None:
 
     None where a closure begins too soon for it.
     """
-    headway = planning_headway(task.scenario)
-    if headway == task.scenario.problem.headway:
+    problem = planning_problem(task.scenario)
+    if problem is task.scenario.problem:
         return tracks
     try:
-        return graph_of(task.scenario, tracks, headway=headway).tracks()
+        return graph_of(problem, tracks).tracks()
     except ValueError:
         return None

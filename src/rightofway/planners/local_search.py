@@ -28,7 +28,7 @@ from typing import NamedTuple
 from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick
 from rightofway.planners.conflict_resolution import rights_if_waits
-from rightofway.planners.task import Draft, Task, planning_headway
+from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.planners.two_level import two_level
 from rightofway.precedence import Meeting, PrecedenceGraph, graph_of
 
@@ -54,8 +54,8 @@ def local_search(task: Task) -> Draft:
     first = Draft(tracks=task.start, status="") if task.start else two_level(task)
     task.has_plan()
     task.better(lambda: first.tracks)
-    before = graph_of(task.scenario, first.tracks)
-    graph = graph_of(task.scenario, first.tracks, headway=planning_headway(task.scenario))
+    before = graph_of(task.scenario.problem, first.tracks)
+    graph = graph_of(planning_problem(task.scenario), first.tracks)
     LocalSearch(task, graph).run(rounds=int(task.options["rounds"]))
     if graph.flowtime() > before.flowtime():  # the headway of planning costs more than flips gain
         graph = before

@@ -33,7 +33,7 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Tick, Track, least_dwell
 from rightofway.model.deadline import Deadline
 from rightofway.planners.impossible import fleet_of, no_room, smallest_set
-from rightofway.planners.task import Draft, Task, planning_headway
+from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.search import Distances, FleetSearch
 from rightofway.site import VertexId
 
@@ -150,7 +150,7 @@ class SingleMoves:
 
     def __init__(self, scenario: Scenario, ends_anywhere: Collection[int] = ()) -> None:
         problem = scenario.problem
-        may_rotate = problem.rotations and not problem.books_ahead
+        may_rotate = problem.booking_rules.may_rotate
         self.is_proof = not may_rotate or len(problem.itineraries) <= 2  # noqa: PLR2004
         self.ends_anywhere = ends_anywhere
         self.itineraries = problem.itineraries
@@ -233,7 +233,7 @@ def _in_sequence(task: Task, moves: list[Move]) -> list[Track]:
     """Return tracks in which the robots make their moves one after another."""
     roadmap, itineraries = task.scenario.roadmap, task.scenario.problem.itineraries
     vertices = [[itinerary.home] for itinerary in itineraries]
-    enter = [[Tick(0)] for _ in itineraries]
+    enter, rules = [[Tick(0)] for _ in itineraries], planning_problem(task.scenario).booking_rules
     stages, now, edges = [0] * len(itineraries), 0, [-1] * len(itineraries)
     for robot, head, edge in moves:
         itinerary, place = itineraries[robot], vertices[robot][-1]
@@ -249,7 +249,7 @@ def _in_sequence(task: Task, moves: list[Move]) -> list[Track]:
             ready += itinerary.turning.of(edges[robot], edge)
         edges[robot] = edge
         now = max(now, ready) + itinerary.edge_ticks[roadmap.class_of_edge[edge]]
-        now += planning_headway(task.scenario)
+        now = rules.end(now)
         vertices[robot].append(VertexId(head))
         enter[robot].append(Tick(now))
     return [Track.of(*track) for track in zip(vertices, enter, strict=True)]

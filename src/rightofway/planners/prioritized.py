@@ -23,7 +23,7 @@ from rightofway.model import Scenario, Stop, cost_of
 from rightofway.model.deadline import Deadline
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_of
-from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
+from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 
@@ -116,8 +116,7 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     tracks = search.tracks()
     problem = task.scenario.problem
     if problem.closures is not None:  # a robot may have waited for a kept home
-        headway = planning_headway(task.scenario)
-        tracks = tuple(graph_of(task.scenario, tracks, headway=headway).tracks())
+        tracks = tuple(graph_of(planning_problem(task.scenario), tracks).tracks())
     task.has_plan()
     return Draft(tracks=tracks, status="one after another")
 

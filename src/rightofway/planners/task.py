@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
-from rightofway.model import Decision, Improvement, Problem, Proof, Reroute, Scenario, Tick, Track
+from rightofway.model import Decision, Improvement, Problem, Proof, Reroute, Scenario, Track
 from rightofway.model.deadline import NO_DEADLINE, Deadline
 
 
@@ -93,27 +93,14 @@ Raises `NoPlanExists` if it is proven that there is no plan, and `GaveUp` if non
 
 
 @checks_arguments
-def planning_headway(scenario: Scenario) -> Tick:
-    """Return the headway to plan with [ticks].
-
-    Where rotations are forbidden it is at least one tick: a vertex that is never entered at the
-    instant at which it is left cannot be part of a rotation.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    """
-    return Tick(max(scenario.problem.headway, 0 if scenario.rules.rotations else 1))
-
-
-@checks_arguments
 def planning_problem(scenario: Scenario) -> Problem:
-    """Return the problem with the headway to plan with.
+    """Return the problem with the booking rules that planners keep.
+
+    Where rotations are forbidden their headway is at least one tick.
 
     Parameters
     ----------
     scenario
         The problem.
     """
-    return scenario.problem.with_headway(planning_headway(scenario))
+    return scenario.problem.to_plan_with()

@@ -23,7 +23,7 @@ from rightofway.model import NEVER, Scenario, Tick, Track, least_dwell
 from rightofway.model.deadline import Deadline
 from rightofway.planners.impossible import fleet_of, no_room, smallest_set
 from rightofway.planners.moves import Move, SingleMoves, State
-from rightofway.planners.task import Draft, Task, planning_headway
+from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.site import VertexId
 
 MOST_STATES, FEW_ROBOTS = 10_000, 4
@@ -59,7 +59,7 @@ def plan_by_timed_moves(task: Task) -> Draft | None:
         return None
     if last is None:
         raise NoPlanExists([no_room(scenario, smallest_set(everybody, is_blocked))])
-    if planning_headway(scenario) > scenario.problem.headway:
+    if planning_problem(scenario) is not scenario.problem:
         return None  # its robots might rotate
     task.has_plan()
     return Draft(tracks=tuple(_at_times(moves, last)), status="order of moves")
@@ -129,7 +129,7 @@ class _TimedMoves(SingleMoves):
     def __init__(self, scenario: Scenario) -> None:
         super().__init__(scenario)
         problem = scenario.problem
-        self._headway, self._ahead = problem.headway, problem.books_ahead
+        self._rules = problem.booking_rules
         self._closures = problem.closures
         self._dwells = [
             [
@@ -195,7 +195,6 @@ class _TimedMoves(SingleMoves):
         """Yield when a move can end at the earliest, and when its vertex is closed next."""
         robot = move.robot
         drive = self.itineraries[robot].edge_ticks[self.roadmap.class_of_edge[move.edge]]
-        approach = drive if self._ahead else 0
         needed = {
             self.resources.edge_row(robot, move.edge),
             self.resources.vertex_row(robot, move.vertex),
@@ -206,19 +205,19 @@ class _TimedMoves(SingleMoves):
             enter += turning.of(timed.edges[robot], move.edge)
         for (row, other), end in timed.ends.items():
             if other != robot and row in needed:
-                enter = max(enter, end + approach)
+                enter = max(enter, self._rules.follow(end, drive))
         closed = self._closed_at(robot, move.vertex)
         opens = [0, *(end for _, end in closed)]
         closes = [*(start for start, _ in closed), NEVER]
         along = self._closed_along(robot, move.edge)
         for begin, end in zip(opens, closes, strict=True):
-            enter = max(enter, begin + approach)
+            enter = max(enter, self._rules.follow(begin, drive))
             for start, until in along:
-                if start < enter + self._headway and enter - drive < until:
+                if start < self._rules.end(enter) and enter - drive < until:
                     enter = until + drive
-            if begin == NEVER or enter + self._headway > timed.leave_by[robot]:
+            if begin == NEVER or self._rules.end(enter) > timed.leave_by[robot]:
                 return
-            if enter - approach < end:
+            if self._rules.start(enter, drive) < end:
                 yield enter, end
 
     def _moved(self, timed: _Timed, move: Move, state: State, enter: int, leave_by: int) -> _Timed:
@@ -230,7 +229,7 @@ class _TimedMoves(SingleMoves):
         along = self.resources.edge_row(robot, move.edge)
         for left in (along, self.resources.vertex_row(robot, timed.state.places[robot])):
             for row in self.resources.excluded_by(left):
-                ends[row, robot] = enter + self._headway
+                ends[row, robot] = self._rules.end(enter)
         edges = timed.edges
         if itinerary.turning is not None:
             edges = (*edges[:robot], move.edge, *edges[robot + 1 :])

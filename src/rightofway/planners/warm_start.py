@@ -34,12 +34,12 @@ from numpy.typing import NDArray
 from rightofway.check import check
 from rightofway.model import (
     NEVER,
+    BookingRules,
     Plan,
     PlannerRun,
     Route,
     Scenario,
     StartPlan,
-    Tick,
     Track,
     cost_of,
     route_along,
@@ -47,7 +47,7 @@ from rightofway.model import (
 )
 from rightofway.planners.impossible import refuse_closed_ways
 from rightofway.planners.prioritized import fleet_search
-from rightofway.planners.task import Task, planning_headway
+from rightofway.planners.task import Task
 from rightofway.precedence import graph_on
 from rightofway.search import FleetSearch
 from rightofway.site import Roadmap, VertexId
@@ -92,9 +92,9 @@ def first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
     drafts = [_repaired(hurried, search, old_routes, [*unchanged, *changed])]
     if changed and hurried.deadline.seconds_left() != 0:
         drafts.append(_repaired(hurried, search, old_routes, unchanged))
-    headway = task.scenario.problem.headway
-    if not others and headway != planning_headway(task.scenario):  # the old plan may have had less
-        in_time = _timetable(task.scenario, old_routes, [*unchanged, *changed], headway)
+    rules = task.scenario.problem.booking_rules
+    if not others and rules != rules.to_plan_with():  # the old plan may have had less headway
+        in_time = _timetable(task.scenario, old_routes, [*unchanged, *changed], rules)
         drafts.append(None if in_time is None else tuple(in_time.values()))
     valid = [tracks for tracks in drafts if tracks is not None and _is_valid(task.scenario, tracks)]
     return min(valid, key=lambda tracks: cost_of(task.scenario, tracks), default=None)
@@ -248,23 +248,23 @@ def _in_old_order(
     bisection, because an order stays possible if a robot is taken out.
     """
     fits, left = list[int](), list(order)
-    headway = planning_headway(task.scenario)
-    tracks = _timetable(task.scenario, old_routes, left, headway)
+    rules = task.scenario.problem.booking_rules.to_plan_with()
+    tracks = _timetable(task.scenario, old_routes, left, rules)
     for _ in range(MOST_REFUSED):
         if tracks is not None or task.deadline.seconds_left() == 0:
             break
         low, high = 0, len(left)
         while high - low > 1:
             middle = (low + high) // 2
-            tried = _timetable(task.scenario, old_routes, [*fits, *left[:middle]], headway)
+            tried = _timetable(task.scenario, old_routes, [*fits, *left[:middle]], rules)
             low, high = (low, middle) if tried is None else (middle, high)
         fits, left = [*fits, *left[:low]], left[low + 1 :]
-        tracks = _timetable(task.scenario, old_routes, [*fits, *left], headway)
-    return tracks or _timetable(task.scenario, old_routes, fits, headway) or {}
+        tracks = _timetable(task.scenario, old_routes, [*fits, *left], rules)
+    return tracks or _timetable(task.scenario, old_routes, fits, rules) or {}
 
 
 def _timetable(
-    scenario: Scenario, old_routes: Mapping[int, _Kept], robots: Sequence[int], headway: Tick
+    scenario: Scenario, old_routes: Mapping[int, _Kept], robots: Sequence[int], rules: BookingRules
 ) -> Mapping[int, Track] | None:
     """Return the earliest tracks of some robots in the old order; None if it is impossible.
 
@@ -278,7 +278,7 @@ def _timetable(
         part = replace(scenario, robots=fleet, clock=scenario.problem.clock)
     try:
         routes = [old_routes[robot].route for robot in robots]
-        graph = graph_on(part, routes, headway=headway)
+        graph = graph_on(replace(part.problem, booking_rules=rules), routes)
         is_possible = graph.keeps_order([old_routes[robot].when for robot in robots])
     except ValueError:
         return None  # closures leave a route no times, or the old plan has times that fall

@@ -27,7 +27,7 @@ from rightofway.native import (
     ClosedPlaces,
     native_closures,
     native_rows,
-    rules_of,
+    native_rules,
 )
 from rightofway.precedence.graph import Pairs, graph_on
 
@@ -217,12 +217,12 @@ class ActionDependencyGraph:
         first, second = (column.copy() for column in self.order.T)
         begins = np.searchsorted(second, np.arange(len(self.vertex) + 1)).astype(np.int32)
         self._kernel = _core.ActionDependencyGraph(
-            rules_of(scenario.problem),
+            native_rules(scenario.problem.booking_rules),
             _core.Routes(self.first_visit, self.vertex, self.dwell, self.drive),
             _core.Order(self.planned, begins, first, self.since),
             _kernel_of(delay_model),
-            native_rows(BookedRows.of(scenario, [route.vertices for route in self.routes])),
-            native_closures(ClosedPlaces.of(scenario, self.routes)),
+            native_rows(BookedRows.of(scenario.problem, [route.vertices for route in self.routes])),
+            native_closures(ClosedPlaces.of(scenario.problem, self.routes)),
         )
 
     def order_at(self, when: NDArray[np.int64]) -> Pairs:
@@ -237,7 +237,7 @@ class ActionDependencyGraph:
             return order_of(self.vertex, when)
         # An order has no clock: what has begun too late for a closure has its place in it, too.
         begun = np.ones((len(self.vertex), 2), bool)
-        graph = graph_on(self.scenario, self.routes, begun=begun)
+        graph = graph_on(self.scenario.problem, self.routes, begun=begun)
         if not graph.keeps_order(np.split(when, self.first_visit[1:-1])):
             raise ValueError("when: some visits cannot take place in this order")
         rights = graph.rights()

@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.arguments import checks_arguments, one_for_each
-from rightofway.model import Route, Scenario, Tick, Track, route_of
-from rightofway.native import BookedRows, ClosedPlaces, native_closures, native_rows
+from rightofway.model import BookingRules, Problem, Route, Tick, Track, route_of
+from rightofway.native import BookedRows, ClosedPlaces, native_closures, native_rows, native_rules
 from rightofway.precedence.segments import (
     IncompatiblePair,
     Segment,
@@ -71,10 +71,8 @@ class PrecedenceGraph:
     ----------
     routes
         One for each robot.
-    headway
-        Ticks that a vertex stays booked after it was left.
-    books_ahead
-        Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
+    rules
+        When visits book.
     forbid_swaps
         Whether a swap counts as a conflict (the published method does not see them).
     frozen
@@ -94,8 +92,7 @@ class PrecedenceGraph:
         self,
         routes: Sequence[Route],
         *,
-        headway: Tick,
-        books_ahead: bool,
+        rules: BookingRules,
         forbid_swaps: bool = True,
         frozen: Iterable[Visit] = (),
         rows: BookedRows | None = None,
@@ -111,7 +108,7 @@ class PrecedenceGraph:
         self._robot = np.repeat(np.arange(len(routes)), lengths).tolist()
         self._last_dwells: int = sum(route.dwell[-1] for route in routes)
         self._kernel = _core.PrecedenceGraph(
-            _core.BookingRules(int(headway), books_ahead),
+            native_rules(rules),
             _core.Routes(
                 self._first,
                 np.array([vertex for route in routes for vertex in route.vertices], np.int32),
@@ -317,10 +314,9 @@ class PrecedenceGraph:
 
 @checks_arguments
 def graph_on(
-    scenario: Scenario,
+    problem: Problem,
     routes: Sequence[Route],
     *,
-    headway: Tick | None = None,
     forbid_swaps: bool = True,
     begun: NDArray[np.bool_] | None = None,
 ) -> PrecedenceGraph:
@@ -328,12 +324,10 @@ def graph_on(
 
     Parameters
     ----------
-    scenario
-        The problem.
+    problem
+        The scenario in ticks.
     routes
         One for each robot.
-    headway
-        A longer one than the scenario asks for [ticks].
     forbid_swaps
         Whether a swap counts as a conflict.
     begun
@@ -344,42 +338,36 @@ def graph_on(
     ValueError
         If closures leave the route of a robot no times.
     """
-    one_for_each(scenario.robots, routes=routes)
+    one_for_each(problem.itineraries, routes=routes)
     return PrecedenceGraph(
         routes,
-        headway=scenario.problem.headway if headway is None else headway,
-        books_ahead=scenario.rules.books_ahead,
+        rules=problem.booking_rules,
         forbid_swaps=forbid_swaps,
-        rows=BookedRows.of(scenario, [route.vertices for route in routes]),
-        closed=ClosedPlaces.of(scenario, routes, None if begun is None else begun.ravel()),
+        rows=BookedRows.of(problem, [route.vertices for route in routes]),
+        closed=ClosedPlaces.of(problem, routes, None if begun is None else begun.ravel()),
     )
 
 
 @checks_arguments
-def graph_of(
-    scenario: Scenario, tracks: Sequence[Track], *, headway: Tick | None = None
-) -> PrecedenceGraph:
+def graph_of(problem: Problem, tracks: Sequence[Track]) -> PrecedenceGraph:
     """Return the precedence graph of a plan: its routes, and its order of visits at every vertex.
 
     Parameters
     ----------
-    scenario
-        The problem.
+    problem
+        The scenario in ticks; the graph keeps its booking rules.
     tracks
         A plan that keeps the rules.
-    headway
-        A longer one than the scenario asks for [ticks].
 
     Notes
     -----
-    With the headway of the scenario, no robot is later in the timetable than in the plan.
+    With the booking rules of the plan, no robot is later in the timetable than in the plan.
     """
-    one_for_each(scenario.robots, tracks=tracks)
-    itineraries = scenario.problem.itineraries
+    one_for_each(problem.itineraries, tracks=tracks)
     routes = [
-        route_of(scenario.roadmap, itinerary, track)
-        for itinerary, track in zip(itineraries, tracks, strict=True)
+        route_of(problem.roadmap, itinerary, track)
+        for itinerary, track in zip(problem.itineraries, tracks, strict=True)
     ]
-    graph = graph_on(scenario, routes, headway=headway)
+    graph = graph_on(problem, routes)
     graph.keep_order([track.enter.tolist() for track in tracks])
     return graph

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
-from rightofway.model import Lap, Tick, visits_of_laps
+from rightofway.model import BookingRules, Lap, Tick, visits_of_laps
 from rightofway.native import BookedRows
 
 MOST_ANSWERS = 1 << 21
@@ -138,10 +138,8 @@ class TimedEventGraph:
     ----------
     timetable
         Whose laps and orders to keep; its times say nothing else.
-    headway
-        Ticks that a vertex stays booked after it was left.
-    books_ahead
-        Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
+    rules
+        When visits book.
     rows
         What the visits book, where robots have a size.
 
@@ -161,14 +159,12 @@ class TimedEventGraph:
         self,
         timetable: CyclicSchedule,
         *,
-        headway: Tick,
-        books_ahead: bool,
+        rules: BookingRules,
         rows: BookedRows | None = None,
     ) -> None:
         self.timetable = timetable
         self.rows = rows
-        self.headway = headway
-        self.books_ahead = books_ahead
+        self.rules = rules
         laps, counts = timetable.laps, timetable.counts
         sizes = [len(lap) * count for lap, count in zip(laps, counts, strict=True)]
         self.first = np.concatenate(([0], np.cumsum(sizes)))
@@ -218,6 +214,18 @@ class TimedEventGraph:
             }
         )
 
+    @cached_property
+    def drives(self) -> NDArray[np.int64]:
+        """The part of each arc that is the drive into its head [ticks]; int64."""
+        drive = self.drive[self.arcs.head]
+        of_rights = self.rules.follow(np.zeros(len(drive), np.int64), drive)
+        return np.where(self.arcs.first < 0, drive, of_rights)
+
+    @cached_property
+    def headways(self) -> NDArray[np.int64]:
+        """The part of each arc that is the headway [ticks]; int64."""
+        return np.where(self.arcs.first < 0, 0, self.rules.end(0))
+
     def _rights_of_way(self) -> Arcs:
         """Return an arc for each two visits of different robots next to each other at a vertex."""
         period = int(self.timetable.period)
@@ -231,11 +239,12 @@ class TimedEventGraph:
         rounds[ends] = 1
         meets = self.robot[order] != self.robot[then]
         first, second, rounds = order[meets], then[meets], rounds[meets]
-        approach = self.drive[second] if self.books_ahead else 0
         return Arcs(
             tail=self.after[first],
             head=second.astype(np.int32),
-            length=np.full(len(first), int(self.headway), np.int64) + approach,
+            length=self.rules.follow(
+                self.rules.end(np.zeros(len(first), np.int64)), self.drive[second]
+            ),
             height=(turn[first] + rounds - turn[second] - self.wraps[first]).astype(np.int32),
             first=first.astype(np.int32),
         )
@@ -287,7 +296,9 @@ class TimedEventGraph:
         return Arcs(
             tail=self.after[ended],
             head=head.astype(np.int32),
-            length=int(self.headway) + self.drive[head],
+            length=self.rules.follow(
+                self.rules.end(np.zeros(len(head), np.int64)), self.drive[head]
+            ),
             height=height.astype(np.int32),
             first=ended.astype(np.int32),
         )

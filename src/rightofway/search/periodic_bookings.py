@@ -18,8 +18,17 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.errors import InputError
-from rightofway.model import NEVER, Itinerary, Lap, Resources, Stage, Tick, visits_of_laps
-from rightofway.native import lists_of, roads_of
+from rightofway.model import (
+    NEVER,
+    BookingRules,
+    Itinerary,
+    Lap,
+    Resources,
+    Stage,
+    Tick,
+    visits_of_laps,
+)
+from rightofway.native import lists_of, native_rules, roads_of
 from rightofway.search.distances import Distances
 from rightofway.site import Roadmap, VertexId
 
@@ -133,10 +142,8 @@ class PeriodicBookings:
         How many vertices the roadmap has.
     period
         Ticks after which all bookings repeat; None for a line of time.
-    headway
-        Ticks that a vertex stays booked after it was left.
-    books_ahead
-        Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
+    rules
+        When visits book.
     rows
         What laps book, where robots have a size.
     """
@@ -146,15 +153,14 @@ class PeriodicBookings:
         n_vertices: int,
         period: Tick | None,
         *,
-        headway: Tick,
-        books_ahead: bool,
+        rules: BookingRules,
         rows: RowsOfLaps | None = None,
     ) -> None:
         self.period = NEVER if period is None else period
         self._rows = rows
         lists = None if rows is None else rows.resources.lists
         self._kernel = _core.PeriodicBookings(
-            _core.BookingRules(int(headway), books_ahead),
+            native_rules(rules),
             n_vertices if lists is None else len(lists.first) - 1,
             period,
             None if rows is None else lists_of(rows.resources),

@@ -92,13 +92,10 @@ class Bookings:
         """Yield what a track would book, visit by visit."""
         problem, vertices, enter = self.problem, track.vertices.tolist(), track.enter.tolist()
         drives = drives_along(problem.roadmap, problem.itineraries[robot], vertices)
-        approaches = drives if problem.books_ahead else [0] * len(drives)
-        headway, first_row = problem.headway, self.vertex_row(robot, 0)
-        ends = [*(Tick(tick + headway) for tick in enter[1:]), NEVER]
-        for vertex, tick, approach, end in zip(
-            vertices, enter, [0, *approaches], ends, strict=True
-        ):
-            yield first_row + vertex, Booking(Tick(tick - approach), end, robot)
+        rules, first_row = problem.booking_rules, self.vertex_row(robot, 0)
+        ends = [*(Tick(rules.end(tick)) for tick in enter[1:]), NEVER]
+        for vertex, tick, drive, end in zip(vertices, enter, [0, *drives], ends, strict=True):
+            yield first_row + vertex, Booking(Tick(rules.start(tick, drive)), end, robot)
         if not self._books_edges:
             return
         edges = problem.roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()

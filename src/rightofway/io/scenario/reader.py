@@ -220,7 +220,7 @@ def _assemble(
 def _check_ticks(scenario: Scenario) -> None:
     problem = scenario.problem
     longest = max(
-        problem.headway,
+        problem.booking_rules.headway,
         *(max(itinerary.edge_ticks, default=0) for itinerary in problem.itineraries),
         *(
             stage.work + stage.turn

@@ -116,13 +116,13 @@ class Diagram:
             for vertex, height in zip(self.line, heights, strict=True)
         }
         self._name_rows(pen, ((scene.where(vertex), y) for vertex, y in rows.items()))
-        headway, ahead = scene.plan.scenario.problem.headway, scene.plan.scenario.rules.books_ahead
+        rules = scene.plan.scenario.problem.booking_rules
         for trip, colour in zip(scene.trips, scene.colours, strict=True):
             tint = mix(scene.theme.paper, colour, 0.22)
-            ends = [*(leave + headway for leave in trip.enter[1:]), scene.end]
+            ends = [*(rules.end(leave) for leave in trip.enter[1:]), scene.end]
             visits = zip(trip.vertices, trip.enter, trip.drive, ends, strict=True)
             for vertex, enter, drive, end in visits:
-                left, right = self._x(max(enter - drive * ahead, 0)), self._x(end) - 1
+                left, right = self._x(max(rules.start(enter, drive), 0)), self._x(end) - 1
                 pen.box((left, rows[vertex] - half), (right, rows[vertex] + half), tint)
         for trip, colour in zip(scene.trips, scene.colours, strict=True):
             faint, until = mix(scene.theme.paper, colour, 0.5), trip.enter[-1]
