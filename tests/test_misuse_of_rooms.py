@@ -58,7 +58,7 @@ STEPS = {
         "native_closures",
         "native_rows",
         "roads_of",
-        "rules_of",
+        "native_rules",
         "tracks_of",
     },
     "precedence": {
