@@ -1,4 +1,10 @@
-"""What robots with a size cost, against points that book ahead, on the same trips.
+"""What robots with a size cost: whole lanes or pieces, and against points on the same trips.
+
+``python -m benchmarks.sizes`` alone draws random geometric graphs of 10^3 to 10^5 lanes, on which
+most lanes cross others, and plans discs on them with whole lanes and with pieces. *Ratio* is
+flowtime / every robot alone; discs that move in exact time lose something, too, so what booking
+space costs is at most the ratio less 1. *Rows* are the lists of excluded rows that were found, of
+all there are.
 
 ``python -m benchmarks.sizes FOLDER [SCENARIO ...]`` wants a folder of the MovingAI benchmark, with
 ``maps`` and ``scens`` in it. SCENARIO is a file with a real layout, as ``rightofway convert``
@@ -13,8 +19,9 @@ import random
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import nan
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -23,9 +30,11 @@ import numpy as np
 
 import rightofway
 from benchmarks.common import SEEDS, movingai_fleet, table
+from rightofway.io import scenario_of
 from rightofway.metrics import measure
 from rightofway.model import Robot, Scenario, Stop
 from rightofway.model.problem import problem_of
+from rightofway.native import lists_of
 from rightofway.planners import planning_problem
 from rightofway.search import FleetSearch, plan_by_lacam
 from rightofway.site import VertexId
@@ -151,8 +160,128 @@ def on_a_layout(path: Path) -> str:
     return table(("vertices", "robots", "first plan [s]", f"ratio after {SECONDS} s"), lines)
 
 
+@dataclass(frozen=True, slots=True)
+class Graph:
+    """A random geometric graph: vertices anywhere, a lane between all that are near."""
+
+    vertices: int
+    degree: float  # lanes at a vertex
+    lane: float  # length of a lane in distances of two robots, in the mean
+    robots: int
+
+
+GRAPH_SEEDS = (1, 2)
+GRAPHS = (
+    Graph(250, 8, 15, 20),
+    Graph(500, 16, 15, 20),
+    Graph(500, 16, 15, 40),
+    Graph(500, 10, 7, 40),
+    Graph(500, 16, 4, 40),
+    Graph(2000, 16, 15, 40),
+    Graph(5000, 20, 8, 40),
+)
+
+
+def document_of(graph: Graph, seed: int, spacing: str) -> dict[str, Any]:
+    """Return a scenario of discs on a random geometric graph."""
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    reach = 1.5 * graph.lane  # the mean distance of points in a disc is 2/3 of its radius
+    side = reach * (graph.vertices * np.pi / graph.degree) ** 0.5
+    at = np.array([[draw.uniform(0, side) for _ in "xy"] for _ in range(graph.vertices)]).round(4)
+    lanes = [
+        (one, int(other))
+        for one in range(graph.vertices)
+        for other in one + 1 + np.flatnonzero(np.hypot(*(at[one + 1 :] - at[one]).T) < reach)
+    ]
+    joined: dict[int, list[int]] = {}
+    for one, other in lanes:
+        joined.setdefault(one, []).append(other)
+        joined.setdefault(other, []).append(one)
+    inside = _largest_part(joined)
+
+    def places() -> list[int]:
+        taken: list[int] = []
+        for vertex in draw.sample(inside, len(inside)):
+            if (np.hypot(*(at[taken] - at[vertex]).T) > 1).all():
+                taken.append(vertex)
+            if len(taken) == graph.robots:
+                return taken
+        raise ValueError("the graph is too small")
+
+    return {
+        "format": "rightofway-scenario/1",
+        "map": {
+            "roadmap": {
+                "vertices": {f"v{k}": point for k, point in enumerate(at.tolist())},
+                "edges": [[f"v{one}", f"v{other}"] for one, other in lanes],
+            },
+            "spacing": spacing,
+        },
+        "robots": [
+            {"name": f"R{k}", "home": f"v{home}", "target": f"v{target}", "radius": "1/2"}
+            for k, (home, target) in enumerate(zip(places(), places(), strict=True))
+        ],
+        "rules": {"return": "none"},
+    }
+
+
+def _largest_part(joined: dict[int, list[int]]) -> list[int]:
+    left, largest = set(joined), list[int]()
+    while left:
+        part, waiting = set[int](), [left.pop()]
+        while waiting:
+            vertex = waiting.pop()
+            part.add(vertex)
+            new = left & set(joined[vertex])
+            left -= new
+            waiting += new
+        largest = max(largest, sorted(part), key=len)
+    return largest
+
+
+def on_random_graphs() -> str:
+    """Return the table of whole lanes and pieces on random geometric graphs."""
+    lines = []
+    for graph in GRAPHS:
+        for spacing in ("whole", "auto"):
+            rows = [_on_random_graph(document_of(graph, seed, spacing)) for seed in GRAPH_SEEDS]
+            lanes, edges, reading, first, ratio, found = map(median, zip(*rows, strict=True))
+            lines.append((
+                f"{lanes:.0f}", f"{graph.lane:g}", str(graph.robots), spacing, f"{edges:.0f}",
+                f"{reading:.1f}", f"{first:.2f}", f"{ratio:.4f}", f"{found:.1%}",
+            ))  # fmt: skip
+    heads = ("lanes", "long [D]", "robots", "spacing", "edges", "reading [s]", "first plan [s]",
+             f"ratio after {SECONDS} s", "rows")  # fmt: skip
+    return table(heads, lines)
+
+
+def _on_random_graph(document: dict[str, Any]) -> tuple[float, ...]:
+    reading, scenario = seconds(lambda: scenario_of(document))
+    lanes, edges = 2 * len(document["map"]["roadmap"]["edges"]), scenario.roadmap.n_edges
+    try:
+        plan = rightofway.solve(scenario, time_limit=SECONDS)
+    except rightofway.GaveUp:
+        return lanes, edges, reading, nan, nan, nan
+    metrics = measure(plan)
+    lists = lists_of(scenario.problem.resources)
+    first = plan.run.first_plan_seconds
+    assert lists is not None, "discs have a size"
+    assert first is not None, "there is a plan"
+    return (
+        lanes,
+        edges,
+        reading,
+        first,
+        metrics.flowtime / metrics.lower_bound,
+        lists.n_found / lists.n_rows,
+    )
+
+
 def main() -> None:
     """Print the tables."""
+    if len(sys.argv) == 1:
+        print(on_random_graphs())  # noqa: T201
+        return
     print(cost_of_sizes(Path(sys.argv[1])))  # noqa: T201
     for path in sys.argv[2:]:
         print(on_a_layout(Path(path)))  # noqa: T201

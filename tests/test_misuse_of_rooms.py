@@ -54,7 +54,7 @@ STEPS = {
         "booked_times",
         "bound",
         "compiler",
-        "lists_of",
+        "excluded_by",
         "native_closures",
         "native_rows",
         "roads_of",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -58,11 +59,18 @@ struct BoundClosures {
     Ticks end;
 };
 
-struct BoundExcludedRows {
-    Ints first;
-    Ints excluded;
+struct BoundDrawing {
+    ArrayIn<double> x;
+    ArrayIn<double> y;
+    ArrayIn<std::uint32_t> limbs;
+    bool is_grid;
+};
 
-    ExcludedRows rows() const { return {view(first), view(excluded)}; }
+// Shared: what visits book refers to the lists of the problem.
+struct BoundExcludedRows {
+    std::shared_ptr<const RowFinder> finder;
+
+    ExcludedRows rows() const { return {finder.get()}; }
 };
 
 struct BoundRoutes {
@@ -100,9 +108,9 @@ struct BoundVisitRows {
     Ints edge;
 
     static BookedRows rows(const BoundVisitRows* given) {
-        return given == nullptr ? BookedRows{}
-                                : BookedRows{view(given->vertex), view(given->edge),
-                                             view(given->lists.first), view(given->lists.excluded)};
+        return given == nullptr
+                   ? BookedRows{}
+                   : BookedRows{view(given->vertex), view(given->edge), given->lists.rows()};
     }
 };
 

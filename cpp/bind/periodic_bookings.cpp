@@ -226,7 +226,7 @@ void bind_periodic_bookings(nb::module_& module) {
              nb::arg("stage_tables"));
     nb::class_<PeriodicBookings>(module, "PeriodicBookings", class_doc)
         .def("__init__", &init, nb::arg("rules"), nb::arg("n_rows"), nb::arg("period").none(),
-             nb::arg("lists").none() = nb::none())
+             nb::arg("lists").none() = nb::none(), nb::keep_alive<1, 5>())
         .def_prop_ro("reached", &PeriodicBookings::reached,
                      "The last visit that the latest search could enter; it got stuck at the next.")
         .def(

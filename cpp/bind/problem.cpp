@@ -2,8 +2,10 @@
 
 #include <nanobind/stl/optional.h>
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "objects.hpp"
 
@@ -55,18 +57,41 @@ books_ahead : bool
 rotations : bool
     Whether three or more robots may move round a circle at one instant, where bookings allow it.)";
 
-constexpr auto excluded_doc = R"(The rows from which a booking of each row excludes other robots.
+constexpr auto drawing_doc =
+    R"(Where the vertices of a roadmap lie. The arrays are not copied: they must not change.
 
 Parameters
 ----------
-first, excluded : int32[rows + 1], int32[n]
-    A booking of row ``r`` excludes other robots from ``excluded[first[r]:first[r + 1]]``, which
-    rise.
+x, y : float64[V]
+    Coordinates from the least ones. [length unit]
+limbs : uint32[2 * V * L]
+    The same, exactly: for each vertex x, then y, as a whole multiple of one length in L limbs of 32
+    bits, the least first.
+is_grid : bool
+    Whether the vertices are cells of a grid, which lanes join: no lane passes a vertex or crosses
+    another one then.)";
+
+constexpr auto excluded_doc = R"(The rows from which a booking of each row excludes other robots.
+
+The list of a row is found when it is first asked for, and kept. Row ``size * (V + E) + resource``
+is a vertex or an edge as robots of one of K size classes book it; the vertices come first.
+
+Parameters
+----------
+roads : Roads
+    The graph.
+drawing : Drawing
+    Where its vertices lie.
+distance, distance_limbs : float64[K * K], uint32[K * K * L]
+    How far apart the middles of robots of two size classes are at least, 0 for two points; and the
+    same exactly, as coordinates are. [length unit]
+zone_first, zone_member : int32[Z + 1], int32[n]
+    Zone ``z`` has the resources ``zone_member[zone_first[z]:zone_first[z + 1]]``.
 
 Raises
 ------
 ValueError
-    If the lists are none; names the array, the index and the value.)";
+    If the arrays do not fit together; names the array, the index and the value.)";
 
 constexpr auto turning_doc = R"(How long robots turn on the spot between two edges.
 
@@ -114,6 +139,34 @@ Raises
 ValueError
     If the arrays do not fit together; names the array, the index and the value.)";
 
+void init_lists(BoundExcludedRows* self, const BoundRoads& roads, const BoundDrawing& drawing,
+                const ArrayIn<double>& distance, const ArrayIn<std::uint32_t>& distance_limbs,
+                const Ints& zone_first, const Ints& zone_member) {
+    const std::size_t n_coordinates = 2 * drawing.x.size();
+    std::int32_t n_sizes = 1;
+    while (index(n_sizes) * index(n_sizes) < distance.size()) {
+        ++n_sizes;
+    }
+    const DrawingArrays arrays{
+        roads.roads().graph,
+        view(drawing.x),
+        view(drawing.y),
+        view(drawing.limbs),
+        static_cast<std::int32_t>(n_coordinates == 0 ? 1 : drawing.limbs.size() / n_coordinates),
+        view(distance),
+        view(distance_limbs),
+        n_sizes,
+        view(zone_first),
+        view(zone_member),
+        drawing.is_grid};
+    std::shared_ptr<const RowFinder> finder;
+    {
+        const nb::gil_scoped_release released;
+        finder = std::make_shared<const RowFinder>(arrays);
+    }
+    new (self) BoundExcludedRows{std::move(finder)};
+}
+
 void init(Problem* self, const BoundRoads& roads, const BoundRobots& robots,
           const BookingRules& rules, const BoundExcludedRows* lists, const BoundTurning* turning,
           const std::optional<Ticks>& surcharges, const BoundClosures* closures) {
@@ -128,7 +181,7 @@ void init(Problem* self, const BoundRoads& roads, const BoundRobots& robots,
     }
     Resources resources;
     if (lists != nullptr) {
-        resources = {view(*robots.size_of), view(lists->first), view(lists->excluded)};
+        resources = {view(*robots.size_of), lists->rows()};
     }
     if (surcharges) {
         require_length("surcharges", surcharges->size(), static_cast<std::size_t>(roads.n_classes));
@@ -161,14 +214,30 @@ void bind_problem(nb::module_& module) {
     nb::class_<BookingRules>(module, "BookingRules", rules_doc)
         .def(nb::init<Tick, bool, bool>(), nb::arg("headway"), nb::arg("books_ahead"),
              nb::arg("rotations") = true);
+    nb::class_<BoundDrawing>(module, "Drawing", drawing_doc)
+        .def(nb::init<ArrayIn<double>, ArrayIn<double>, ArrayIn<std::uint32_t>, bool>(), array("x"),
+             array("y"), array("limbs"), nb::arg("is_grid"));
     nb::class_<BoundExcludedRows>(module, "ExcludedRows", excluded_doc)
+        .def("__init__", &init_lists, nb::arg("roads"), nb::arg("drawing"), array("distance"),
+             array("distance_limbs"), array("zone_first"), array("zone_member"))
+        .def_prop_ro(
+            "n_rows", [](const BoundExcludedRows& self) { return self.finder->n_rows(); },
+            "The number of rows.")
+        .def_prop_ro(
+            "n_found", [](const BoundExcludedRows& self) { return self.finder->n_found(); },
+            "How many rows have been asked for so far.")
         .def(
-            "__init__",
-            [](BoundExcludedRows* self, const Ints& first, const Ints& excluded) {
-                require_excluded_rows({view(first), view(excluded)});
-                new (self) BoundExcludedRows{first, excluded};
+            "of",
+            [](const BoundExcludedRows& self, std::int32_t row) {
+                require_id("row", row, self.finder->n_rows());
+                return to_numpy(self.finder->of(row));
             },
-            array("first"), array("excluded"));
+            nb::arg("row"), R"(Return the rows that a row excludes, in increasing order; int32[n].
+
+Parameters
+----------
+row : int
+    The row.)");
     nb::class_<BoundTurning>(module, "Turning", turning_doc)
         .def(nb::init<Ticks, Ints, Ints, Ints, std::int32_t>(), array("offset"), array("kind"),
              array("class_of"), array("ticks"), nb::arg("n_kinds"));

@@ -108,9 +108,9 @@ void init(CyclicSimulator* self, const BookingRules& rules, const BoundRoutes& l
     const std::vector<Tick> leasts = leasts_of(laps);
     const std::vector<Tick> approaches = laps.approaches(rules);
     const BookedRows booked = BoundVisitRows::rows(rows);
-    const LapArrays arrays{view(laps.first_visit), view(laps.vertex), leasts,        approaches,
-                           view(first_least),      rules.headway,     booked.vertex, booked.edge,
-                           booked.first,           booked.excluded};
+    const LapArrays arrays{
+        view(laps.first_visit), view(laps.vertex), leasts,      approaches,  view(first_least),
+        rules.headway,          booked.vertex,     booked.edge, booked.lists};
     require_id("rule", rule, n_cyclic_rules);
     std::vector<std::int64_t> losses(loss.data(), loss.data() + loss.size());
     const nb::gil_scoped_release released;
@@ -162,7 +162,7 @@ void bind_simulator(nb::module_& module) {
     nb::class_<CyclicSimulator>(module, "CyclicSimulator", class_doc)
         .def("__init__", &init, nb::arg("rules"), nb::arg("laps"), array("first_least"),
              nb::arg("horizon"), nb::arg("rule"), array("loss"),
-             nb::arg("rows").none() = nb::none())
+             nb::arg("rows").none() = nb::none(), nb::keep_alive<1, 8>())
         .def("advance", &advance, nb::arg("time_limit") = nb::none(), advance_doc)
         .def("reset_states", &CyclicSimulator::reset_states,
              "Forget the states seen, to advance beyond one that has recurred.")

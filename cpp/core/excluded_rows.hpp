@@ -1,5 +1,4 @@
-// The rows from which a booking of each row excludes other robots, and the one check of these
-// lists.
+// The rows from which a booking of each row excludes other robots: for points, and for sizes.
 #pragma once
 
 #include <cstddef>
@@ -7,31 +6,28 @@
 #include <limits>
 #include <span>
 
+#include "core/row_finder.hpp"
+
 namespace rightofway {
 
-// A booking of row r excludes others from the rows excluded[first[r]] .. excluded[first[r + 1] -
-// 1]. Borrowed. Without arrays a row excludes itself: so it is for points, whose vertices come
-// first and whose edges exclude nothing, because both ends are booked.
+// A booking of row r excludes others from the rows of its list, which rise. Borrowed. Without a
+// finder a row excludes itself: so it is for points, whose vertices come first and whose edges
+// exclude nothing, because both ends are booked.
 struct ExcludedRows {
-    std::span<const std::int32_t> first = {};
-    std::span<const std::int32_t> excluded = {};
+    const RowFinder* finder = nullptr;
     std::int32_t n_own = std::numeric_limits<std::int32_t>::max();  // rows that exclude themselves
 
-    bool is_identity() const { return first.empty(); }
+    bool is_identity() const { return finder == nullptr; }
+    // Rows that have a list of their own, 0 for points.
+    std::int32_t n_rows() const { return finder == nullptr ? 0 : finder->n_rows(); }
     // The list of a row; that of a point is the variable `row` itself.
     std::span<const std::int32_t> of(const std::int32_t& row) const {
-        if (is_identity()) {
-            return {&row, static_cast<std::size_t>(row < n_own)};
+        if (finder != nullptr) {
+            return finder->of(row);
         }
-        const auto r = static_cast<std::size_t>(row);
-        return excluded.subspan(static_cast<std::size_t>(first[r]),
-                                static_cast<std::size_t>(first[r + 1] - first[r]));
+        return {&row, static_cast<std::size_t>(row < n_own)};
     }
     std::span<const std::int32_t> of(std::int32_t&&) const = delete;
 };
-
-// Throws std::invalid_argument, naming array, index and value, unless `first` rises from 0 to the
-// length of `excluded`, and each list rises and has rows of `first` only.
-void require_excluded_rows(const ExcludedRows& rows);
 
 }  // namespace rightofway

@@ -45,8 +45,7 @@ CyclicRoutes::CyclicRoutes(const LapArrays& arrays)
       headway_(arrays.headway),
       vertex_row_(arrays.vertex_row.begin(), arrays.vertex_row.end()),
       edge_row_(arrays.edge_row.begin(), arrays.edge_row.end()),
-      first_(arrays.first.begin(), arrays.first.end()),
-      excluded_(arrays.excluded.begin(), arrays.excluded.end()) {
+      lists_(arrays.lists) {
     check_lengths(arrays);
     if (books_edges()) {
         check_rows();
@@ -102,7 +101,6 @@ void CyclicRoutes::number_vertices() {
 void CyclicRoutes::check_rows() const {
     require_length("vertex_row", vertex_row_.size(), vertex_.size());
     require_length("edge_row", edge_row_.size(), vertex_.size());
-    require_excluded_rows({first_, excluded_});
     require_ids("vertex_row", vertex_row_, n_rows());
     require_ids("edge_row", edge_row_, n_rows());
 }

@@ -42,8 +42,7 @@ struct LapArrays {
     // excluded rows, see Resources in problem.hpp. Empty for points: their rows are vertices.
     std::span<const std::int32_t> vertex_row = {};
     std::span<const std::int32_t> edge_row = {};
-    std::span<const std::int32_t> first = {};
-    std::span<const std::int32_t> excluded = {};
+    ExcludedRows lists = {};
 };
 
 // Two incompatible visits. `i_starts` and `j_starts` are the visits whose starts are the earliest
@@ -72,11 +71,9 @@ class CyclicRoutes {
     Tick headway() const { return headway_; }
 
     // Whether drives book edges: where lists of excluded rows are given.
-    bool books_edges() const { return !first_.empty(); }
+    bool books_edges() const { return !lists_.is_identity(); }
     // One list of bookings for each row.
-    std::int32_t n_rows() const {
-        return books_edges() ? static_cast<std::int32_t>(first_.size()) - 1 : n_vertices();
-    }
+    std::int32_t n_rows() const { return books_edges() ? lists_.n_rows() : n_vertices(); }
     std::int32_t vertex_row(CyclicVisit visit) const {
         return books_edges() ? vertex_row_[index(place(visit))] : vertex(visit);
     }
@@ -84,9 +81,7 @@ class CyclicRoutes {
     std::int32_t edge_row(CyclicVisit visit) const {
         return books_edges() ? edge_row_[index(place(visit))] : none;
     }
-    std::span<const std::int32_t> excluded(const std::int32_t& row) const {
-        return ExcludedRows{first_, excluded_}.of(row);
-    }
+    std::span<const std::int32_t> excluded(const std::int32_t& row) const { return lists_.of(row); }
     std::span<const std::int32_t> excluded(std::int32_t&&) const = delete;
     // No value if the visits are compatible. `i_leaves`, `j_leaves`: whether the edge driven out of
     // the visit counts.
@@ -141,8 +136,7 @@ class CyclicRoutes {
     std::vector<Tick> within_;  // length + 1 per lap: ticks from its start to each place
     std::vector<std::int32_t> vertex_row_;
     std::vector<std::int32_t> edge_row_;
-    std::vector<std::int32_t> first_;
-    std::vector<std::int32_t> excluded_;
+    ExcludedRows lists_;
 };
 
 }  // namespace rightofway

@@ -4,6 +4,7 @@
 #include <array>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "core/excluded_rows.hpp"
@@ -23,15 +24,14 @@ struct BookedBy {
 }  // namespace
 
 IncompatibleVisits::IncompatibleVisits(std::span<const RobotId> robot, const BookedRows& rows) {
-    if (rows.first.empty()) {
+    if (rows.lists.is_identity()) {
         return;
     }
     const auto n_visits = static_cast<VisitId>(robot.size());
-    require_excluded_rows({rows.first, rows.excluded});
-    const auto n_rows = static_cast<std::int32_t>(rows.first.size()) - 1;
+    const std::int32_t n_rows = rows.lists.n_rows();
     require_length("vertex_row", rows.vertex.size(), robot.size());
     require_length("edge_row", rows.edge.size(), robot.size());
-    require_ids("vertex_row", rows.vertex, n_rows);
+    require_ranges("vertex_row", rows.vertex, none, n_rows - 1);
     require_ranges("edge_row", rows.edge, none, n_rows - 1);
     for (std::size_t x = 0; x < robot.size(); ++x) {
         const bool is_last = x + 1 == robot.size() || robot[x + 1] != robot[x];
@@ -40,14 +40,14 @@ IncompatibleVisits::IncompatibleVisits(std::span<const RobotId> robot, const Boo
                          "must be -1: no edge is driven out of a last visit");
         }
     }
-    std::vector<std::vector<BookedBy>> booked(static_cast<std::size_t>(n_rows));
+    std::unordered_map<std::int32_t, std::vector<BookedBy>> booked;  // few of all rows
     const auto rows_of = [&](VisitId x) {
         return std::array{rows.vertex[index(x)], rows.edge[index(x)]};
     };
     for (VisitId x = 0; x < n_visits; ++x) {
         for (std::uint8_t is_edge = 0; is_edge < 2; ++is_edge) {
             if (rows_of(x)[is_edge] != none) {
-                booked[index(rows_of(x)[is_edge])].push_back({x, is_edge});
+                booked[rows_of(x)[is_edge]].push_back({x, is_edge});
             }
         }
     }
@@ -61,8 +61,12 @@ IncompatibleVisits::IncompatibleVisits(std::span<const RobotId> robot, const Boo
             if (row == none) {
                 continue;
             }
-            for (std::int32_t k = rows.first[index(row)]; k < rows.first[index(row + 1)]; ++k) {
-                for (const BookedBy& other : booked[index(rows.excluded[index(k)])]) {
+            for (const std::int32_t excluded : rows.lists.of(row)) {
+                const auto there = booked.find(excluded);
+                if (there == booked.end()) {
+                    continue;
+                }
+                for (const BookedBy& other : there->second) {
                     if (robot[index(other.visit)] != robot[index(x)]) {
                         found.push_back({other.visit, {}});
                         found.back().bookings.add(is_edge != 0, other.is_edge != 0);

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "core/excluded_rows.hpp"
 #include "core/types.hpp"
 
 namespace rightofway {
@@ -19,10 +20,9 @@ namespace rightofway {
 // What each visit books, as rows of Resources (problem.hpp). Borrowed, read once; empty where no
 // robot has a size.
 struct BookedRows {
-    std::span<const std::int32_t> vertex;  // n visits
+    std::span<const std::int32_t> vertex;  // n visits; `none` for one that books nothing
     std::span<const std::int32_t> edge;    // n: the edge driven out; `none` for last visits
-    std::span<const std::int32_t> first;   // the lists of excluded rows, see Resources
-    std::span<const std::int32_t> excluded;
+    ExcludedRows lists = {};
 };
 
 // When the two bookings of a visit start: that of its vertex, that of the edge driven out.

@@ -31,7 +31,7 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const R
       roads_{{arrays.indptr, arrays.heads}, arrays.length_class},
       rules_(rules),
       size_of_(resources.size_of),
-      lists_{resources.first, resources.excluded, roads_.graph.n_vertices()},
+      lists_{resources.lists.finder, roads_.graph.n_vertices()},
       turns_(turns),
       closures_(closures),
       n_rows_(roads_.graph.n_vertices()) {
@@ -116,18 +116,14 @@ void Problem::check_resources() {
         size_of_ = {};
         return;
     }
-    n_rows_ = static_cast<std::int32_t>(lists_.first.size()) - 1;
+    n_rows_ = lists_.n_rows();
     require_length("size_of", size_of_.size(), arrays_.home.size());
-    if (n_resources() == 0 || n_rows() % n_resources() != 0) {
-        reject("first", n_rows(),
-               "rows are no multiple of the number of vertices and edges, " +
-                   std::to_string(n_resources()));
+    if (lists_.finder->n_resources() != n_resources()) {
+        reject("lists", lists_.finder->n_resources(),
+               "vertices and edges, but the roads have " + std::to_string(n_resources()));
     }
     require_ids("size_of", size_of_, n_rows() / n_resources());
-    require_excluded_rows(lists_);
-    edges_exclude_ =
-        std::any_of(lists_.excluded.begin(), lists_.excluded.end(),
-                    [this](std::int32_t row) { return row % n_resources() >= n_vertices(); });
+    edges_exclude_ = lists_.finder->may_exclude_edges();
     if (!rules_.books_ahead) {
         throw std::invalid_argument("books_ahead: is false, but robots with sizes book ahead");
     }

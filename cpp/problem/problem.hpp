@@ -45,8 +45,7 @@ struct ProblemArrays {
 // a class of their own, and their lists need no arrays.
 struct Resources {
     std::span<const std::int32_t> size_of;  // size class of each robot; empty: all 0
-    std::span<const std::int32_t> first;
-    std::span<const std::int32_t> excluded;
+    ExcludedRows lists = {};
 };
 
 // Bookings of nobody: row k of the booking table is closed from start[k] to end[k].
@@ -184,8 +183,8 @@ class Problem {
     std::int32_t edge_row(RobotId robot, EdgeId edge) const {
         return first_row(robot) + n_vertices() + edge;
     }
-    // Whether a drive along some edge excludes robots from more than its ends do. If not, no list
-    // of excluded rows has a row of an edge.
+    // Whether a drive along some edge may exclude robots from more than its ends do. If not, no
+    // list of excluded rows has a row of an edge.
     bool edges_exclude() const { return edges_exclude_; }
     // Vertices, and edges after them.
     std::int32_t n_resources() const {

@@ -50,11 +50,7 @@ void sort_unique(std::vector<T>& values) {
 
 PeriodicBookings::PeriodicBookings(std::int32_t n_rows, std::optional<Tick> period, Tick headway,
                                    bool books_ahead, const ExcludedRows& rows)
-    : period_(period.value_or(never)),
-      headway_(headway),
-      books_ahead_(books_ahead),
-      first_(rows.first.begin(), rows.first.end()),
-      excluded_(rows.excluded.begin(), rows.excluded.end()) {
+    : period_(period.value_or(never)), headway_(headway), books_ahead_(books_ahead), lists_(rows) {
     require_range("n_rows", n_rows, 0, most_rows);
     if (period && (*period <= 0 || *period > longest)) {
         reject("period", *period, "is not above 0, or too long");
@@ -65,8 +61,7 @@ PeriodicBookings::PeriodicBookings(std::int32_t n_rows, std::optional<Tick> peri
     at_.resize(static_cast<std::size_t>(n_rows));
     is_changed_.assign(at_.size(), 0);
     if (has_sizes()) {
-        require_length("first", first_.size(), at_.size() + 1);
-        require_excluded_rows({first_, excluded_});
+        require_length("lists", index(lists_.n_rows()), at_.size());
         joined_.resize(at_.size());
     }
 }
@@ -168,7 +163,7 @@ bool PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const 
         rows.push_back(row);
     };
     for (const auto& [row, booking] : bookings) {
-        for (const std::int32_t marked : ExcludedRows{first_, excluded_}.of(row)) {
+        for (const std::int32_t marked : lists_.of(row)) {
             insert(marked, booking);
             is_changed_[index(marked)] = 1;
         }

@@ -64,7 +64,7 @@ class PeriodicBookings {
                      bool books_ahead, const ExcludedRows& rows = {});
 
     std::int32_t n_rows() const { return static_cast<std::int32_t>(at_.size()); }
-    bool has_sizes() const { return !first_.empty(); }
+    bool has_sizes() const { return !lists_.is_identity(); }
     bool has_period() const { return period_ != never; }
     Tick period() const { return period_; }  // `never`: no period
     Tick headway() const { return headway_; }
@@ -149,8 +149,7 @@ class PeriodicBookings {
     bool books_ahead_;
     std::vector<Row> at_;  // bookings or marks of each row, sorted by start
     std::unordered_map<RobotId, std::vector<std::int32_t>> rows_of_;  // each once
-    std::vector<std::int32_t> first_;                                 // see `ExcludedRows`
-    std::vector<std::int32_t> excluded_;
+    ExcludedRows lists_;
     mutable std::vector<Row> joined_;               // marks joined, with sizes only
     mutable std::vector<std::uint8_t> is_changed_;  // since the marks were joined
     std::vector<Tick> rest_;                        // least ticks from each enter to the last enter

@@ -80,23 +80,68 @@ class BookingRules:
 
     def __init__(self, headway: int, books_ahead: bool, rotations: bool = True) -> None: ...
 
+class Drawing:
+    """
+    Where the vertices of a roadmap lie. The arrays are not copied: they must not change.
+
+    Parameters
+    ----------
+    x, y : float64[V]
+        Coordinates from the least ones. [length unit]
+    limbs : uint32[2 * V * L]
+        The same, exactly: for each vertex x, then y, as a whole multiple of one length in L limbs of 32
+        bits, the least first.
+    is_grid : bool
+        Whether the vertices are cells of a grid, which lanes join: no lane passes a vertex or crosses
+        another one then.
+    """
+
+    def __init__(self, x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], limbs: Annotated[NDArray[numpy.uint32], dict(shape=(None,), order='C', device='cpu', writable=False)], is_grid: bool) -> None: ...
+
 class ExcludedRows:
     """
     The rows from which a booking of each row excludes other robots.
 
+    The list of a row is found when it is first asked for, and kept. Row ``size * (V + E) + resource``
+    is a vertex or an edge as robots of one of K size classes book it; the vertices come first.
+
     Parameters
     ----------
-    first, excluded : int32[rows + 1], int32[n]
-        A booking of row ``r`` excludes other robots from ``excluded[first[r]:first[r + 1]]``, which
-        rise.
+    roads : Roads
+        The graph.
+    drawing : Drawing
+        Where its vertices lie.
+    distance, distance_limbs : float64[K * K], uint32[K * K * L]
+        How far apart the middles of robots of two size classes are at least, 0 for two points; and the
+        same exactly, as coordinates are. [length unit]
+    zone_first, zone_member : int32[Z + 1], int32[n]
+        Zone ``z`` has the resources ``zone_member[zone_first[z]:zone_first[z + 1]]``.
 
     Raises
     ------
     ValueError
-        If the lists are none; names the array, the index and the value.
+        If the arrays do not fit together; names the array, the index and the value.
     """
 
-    def __init__(self, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+    def __init__(self, roads: Roads, drawing: Drawing, distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance_limbs: Annotated[NDArray[numpy.uint32], dict(shape=(None,), order='C', device='cpu', writable=False)], zone_first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], zone_member: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+    @property
+    def n_rows(self) -> int:
+        """The number of rows."""
+
+    @property
+    def n_found(self) -> int:
+        """How many rows have been asked for so far."""
+
+    def of(self, row: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """
+        Return the rows that a row excludes, in increasing order; int32[n].
+
+        Parameters
+        ----------
+        row : int
+            The row.
+        """
 
 class Turning:
     """

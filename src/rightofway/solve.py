@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from rightofway.check import check
+from rightofway.deadline import Deadline, limit_work
 from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits
 from rightofway.model import (
     Objective,
@@ -23,7 +24,6 @@ from rightofway.model import (
     Track,
     checked_time_limit,
 )
-from rightofway.model.deadline import Deadline, WorkLimit, limited_work
 from rightofway.model.given import (
     checked_functions,
     checked_plan,
@@ -228,7 +228,7 @@ def _run(
     def keep() -> None:
         with_plan.append(time.perf_counter() - began)
 
-    with kernel_limits(), limited_work(WorkLimit(deadline=deadline)):
+    with kernel_limits(), limit_work(deadline):
         alone = least_completions(task.scenario, time_limit=deadline.seconds_left())
         if alone is None:
             raise GaveUp("time ran out while measuring distances (give a longer time limit)")

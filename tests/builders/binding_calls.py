@@ -25,7 +25,7 @@ else:
     from rightofway import _core
 
 __all__ = [
-    "CALLS", "EXCLUDED", "FIRST", "TRACKS", "Arguments", "Part", "_core", "build", "callables",
+    "CALLS", "TRACKS", "Arguments", "Part", "_core", "build", "callables",
     "int32", "int64", "made_of", "problem_arguments", "real", "with_changes",
 ]  # fmt: skip
 
@@ -110,24 +110,6 @@ EDGE = {(tail, head): edge for edge, (tail, head) in enumerate(zip(TAILS, HEADS,
 HOMES, STOPS = (0, 3, 8), (11, 8, 5)
 
 
-def _excluded() -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return lists of rows of two sizes: the large one excludes neighbours, too."""
-    first, excluded = [0], list[int]()
-    for size in range(2):
-        for resource in range(V + E):
-            if resource < V:
-                near = {resource, *(HEADS[INDPTR[resource] : INDPTR[resource + 1]] * size)}
-            else:
-                tail, head = TAILS[resource - V], HEADS[resource - V]
-                near = {V + EDGE[tail, head], V + EDGE[head, tail]}
-            excluded += [other * (V + E) + one for other in range(2) for one in sorted(near)]
-            first.append(len(excluded))
-    return int32(*first), int32(*excluded)
-
-
-FIRST, EXCLUDED = _excluded()
-
-
 def graph() -> Arguments:
     """Return the grid in compressed rows."""
     return {"indptr": int32(*INDPTR), "indices": int32(*HEADS)}
@@ -174,7 +156,20 @@ def _rules(*, headway: int = 0, books_ahead: bool = False) -> Part:
 
 
 def _lists() -> Part:
-    return Part("ExcludedRows", {"first": FIRST, "excluded": EXCLUDED})
+    """Return lists of rows of two sizes: two large robots exclude each other from neighbours."""
+    cells = np.column_stack(
+        (np.tile(np.arange(COLUMNS), ROWS), np.repeat(np.arange(ROWS), COLUMNS))
+    )
+    drawing = {
+        "x": cells[:, 0].astype(np.float64), "y": cells[:, 1].astype(np.float64),
+        "limbs": 5 * cells.ravel().astype(np.uint32), "is_grid": False,
+    }  # fmt: skip
+    return Part("ExcludedRows", {
+        "roads": _roads(), "drawing": Part("Drawing", drawing),
+        "distance": real(0.6, 0.8, 0.8, 1.2),
+        "distance_limbs": np.array([3, 4, 4, 6], np.uint32),
+        "zone_first": int32(0, 2), "zone_member": int32(0, V + EDGE[5, 6]),
+    })  # fmt: skip
 
 
 def _turning() -> Part:
@@ -414,7 +409,8 @@ def _always(**arguments: Any) -> Callable[[random.Random], Arguments]:
 
 
 PARTS = (
-    _roads(), problem_arguments("sizes")["robots"], _rules(), _lists(), _turning(), _closures(1),
+    _roads(), problem_arguments("sizes")["robots"], _rules(), _lists().arguments["drawing"],
+    _lists(), _turning(), _closures(1),
     _trip(), _horizon(), _routes(*[1] * 12), _rows_of_routes(), _closed(), _order([0] * 13, []),
     _delays(),
 )  # fmt: skip
@@ -423,6 +419,9 @@ PARTS = (
 CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "compiler": _always(),
     **{name: _always(**arguments) for name, arguments in PARTS},
+    "ExcludedRows.n_rows": _always(),
+    "ExcludedRows.n_found": _always(),
+    "ExcludedRows.of": lambda rng: {"row": rng.randrange(2 * (V + E))},
     "Problem": lambda rng: problem_arguments(rng.choice(KINDS)),
     "Problem.rules": _always(),
     "Problem.n_robots": _always(),

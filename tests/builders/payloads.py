@@ -71,7 +71,7 @@ def cross(**more: Any) -> Plan:
     ]
     document: dict[str, Any] = {
         "format": "rightofway-scenario/1",
-        "map": {"roadmap": {**CROSS, **more}, "y": "up"},
+        "map": {"roadmap": {**CROSS, **more}, "y": "up", "spacing": "whole"},
         "units": {"length": "m", "time": "s"},
         "robots": robots,
         "rules": {"clearance": "1/10"},

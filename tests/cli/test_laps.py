@@ -28,7 +28,7 @@ robots:
 def _seconds_of_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let time limits count the work of this process, so that other work takes none of it."""
     clock = SimpleNamespace(monotonic=time.process_time)
-    monkeypatch.setattr("rightofway.model.deadline.time", clock)
+    monkeypatch.setattr("rightofway.deadline.time", clock)
 
 
 @pytest.fixture

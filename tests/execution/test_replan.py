@@ -24,7 +24,7 @@ def lane_through_a_corner() -> Scenario:
     return scenario_of(
         {
             "format": "rightofway-scenario/1",
-            "map": {"roadmap": {"vertices": AT, "edges": edges}},
+            "map": {"roadmap": {"vertices": AT, "edges": edges}, "spacing": "whole"},
             "robots": [
                 {"name": "R1", "home": "c", "target": "h", "work": 2, "speed": 1},
                 {"name": "R2", "home": "f", "target": "i", "work": 2, "speed": 1},

@@ -225,7 +225,7 @@ def test_lanes_that_cross_where_no_vertex_is_are_noted(tmp_path: Path) -> None:
         " robots without a radius may meet there (give robots a radius, or put a vertex there)"
     )
     path.write_text(json.dumps(crossroads(radius="1/10")), encoding="utf-8")
-    assert not any("cross" in note for note in load_with_notes(path).notes)
+    assert not any("without a radius" in note for note in load_with_notes(path).notes)
 
 
 def test_at_most_fifty_problems_are_told() -> None:

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
+from rightofway.deadline import Deadline
 from rightofway.errors import NoPlanExists
 from rightofway.model import Rules, Scenario
-from rightofway.model.deadline import Deadline
 from rightofway.planners.impossible import blocking_set
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave

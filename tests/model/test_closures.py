@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 import pytest
 
@@ -11,7 +12,7 @@ from rightofway import FleetBuilder
 from rightofway.model import NEVER, Closure, Scenario
 
 
-def line(*, radius: str = "0", clearance: str = "0", spacing: int | None = None) -> Scenario:
+def line(*, radius: str = "0", clearance: str = "0", spacing: Any = "whole") -> Scenario:
     """Return a robot on A - B - C, 4 long each, and D 1 beside the middle of A - B."""
     fleet = FleetBuilder(clearance=clearance, ends="none", spacing=spacing)
     for name, x, y in [("A", 0, 0), ("B", 4, 0), ("C", 8, 0), ("D", 2, 1), ("E", 2, 5)]:

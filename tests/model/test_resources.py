@@ -13,6 +13,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.model import Resources, Rules, Scenario
 from rightofway.model.resources import circle_around, close_pairs, resources_of
+from rightofway.native import clashes, excluded_by, lists_of, vertices_near
 from rightofway.site import Edge, Roadmap, roadmap_of_edges, roadmap_of_grid
 from rightofway.site.zones import NamedZone
 from tests.builders.any_fleet import any_fleet
@@ -23,19 +24,19 @@ from tests.oracles.space import incompatible
 
 
 def lists(resources: Resources) -> list[list[int]]:
-    assert resources.lists is not None
-    return [resources.excluded_by(row) for row in range(len(resources.lists.first) - 1)]
+    assert not resources.are_points
+    return [excluded_by(resources, row) for row in range(resources.n_rows)]
 
 
 def test_a_point_excludes_others_from_its_vertex_and_needs_no_lists() -> None:
     """Three vertices, then four edges."""
     trips = [("N0", "N2"), ("N2", "N0")]
     resources = grid_fleet(["..."], trips).problem.resources
-    assert resources.lists is None
-    excluded = [resources.excluded_by(row) for row in range(7)]
+    assert lists_of(resources) is None
+    excluded = [excluded_by(resources, row) for row in range(7)]
     assert excluded == [[0], [1], [2], [], [], [], []]
-    assert list(resources.clashes([1, 2])) == []
-    assert resources.vertices_near(0, 2) == [2]
+    assert list(clashes(resources, [1, 2])) == []
+    assert vertices_near(resources, 0, 2) == [2]
 
 
 def test_crossing_lanes_exclude_each_other_in_both_directions() -> None:
@@ -59,8 +60,8 @@ def test_on_a_grid_discs_that_touch_are_apart(radius: str, near: int) -> None:
     """The centre of a 5 x 5 grid has itself, 4 cells at distance 1, 4 at 1.414…, 4 at 2."""
     roadmap = roadmap_of_grid(["....."] * 5)
     resources = resources_of(roadmap, [Fraction(radius)], Fraction(0))
-    assert len(resources.excluded_by(12)) == near
-    assert not any(len(resources.excluded_by(row)) for row in range(25, 25 + roadmap.n_edges))
+    assert len(excluded_by(resources, 12)) == near
+    assert not any(len(excluded_by(resources, row)) for row in range(25, 25 + roadmap.n_edges))
 
 
 @pytest.mark.parametrize("shift", [(0, 0), (1_000_000, -7_000_000), (0.3, 1e-7)])
@@ -101,7 +102,7 @@ def test_rows_exclude_what_the_definition_does_unless_the_ends_of_edges_do(
     for i, j in permutations(range(len(scenario.robots)), 2):
         excludes = cache(partial(_incompatible, scenario, i, j))
         for x, one in enumerate(shapes):
-            found = set(resources.excluded_by(resources.vertex_row(i, x)))
+            found = set(excluded_by(resources, resources.vertex_row(i, x)))
             for y, other in enumerate(shapes):
                 if resources.vertex_row(j, y) in found:
                     assert excludes(one, other)

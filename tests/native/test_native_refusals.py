@@ -12,8 +12,6 @@ import pytest
 
 from tests.builders.binding_calls import (
     CALLS,
-    EXCLUDED,
-    FIRST,
     TRACKS,
     _core,
     build,
@@ -53,15 +51,20 @@ def with_entry(array: Any, index: int, value: float) -> Any:
     return changed
 
 
+LIMBS = problem_arguments("sizes")["lists"].arguments["drawing"].arguments["limbs"]
 HEADS = problem_arguments("points")["roads"].arguments["heads"]
 
 PROBLEMS = [
     ("sizes", {"size_of": None}, "size_of: is needed with lists"),
-    ("sizes", {"first": int32()}, "first: its length is 0, but must be at least 1"),
-    ("sizes", {"first": int32(0, 0), "excluded": int32()}, "first: 1 rows are no multiple .*, 46"),
-    ("sizes", {"first": with_entry(FIRST, 3, 0)}, r"first\[3\]: 0 is less than the entry"),
-    ("sizes", {"excluded": with_entry(EXCLUDED, 1, 0)}, r"excluded\[1\]: 0 is not above the entry"),
-    ("sizes", {"excluded": with_entry(EXCLUDED, 2, 92)}, r"excluded\[2\]: 92 is not in 0\.\.91"),
+    ("sizes", {"x": real(*[0] * 11)}, "x: its length is 11, but must be 12"),
+    ("sizes", {"y": real(*[0] * 3, math.nan, *[0] * 8)}, r"y\[3\]: nan is no length"),
+    ("sizes", {"x": real(-1, *[0] * 11)}, r"x\[0\]: -1.0+ is no length"),
+    ("sizes", {"limbs": LIMBS[:-1]}, "limbs: its length is 23, but must be 24"),
+    ("sizes", {"distance": real(1, 1, 1)}, "distance: its length is 3, but must be 4"),
+    ("sizes", {"distance": real(1, 1, 1, math.inf)}, r"distance\[3\]: inf is no length"),
+    ("sizes", {"distance_limbs": LIMBS[:3]}, "distance_limbs: its length is 3, but must be 4"),
+    ("sizes", {"zone_first": int32(0, 3)}, r"zone_first\[1\]: 3 is not the number of"),
+    ("sizes", {"zone_member": int32(0, 46)}, r"zone_member\[1\]: 46 is not in 0\.\.45"),
     ("sizes", {"size_of": int32(0, 2, 0)}, r"size_of\[1\]: 2 is not in 0\.\.1"),
     ("turns", {"n_kinds": -1}, "n_turn_kinds: -1 is negative"),
     ("turns", {"class_of": int32()}, "class_of: its length is 0, but must be 3"),
@@ -73,14 +76,6 @@ PROBLEMS = [
     ("surcharges", {"surcharges": int64()}, "surcharges: its length is 0, but must be 2"),
     ("points", {"first_stage": int32(0, 2, 2, 6)}, r"first_stage\[2\]: 2 is not at least 1 above"),
     ("points", {"heads": with_entry(HEADS, 4, 12)}, r"heads\[4\]: 12 is not in"),
-    (
-        "sizes",
-        {name: int32(0) if name in {"indptr", "first"} else int32()
-         for name in ("indptr", "heads", "length_class", "first", "excluded", "home",
-                      "pace_of", "stage_vertex", "size_of")}
-        | {"first_stage": int32(0), "stage_work": int64(), "stage_turn": int64()},
-        "first: 0 rows are no multiple of the number of vertices and edges, 0",
-    ),
 ]  # fmt: skip
 
 

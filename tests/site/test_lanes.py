@@ -77,7 +77,7 @@ def test_both_directions_of_a_lane_share_its_pieces() -> None:
         Edge(tail="B", head="A", length=Fraction(5)),
         Edge(tail="A", head="B", length=Fraction(6)),
     ]
-    positions, split, pieces = split_lanes(at, edges, Fraction(2))
+    positions, split, pieces, *_ = split_lanes(at, edges, Fraction(2))
     assert list(positions) == ["A", "B", "B-A/1", "B-A/2"]
     assert positions["B-A/1"] == (Fraction(8, 3), Fraction(2))
     assert [(one.tail, one.head, one.length) for one in split[3:]] == [

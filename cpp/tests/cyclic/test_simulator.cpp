@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cyclic/simulator.hpp"
+#include "drawn_lanes.hpp"
 
 namespace rightofway {
 namespace {
@@ -86,17 +87,15 @@ TEST_CASE("robots that live in each other's corridor are deadlocked, whoever wai
 }
 
 TEST_CASE("robots with sizes take turns where their lanes cross") {
-    // A-B and C-D without a vertex in common; rows 4 to 7 are the edges A-B, B-A, C-D and D-C.
     const std::vector<std::int32_t> first_place{0, 2, 4};
     const std::vector<VertexId> vertex{0, 1, 2, 3};
     const std::vector<std::int32_t> edge_row{4, 5, 6, 7};
-    const std::vector<std::int32_t> first{0, 1, 2, 3, 4, 6, 8, 10, 12};
-    const std::vector<std::int32_t> excluded{0, 1, 2, 3, 6, 7, 6, 7, 4, 5, 4, 5};
+    const RowFinder finder = test::crossing_lanes().finder();
     const Ticks least{4, 5, 4, 4};  // the first robot works at B for a tick
     const Ticks approach{4, 4, 4, 4};
     const Ticks first_least{4, 4};
     const LapArrays laps{first_place, vertex, least,    approach, first_least,
-                         0,           vertex, edge_row, first,    excluded};
+                         0,           vertex, edge_row, {&finder}};
     CyclicSimulator run(laps, {0, 9, 36, 72, 5, 32}, CyclicRule::first_come);
     REQUIRE(run.advance(no_deadline) == CyclicSimulator::End::repeats);
     CHECK(times(run, 0, 4) == Ticks{0, 4, 12, 16});

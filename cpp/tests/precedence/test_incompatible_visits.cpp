@@ -1,22 +1,27 @@
 #include <doctest/doctest.h>
 
-#include <stdexcept>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
+#include "drawn_lanes.hpp"
 #include "precedence/incompatible_visits.hpp"
 
 namespace rightofway::test {
 namespace {
 
-// Rows 0 to 3 are the vertices A, B, C, D; row 4 is the edge from A to B, row 5 that from C to D.
+// The first robot drives from A to B, the other one from C to D. Rows 0 to 3 are these vertices,
+// row 4 is the edge from A to B, row 5 that from C to D.
 struct Lanes {
     std::vector<RobotId> robot{0, 0, 1, 1};
     std::vector<std::int32_t> vertex{0, 1, 2, 3};
     std::vector<std::int32_t> edge{4, none, 5, none};
-    std::vector<std::int32_t> first;
-    std::vector<std::int32_t> excluded;
+    RowFinder finder;
 
+    explicit Lanes(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& places)
+        : finder(DrawnLanes(places, {{0, 1}, {2, 3}}, 10).finder()) {}
     IncompatibleVisits visits() const {
-        return IncompatibleVisits(robot, {vertex, edge, first, excluded});
+        return IncompatibleVisits(robot, {vertex, edge, {&finder}});
     }
 };
 
@@ -25,9 +30,7 @@ TEST_CASE("without sizes nothing is known") {
 }
 
 TEST_CASE("lanes that cross: only the edges driven out of the first visits count") {
-    Lanes lanes;
-    lanes.first = {0, 1, 2, 3, 4, 5, 6};
-    lanes.excluded = {0, 1, 2, 3, 5, 4};
+    const Lanes lanes({{0, 20}, {40, 20}, {20, 0}, {20, 40}});
     const IncompatibleVisits visits = lanes.visits();
     REQUIRE(visits.of(0).size() == 1);
     CHECK(visits.of(0)[0].visit == 2);
@@ -37,9 +40,7 @@ TEST_CASE("lanes that cross: only the edges driven out of the first visits count
 }
 
 TEST_CASE("of a vertex and an edge the earlier start counts") {
-    Lanes lanes;
-    lanes.first = {0, 2, 3, 5, 6, 7, 8};
-    lanes.excluded = {0, 2, 1, 0, 2, 3, 5, 4};  // A and C, and both edges
+    const Lanes lanes({{0, 0}, {40, 40}, {5, 0}, {0, 40}});  // A and C are near, and both edges
     const IncompatibleVisits visits = lanes.visits();
     REQUIRE(visits.of(2).size() == 1);
     CHECK(visits.of(2)[0].visit == 0);
@@ -48,9 +49,8 @@ TEST_CASE("of a vertex and an edge the earlier start counts") {
 }
 
 TEST_CASE("vertex and edge crosswise: each pair of bookings begins by itself") {
-    Lanes lanes;
-    lanes.first = {0, 2, 3, 5, 6, 8, 10};
-    lanes.excluded = {0, 5, 1, 2, 4, 3, 2, 4, 0, 5};  // A and C to D; C and A to B
+    // Against each other, side by side: A is near to the middle of C-D, and C to that of A-B.
+    const Lanes lanes({{20, 0}, {60, 0}, {40, 6}, {0, 6}});
     const IncompatibleVisits visits = lanes.visits();
     REQUIRE(visits.of(0).size() == 1);
     CHECK(visits.of(0)[0].starts() == 2);
@@ -60,20 +60,10 @@ TEST_CASE("vertex and edge crosswise: each pair of bookings begins by itself") {
     CHECK(visits.of(2)[0].bookings.begin({5, 22}, {0, 40}) == 22);
 }
 
-TEST_CASE("a row that does not exist is refused") {
-    Lanes lanes;
-    lanes.first = {0, 0, 0, 0, 0};
-    CHECK_THROWS_AS(lanes.visits(), std::invalid_argument);
-}
-
-TEST_CASE("rows and lists that do not fit are refused with index and value") {
-    Lanes lanes;
-    lanes.first = {0, 1, 2, 3, 4, 5, 6};
-    lanes.excluded = {0, 1, 2, 3, 5, 6};
-    CHECK_THROWS_WITH(lanes.visits(), "excluded[5]: 6 is not in 0..5");
-    lanes.excluded[5] = 4;
+TEST_CASE("rows that do not fit are refused with index and value") {
+    Lanes lanes({{0, 20}, {40, 20}, {20, 0}, {20, 40}});
     lanes.vertex[2] = 6;
-    CHECK_THROWS_WITH(lanes.visits(), "vertex_row[2]: 6 is not in 0..5");
+    CHECK_THROWS_WITH(lanes.visits(), "vertex_row[2]: 6 is not in -1..5");
     lanes.vertex[2] = 2;
     lanes.edge[3] = 5;  // its start would be that of the visit after the last one
     CHECK_THROWS_WITH(lanes.visits(),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "corridors.hpp"
+#include "drawn_lanes.hpp"
 #include "search/periodic_bookings.hpp"
 
 namespace rightofway {
@@ -100,11 +101,9 @@ TEST_CASE("headway and booking ahead keep robots apart") {
     CHECK(enter[1] == 2);
 }
 
-// Two lanes that cross, for robots with sizes: A-B and C-D. The rows are the vertices 0 to 3, then
-// the edges A-B, B-A, C-D and D-C.
+// Drives of robots with sizes along two lanes that cross.
 struct CrossingLanes {
-    std::vector<std::int32_t> first{0, 1, 2, 3, 4, 6, 8, 10, 12};
-    std::vector<std::int32_t> excluded{0, 1, 2, 3, 6, 7, 6, 7, 4, 5, 4, 5};
+    RowFinder finder = test::crossing_lanes().finder();
     Ticks dwell{0, 0};
     Ticks drive{4, 4};
     std::vector<std::int32_t> a_and_b{0, 1};
@@ -112,7 +111,7 @@ struct CrossingLanes {
     std::vector<std::int32_t> into_a_and_b{5, 4};
     std::vector<std::int32_t> into_c_and_d{7, 6};
 
-    PeriodicBookings bookings(Tick period) const { return {8, period, 0, true, {first, excluded}}; }
+    PeriodicBookings bookings(Tick period) const { return {8, period, 0, true, {&finder}}; }
     Visits one() const { return {a_and_b, dwell, drive, into_a_and_b}; }
     Visits other() const { return {c_and_d, dwell, drive, into_c_and_d}; }
 };
@@ -131,9 +130,9 @@ TEST_CASE("drives along lanes that cross take turns") {
 }
 
 TEST_CASE("marks of two robots in one row are joined, and leave with their robots") {
-    const std::vector<std::int32_t> first{0, 2, 4, 5};  // row 2 is excluded by rows 0 and 1, too
-    const std::vector<std::int32_t> excluded{0, 2, 1, 2, 2};
-    PeriodicBookings line(3, std::nullopt, 0, true, {first, excluded});
+    // Vertex 2 lies between 0 and 1, near to both: its row is excluded by rows 0 and 1, too.
+    const RowFinder finder = test::DrawnLanes({{0, 0}, {20, 0}, {10, 0}}, {}, 11).finder();
+    PeriodicBookings line(3, std::nullopt, 0, true, {&finder});
     const Ticks dwell{0};
     const Ticks drive{1};
     const std::vector<std::int32_t> zero{0};
@@ -256,11 +255,10 @@ TEST_CASE("ticks that would overflow, and robots that are nobody, are refused") 
                       "until: 655371 is more than 65536 periods after begins, 0");
 }
 
-TEST_CASE("the lists of excluded rows are checked before they are used") {
-    const std::vector<std::int32_t> first{0, 2, 1, 3};
-    const std::vector<std::int32_t> excluded{0, 1, 2};
-    CHECK_THROWS_WITH(PeriodicBookings(3, 10, 0, true, {first, excluded}),
-                      "first[2]: 1 is less than the entry before it");
+TEST_CASE("the lists of excluded rows have to be those of as many rows") {
+    const RowFinder finder = test::crossing_lanes().finder();
+    CHECK_THROWS_WITH(PeriodicBookings(7, 10, 0, true, {&finder}),
+                      "lists: its length is 8, but must be 7");
 }
 
 TEST_CASE("visits between two others can be interrupted") {

@@ -19,7 +19,14 @@ from rightofway.cli.options import (
     time_limit_option,
 )
 from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
-from rightofway.cli.terminal import file_title, progress, put_json, put_report, say
+from rightofway.cli.terminal import (
+    choose_deadline,
+    file_title,
+    progress,
+    put_json,
+    put_report,
+    say,
+)
 
 EXAMPLES = """\b
 Examples:
@@ -97,7 +104,7 @@ def laps(
     units.
     """
     from rightofway.cyclic import RULES, TIMETABLE, best_timetable, excerpt, plan_of_laps, run_laps
-    from rightofway.model.deadline import WorkLimit, limited_work
+    from rightofway.deadline import limit_work
     from rightofway.model.steady_state import within
     from rightofway.report.laps import laps_report
     from rightofway.report.laps_data import laps_data
@@ -108,10 +115,10 @@ def laps(
         raise click.BadParameter(f"{rule!r} is not one of {known}", param_hint="--rule")
     if rule == TIMETABLE and routes:
         raise click.UsageError("--rule timetable chooses routes itself (leave out --routes)")
-    derived = WorkLimit(time_limit)
-    with limited_work(derived):
+    deadline = choose_deadline(time_limit)
+    with limit_work(deadline):
         problem = read_scenario(scenario)
-    time_limit = derived.begun().seconds_left()
+    time_limit = deadline.seconds_left()
     with progress(time_limit) as report:
         if rule == TIMETABLE:
             run = best_timetable(

@@ -16,6 +16,7 @@ from __future__ import annotations
 import gc
 import os
 import sys
+import time
 import traceback
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -26,7 +27,7 @@ from typing import NoReturn, cast
 import click
 
 from rightofway import __version__
-from rightofway.cli.terminal import complain, quiet_option, speak_utf8
+from rightofway.cli.terminal import complain, measure_age, quiet_option, speak_utf8
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 
 MANY = 1000
@@ -42,6 +43,7 @@ COMPLETE = "_RIGHTOFWAY_COMPLETE"
 @dataclass
 class _Session:
     debug: bool = False
+    began: float | None = None  # when the process did, on the monotonic clock [s]
 
 
 START = """\b
@@ -142,7 +144,8 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
     speak_utf8()
     _start_quickly()
     try:
-        code = run(args)
+        is_process = args is None  # else a program calls, and may be old
+        code = run(args, began=time.monotonic() - measure_age() if is_process else None)
     except BrokenPipeError:  # no program reads the messages
         code = UNREAD
     if code == UNREAD:
@@ -174,9 +177,12 @@ ENDINGS: dict[type[BaseException], tuple[int, str]] = {
 }
 
 
-def run(args: Sequence[str] | None = None) -> int:
-    """Run a command and return its exit code; what went wrong is said on standard error."""
-    session = _Session()
+def run(args: Sequence[str] | None = None, *, began: float | None = None) -> int:
+    """Run a command and return its exit code; what went wrong is said on standard error.
+
+    Time limits count from ``began`` on the monotonic clock [s]; by default from the command on.
+    """
+    session = _Session(began=began)
     try:
         if COMPLETE in os.environ:
             import_module("rightofway.cli.completion")  # makes its script for Bash known to click

@@ -23,6 +23,7 @@ from rightofway.cli.options import (
 )
 from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
 from rightofway.cli.terminal import (
+    choose_deadline,
     complain,
     file_title,
     progress,
@@ -230,7 +231,7 @@ def _run(
     start: str | None = None,
 ) -> int:
     """Read, plan, write and report; return the exit code."""
-    from rightofway.model.deadline import WorkLimit, limited_work
+    from rightofway.deadline import limit_work
 
     began = time.monotonic()
     words = "--log" if log else "--table" if table else None
@@ -241,20 +242,17 @@ def _run(
     refuse_outputs(source, output, as_json=as_json)
     if start == source == "-":
         raise click.UsageError("SCENARIO and --start are both standard input: give one as a file")
-    derived = WorkLimit(time_limit)
-    with limited_work(derived):
+    deadline = choose_deadline(time_limit)
+    with limit_work(deadline):
         problem = read(source)
         if start is not None:
             search = partial(search, start=read_plan(start))
-    left = derived.begun().seconds_left()  # for planning [s]
-    if time_limit is not None and left is not None:
-        left = min(left, max(time_limit - (time.monotonic() - began), time_limit / 2))
     blocked = no_plan_shown(problem, page, file_title(source), as_json=as_json)
     with blocked, progress(time_limit, began) as report:
         plan = search(
             problem,
             planner,
-            left,
+            deadline.seconds_left(),
             seed,
             options=options,
             report=report,

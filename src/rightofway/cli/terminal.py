@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import os
 import shutil
 import sys
 import threading
@@ -15,6 +16,7 @@ from typing import Any
 
 import click
 
+from rightofway.deadline import Deadline
 from rightofway.errors import printable
 
 QUIET = "rightofway.quiet"
@@ -30,6 +32,22 @@ def speak_utf8() -> None:
         if isinstance(stream, io.TextIOWrapper):
             encoding = None if stream.isatty() else "utf-8"
             stream.reconfigure(encoding=encoding, errors="backslashreplace")
+
+
+def measure_age() -> float:
+    """Return how long ago this process began [s]; where the system does not say, its CPU time."""
+    try:
+        _, _, fields = Path("/proc/self/stat").read_text(encoding="ascii").rpartition(")")
+        began = int(fields.split()[19]) / os.sysconf("SC_CLK_TCK")
+        return max(time.clock_gettime(time.CLOCK_BOOTTIME) - began, 0.0)
+    except (OSError, ValueError, IndexError, AttributeError):
+        return time.process_time()
+
+
+def choose_deadline(seconds: float | None) -> Deadline:
+    """Return when a command has to end: the limit counts from the beginning of its process."""
+    began = getattr(click.get_current_context().find_root().obj, "began", None)
+    return Deadline(None if seconds is None else (began or time.monotonic()) + seconds)
 
 
 def quiet() -> bool:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault
 from rightofway.model import BookingRules, Lap, Robot, Route, Scenario, Tick, lap_of
-from rightofway.native import BookedRows
+from rightofway.native import BookedRows, excluded_by
 from rightofway.planners.routing import (
     clear_routes,
     direct_routes,
@@ -163,7 +163,7 @@ class GroupContext:
         """Return the rows of other robots that keep a robot from the drive into a visit."""
         resources = self.scenario.problem.resources
         row, edge = self.booked_at(index, visit)[0], self.booked_at(index, visit - 1)[1]
-        return (*resources.excluded_by(row), *resources.excluded_by(edge))
+        return (*excluded_by(resources, row), *excluded_by(resources, edge))
 
     @property
     def reach(self) -> int:
@@ -309,7 +309,7 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     avoiding, roadmap, resources = list(routes), scenario.roadmap, scenario.problem.resources
     itineraries = scenario.problem.itineraries
     at_home = [
-        frozenset(resources.excluded_by(resources.vertex_row(robot, itinerary.home)))
+        frozenset(excluded_by(resources, resources.vertex_row(robot, itinerary.home)))
         for robot, itinerary in enumerate(itineraries)
     ]
     owners = defaultdict[int, list[int]](list)  # of homes, by the rows that exclude them
@@ -397,5 +397,5 @@ def rows_of(scenario: Scenario, robot: int, lap: Lap) -> LapRows:
     booked = frozenset(
         np.concatenate(resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)).tolist()
     )
-    excluded = (resources.excluded_by(row) for row in booked)
+    excluded = (excluded_by(resources, row) for row in booked)
     return LapRows(booked, frozenset(chain.from_iterable(excluded)))

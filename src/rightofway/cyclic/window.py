@@ -11,7 +11,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from rightofway.cyclic.route import GroupContext
 from rightofway.model import Route, Tick
-from rightofway.native import BookedRows
+from rightofway.native import BookedRows, lists_of
 from rightofway.planners import Deadline, Task
 from rightofway.planners.conflict_resolution import PartialPlan
 from rightofway.precedence import Meeting, PrecedenceGraph, Segment
@@ -140,11 +140,10 @@ class Window:
         """Return what the visits book where robots have a size; the last vertices are free."""
         scenario = self.context.scenario
         resources = scenario.problem.resources
-        lists = resources.lists
+        lists = lists_of(resources)
         if lists is None:
             return None
-        n_rows = len(lists.first) - 1
-        beyond = np.array([n_rows], np.int32)
+        beyond = np.array([-1], np.int32)
         at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
         for route, start, stretch in zip(
             self.context.routes, self.starts, self.routes, strict=True
@@ -156,7 +155,7 @@ class Window:
         return BookedRows(
             vertex=np.concatenate(at_vertex),
             edge=np.concatenate(along_edge),
-            lists=replace(lists, first=np.append(lists.first, lists.first[-1:])),
+            lists=lists,
         )
 
     def _route(self, robot: int, ahead: int, stop: int) -> Route:

@@ -46,6 +46,7 @@ from rightofway.model import (
     route_of,
     turns_along,
 )
+from rightofway.native import clashes, excluded_by
 from rightofway.planners import Deadline, Task
 from rightofway.planners.lacam import timetable_if_possible
 from rightofway.planners.moves import tracks_by_moves
@@ -161,7 +162,7 @@ def list_held(scenario: Scenario, paths: Mapping[int, Sequence[int]]) -> Held:
             for ends in pairwise(path)
             if (edge := roadmap.edge(*ends)) is not None
         )
-        rows.update(other for row in own for other in resources.excluded_by(row))
+        rows.update(other for row in own for other in excluded_by(resources, row))
     n_vertices, count = resources.n_vertices, resources.n_vertices + resources.n_edges
     sizes = {int(resources.size_of[k]) for k in range(len(scenario.robots)) if k not in paths}
     shut = {row % count for row in rows if row // count in sizes}
@@ -306,7 +307,7 @@ def _by_turns(
     task = Task(scenario=rest, seed=seed, deadline=deadline)
     tracks: Sequence[Track] = ()
     ends = [itinerary.last for itinerary in problem.itineraries]
-    if not any(problem.resources.clashes(ends)):
+    if not any(clashes(problem.resources, ends)):
         search = fleet_search(task)
         turns = sorted(range(len(rest.robots)), key=search.alone().tolist().__getitem__)
         searches, limit = SEARCHES * len(turns), deadline.sooner(SHARE).seconds_left()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal, Self
@@ -62,7 +63,9 @@ class FleetBuilder:
     units
         What lengths and times are measured in, for reports: ``{"length": "m", "time": "s"}``.
     spacing
-        Edges that are longer are split into pieces of at most that length [length unit].
+        Edges that are longer are split into pieces of at most that length [length unit]. By
+        default, ``"auto"``, edges are split that others cross, where robots have a size;
+        ``"whole"`` splits none.
     rules
         Rules of the fleet by name, as `Rules` takes them: ``occupancy``, ``headway``, ``turn``,
         ``ends`` (``return`` in files), ``laps``, ``rotations``, ``clearance``, ``turn_rate``; or
@@ -105,7 +108,7 @@ class FleetBuilder:
         y: Literal["down", "up"] = "down",
         origin: tuple[Number, Number] | None = None,
         units: Units | Mapping[str, Any] | None = None,
-        spacing: Number | None = None,
+        spacing: Number | Literal["auto", "whole"] | None = None,
         **rules: Any,
     ) -> None:
         given = {"grid": grid, "map_file": map_file, "graph": graph, "layout": layout}
@@ -123,7 +126,10 @@ class FleetBuilder:
             raise InputError.at(
                 "level" if level else "vehicle_type", "is for a layout (take it out)"
             )
-        self._spacing = None if spacing is None else exact_length(spacing, "spacing")
+        word = spacing if isinstance(spacing, str) else None
+        self._splits_crossed = spacing is None or word == "auto"
+        is_length = not self._splits_crossed and word != "whole"
+        self._spacing = exact_length(spacing, "spacing") if is_length else None
         self._drawn = DrawnLanes()
         self._closures: list[Closure] = []
         self._robots: list[Robot] = []
@@ -412,10 +418,16 @@ class FleetBuilder:
             remedy = "give each node a pos, or x and y; or leave it out"
             raise InputError.at("turn_rate", f"needs positions, and the graph has none ({remedy})")
         roadmap, rules = self.roadmap(), self._rules
-        if self._level and any(robot.radius for robot in self._robots):
-            cut = self._level(cuts_curves=True)
+        radius = max((robot.radius for robot in self._robots), default=Fraction(0))
+        distance = 2 * radius + rules.clearance if radius > 0 and self._splits_crossed else 0
+        if self._level and radius > 0:
+            cut = self._level(cuts_curves=True, distance=Fraction(distance))
             roadmap = cut.roadmap
             rules = replace(rules, clearance=rules.clearance + 2 * cut.chord_error)
+        elif distance and self._drawn.positions and not self._spacing:
+            roadmap = self._drawn.roadmap(
+                spacing=None, y_up=self._y_up, distance=Fraction(distance)
+            )
         robots, _ = deal_homes(self._robots, roadmap, rules)
         return Scenario(
             roadmap=roadmap,

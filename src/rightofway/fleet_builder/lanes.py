@@ -96,8 +96,14 @@ class DrawnLanes:
         if both_ways:
             self.edges.append((head, tail, given, more))
 
-    def roadmap(self, *, spacing: Fraction | None, y_up: bool) -> Roadmap:
-        """Return the roadmap; longer edges are split into pieces of at most ``spacing``."""
+    def roadmap(
+        self, *, spacing: Fraction | None, y_up: bool, distance: Fraction = Fraction(0)
+    ) -> Roadmap:
+        """Return the roadmap; longer edges are split into pieces of at most ``spacing``.
+
+        Without a spacing, edges that others cross are split for robots that have to keep a distance
+        above 0. The vertices that were added come first, whatever is split.
+        """
         squares = [self._square(tail, head) for tail, head, given, _ in self.edges if given is None]
         step = rounding_step(squares)
         edges = [
@@ -110,8 +116,10 @@ class DrawnLanes:
             for tail, head, given, more in self.edges
         ]
         split = SplitLanes(self.positions, edges, {})
-        if spacing is not None:
-            split = split_lanes(self.positions, edges, spacing, is_drawn=self.is_drawn)
+        if spacing is not None or distance > 0:
+            split = split_lanes(
+                self.positions, edges, spacing, distance=distance, is_drawn=self.is_drawn
+            )
         return roadmap_of_edges(
             {name: (float(x), float(y)) for name, (x, y) in split.positions.items()},
             split.edges,

@@ -156,6 +156,9 @@ CellSize = Annotated[
     Fraction | Literal["clustered", "adaptive"],
     _or_word(positive, _POSITIVE, "clustered", "adaptive"),
 ]
+Spacing = Annotated[
+    Fraction | Literal["auto", "whole"], _or_word(positive, _POSITIVE, "auto", "whole")
+]
 Turning = Annotated[Fraction | Literal["cell"], _or_word(_not_negative, _NOT_NEGATIVE, "cell")]
 
 

@@ -22,6 +22,7 @@ from typing import Any, BinaryIO
 from weakref import WeakKeyDictionary
 
 from rightofway.arguments import checks_arguments
+from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, InputFault, Location, in_file, shown
 
 MAX_BYTES = 2**29
@@ -329,7 +330,7 @@ def parse_yaml(text: str, *, number_keys: bool = False) -> Any:
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     builder = _Builder(number_keys)
     try:
-        for event in yaml.parse(text, Loader=loader):
+        for event in limit_loop(yaml.parse(text, Loader=loader), READING):
             builder.take(event)
     except InputError:
         raise

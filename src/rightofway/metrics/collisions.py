@@ -16,7 +16,7 @@ from rightofway.arguments import checks_arguments, one_for_each
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, stays_of
 from rightofway.model.resources import Resources
 from rightofway.model.sorting import order_by
-from rightofway.native import booked_times
+from rightofway.native import booked_times, excluded_by
 from rightofway.site import VertexId
 
 
@@ -224,7 +224,7 @@ def near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, 
     overlaps: defaultdict[tuple[int, int], list[_Overlap]] = defaultdict(list)
     for row, bookings in of_row.items():
         others = chain.from_iterable(
-            of_row.get(excluded_row, ()) for excluded_row in resources.excluded_by(row)
+            of_row.get(excluded_row, ()) for excluded_row in excluded_by(resources, row)
         )
         for booking, other in product(bookings, list(others)):
             start, end = max(booking.start, other.start), min(booking.end, other.end)

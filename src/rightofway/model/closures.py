@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.deadline import check_work
 from rightofway.errors import InputFault
-from rightofway.model.deadline import check_work
 from rightofway.model.resources import exact_positions
 from rightofway.model.units import NEVER, Clock, Tick
 from rightofway.site import Point, Roadmap, VertexId, squared_distance

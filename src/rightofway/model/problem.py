@@ -7,7 +7,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain
 from math import gcd, lcm
+from typing import Any
 
+from rightofway.deadline import DERIVING, limit_loop
 from rightofway.errors import InputError
 from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures, closures_of
@@ -220,9 +222,15 @@ def problem_of(
     """Express a valid scenario in ticks, of a clock that is given or else chosen."""
     radii = [robot.radius for robot in robots]
     if clock is None:
-        durations = (_durations(roadmap, robot, rules) for robot in robots)
-        clock = choose_clock(chain([rules.headway], chain.from_iterable(durations)))
+        alike = {_ticks_key(robot): robot for robot in robots}.values()
+        driven = (_drive_times(roadmap, robot) for robot in alike)
+        spent = (_stop_times(roadmap, robot, rules) for robot in robots)
+        clock = choose_clock(chain([rules.headway], *driven, *spent))
     rates = [turn_rate(robot, rules) for robot in robots]
+    edge_ticks: dict[tuple[Any, ...], tuple[Tick, ...]] = {}
+    for robot in robots:
+        if _ticks_key(robot) not in edge_ticks:  # robots of one kind have the same
+            edge_ticks[_ticks_key(robot)] = _edge_ticks(roadmap, robot, clock)
     return Problem(
         roadmap=roadmap,
         clock=clock,
@@ -232,7 +240,15 @@ def problem_of(
             rotations=rules.rotations,
         ),
         itineraries=tuple(
-            _itinerary(roadmap, robot, rules, clock, turning=turning, weight=weight)
+            _itinerary(
+                roadmap,
+                robot,
+                rules,
+                clock,
+                edge_ticks=edge_ticks[_ticks_key(robot)],
+                turning=turning,
+                weight=weight,
+            )
             for robot, turning, weight in zip(
                 robots, turnings_of(roadmap, rates, clock), whole_weights(robots), strict=True
             )
@@ -259,12 +275,30 @@ def turn_rate(robot: Robot, rules: Rules) -> Fraction | None:
     return robot.turn_rate if robot.turn_rate is not None else rules.turn_rate
 
 
-def _durations(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
-    for edge_class in roadmap.edge_classes:
+def _ticks_key(robot: Robot) -> tuple[Any, ...]:
+    """Return what the drives of a robot depend on."""
+    return robot.speed, robot.type, robot.radius
+
+
+def _drive_times(roadmap: Roadmap, robot: Robot) -> Iterator[Fraction]:
+    for edge_class in limit_loop(roadmap.edge_classes, DERIVING):
         if not edge_class.is_barred(robot.type, robot.radius):
             yield edge_class.duration(robot.speed)
+
+
+def _stop_times(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
     yield turning_time(roadmap, robot, rules)
     yield from (stop.work for stop in robot.stops)
+
+
+def _edge_ticks(roadmap: Roadmap, robot: Robot, clock: Clock) -> tuple[Tick, ...]:
+    """Return the ticks for an edge of each class; -1 where it is barred."""
+    return tuple(
+        Tick(-1)
+        if edge_class.is_barred(robot.type, robot.radius)
+        else clock.ticks(edge_class.duration(robot.speed))
+        for edge_class in limit_loop(roadmap.edge_classes, DERIVING)
+    )
 
 
 def whole_weights(robots: Sequence[Robot]) -> list[int]:
@@ -280,6 +314,7 @@ def _itinerary(
     rules: Rules,
     clock: Clock,
     *,
+    edge_ticks: tuple[Tick, ...],
     turning: Turning | None,
     weight: int,
 ) -> Itinerary:
@@ -298,12 +333,7 @@ def _itinerary(
     return Itinerary(
         home=robot.home,
         stages=tuple(lap * (robot.laps or rules.laps)),
-        edge_ticks=tuple(
-            Tick(-1)
-            if edge_class.is_barred(robot.type, robot.radius)
-            else clock.ticks(edge_class.duration(robot.speed))
-            for edge_class in roadmap.edge_classes
-        ),
+        edge_ticks=edge_ticks,
         surcharges=tuple(clock.ticks(edge_class.surcharge) for edge_class in roadmap.edge_classes)
         if roadmap.has_surcharges
         else (),

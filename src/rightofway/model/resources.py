@@ -14,19 +14,18 @@ their ends do, and edges that cross.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal
 from fractions import Fraction
-from functools import lru_cache
-from itertools import combinations_with_replacement
 from math import isqrt, lcm, sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.deadline import check_work
 from rightofway.errors import InputError, shown
-from rightofway.model.deadline import check_work
 from rightofway.site import Point, Roadmap, squared_distance
 from rightofway.site.nearness import Lines, PointGrid
 from rightofway.site.zones import Zone
@@ -46,9 +45,6 @@ LANES_AT_ONCE = 256
 
 MOST_PAIRS_IN_ZONES = 2_000_000
 """Pairs of vertices and lanes of one zone, at most, all zones together: a zone of 2 000, say."""
-
-KEYS_AT_ONCE = 1 << 20
-"""Pairs of rows that are sorted at once, about."""
 
 LARGEST_FAST = 2**30
 """Below this number, products of two differences of coordinates fit 64 bits."""
@@ -157,44 +153,46 @@ def close_pairs(roadmap: Roadmap, distance: Fraction) -> ClosePairs:
     return _Drawing(roadmap, [distance]).close_pairs(distance)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ExcludedRows:
-    """The rows that each row excludes.
-
-    Attributes
-    ----------
-    first, excluded
-        Robots that book row ``r`` exclude others from the rows ``excluded[first[r]:first[r + 1]]``,
-        in increasing order; int32, shapes (rows + 1,) and (n,).
-    """
-
-    first: NDArray[np.int32]
-    excluded: NDArray[np.int32]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, weakref_slot=True)
 class Resources:
-    """Which bookings of a fleet exclude each other.
+    """What a fleet may book, in rows; `rightofway.native` finds which rows exclude each other.
 
     Attributes
     ----------
-    n_vertices, n_edges
-        Vertices and edges of the roadmap.
+    roadmap
+        The vertices, the edges and the zones.
+    sizes
+        The radius of each size class, the smallest first [length unit].
+    clearance
+        Least distance between two robots of which one has a size [length unit].
     size_of
         Size class of each robot; int32, shape (R,).
-    lists
-        The rows that each row excludes; None for points without zones, which need none.
     """
 
-    n_vertices: int
-    n_edges: int
+    roadmap: Roadmap
+    sizes: tuple[Fraction, ...]
+    clearance: Fraction
     size_of: NDArray[np.int32]
-    lists: ExcludedRows | None = field(default=None, repr=False)
+
+    @property
+    def n_vertices(self) -> int:
+        """Vertices of the roadmap."""
+        return self.roadmap.n_vertices
+
+    @property
+    def n_edges(self) -> int:
+        """Edges of the roadmap."""
+        return self.roadmap.n_edges
+
+    @property
+    def n_rows(self) -> int:
+        """Rows of all size classes."""
+        return len(self.sizes) * (self.n_vertices + self.n_edges)
 
     @property
     def are_points(self) -> bool:
         """Whether no robot has a size and there is no zone: a vertex excludes itself."""
-        return self.lists is None
+        return not any(self.sizes) and not self.roadmap.zones
 
     def vertex_row(self, robot: int, vertex: int) -> int:
         """Return the row that a robot books at a vertex."""
@@ -222,36 +220,6 @@ class Resources:
         edges = roadmap.edges(visited, np.concatenate((visited[1:], visited[:1])))
         return visited + self.vertex_row(robot, 0), edges + self.edge_row(robot, 0)
 
-    def excluded_by(self, row: int) -> list[int]:
-        """Return the rows that a booking of a row excludes; called for each visit."""
-        if self.lists is None:
-            return [row] if row < self.n_vertices else []
-        first, end = self.lists.first[row : row + 2].tolist()
-        excluded: list[int] = self.lists.excluded[first:end].tolist()
-        return excluded
-
-    def vertices_near(self, robot: int, vertex: int) -> list[int]:
-        """Return the vertices that robots of some size cannot book while a robot is at a vertex."""
-        n_resources = self.n_vertices + self.n_edges
-        resources = (row % n_resources for row in self.excluded_by(self.vertex_row(robot, vertex)))
-        return [resource for resource in resources if resource < self.n_vertices]
-
-    def clashes(self, places: Sequence[int]) -> Iterator[tuple[int, int]]:
-        """Yield pairs of robots (i, j), i < j, that cannot stay at their places at one time.
-
-        Parameters
-        ----------
-        places
-            A vertex for each robot.
-        """
-        rows = [self.vertex_row(robot, vertex) for robot, vertex in enumerate(places)]
-        holders: dict[int, list[int]] = {}
-        for robot, row in enumerate(rows):
-            holders.setdefault(row, []).append(robot)
-        for robot, row in enumerate(rows):
-            for other in self.excluded_by(row):
-                yield from ((robot, holder) for holder in holders.get(other, ()) if robot < holder)
-
 
 def resources_of(roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fraction) -> Resources:
     """Return the resources of a fleet.
@@ -261,74 +229,24 @@ def resources_of(roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fractio
     InputError
         For zones that hold more than `MOST_PAIRS_IN_ZONES` pairs.
     """
+    _refuse_large_zones(roadmap)
     sizes = tuple(sorted(set(radii)))
-    has_lists = any(radii) or bool(roadmap.zones)
     return Resources(
-        n_vertices=roadmap.n_vertices,
-        n_edges=roadmap.n_edges,
+        roadmap=roadmap,
+        sizes=sizes,
+        clearance=clearance,
         size_of=np.array([sizes.index(radius) for radius in radii], np.int32),
-        lists=_excluded(roadmap, sizes, clearance) if has_lists else None,
     )
 
 
 def points_on(roadmap: Roadmap, n_robots: int) -> Resources:
     """Return the resources of a fleet of points."""
     return Resources(
-        n_vertices=roadmap.n_vertices,
-        n_edges=roadmap.n_edges,
+        roadmap=replace(roadmap, zones=()) if roadmap.zones else roadmap,
+        sizes=(Fraction(0),),
+        clearance=Fraction(0),
         size_of=np.zeros(n_robots, np.int32),
     )
-
-
-@lru_cache(maxsize=8)
-def _excluded(roadmap: Roadmap, sizes: tuple[Fraction, ...], clearance: Fraction) -> ExcludedRows:
-    """Return the lists of all rows in compressed sparse rows."""
-    n_vertices, n_rows = roadmap.n_vertices, roadmap.n_vertices + roadmap.n_edges
-    check_work(FINDING)
-    drawing = _Drawing(roadmap, [*sizes, clearance])
-    reach = 2 * sizes[-1] + clearance
-    same = np.arange(n_vertices)
-    n_keys = len(sizes) * n_rows
-    keys = list[Ints]()  # of pairs of rows: row * n_keys + column
-
-    def exclude(size: int, other: int, pairs: Iterable[Pairs]) -> None:
-        pairs_between = [
-            (a * n_rows + left) * n_keys + b * n_rows + right
-            for x, y in pairs
-            for a, b in {(size, other), (other, size)}
-            for left, right in ((x, y), (y, x))
-        ]
-        keys.append(np.sort(np.concatenate(pairs_between)))
-
-    combinations = list(combinations_with_replacement(range(len(sizes)), 2))
-    for size, other in combinations:
-        exclude(size, other, [(same, same), *_in_zones(roadmap)])
-    for done, part in enumerate(drawing.candidates(reach) if sizes[-1] > 0 else ()):
-        crossing = list(drawing.crossing(part))
-        for size, other in combinations:
-            check_work(f"{FINDING}, {done} of {drawing.n_parts} parts of the roadmap done")
-            if sizes[other] > 0:
-                distance = sizes[size] + sizes[other] + clearance
-                exclude(size, other, [*drawing.nearer(distance, part), *crossing])
-    first, excluded = _rows_of(keys, n_keys)
-    return ExcludedRows(first=first, excluded=excluded)
-
-
-def _rows_of(parts: list[Ints], n_rows: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return compressed sparse rows of sorted parts of keys ``row * n_rows + column``."""
-    sample = np.sort(np.concatenate([part[::1000] for part in parts]))
-    ends = [*sample[KEYS_AT_ONCE // 1000 :: KEYS_AT_ONCE // 1000].tolist(), n_rows * n_rows]
-    begins = np.zeros(len(parts), np.int64)
-    counts, columns = np.zeros(n_rows + 1, np.int64), list[NDArray[np.int32]]()
-    for end in ends:
-        check_work("sorting vertices and lanes that two robots may not book at once")
-        upto = np.array([np.searchsorted(part, end) for part in parts])
-        some = zip(parts, begins, upto, strict=True)
-        row, column = np.divmod(np.unique(np.concatenate([p[a:b] for p, a, b in some])), n_rows)
-        counts += np.bincount(row + 1, minlength=n_rows + 1)
-        columns.append(column.astype(np.int32))
-        begins = upto
-    return np.cumsum(counts).astype(np.int32), np.concatenate(columns)
 
 
 def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
@@ -341,18 +259,34 @@ def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
     return [*zone.vertices, *(roadmap.n_vertices + edge for edge in numbers if edge is not None)]
 
 
-def _in_zones(roadmap: Roadmap) -> Iterator[Pairs]:
-    """Yield pairs of resources of one zone."""
+def _refuse_large_zones(roadmap: Roadmap) -> None:
     n_pairs = 0
     for zone in roadmap.zones:
-        members = np.array(members_of(roadmap, zone), np.int64)
-        n_pairs += len(members) * (len(members) - 1) // 2
+        n_members = len(members_of(roadmap, zone))
+        n_pairs += n_members * (n_members - 1) // 2
         if n_pairs > MOST_PAIRS_IN_ZONES:
-            message = f"zone {shown(zone.name)} holds {len(members)} vertices and lanes, and zones"
+            message = f"zone {shown(zone.name)} holds {n_members} vertices and lanes, and zones"
             message += f" up to it {n_pairs} pairs of them, more than {MOST_PAIRS_IN_ZONES}"
             raise InputError.at(("map", "zones"), f"{message} (draw smaller zones)")
-        left, right = np.triu_indices(len(members), k=1)
-        yield members[left], members[right]
+
+
+def whole_positions(roadmap: Roadmap, lengths: Sequence[Fraction]) -> tuple[list[int], int]:
+    """Return x and y of each vertex in turn, in whole multiples of 1 / scale, and the scale.
+
+    A coordinate is the shortest decimal that stands for it; the lengths are whole multiples, too.
+    """
+    scale = lcm(*(length.denominator for length in lengths))
+    if roadmap.grid is not None:
+        grid = roadmap.grid
+        scale = lcm(scale, grid.cell_size.denominator)
+        step = int(grid.cell_size * scale)
+        rows, columns = np.divmod(grid.cells, grid.columns)
+        return [step * k for k in np.column_stack((columns, rows)).ravel().tolist()], scale
+    decimals = [Decimal(repr(x)) for x in roadmap.positions.ravel().tolist()]
+    places = max([0, *(-int(number.as_tuple().exponent) for number in decimals)])
+    scale = lcm(scale, 10**places)
+    factor = scale // 10**places
+    return [int(number.scaleb(places)) * factor for number in decimals], scale
 
 
 class _Drawing:
@@ -362,18 +296,12 @@ class _Drawing:
     """
 
     def __init__(self, roadmap: Roadmap, lengths: Sequence[Fraction]) -> None:
-        positions = exact_positions(roadmap)
-        coordinates = [coordinate for position in positions for coordinate in position]
-        self.scale = lcm(*(number.denominator for number in (*coordinates, *lengths)))
-        whole = [int(coordinate * self.scale) for coordinate in coordinates]
+        whole, self.scale = whole_positions(roadmap, lengths)
         self.x, self.y = (self._from_least(whole[axis::2]) for axis in (0, 1))
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         heads = roadmap.heads.astype(np.int64)
         ends = np.minimum(tails, heads) * roadmap.n_vertices + np.maximum(tails, heads)
-        lanes, lane_of = np.unique(ends, return_inverse=True)
-        self.a, self.b = np.divmod(lanes, roadmap.n_vertices)
-        self._edges_by_lane = np.argsort(lane_of, kind="stable") + roadmap.n_vertices
-        self._first_edge = np.searchsorted(np.sort(lane_of), np.arange(len(lanes) + 1))
+        self.a, self.b = np.divmod(np.unique(ends), roadmap.n_vertices)
 
     @staticmethod
     def _from_least(values: list[int]) -> Exact:
@@ -411,22 +339,6 @@ class _Drawing:
             lane, vertex = lanes.near_points(vertices, some, near)
             yield none, (vertex, lane), lanes.crossing(middles, some, slack)
 
-    def crossing(self, candidates: Candidates) -> Iterator[Pairs]:
-        """Yield pairs of edges that cross, both directions of a lane."""
-        first, other = candidates[2]
-        crossing = self._crosses(first, other)
-        lanes, edges = self._with_edges(first[crossing], other[crossing])
-        yield self._with_edges(edges, lanes)
-
-    def nearer(self, distance: Fraction, candidates: Candidates) -> Iterator[Pairs]:
-        """Yield vertices that are nearer than a distance to others and to edges."""
-        (left, right), (vertex, lane), _ = candidates
-        limit = int(distance * self.scale) ** 2
-        near = self._square(left, right) < limit
-        yield left[near], right[near]
-        near = self._passes(vertex, lane, limit)
-        yield self._with_edges(vertex[near], lane[near])
-
     def close_pairs(self, distance: Fraction) -> ClosePairs:
         """Return vertices and lanes nearer than a distance, and lanes that cross."""
         limit = int(distance * self.scale) ** 2
@@ -444,12 +356,6 @@ class _Drawing:
             crossed = zip(first[crossing].tolist(), other[crossing].tolist(), strict=True)
             pairs.crossings.extend((lanes[left], lanes[right]) for left, right in crossed)
         return pairs
-
-    def _with_edges(self, left: Ints, lane: Ints) -> tuple[Ints, Ints]:
-        """Repeat each left one for every edge of its lane."""
-        counts = self._first_edge[lane + 1] - self._first_edge[lane]
-        begins = np.repeat(self._first_edge[lane] - (np.cumsum(counts) - counts), counts)
-        return np.repeat(left, counts), self._edges_by_lane[begins + np.arange(counts.sum())]
 
     def _square(self, left: Ints, right: Ints) -> Exact:
         """Return the squared distance of vertices."""

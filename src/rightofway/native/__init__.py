@@ -7,18 +7,22 @@ from rightofway.native.bookings import (
     native_closures,
     native_rows,
 )
-from rightofway.native.problem import bound, compiler, lists_of, native_rules, roads_of, tracks_of
+from rightofway.native.problem import bound, compiler, native_rules, roads_of, tracks_of
+from rightofway.native.resources import clashes, excluded_by, lists_of, vertices_near
 
 __all__ = [
     "BookedRows",
     "ClosedPlaces",
     "booked_times",
     "bound",
+    "clashes",
     "compiler",
+    "excluded_by",
     "lists_of",
     "native_closures",
     "native_rows",
     "native_rules",
     "roads_of",
     "tracks_of",
+    "vertices_near",
 ]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import NEVER, Lap, Problem, Route, Stays, Tick, Track
-from rightofway.model.resources import ExcludedRows
+from rightofway.native.resources import lists_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -21,15 +21,15 @@ class BookedRows:
     Attributes
     ----------
     vertex, edge
-        The row of each visit's vertex, and of the edge driven out of it, -1 for last visits; int32,
-        shape (N,).
+        The row of each visit's vertex, -1 for one that books nothing, and of the edge driven out of
+        it, -1 for last visits; int32, shape (N,).
     lists
         The rows that each row excludes.
     """
 
     vertex: NDArray[np.int32]
     edge: NDArray[np.int32]
-    lists: ExcludedRows
+    lists: _core.ExcludedRows
 
     @classmethod
     def of(
@@ -45,7 +45,8 @@ class BookedRows:
             The vertices that each robot visits.
         """
         resources = problem.resources
-        if resources.lists is None:
+        lists = lists_of(resources)
+        if lists is None:
             return None
         at_vertex, along_edge = [], []
         for robot, route in enumerate(vertices):
@@ -56,7 +57,7 @@ class BookedRows:
         return cls(
             vertex=np.concatenate(at_vertex, dtype=np.int32),
             edge=np.concatenate(along_edge, dtype=np.int32, casting="same_kind"),
-            lists=resources.lists,
+            lists=lists,
         )
 
     @classmethod
@@ -73,7 +74,8 @@ class BookedRows:
             Robots of the scenario, the lap of each, and how many laps it makes in a period.
         """
         resources = problem.resources
-        if resources.lists is None:
+        lists = lists_of(resources)
+        if lists is None:
             return None
         at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
         for robot, lap, count in zip(robots, laps, counts, strict=True):
@@ -83,7 +85,7 @@ class BookedRows:
         return cls(
             vertex=np.concatenate(at_vertex, dtype=np.int32),
             edge=np.concatenate(along_edge, dtype=np.int32),
-            lists=resources.lists,
+            lists=lists,
         )
 
 
@@ -172,8 +174,7 @@ def native_rows(rows: BookedRows | None) -> _core.VisitRows | None:
     """
     if rows is None:
         return None
-    lists = _core.ExcludedRows(rows.lists.first, rows.lists.excluded)
-    return _core.VisitRows(lists, rows.vertex, rows.edge)
+    return _core.VisitRows(rows.lists, rows.vertex, rows.edge)
 
 
 def native_closures(closed: ClosedPlaces | None) -> _core.VisitClosures | None:

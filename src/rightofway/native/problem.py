@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.errors import InputError, shown
 from rightofway.model import BookingRules, Problem, Tick, Track
-from rightofway.model.resources import Resources
 from rightofway.model.turning import Turning
+from rightofway.native.resources import lists_of
 from rightofway.site import Roadmap
 
 _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
@@ -81,18 +81,6 @@ def native_rules(rules: BookingRules) -> _core.BookingRules:
         Those of a problem.
     """
     return _core.BookingRules(int(rules.headway), rules.books_ahead, rules.rotations)
-
-
-def lists_of(resources: Resources) -> _core.ExcludedRows | None:
-    """Return the rows that each row excludes; None for points.
-
-    Parameters
-    ----------
-    resources
-        The resources of a fleet.
-    """
-    lists = resources.lists
-    return None if lists is None else _core.ExcludedRows(lists.first, lists.excluded)
 
 
 def roads_of(roadmap: Roadmap) -> _core.Roads:

@@ -1,6 +1,6 @@
 """Ways to choose routes and right of way; each planner is one module and one registry line."""
 
-from rightofway.model.deadline import Deadline
+from rightofway.deadline import Deadline
 from rightofway.planners.features import ANY_FLEET, Feature
 from rightofway.planners.options import (
     AutoOptions,

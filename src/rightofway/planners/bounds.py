@@ -14,9 +14,9 @@ Lam, Le Bodic, Harabor & Stuckey, *Branch-and-cut-and-price for multi-agent path
 
 from __future__ import annotations
 
+from rightofway.deadline import Deadline
 from rightofway.errors import NoPlanExists
 from rightofway.model import Proof, Scenario, Tick
-from rightofway.model.deadline import Deadline
 from rightofway.model.outcome import minimized
 from rightofway.search import ConflictBasedSearch, PriceAscent
 

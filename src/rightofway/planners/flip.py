@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from rightofway.check import check
+from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp
 from rightofway.model import Plan, Tick, Track, completions_of
-from rightofway.model.deadline import Deadline
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Task, planning_problem

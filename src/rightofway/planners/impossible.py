@@ -19,12 +19,13 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
+from rightofway.deadline import Deadline
 from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists, listed
 from rightofway.model import Outcome, OutcomeKind, Plan, PlannerRun, Scenario, Tick, Track
 from rightofway.model.closures import Closure
-from rightofway.model.deadline import Deadline
 from rightofway.model.place_names import PlaceNames
 from rightofway.model.resources import distance
+from rightofway.native import clashes
 from rightofway.phrases import Phrase
 from rightofway.search import (
     Bookings,
@@ -101,7 +102,7 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
         [itinerary.last for itinerary in itineraries],
     )
     for when, places in (("start", homes), ("end", ends)):
-        for pair in scenario.problem.resources.clashes(places):
+        for pair in clashes(scenario.problem.resources, places):
             start, other_start = (places[robot] for robot in pair)
             if start == other_start:
                 continue  # a shared end

@@ -29,9 +29,10 @@ from heapq import heappop, heappush
 from itertools import count
 from typing import NamedTuple
 
+from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Tick, Track, least_dwell
-from rightofway.model.deadline import Deadline
+from rightofway.native import excluded_by
 from rightofway.planners.impossible import fleet_of, no_room, smallest_set
 from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.search import Distances, FleetSearch
@@ -200,7 +201,7 @@ class SingleMoves:
     def successors(self, state: State) -> Iterator[tuple[Move, State]]:
         """Yield every move that the places of all other robots allow, and the state after it."""
         rows = map(self.resources.vertex_row, range(len(state.places)), state.places)
-        excluded = [self._excluded_by(row) for row in rows]
+        excluded = [self._mask_of(row) for row in rows]
         before, after = [0], [0]
         for mask in excluded:
             before.append(before[-1] | mask)
@@ -222,10 +223,10 @@ class SingleMoves:
                 after_move = self.served(State(places, state.stages))
                 yield Move(robot, head, edge), after_move
 
-    def _excluded_by(self, row: int) -> int:
+    def _mask_of(self, row: int) -> int:
         """Return the rows that a booking excludes, as bits."""
         if row not in self._excluded:
-            self._excluded[row] = sum(1 << other for other in self.resources.excluded_by(row))
+            self._excluded[row] = sum(1 << other for other in excluded_by(self.resources, row))
         return self._excluded[row]
 
 

@@ -19,8 +19,8 @@ from fractions import Fraction
 
 import numpy as np
 
+from rightofway.deadline import Deadline
 from rightofway.model import Scenario, Stop, cost_of
-from rightofway.model.deadline import Deadline
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_of
 from rightofway.planners.task import Draft, Task, planning_problem

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
+from rightofway.deadline import NO_DEADLINE, Deadline
 from rightofway.model import Decision, Improvement, Problem, Proof, Reroute, Scenario, Track
-from rightofway.model.deadline import NO_DEADLINE, Deadline
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

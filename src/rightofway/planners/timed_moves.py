@@ -18,9 +18,10 @@ from heapq import heapify, heappop, heappush
 from itertools import count, product
 from typing import NamedTuple
 
+from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import NEVER, Scenario, Tick, Track, least_dwell
-from rightofway.model.deadline import Deadline
+from rightofway.native import excluded_by
 from rightofway.planners.impossible import fleet_of, no_room, smallest_set
 from rightofway.planners.moves import Move, SingleMoves, State
 from rightofway.planners.task import Draft, Task, planning_problem
@@ -228,7 +229,7 @@ class _TimedMoves(SingleMoves):
         ends = dict(timed.ends)
         along = self.resources.edge_row(robot, move.edge)
         for left in (along, self.resources.vertex_row(robot, timed.state.places[robot])):
-            for row in self.resources.excluded_by(left):
+            for row in excluded_by(self.resources, left):
                 ends[row, robot] = self._rules.end(enter)
         edges = timed.edges
         if itinerary.turning is not None:

@@ -28,9 +28,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from rightofway.deadline import Deadline
 from rightofway.errors import InputError
 from rightofway.model import Decision, Plan, Tick, Track
-from rightofway.model.deadline import Deadline
 from rightofway.planners.conflict_resolution import (
     PartialPlan,
     Resolution,

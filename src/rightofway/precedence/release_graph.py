@@ -21,6 +21,7 @@ from typing import NamedTuple
 
 from rightofway.model import Scenario, Track
 from rightofway.model.route import drives_along
+from rightofway.native import excluded_by
 
 
 class Part(NamedTuple):
@@ -229,7 +230,7 @@ def _waits_of(
     resources = scenario.problem.resources
     latest = defaultdict[int, dict[int, int]](dict)  # part: other robot: visit
     for use in own:
-        for row in resources.excluded_by(use.row):
+        for row in excluded_by(resources, use.row):
             users = order.get(row, ())
             for k in range(bisect_left(users, (use.begin,)) - 1, -1, -1):
                 other = users[k]

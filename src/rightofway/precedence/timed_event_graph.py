@@ -272,16 +272,19 @@ class TimedEventGraph:
         ends, of_row = np.append(begins[1:], 2 * n), keys // n_robots
         places = np.repeat(np.arange(len(keys)), ends - begins) * n + rank[visit[order]]
         # Each start asks all rows that exclude it, and there each other robot.
-        first, excluded = rows.lists.first, rows.lists.excluded
+        used, at_used = np.unique(row, return_inverse=True)  # few of all rows
+        lists = [rows.lists.of(number) for number in used.tolist()]
+        first = np.append(0, np.cumsum([len(others) for others in lists]))
+        excluded = np.concatenate(lists)
         robots_at = np.searchsorted(of_row, [excluded, excluded + 1])
         n_asked = np.append(0, np.cumsum(robots_at[1] - robots_at[0]))
         before = np.empty(n, np.int64)
         before[self.after] = np.arange(n)
         by_start = np.column_stack((np.arange(n), n + before)).ravel()
-        n_answers = np.cumsum((n_asked[first[row + 1]] - n_asked[first[row]])[by_start])[1::2]
+        n_answers = np.cumsum(np.diff(n_asked[first])[at_used][by_start])[1::2]
         parts = []
         for some in np.split(by_start, 2 * _parts(n_answers, MOST_ANSWERS)):
-            of_asked, at = _ranges(first[row[some]], first[row[some] + 1])
+            of_asked, at = _ranges(first[at_used[some]], first[at_used[some] + 1])
             again, of = _ranges(robots_at[0][at], robots_at[1][at])
             asks = some[of_asked[again]]
             is_other = keys[of] % n_robots != self.robot[visit[asks]]

@@ -28,7 +28,7 @@ from rightofway.model import (
     Tick,
     visits_of_laps,
 )
-from rightofway.native import lists_of, native_rules, roads_of
+from rightofway.native import excluded_by, lists_of, native_rules, roads_of
 from rightofway.search.distances import Distances
 from rightofway.site import Roadmap, VertexId
 
@@ -158,12 +158,12 @@ class PeriodicBookings:
     ) -> None:
         self.period = NEVER if period is None else period
         self._rows = rows
-        lists = None if rows is None else rows.resources.lists
+        lists = None if rows is None else lists_of(rows.resources)
         self._kernel = _core.PeriodicBookings(
             native_rules(rules),
-            n_vertices if lists is None else len(lists.first) - 1,
+            n_vertices if lists is None else lists.n_rows,
             period,
-            None if rows is None else lists_of(rows.resources),
+            lists,
         )
 
     def _visits(self, robot: int, lap: Lap, count: int) -> tuple[Visits, NDArray[np.int32] | None]:
@@ -305,7 +305,7 @@ class PeriodicBookings:
         if self._rows is None:
             return bool(needed[0] == home_of.vertices[0])
         row = int(self._rows.of_lap(other, home_of)[0][0])
-        return bool(np.isin(needed, self._rows.resources.excluded_by(row)).any())
+        return bool(np.isin(needed, excluded_by(self._rows.resources, row)).any())
 
     def _not_reached(self, robot: int, lap: Lap) -> NDArray[np.int32]:
         """Return the rows (for points: the vertex) that the last search could not book."""

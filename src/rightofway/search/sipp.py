@@ -16,7 +16,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp, InputError
 from rightofway.model import NEVER, Problem, Tick, Track, drives_along
 from rightofway.model.given import checked_index
-from rightofway.native import bound
+from rightofway.native import bound, excluded_by
 from rightofway.search.distances import Distances
 
 STOPPED = 2
@@ -51,8 +51,8 @@ class Bookings:
         self._n_vertices, closed = problem.roadmap.n_vertices, problem.closures
         self._books_edges = closed is not None and closed.close_edges
         n_rows = self._n_vertices + self._books_edges * problem.roadmap.n_edges
-        if self.resources.lists is not None:
-            n_rows = len(self.resources.lists.first) - 1
+        if not self.resources.are_points:
+            n_rows = self.resources.n_rows
             self._books_edges = True
         self.table = _core.BookingTable(n_rows)
         # Bookings of robots with a size may overlap in a row from which both exclude others.
@@ -79,7 +79,7 @@ class Bookings:
 
     def book(self, row: int, booking: Booking) -> None:
         """Book one vertex, or mark what one row excludes."""
-        for mark in self.resources.excluded_by(row):
+        for mark in excluded_by(self.resources, row):
             self._put(mark, *booking)
             self._of[booking.robot].append((mark, booking.start))
 

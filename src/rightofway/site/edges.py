@@ -9,6 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from rightofway.arguments import checks_arguments
+from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError
 from rightofway.site.geometry import Frame, VertexId
 from rightofway.site.roadmap import EdgeClass, Lane, Roadmap
@@ -177,7 +178,7 @@ def _check_edges(ids: Mapping[str, int], edges: Sequence[Edge]) -> None:
     if not ids:
         raise InputError.at("", "the roadmap has no vertex (give at least one)")
     seen: set[tuple[str, str]] = set()
-    for index, edge in enumerate(edges):
+    for index, edge in enumerate(limit_loop(edges, READING)):
         fault = _edge_fault(edge, ids, seen)
         if not fault and edge.surcharge < 0:
             fault = f"surcharge {edge.surcharge} is negative (give 0 or more)"

@@ -11,6 +11,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from rightofway.arguments import checks_arguments
+from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, listed, nearest, shown
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.site.edges import Edge, roadmap_of_edges
@@ -193,12 +194,15 @@ class LevelRoadmap(NamedTuple):
         How far at most these pieces are from their curves [length unit].
     notes
         What the roadmap lacks, a sentence each.
+    split
+        Its lanes and their pieces.
     """
 
     roadmap: Roadmap
     curves: int
     chord_error: Fraction
     notes: tuple[str, ...]
+    split: SplitLanes
 
 
 def roadmap_of_level(
@@ -209,9 +213,14 @@ def roadmap_of_level(
     metre: Fraction = Fraction(1),
     second: Fraction = Fraction(1),
     spacing: Fraction | None = None,
+    distance: Fraction = Fraction(0),
     cuts_curves: bool = False,
 ) -> LevelRoadmap:
     """Make the roadmap of a level.
+
+    With a spacing, lanes are split that are longer; without one, those that others cross, for
+    robots that keep a distance [length unit]. For robots with a size, curves are cut into straight
+    pieces. Lanes that only some of the robots may use are barred for the others.
 
     Raises
     ------
@@ -229,7 +238,7 @@ def roadmap_of_level(
     limits = {
         speed: speed * metre / second for speed in {lane.max_speed for lane in lanes} if speed
     }
-    for lane in lanes:
+    for lane in limit_loop(lanes, READING):
         limit = None if lane.max_speed is None else limits[lane.max_speed]
         is_open = lane.types is None or not selects
         barred = frozenset() if is_open else frozenset(known_types).difference(lane.types or ())
@@ -251,11 +260,11 @@ def roadmap_of_level(
     edges, zones = list(slowest.values()), _zones(level, positions, slowest)
     curves = _curves(lanes, slowest) if cuts_curves else {}
     split = SplitLanes(positions, edges, {})
-    if spacing is not None or curves:
+    if spacing is not None or curves or distance > 0:
         shapes = {
             ends: [(x * metre, y * metre) for x, y in lane.shape] for ends, lane in curves.items()
         }
-        split = split_lanes(positions, edges, spacing, shapes)
+        split = split_lanes(positions, edges, spacing, shapes, distance=distance)
     drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
     roadmap = roadmap_of_edges(drawn, split.edges, y_up=True, zones=zones, pieces=split.pieces)
     bends = {(lane.tail, lane.head): lane.shape for lane in lanes if lane.shape}
@@ -266,6 +275,7 @@ def roadmap_of_level(
         chord_error=metre * max((curve.chord_error or Fraction(0) for curve in curves.values()),
                                 default=Fraction(0)),
         notes=tuple(_lacks(level, lanes, slowest, closed)),
+        split=split,
     )  # fmt: skip
 
 

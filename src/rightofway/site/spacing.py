@@ -6,11 +6,15 @@ import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from math import ceil, sqrt
+from math import ceil, dist, sqrt
 from typing import NamedTuple
 
+import numpy as np
+
+from rightofway.deadline import limit_loop
 from rightofway.errors import InputError, shown
 from rightofway.quantities import decimal
+from rightofway.site.crossings import MOST_PIECES, choose_spacing, find_crossed
 from rightofway.site.edges import Edge
 from rightofway.site.geometry import COARSE, Point, squared_distance, straight_length
 
@@ -23,6 +27,8 @@ PIECE = re.compile("(.+)/[1-9][0-9]*")
 MAX_PIECES = 100_000
 """The most pieces that the lanes of a roadmap are split into: 50 km of lanes, each 0.5 m."""
 
+
+SPLITTING = "splitting lanes into pieces"
 
 MOST_WINDING = 10
 """How many times as long as its drawing a lane may be that is split. Half a circle is 1.6 times as
@@ -40,11 +46,17 @@ class SplitLanes(NamedTuple):
         All edges, pieces in the place of their lane.
     pieces
         Tail and head of every piece of each lane that was split, by tail and head of the lane.
+    crossed
+        How many lanes were split because others cross them, whichever ways they are driven.
+    spacing
+        The longest piece of these [length unit]; None where there are none.
     """
 
     positions: dict[str, Point]
     edges: list[Edge]
     pieces: dict[tuple[str, str], list[tuple[str, str]]]
+    crossed: int = 0
+    spacing: Fraction | None = None
 
 
 def split_lanes(
@@ -53,12 +65,16 @@ def split_lanes(
     spacing: Fraction | None,
     shapes: Mapping[tuple[str, str], Sequence[Point]] | None = None,
     *,
+    distance: Fraction = Fraction(0),
     is_drawn: bool = True,
 ) -> SplitLanes:
     """Split lanes that are longer than the spacing into equal pieces, and curves at their points.
 
     Both directions of a lane share the new vertices, which are named by the direction that is given
     first: ``A-B/1``, ``A-B/2``, …. Directions that are driven along different curves share none.
+
+    Without a spacing, but with a distance that two robots keep [length unit], lanes are split that
+    others cross far from their ends (`crossings`), if they are drawn as long as they are.
 
     Raises
     ------
@@ -74,32 +90,32 @@ def split_lanes(
     [('A', 'A-B/1', '5/3'), ('A-B/1', 'A-B/2', '5/3'), ('A-B/2', 'B', '5/3')]
     """
     curves = {ends: tuple(points) for ends, points in (shapes or {}).items()}
-    longest: dict[_Ends, Fraction] = {}
-    for edge in edges:
-        lane = _lane(edge, curves)
-        longest[lane] = max(longest.get(lane, edge.length), edge.length)
+    longest, drawings = _drawn_lanes(positions, edges, curves)
     refuse_many_pieces(longest.values(), spacing)
+    longest_piece = {} if spacing is None else dict.fromkeys(longest, spacing)
+    if spacing is None and distance > 0 and is_drawn:
+        longest_piece = _crossed(drawings, longest, list(positions.values()), distance)
     places, split = dict(positions), list[Edge]()
     pieces: dict[tuple[str, str], list[tuple[str, str]]] = {}
     ways: dict[_Ends, tuple[list[str], list[Fraction], Fraction]] = {}
-    for edge in edges:
+    for edge in limit_loop(edges, SPLITTING):
         lane = _lane(edge, curves)
         if lane not in ways:
-            points = [
-                positions[edge.tail],
-                *curves.get((edge.tail, edge.head), ()),
-                positions[edge.head],
-            ]
-            if is_drawn and spacing is not None and longest[lane] > spacing:
-                _refuse_winding(edge, points, longest[lane], spacing)
+            points, own = drawings[lane], longest_piece.get(lane)
+            if is_drawn and own is not None and longest[lane] > own:
+                _refuse_winding(edge, points, longest[lane], own)
             lengths = lengths_along(points) if len(points) > STRAIGHT else [longest[lane]]
-            inside, parts = _cuts(points, lengths, spacing)
-            names = [f"{edge.tail}-{edge.head}/{k}" for k in range(1, len(inside) + 1)]
-            for name, point in zip(names, inside, strict=True):
-                if name in places:
-                    message = f"{name!r} is the name of a piece of a lane (rename the vertex)"
-                    raise InputError.at("vertices", message)
-                places[name] = point
+            inside, parts = _cuts(points, lengths, own)
+            names = _joint_names(edge, len(inside))
+            taken = next((name for name in names if name in places), None)
+            if taken is not None and spacing is None and own is not None:
+                inside, parts = _cuts(points, lengths, None)  # nobody asked for pieces
+                names = _joint_names(edge, len(inside))
+                taken = next((name for name in names if name in places), None)
+            if taken is not None:
+                message = f"{taken!r} is the name of a piece of a lane (rename the vertex)"
+                raise InputError.at("vertices", message)
+            places |= zip(names, inside, strict=True)
             whole = sum(lengths, Fraction(0))
             least = whole if len(lengths) > 1 else Fraction(0)
             shares = _each(parts, whole.__rtruediv__)
@@ -117,7 +133,63 @@ def split_lanes(
                 pairwise(lane_vertices), found_lengths, surcharges, strict=True
             )
         ]
-    return SplitLanes(places, split, pieces)
+    crossed_pieces = list(longest_piece.values()) if spacing is None else []
+    return SplitLanes(
+        places,
+        split,
+        pieces,
+        crossed=len(crossed_pieces),
+        spacing=max(crossed_pieces, default=None),
+    )
+
+
+def _joint_names(edge: Edge, count: int) -> list[str]:
+    return [f"{edge.tail}-{edge.head}/{k}" for k in range(1, count + 1)]
+
+
+def _drawn_lanes(
+    positions: Mapping[str, Point],
+    edges: Sequence[Edge],
+    curves: Mapping[tuple[str, str], tuple[Point, ...]],
+) -> tuple[dict[_Ends, Fraction], dict[_Ends, list[Point]]]:
+    """Return the length of each lane, of its longer direction, and its ends and bends."""
+    longest, drawings = dict[_Ends, Fraction](), dict[_Ends, list[Point]]()
+    for edge in edges:
+        lane = _lane(edge, curves)
+        longest[lane] = max(longest.get(lane, edge.length), edge.length)
+        if lane not in drawings:
+            bends = curves.get((edge.tail, edge.head), ())
+            drawings[lane] = [positions[edge.tail], *bends, positions[edge.head]]
+    return longest, drawings
+
+
+def _crossed(
+    drawings: Mapping[_Ends, Sequence[Point]],
+    longest: Mapping[_Ends, Fraction],
+    points: Sequence[Point],
+    distance: Fraction,
+) -> dict[_Ends, Fraction]:
+    """Return the longest piece of each long lane that others cross, or that passes a vertex.
+
+    A lane that winds far more than it is drawn stays whole, because nobody knows where it leads.
+    """
+    spacing = choose_spacing(list(longest.values()), distance)
+    parts, wanted, lane_of = list[list[_Floats]](), list[bool](), list[_Ends]()
+    for lane, drawing in drawings.items():
+        points_along = [(float(x), float(y)) for x, y in drawing]
+        drawn = sum(dist(*ends) for ends in pairwise(points_along))
+        is_long = spacing < longest[lane] <= MOST_WINDING * drawn
+        for ends in pairwise(points_along):
+            parts.append(list(ends))
+            wanted.append(is_long)
+            lane_of.append(lane)
+    begin, end = np.array(parts, np.float64).reshape(-1, 2, 2).swapaxes(0, 1)
+    at = np.array([(float(x), float(y)) for x, y in points], np.float64)
+    is_met = find_crossed(begin, end, at, np.array(wanted, bool), float(distance))
+    return {
+        lane: max(spacing, longest[lane] / MOST_PIECES)
+        for lane in (lane_of[part] for part in np.flatnonzero(is_met).tolist())
+    }
 
 
 def refuse_many_pieces(lengths: Iterable[Fraction], spacing: Fraction | None) -> None:
@@ -160,6 +232,9 @@ def _each(parts: Sequence[Fraction], use: Callable[[Fraction], Fraction]) -> lis
 
 _Ends = frozenset[str] | tuple[str, str]
 """Both ends of a lane; in order where its directions are driven along different curves."""
+
+
+_Floats = tuple[float, float]
 
 
 def _lane(edge: Edge, curves: Mapping[tuple[str, str], tuple[Point, ...]]) -> _Ends:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, pairwise
 
+from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, is_printable, nearest, shown
 from rightofway.io.faults import Faults
 from rightofway.io.source import LONGEST_NAME, Source
@@ -174,7 +175,7 @@ class LayoutDraft:
         ]
         straight = _Straight(rounding_step({Fraction(square, MICRO**2) for square in set(squares)}))
         no_lengths = self._no_lengths(level.lanes, squares)
-        for lane, square in zip(level.lanes, squares, strict=True):
+        for lane, square in limit_loop(zip(level.lanes, squares, strict=True), READING):
             if lane.attribute in no_lengths:
                 lane = replace(lane, length=None)  # noqa: PLW2901
             missing = [end for end in (lane.tail, lane.head) if end not in vertices]

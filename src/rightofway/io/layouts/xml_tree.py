@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
+from rightofway.deadline import READING, STEPS_BETWEEN_LOOKS, check_work
 from rightofway.errors import InputError, Location, shown
 from rightofway.io.source import Source
 
@@ -57,6 +58,8 @@ def parse_xml(text: str) -> Element:
     def start(name: str, attributes: dict[str, str]) -> None:
         nonlocal count
         line, count = parser.CurrentLineNumber, count + 1
+        if count % STEPS_BETWEEN_LOOKS == 0:
+            check_work(READING)
         if len(opened) > MAX_DEPTH or count > MAX_ELEMENTS:
             excess = f"more than {MAX_DEPTH} deep" if count <= MAX_ELEMENTS else "too many"
             message = f"its elements are {excess} (is it the right file?)"

@@ -14,9 +14,7 @@ from rightofway.errors import InputError, Where, in_file, nearest, shown, under
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import PLAN_FORMAT, check_format
 from rightofway.io.scenario.loaded_map import LoadedMap
-from rightofway.io.scenario.reader import (
-    read_scenario,
-)
+from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.model import (
     Decision,
     Objective,
@@ -71,7 +69,7 @@ def plan_of(document: Any, source: str = "", pictures: Path | None = None) -> Pl
         document = check_format(document, PLAN_FORMAT)
         faults = Faults()
         frame = faults.attempt("", validate, PlanFrame, document)
-        loaded = faults.part(document, "scenario", read_scenario, None, pictures)
+        loaded = faults.part(document, "scenario", _planned, pictures)
         names = _Names.of(loaded.scenario) if loaded else None
         run = faults.part(document, "planner", _run, names)
         tracks = faults.part(document, "robots", _tracks, names)
@@ -84,6 +82,14 @@ def plan_of(document: Any, source: str = "", pictures: Path | None = None) -> Pl
     assert loaded is not None, "or there was a fault"
     assert tracks is not None, "or there was a fault"
     return Plan(scenario=loaded.scenario, tracks=tracks, run=run or PlannerRun(), steady=steady)
+
+
+def _planned(data: Any, pictures: Path | None) -> Loaded:
+    """Return the scenario of a plan, whose lanes are split as they were when it was planned."""
+    drawn = data.get("map") if isinstance(data, dict) else None
+    if isinstance(drawn, dict) and "roadmap" in drawn:
+        data = {**data, "map": {"spacing": "whole", **drawn}}
+    return read_scenario(data, None, pictures)
 
 
 @dataclass(slots=True, kw_only=True)

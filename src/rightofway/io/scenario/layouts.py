@@ -12,6 +12,7 @@ from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.loaded_map import (
     FleetTraits,
     LoadedMap,
+    note_on_crossed,
     note_on_curves,
     note_on_squares,
 )
@@ -56,7 +57,8 @@ def map_of_layout(
             robot_types=fleet.types,
             metre=1 / metres,
             second=1 / seconds,
-            spacing=document.spacing,
+            spacing=document.longest_piece,
+            distance=document.choose_distance(fleet.distance),
             cuts_curves=fleet.radius > 0,
         )
         roadmap = level_map.roadmap
@@ -65,6 +67,7 @@ def map_of_layout(
             *layout.notes,
             *level_map.notes,
             *note_on_curves(level_map.curves, level_map.chord_error, units),
+            *note_on_crossed(level_map.split, units),
         )
         return LoadedMap(
             roadmap=roadmap,

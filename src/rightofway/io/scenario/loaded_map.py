@@ -10,6 +10,7 @@ from pathlib import Path
 from rightofway.quantities import Units, decimal
 from rightofway.site import Floor, Grid, Roadmap, VertexId
 from rightofway.site.places import as_place, vertex_at
+from rightofway.site.spacing import SplitLanes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,6 +24,8 @@ class FleetTraits:
         are not known.
     radius
         The largest radius, for maps that are pictures and for curves [length unit].
+    clearance
+        The least distance between two robots, for lanes that cross [length unit].
     types
         The types of all robots, for layouts whose lanes are reserved for types; None stands for a
         robot without one.
@@ -30,7 +33,13 @@ class FleetTraits:
 
     speeds: Sequence[Fraction] | None = None
     radius: Fraction = Fraction(0)
+    clearance: Fraction = Fraction(0)
     types: frozenset[str | None] = frozenset()
+
+    @property
+    def distance(self) -> Fraction:
+        """How far the middles of the two largest robots are apart at least; 0 for points."""
+        return 2 * self.radius + self.clearance if self.radius > 0 else Fraction(0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,6 +102,18 @@ def note_on_squares(what: str, roadmap: Roadmap, cells: int, units: Units) -> st
     if most > least:
         span = f"of {decimal(least)} to {units.written_length(most)}"
     return f"{what} cut into {len(roadmap.sides)} squares {span}, from {cells} free cells"
+
+
+def note_on_crossed(split: SplitLanes, units: Units) -> Iterator[str]:
+    """Yield a sentence on the lanes that are split because others cross them, if there are any."""
+    if split.crossed:
+        assert split.spacing is not None, "they are split into pieces"
+        lanes = "1 lane is" if split.crossed == 1 else f"{split.crossed} lanes are"
+        whole = "it" if split.crossed == 1 else "them"
+        yield (
+            f"{lanes} booked in pieces of at most {units.written_length(split.spacing)}, because"
+            f" others cross far from the ends (spacing: whole keeps {whole} whole)"
+        )
 
 
 def note_on_curves(curves: int, chord_error: Fraction, units: Units) -> Iterator[str]:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, nearest, shown, under
 from rightofway.io.faults import Faults
 from rightofway.io.movingai import load_map
@@ -16,6 +17,7 @@ from rightofway.io.scenario.layouts import map_of_layout
 from rightofway.io.scenario.loaded_map import (
     FleetTraits,
     LoadedMap,
+    note_on_crossed,
     note_on_curves,
     note_on_squares,
 )
@@ -70,7 +72,7 @@ def map_of(
         return map_of_layout(document, file, units, fleet)
     if document.roadmap is not None:
         with under("roadmap"):
-            return _map_of_roadmap(document.roadmap, document, units, has_sizes=fleet.radius > 0)
+            return _map_of_roadmap(document.roadmap, document, units, fleet)
     if document.floor is not None:
         if document.cell_size == "adaptive":
             return _map_of_squares(document, fleet.speeds, fleet.radius, units)
@@ -200,7 +202,7 @@ def _floor(document: FloorDocument, on: MapDocument) -> Floor:
 
 
 def _map_of_roadmap(
-    document: RoadmapDocument, on: MapDocument, units: Units, *, has_sizes: bool
+    document: RoadmapDocument, on: MapDocument, units: Units, fleet: FleetTraits
 ) -> LoadedMap:
     """Make a roadmap of its vertices and edges, or report every edge that is wrong.
 
@@ -219,7 +221,7 @@ def _map_of_roadmap(
         and edge.head in positions
     }
     step = rounding_step(squares.values())
-    for index, edge in enumerate(document.edges):
+    for index, edge in enumerate(limit_loop(document.edges, READING)):
         place, square = ("edges", index), squares.get(index)
         lane_length = faults.attempt(place, _length, edge, positions, square, step)
         length, curve = lane_length or (None, None)
@@ -252,12 +254,15 @@ def _map_of_roadmap(
         NamedZone(name=zone.name, vertices=tuple(zone.vertices), edges=tuple(zone.edges))
         for zone in document.zones
     ]
-    split = SplitLanes(positions, edges, {})
-    if on.spacing is not None and document.sides is not None:
+    if on.longest_piece is not None and document.sides is not None:
         raise InputError.at("sides", "cells are not split by spacing (take one of them out)")
+    has_sizes = fleet.radius > 0
     is_cut = bool(curves) and has_sizes
-    if on.spacing is not None or is_cut:
-        split = split_lanes(positions, edges, on.spacing, _shapes(curves, positions, on, has_sizes))
+    distance = on.choose_distance(fleet.distance) if document.sides is None else Fraction(0)
+    split = SplitLanes(positions, edges, {})
+    if on.longest_piece is not None or is_cut or distance > 0:
+        shapes = _shapes(curves, positions, on.longest_piece, has_sizes)
+        split = split_lanes(positions, edges, on.longest_piece, shapes, distance=distance)
     written_pieces = {
         ends: [part for piece in pieces for part in split.pieces.get(piece, (piece,))]
         for ends, pieces in pieces_by_name(
@@ -290,22 +295,25 @@ def _map_of_roadmap(
         stations=document.stations,
         rounding=note if rounded else None,
         chord_error=error,
-        notes=tuple(note_on_curves(len({*map(frozenset, curves)}), error, units)) if is_cut else (),
+        notes=(
+            *(note_on_curves(len({*map(frozenset, curves)}), error, units) if is_cut else ()),
+            *note_on_crossed(split, units),
+        ),
     )
 
 
 def _shapes(
     curves: Mapping[tuple[str, str], LaneCurve],
     positions: Mapping[str, Point],
-    on: MapDocument,
+    spacing: Fraction | None,
     has_sizes: bool,
 ) -> dict[tuple[str, str], tuple[Point, ...]]:
     """Return the points at which curves are cut; for robots without a size by spacing alone."""
-    if has_sizes or on.spacing is None:
+    if has_sizes or spacing is None:
         return {ends: curve.points for ends, curve in curves.items()}
-    refuse_many_pieces((curve.length for curve in curves.values()), on.spacing)
+    refuse_many_pieces((curve.length for curve in curves.values()), spacing)
     return {
-        (tail, head): points_along(curve, positions[tail], positions[head], on.spacing)
+        (tail, head): points_along(curve, positions[tail], positions[head], spacing)
         for (tail, head), curve in curves.items()
     }
 

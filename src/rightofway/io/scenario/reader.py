@@ -97,7 +97,8 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
             place_robots(robots, None, wrong, deals=deals)
             if wrong.found:
                 return None
-        loaded_map = map_of(drawn, base, units, robots.traits)
+        traits = replace(robots.traits, clearance=rules.clearance)
+        loaded_map = map_of(drawn, base, units, traits)
         loaded_map = loaded_map and with_picture(loaded_map, drawn.picture, pictures or base)
         return (
             loaded_map

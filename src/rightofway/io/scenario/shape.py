@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any, Literal, Self
 
 from pydantic import ConfigDict, Field, GetJsonSchemaHandler, field_validator, model_validator
 from pydantic_core import CoreSchema
 
+from rightofway.deadline import READING, check_work
 from rightofway.errors import shown
 from rightofway.io.fields import (
     POSITION,
@@ -24,6 +26,7 @@ from rightofway.io.fields import (
     RobotSize,
     Share,
     Size,
+    Spacing,
     Words,
     exactly_one_of,
     finish_schema,
@@ -89,6 +92,7 @@ class EdgeDocument(Document):
     @model_validator(mode="before")
     @classmethod
     def _read_list(cls, data: Any) -> Any:
+        check_work(READING)
         if not isinstance(data, list | tuple):
             return data
         if len(data) not in {2, 3}:
@@ -122,6 +126,7 @@ class VertexDocument(Document):
     @model_validator(mode="before")
     @classmethod
     def _read_position(cls, data: Any) -> Any:
+        check_work(READING)
         return data if isinstance(data, dict) else {"at": POSITION.read(data)}
 
     @classmethod
@@ -242,7 +247,11 @@ class MapDocument(Document):
     obstacles: list[ObstacleDocument] = Field(
         default=[], description="names of blocked cells of a grid or file: a list of rectangles"
     )
-    spacing: Positive = optional("split longer edges of a roadmap into pieces [length unit]")
+    spacing: Spacing = Field(
+        default="auto",
+        description="how edges of a roadmap are split into pieces: longer ones than a length"
+        " [length unit]; auto: those that others cross, for robots with a size; whole: none",
+    )
     picture: PictureDocument = optional("{file, scale, origin, opacity}: a picture below the map")
 
     @model_validator(mode="after")
@@ -262,7 +271,7 @@ class MapDocument(Document):
             if key in self.model_fields_set:
                 reason = "which has its own" if kind == "layout" else "and is for a layout"
                 raise ValueError(f"{key} is given with a {kind}, {reason} (take it out)")
-        if kind not in {"roadmap", "layout"} and self.spacing is not None:
+        if kind not in {"roadmap", "layout"} and "spacing" in self.model_fields_set:
             raise ValueError(
                 f"spacing is given with a {kind}, which has no long edges (take it out)"
             )
@@ -287,6 +296,15 @@ class MapDocument(Document):
     def y_up(self) -> bool:
         """Whether y grows upwards."""
         return self.y == "up"
+
+    @property
+    def longest_piece(self) -> Fraction | None:
+        """The length that longer edges are split at [length unit]; None for none."""
+        return self.spacing if isinstance(self.spacing, Fraction) else None
+
+    def choose_distance(self, distance: Fraction) -> Fraction:
+        """Return the least distance of robots for which crossed lanes are split; 0 for none."""
+        return distance if self.spacing == "auto" else Fraction(0)
 
 
 class StopDocument(Document):

@@ -37,7 +37,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     roadmap = checked_scenario(scenario).roadmap
     return {
         "format": SCENARIO_FORMAT,
-        "map": _map(roadmap),
+        "map": _map(roadmap) | _spacing(scenario),
         **_units(scenario.units),
         "robots": [_robot(robot, roadmap) for robot in scenario.robots],
         "rules": plain_attributes(scenario.rules),
@@ -124,6 +124,12 @@ def _units(units: Units) -> dict[str, Any]:
 
 def _map(roadmap: Roadmap) -> dict[str, Any]:
     return {**_shape(roadmap), **_picture(roadmap.drawing.picture)}
+
+
+def _spacing(scenario: Scenario) -> dict[str, str]:
+    """Return that lanes have been split, where a reader would split them for sizes."""
+    splits = any(robot.radius for robot in scenario.robots) and not scenario.roadmap.has_cells
+    return {"spacing": "whole"} if splits else {}
 
 
 def _picture(picture: Picture | None) -> dict[str, Any]:

@@ -1,16 +1,17 @@
-"""When to stop, and a time limit for the work that goes into a scenario.
+"""When to stop, and a deadline for the work that goes into a scenario.
 
-A scenario derives what it needs when it is made, for example the resources that it books. A reader
-makes it far below the command that has the time limit, so that `limited_work` hands the limit down.
+A large file takes seconds to read, and its scenario derives what it needs when it is made. Both are
+done far below the command that has the time limit, so that `limit_work` hands the deadline down.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from typing import TypeVar
 
 from rightofway.errors import GaveUp
 
@@ -55,43 +56,35 @@ class Deadline:
 NO_DEADLINE = Deadline()
 
 
-@dataclass(slots=True)
-class WorkLimit:
-    """The time limit of work whose beginning is not known yet.
+_deadline: ContextVar[Deadline] = ContextVar("deadline of the work", default=NO_DEADLINE)
 
-    Attributes
-    ----------
-    seconds
-        How long the work may take [s]; None for no limit.
-    deadline
-        When it has to end; None before it begins.
-    """
+READING, DERIVING = "reading the map", "working out how long robots drive"
+"""What takes the time, for messages."""
 
-    seconds: float | None = None
-    deadline: Deadline | None = None
+STEPS_BETWEEN_LOOKS = 256
+"""Items of a long loop between two looks at the clock."""
 
-    def begun(self) -> Deadline:
-        """Return when the work has to end; if it has not begun, it begins now."""
-        if self.deadline is None:
-            self.deadline = Deadline.after(self.seconds)
-        return self.deadline
-
-
-_limit: ContextVar[WorkLimit] = ContextVar("work limit")
+T = TypeVar("T")
 
 
 @contextmanager
-def limited_work(limit: WorkLimit) -> Iterator[None]:
-    """Limit the work on scenarios that are made inside."""
-    token = _limit.set(limit)
+def limit_work(deadline: Deadline) -> Iterator[None]:
+    """Limit the work inside that asks `check_work`: reading files, making scenarios of them."""
+    token = _deadline.set(deadline)
     try:
         yield
     finally:
-        _limit.reset(token)
+        _deadline.reset(token)
 
 
 def check_work(doing: str) -> None:
     """Raise `GaveUp` if the time for such work is over; to be called in long loops."""
-    limit = _limit.get(None)
-    if limit is not None:
-        limit.begun().check(doing)
+    _deadline.get().check(doing)
+
+
+def limit_loop(items: Iterable[T], doing: str) -> Iterator[T]:
+    """Yield items of a long loop; raise `GaveUp` between two of them if the time is over."""
+    for step, item in enumerate(items):
+        if step % STEPS_BETWEEN_LOOKS == 0:
+            check_work(doing)
+        yield item
