@@ -155,12 +155,12 @@ FIRST_WORDS = """
     draw drive dump empty end enter enters evict exclude execute explain export extract fill find
     finish finishes flip flush follow forget free get give go goes handle hang happens has have hold
     holds improve inline insert inspect is judge keep keeps kill limit list listen load locate make
-    may measure mix name need note obey open order owns parse pause perturb plan prepare prioritize
-    prove put reaches read receive recognizes refuse release relocate remind remove rename repair
-    repeat replan replay report reroute reset resolve restore resume retime reverse rollback run
-    save say search send serve set sets settle share show simulate solve speak splice split spread
-    start stay step stop stretch submit survey switch take tell to trace turn upload validate wait
-    waits widen withdraw work write
+    may measure mix name need note obey open order owns parse pass pause perturb place plan prepare
+    prioritize prove put reaches read receive recognizes refuse release relocate remind remove
+    rename repair repeat replan replay report reroute reset resolve restore resume retime retry
+    reverse rollback run save say search send serve set sets settle share show simulate skip solve
+    speak splice split spread start stay step stop stretch submit survey switch take tell to trace
+    turn upload validate wait waits widen withdraw work write
 """
 VERBS = frozenset(FIRST_WORDS.split())
 """First words of functions: verbs, claims (``is_empty``), ``as_``, ``to_``; add what is missing."""

@@ -12,6 +12,7 @@ from rightofway.control import FleetControl, SqliteJournal
 from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.laps import LapsToDrive
+from rightofway.control.operator import Operator
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
 from tests.builders.chaos import MemoryJournal
@@ -30,7 +31,7 @@ def driven(steps: int, journal: MemoryJournal | SqliteJournal | None = None) -> 
 
 def obey(floor: Floor, commands: Commands) -> None:
     """Carry commands out, and answer them."""
-    messages, answers = floor.dispatcher.obey(commands)
+    messages, answers = Operator(floor.dispatcher).obey(commands)
     floor.send(messages)
     for number, answer in answers:
         commands.answer(number, answer)
@@ -38,7 +39,7 @@ def obey(floor: Floor, commands: Commands) -> None:
 
 def jobs_of(floor: Floor) -> dict[str, str]:
     """Return where the jobs are that are not done, by name."""
-    return {job["name"]: job["at"] for job in floor.dispatcher.jobs()}
+    return {job["name"]: job["at"] for job in floor.dispatcher.list_jobs()}
 
 
 def test_a_job_that_is_added_goes_where_it_is_least_out_of_the_way_and_is_done() -> None:
@@ -115,11 +116,11 @@ def test_a_command_is_carried_out_once_though_its_answer_was_lost(tmp_path: Path
     assert people.wait_for(number, 0) == {"done": True, "text": "R1/job1 at N7 is added"}
     people._database.execute("UPDATE commands SET answer = NULL")
     again = Dispatcher(FleetControl(journal), door())
-    [(_, answer)] = again.obey(commands)[1]
+    [(_, answer)] = Operator(again).obey(commands)[1]
     commands.answer(number, answer)
     assert people.wait_for(number, 0) == {"done": True, "text": "R1/job1 at N7 is added"}
-    assert [job["name"] for job in again.jobs()].count("R1/job1") == 1
-    assert "R1/job2" not in [job["name"] for job in again.jobs()]
+    assert [job["name"] for job in again.list_jobs()].count("R1/job1") == 1
+    assert "R1/job2" not in [job["name"] for job in again.list_jobs()]
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,8 @@ ACTIONS = {
     "add": "give a robot a job: --at, perhaps --work and --robot",
     "change": "change a job NAME that is not released: --at, --work",
     "withdraw": "take back a job NAME that is not released",
+    "again": "have a robot do a job NAME again that has failed",
+    "skip": "give up a job NAME that has failed: its robot goes on without it",
     "close": "let no robot enter the vertex NAME, or the lane from NAME to --to",
     "open": "open it again",
     "hold": "release nothing more to the robot NAME, or to all",
@@ -23,6 +25,8 @@ ACTIONS = {
     "cancel": "take back what is released to the robot NAME, as far as it can stop before",
     "clear": "confirm that the faulty robot NAME is where the journal has it",
     "remove": "confirm that the robot NAME is off the floor",
+    "place": "take the robot NAME in again where it says that it is, or at --at",
+    "replan": "replan the rest as robots stand, round those that do not go on",
 }
 
 EXAMPLES = """\b
@@ -46,7 +50,7 @@ def _time(_context: click.Context, _parameter: click.Parameter, given: str | Non
 @click.argument("journal", type=click.Path())
 @click.argument("action", type=click.Choice(list(ACTIONS)))
 @click.argument("name", required=False)
-@click.option("--at", metavar="VERTEX", help="Where the job is.")
+@click.option("--at", metavar="VERTEX", help="Where the job is, or the robot.")
 @click.option("--work", metavar="TIME", callback=_time, help="How long it lasts [time unit].")
 @click.option("--to", metavar="VERTEX", help="The other end of a lane, to close or open it.")
 @click.option("--robot", metavar="ROBOT",
@@ -77,7 +81,22 @@ def jobs(
         raise InputError.at(journal, "is no file (name the journal of rightofway drive)")
     if action == "add" and at is None:
         raise click.UsageError("a job is somewhere (give --at)")
-    if action in {"change", "withdraw", "close", "open", "cancel", "clear", "remove"} and not name:
+    if (
+        action
+        in {
+            "change",
+            "withdraw",
+            "close",
+            "open",
+            "cancel",
+            "clear",
+            "remove",
+            "again",
+            "skip",
+            "place",
+        }
+        and not name
+    ):
         raise click.UsageError(f"{action} needs a NAME")
     from rightofway.control.commands import Commands
 

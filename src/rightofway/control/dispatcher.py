@@ -8,36 +8,29 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
-from fractions import Fraction
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from rightofway.control.commands import Answer, Commands
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive, graph_behind_released
-from rightofway.control.ledger import Edge, Ledger
+from rightofway.control.ledger import Edge, Ledger, RobotLedger, RouteToDrive
 from rightofway.control.messages import Message
 from rightofway.control.rest import RestPlanner, StopToMake, stops_to_make
 from rightofway.control.routes import routes_to_drive
 from rightofway.errors import GaveUp, InputError, nearest, shown
 from rightofway.model import Plan
-from rightofway.precedence import ReleaseGraph
+from rightofway.precedence import Part, ReleaseGraph
 from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId
 
 __all__ = ["Dispatcher"]
 
-OPERATIONS: Mapping[str, Entry] = {
-    "hold": {"kind": "hold", "on": True},
-    "go": {"kind": "hold", "on": False},
-    "clear": {"kind": "cleared"},
-    "cancel": {"kind": "cancel wanted"},
-    "remove": {"kind": "taken off"},
-}
-"""What an operator does to robots: the entry of each command."""
+PATIENCE = 10
+"""Seconds for which a robot does not go on before others are replanned round it."""
 
 UNREACHABLE = 10**12
 """More than any way [ticks]."""
@@ -56,6 +49,11 @@ class Dispatcher:
         What robots repeat for ever; None where they drive the plan once.
     planner, time_limit
         The planner of the rest where jobs change, and its time for one plan [s].
+
+    Attributes
+    ----------
+    command
+        The number of the command that is carried out, until it is committed with its answer.
     """
 
     def __init__(
@@ -68,9 +66,11 @@ class Dispatcher:
         time_limit: float | None = 2,
     ) -> None:
         self.control, self.plan, self._laps = control, plan, laps
-        self._command: int | None = None  # the number of that under way
+        self.command: int | None = None
         self._distances = Distances(plan.scenario.roadmap)
         self._rest = RestPlanner(plan.scenario, planner, time_limit)
+        self._stuck_for: dict[int, int] = {}  # calls of `pass_stuck` in a row, by robot
+        self._passed = frozenset[int]()  # robots that the rest is planned round
         control.dispatch = self._dispatch
 
     @property
@@ -141,7 +141,7 @@ class Dispatcher:
         """
         self.plan.scenario.roadmap.vertex(at)  # refuses what is none
         robots = self.ledger.robots
-        candidates = [self._robot(robot)] if robot is not None else range(len(robots))
+        candidates = [self.number_of(robot)] if robot is not None else range(len(robots))
         on_floor = [number for number in candidates if not robots[number].is_off]
         if not on_floor:
             raise InputError.at("robot", "is off the floor (name another one, or none)")
@@ -205,6 +205,48 @@ class Dispatcher:
         text = f"{name} is withdrawn"
         return self._replanned(stops, withdrawn=[(number, job)], text=text)
 
+    def retry_job(self, name: str) -> list[Message]:
+        """Have a robot do a job again that has failed: by a new order from where it stands.
+
+        Parameters
+        ----------
+        name
+            The job, as ``R1/job2``.
+
+        Raises
+        ------
+        InputError
+            If it has not failed.
+        """
+        entry = {"kind": "again", **self._failed_job(name)}
+        robot = entry["robot"]
+        return self.note(
+            entry, {"kind": "cancel wanted", "robot": robot}, text=f"{name} is done again"
+        )
+
+    def skip_job(self, name: str) -> list[Message]:
+        """Give up a job that has failed: its robot goes on without it.
+
+        Parameters
+        ----------
+        name
+            The job, as ``R1/job2``.
+
+        Raises
+        ------
+        InputError
+            If it has not failed.
+        """
+        return self.note({"kind": "skipped", **self._failed_job(name)}, text=f"{name} is skipped")
+
+    def _failed_job(self, name: str) -> Entry:
+        """Return robot and job of a failed job."""
+        robot, _, job = name.rpartition("/")
+        number = self.number_of(robot)
+        if job not in self.ledger.robots[number].failed:
+            raise InputError.at("job", f"{shown(name)} has not failed (see rightofway jobs list)")
+        return {"robot": number, "job": job}
+
     def replan(self) -> list[Message]:
         """Plan the rest as things are now.
 
@@ -221,13 +263,49 @@ class Dispatcher:
         A robot that is lost, faulty, on hold or not fit lets others go first, where they can.
         """
         control, ledger = self.control, self.ledger
-        stuck = [
-            robot
-            for robot, own in enumerate(ledger.robots)
-            if own.is_on_hold or own.fault is not None or not control.is_fit(robot)
-        ]
-        better = self._rest.switched(ledger.robots, control.committed(), stuck)
+        better = self._rest.switched(ledger.robots, control.committed(), control.list_stuck())
         return control.splice(*better) if better else []
+
+    def place_robot(self, name: str, at: str | None = None) -> list[Message]:
+        """Take in a robot again that was off the floor, where a person has put it.
+
+        Its jobs that are not done are planned from there. It gets a new order; an order of before
+        that it still has makes it faulty.
+
+        Parameters
+        ----------
+        name
+            Of the robot.
+        at
+            The name of a vertex; None for that where the robot says that it is.
+
+        Raises
+        ------
+        InputError
+            If the robot is not off the floor, or does not say where it is.
+        GaveUp
+            If no plan from there was found, as where another robot is in the way.
+        """
+        robot = self.number_of(name)
+        own, said = self.ledger.robots[robot], self.control.places.get(robot, "")
+        if not own.is_off:
+            remedy = f"confirm first that it is off the floor: rightofway jobs … remove {name}"
+            raise InputError.at("robot", f"{name} is on the floor ({remedy})")
+        if at is None and not said:
+            raise InputError.at("robot", f"{name} does not say where it is (give --at)")
+        place = at or said
+        self.plan.scenario.roadmap.vertex(place)  # refuses what is none
+        first, stops = own.route.end, self._stops()
+        stops[robot] = stops_to_make(own, own.arrived - 1)
+        if stops[robot] and stops[robot][0].ends_lap:
+            del stops[robot][0]  # it was counted when the robot arrived
+        begun = replace(own, route=_route_from(own.route, place), is_off=False)
+        begun.arrived = begun.released = first
+        notes = self._carried_out(f"{name} goes on from {place}")
+        return [
+            *self._plan_rest(stops, notes=notes, placed={robot: begun}),
+            *self._dispatch(),
+        ]
 
     def close(self, *names: str) -> list[Message]:
         """Let no robot enter a vertex or a lane; those that hold it drive on.
@@ -271,84 +349,13 @@ class Dispatcher:
     def _noted(self, entry: Entry, state: str) -> list[Message]:
         """Commit a change of the floor, then replan the rest if that is possible."""
         text = f"{_name_place(entry['names'])} is {state}"
-        messages = self.control.note(entry, *self._carried_out(text))
-        self._command = None
+        messages = self.note(entry, text=text)
         try:
             return [*messages, *self.replan()]
         except GaveUp:
             return messages
 
-    # --- commands of people ----------------------------------------------------------------------
-
-    def obey(self, commands: Commands) -> tuple[list[Message], list[tuple[int, Answer]]]:
-        """Carry out what people have asked for, each command once.
-
-        Parameters
-        ----------
-        commands
-            The file beside the journal.
-
-        Returns
-        -------
-        tuple
-            What is to be sent, and the answers: give them to `Commands.answer` once all is on the
-            disk.
-        """
-        messages: list[Message] = []
-        answers: list[tuple[int, Answer]] = []
-        for number, command in commands.unanswered():
-            if number <= self.ledger.commands:  # it was carried out before a start
-                is_last = number == self.ledger.commands
-                text = self.ledger.answer if is_last else "carried out before a start"
-                answers.append((number, {"done": True, "text": text}))
-                continue
-            self._command = number
-            try:
-                more, answer = self._obey(command)
-            except (InputError, GaveUp) as error:
-                more, answer = [], {"done": False, "text": str(error)}
-            self._command = None
-            answers.append((number, answer))
-            messages += more
-        return messages, answers
-
-    def _obey(self, command: Mapping[str, Any]) -> tuple[list[Message], Answer]:
-        """Carry out a command; return what is to be sent, and the answer."""
-        kind, name = command["kind"], command.get("name")
-        at, work, robot = command.get("at"), command.get("work"), command.get("robot")
-        names = [str(command[key]) for key in ("name", "to") if key in command]
-        ticks = None if work is None else self.plan.scenario.problem.clock.ticks(Fraction(work))
-        match kind:
-            case "list":
-                return [], {"done": True, "text": "", "jobs": self.jobs()}
-            case "add":
-                messages = self.add_job(str(at), int(ticks or 0), robot)[1]
-            case "change":
-                messages = self.change_job(str(name), at, ticks)
-            case "withdraw":
-                messages = self.withdraw_job(str(name))
-            case "close":
-                messages = self.close(*names)
-            case "open":
-                messages = self.open(*names)
-            case _:
-                messages = self._operate(kind, name)
-        return messages, {"done": True, "text": self.ledger.answer}
-
-    def _operate(self, kind: str, name: str | None) -> list[Message]:
-        """Hold one robot or all, let them go, or confirm where one is."""
-        names = self.ledger.names
-        robots = range(len(names)) if name is None else [self._robot(name)]
-        entry = OPERATIONS.get(kind)
-        if entry is None:
-            raise InputError.at("command", f"{shown(kind)} is no command (see rightofway jobs)")
-        if name is None and kind not in {"hold", "go"}:
-            raise InputError.at("robot", f"{kind} needs the name of a robot (give one)")
-        text = f"{name or 'all robots'}: {kind}"
-        entries = [{**entry, "robot": robot} for robot in robots]
-        return self.control.note(*entries, *self._carried_out(text))
-
-    def jobs(self) -> list[dict[str, Any]]:
+    def list_jobs(self) -> list[dict[str, Any]]:
         """Return the jobs of all robots that are not done, in their order: name, place, state."""
         rows = []
         for name, own in zip(self.ledger.names, self.ledger.robots, strict=True):
@@ -362,11 +369,43 @@ class Dispatcher:
                     rows.append({"name": f"{name}/{job}", "at": place, "state": state})
         return rows
 
+    def number_of(self, name: str) -> int:
+        """Return the number of a robot.
+
+        Parameters
+        ----------
+        name
+            Its name.
+
+        Raises
+        ------
+        InputError
+            If no robot has it.
+        """
+        names = self.ledger.names
+        if name not in names:
+            meant = nearest(name, names) or names[0]
+            raise InputError.at("robot", f"{shown(name)} is no robot (for example {meant})")
+        return names.index(name)
+
+    def note(self, *entries: Entry, text: str) -> list[Message]:
+        """Commit what a command changes, with its answer.
+
+        Parameters
+        ----------
+        entries
+            What it changes.
+        text
+            The answer.
+        """
+        return self.control.note(*entries, *self._carried_out(text))
+
     def _carried_out(self, text: str) -> list[Entry]:
         """Return the entry of the command that is under way, with its answer."""
-        if self._command is None:
+        if self.command is None:
             return []
-        return [{"kind": "command", "number": self._command, "answer": text}]
+        number, self.command = self.command, None
+        return [{"kind": "command", "number": number, "answer": text}]
 
     def _stops(self) -> list[list[StopToMake]]:
         rows = zip(self.ledger.robots, self.control.committed(), strict=True)
@@ -390,10 +429,47 @@ class Dispatcher:
         *,
         withdrawn: Collection[tuple[int, str]] = (),
         notes: Sequence[Entry] = (),
+        placed: Mapping[int, RobotLedger] | None = None,
     ) -> list[Message]:
-        ledger, released = self.ledger, self.control.committed()
-        routes, graph = self._rest.plan(ledger.robots, released, stops, ledger.closed_edges)
-        return self.control.splice(routes, graph, withdrawn=withdrawn, notes=notes)
+        """Plan the rest with these stops; robots that are placed begin where they are put."""
+        ledger, placed = self.ledger, placed or {}
+        robots = [placed.get(robot, own) for robot, own in enumerate(ledger.robots)]
+        released = self.control.committed()
+        for robot, own in placed.items():
+            released[robot] = own.released
+        stuck = [robot for robot in self._passed if robot not in placed]
+        routes, graph = self._rest.plan(robots, released, stops, ledger.closed_edges, stuck)
+        return self.control.splice(
+            routes, graph, withdrawn=withdrawn, notes=notes, placed=[*placed]
+        )
+
+    # --- robots that do not go on ----------------------------------------------------------------
+
+    def pass_stuck(self) -> list[Message]:
+        """Replan round robots that do not go on, if others wait for them; call it every second.
+
+        A robot is passed when it has not been fit, or on hold, for a while. Once it is fit again,
+        the rest is replanned with it. Where no plan is found the old one stands, and it is tried
+        again later.
+        """
+        ledger, control = self.ledger, self.control
+        self._stuck_for = {k: self._stuck_for.get(k, 0) + 1 for k in control.list_stuck()}
+        long = frozenset(k for k, times in self._stuck_for.items() if times >= PATIENCE)
+        awaited = {
+            arrival.robot
+            for robot, own in enumerate(ledger.robots)
+            if robot not in self._stuck_for
+            for arrival in ledger.graph.missing(Part(robot, own.released + 1), ledger.arrived)
+        }
+        if long == self._passed or (long > self._passed and not long & awaited):
+            return []
+        before, self._passed = self._passed, long
+        try:
+            return self.replan()
+        except GaveUp:
+            self._passed = before & long
+            self._stuck_for = dict.fromkeys(self._stuck_for, 0)
+            return []
 
     def _detour(self, robot: int, stops: Sequence[StopToMake], at: str) -> tuple[int, int]:
         """Return how much longer a robot drives for a job at best, and before which stop."""
@@ -416,17 +492,10 @@ class Dispatcher:
             for place, (before, after) in enumerate(pairwise(vertices))
         )
 
-    def _robot(self, name: str) -> int:
-        names = self.ledger.names
-        if name not in names:
-            meant = nearest(name, names) or names[0]
-            raise InputError.at("robot", f"{shown(name)} is no robot (for example {meant})")
-        return names.index(name)
-
     def _open_job(self, stops: Sequence[Sequence[StopToMake]], name: str) -> tuple[int, int]:
         """Return the robot of a job that is not released, and which of its stops it is."""
         robot, _, job = name.rpartition("/")
-        number = self._robot(robot)
+        number = self.number_of(robot)
         for place, stop in enumerate(stops[number]):
             if stop.job == job:
                 return number, place
@@ -435,6 +504,17 @@ class Dispatcher:
             state = "done" if job in own.finished else "released"
             raise InputError.at("job", f"{shown(name)} is {state} already (it cannot be changed)")
         raise InputError.at("job", f"{shown(name)} is no job (see rightofway jobs list)")
+
+
+def _route_from(route: RouteToDrive, place: str) -> RouteToDrive:
+    """Return where a robot begins that was put at a place, and where its route ends.
+
+    Its visits have numbers that no order of before has.
+    """
+    places = (place, route.places[-1])
+    return RouteToDrive(
+        places=places, jobs=((), ()), work=((), ()), enter=(0, 1), first=route.end, in_step=False
+    )
 
 
 def _list_edges_into(roadmap: Roadmap, names: Sequence[str]) -> list[Edge]:

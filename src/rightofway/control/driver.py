@@ -25,6 +25,7 @@ from rightofway.control.journal import BatchedJournal, Entry, Journal, JournalFa
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.messages import Message
 from rightofway.control.notices import Notices, notice
+from rightofway.control.operator import Operator
 from rightofway.control.order_map import OrderMap
 from rightofway.control.story import Story
 from rightofway.errors import InputError
@@ -222,11 +223,14 @@ class Driver:
             self._news.set()
 
     def _obey(self) -> list[Letter]:
-        """Switch rights of way, carry out what people have asked for; return what is to be sent."""
-        switched = self.end.letters(self.dispatcher.switch()) if self._switches else []
+        """Pass robots that are stuck, switch rights of way, and carry out commands."""
+        changes = [*self.dispatcher.pass_stuck()]
+        if self._switches:
+            changes += self.dispatcher.switch()
+        switched = self.end.letters(changes)
         if self._commands is None:
             return switched
-        messages, answers = self.dispatcher.obey(self._commands)
+        messages, answers = Operator(self.dispatcher).obey(self._commands)
         self._answers += answers
         for _, answer in answers:
             if answer["text"]:

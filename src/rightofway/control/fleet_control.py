@@ -54,6 +54,8 @@ class FleetControl:
     conditions
         How robots are, by their last states since the start. Conditions are not kept: they hold
         releases back, and never let one go.
+    places
+        The last place of each robot, by its last state since the start.
     lost
         Robots that no message reaches.
     refused
@@ -75,7 +77,10 @@ class FleetControl:
         self._snapshot_every = snapshot_every
         self.ledger = Ledger()
         self.conditions: dict[int, Condition] = {}
+        self.places: dict[int, str] = {}
         self.lost, self.refused = set[int](), set[int]()
+        self._reminded = set[int]()  # robots that were sent again what they have not answered
+        self._just_sent = set[int]()  # robots that the next reminder leaves out
         self.dispatch: Callable[[], list[Message]] = list
         self._since_snapshot = 0
         for entry in journal.entries():
@@ -129,6 +134,7 @@ class FleetControl:
         *,
         withdrawn: Collection[tuple[int, str]] = (),
         notes: Sequence[Entry] = (),
+        placed: Collection[int] = (),
     ) -> list[Message]:
         """Replace all that is not released by other routes and rights of way.
 
@@ -143,6 +149,9 @@ class FleetControl:
             Robot and name of jobs that nobody wants any more.
         notes
             Entries that are committed together with the splice.
+        placed
+            Robots off the floor that were put at the begin of their routes; the first visit has a
+            number that no order of before has.
 
         Raises
         ------
@@ -154,18 +163,23 @@ class FleetControl:
         _refuse_rotation(graph, names)
         for robot, (own, new, end) in enumerate(zip(robots, routes, committed, strict=True)):
             old, begin = own.route, max(own.route.first, new.first)
-            released_visits = range(begin, end + 1)
-            if begin > own.arrived or any(
-                (old.place(visit), old.jobs_at(visit)) != (new.place(visit), new.jobs_at(visit))
-                for visit in released_visits
-            ):
+            if robot in placed:
+                committed[robot] = begin
+                keeps_released = own.is_off and begin == old.end
+            else:
+                keeps_released = begin <= own.arrived and all(
+                    (old.place(visit), old.jobs_at(visit)) == (new.place(visit), new.jobs_at(visit))
+                    for visit in range(begin, end + 1)
+                )
+            if not keeps_released:
                 message = "the route changes what is released (begin it with the released parts)"
                 raise InputError.at(("routes", robot), message)
             unwanted = {job for other, job in withdrawn if other == robot}
             if lost := sorted(old.all_jobs() - own.finished - new.all_jobs() - unwanted):
                 raise InputError.at(("routes", robot), f"{lost[0]} is in no visit (keep each job)")
         entry = plan_entry("splice", self.ledger.run, routes, graph, committed=committed)
-        self._commit({**entry, "withdrawn": [list(job) for job in withdrawn]}, *notes)
+        begins = [{"kind": "placed", "robot": k, "visit": routes[k].first} for k in placed]
+        self._commit(*begins, {**entry, "withdrawn": [list(job) for job in withdrawn]}, *notes)
         if self._since_snapshot >= self._snapshot_every:
             self._journal.begin_again(self.ledger.snapshot())
             self._since_snapshot = 0
@@ -246,6 +260,15 @@ class FleetControl:
         condition = self.conditions.get(robot)
         return condition is None or condition.is_fit
 
+    def list_stuck(self) -> list[int]:
+        """Return the robots on the floor that do not go on for now."""
+        return [
+            robot
+            for robot, own in enumerate(self.ledger.robots)
+            if not own.is_off
+            and (own.is_on_hold or own.fault is not None or own.failed or not self.is_fit(robot))
+        ]
+
     # --- what comes in ---------------------------------------------------------------------------
 
     def receive(self, robot: int, state: RobotState) -> list[Message]:
@@ -258,16 +281,24 @@ class FleetControl:
         state
             Its state.
         """
-        self.conditions[robot] = state.condition
+        self.conditions[robot], self.places[robot] = state.condition, state.last_place
         self.lost.discard(robot)
         own, graph = self.ledger.robots[robot], self.ledger.graph
         before = own.arrived
         self._commit(*self._facts(robot, state))
-        self._commit(*self._answers(robot, state))
+        answers = list(self._answers(robot, state))
+        self._commit(*answers)
+        # At once: by the timer alone, a robot that says often that it has no order, because the
+        # next one is not sent yet, could be asked without end.
+        sends = list[Message]()
+        if any(entry["kind"] in {"doubt", "order"} for entry in answers):
+            self._reminded.discard(robot)
+            self._just_sent.add(robot)
+            sends += self._open(robot)
         # Nobody else can go on because of a state than those that wait for what it proves.
         let_go = (Arrival(robot, visit) for visit in range(before + 1, own.arrived + 1))
         others = {part.robot for arrival in let_go for part in graph.after(arrival)}
-        return [*self._go_on(sorted({robot, *others})), *self.dispatch()]
+        return [*sends, *self._go_on(sorted({robot, *others})), *self.dispatch()]
 
     def connect(self, robot: int, *, is_connected: bool) -> list[Message]:
         """Note whether messages reach a robot. A robot that is lost keeps what it holds.
@@ -297,8 +328,10 @@ class FleetControl:
 
     def remind(self) -> list[Message]:
         """Return again what robots have not answered; call it every few seconds."""
-        robots = range(len(self.ledger.robots))
+        robots = [k for k in range(len(self.ledger.robots)) if k not in self._just_sent]
         messages = [message for robot in robots for message in self._open(robot)]
+        self._reminded |= {message.robot for message in messages}
+        self._just_sent.clear()
         return [*messages, *self.dispatch()]
 
     def _open(self, robot: int) -> Iterator[Message]:
@@ -372,11 +405,7 @@ class FleetControl:
         own = self.ledger.robots[robot]
         sent = own.orders.get(state.order_id)
         if sent is None:
-            is_known = not state.order_id or self.ledger.owns(robot, state.order_id)
-            order = printable(state.order_id[:80])
-            return (
-                None if is_known else Phrase("it has order {order}, which is not ours", order=order)
-            )
+            return self._fault_of_order(robot, own, state)
         if state.update_id >= sent.updates:
             return Phrase(
                 "it has update {update} of an order with {updates}",
@@ -394,6 +423,18 @@ class FleetControl:
         places = own.route.stretch(sent.offset, end + 1)
         if state.order_id == own.order_id and state.last_place not in {*places, ""}:
             return Phrase("it is at {place}, off its way", place=printable(state.last_place[:80]))
+        return None
+
+    def _fault_of_order(self, robot: int, own: RobotLedger, state: RobotState) -> str | None:
+        """Return what is wrong with an order that is not kept."""
+        if not state.order_id:
+            return None
+        if not self.ledger.owns(robot, state.order_id):
+            order = printable(state.order_id[:80])
+            return Phrase("it has order {order}, which is not ours", order=order)
+        number = int(state.order_id.rpartition("-")[2])
+        if number < own.first_order and state.nodes:
+            return Phrase("it still has an order from before it was placed")
         return None
 
     # --- what follows for its orders (rules 6, 8, 9) ---------------------------------------------
@@ -420,7 +461,11 @@ class FleetControl:
     def _settle_doubt(self, robot: int, state: RobotState) -> Iterator[Entry]:
         """Yield a new doubt, or a new order where the robot answers that it has lost its own."""
         own = self.ledger.robots[robot]
+        assert own.message is not None
         if own.token is None:
+            is_on_its_way = own.message.update_id == 0 and not own.is_acknowledged
+            if is_on_its_way and robot not in self._reminded:
+                return  # the state may be from before
             token = f"{self.ledger.run}-{robot}-doubt{own.tokens}"
             yield {"kind": "doubt", "robot": robot, "token": token}
         elif own.token in state.actions and state.is_idle:
@@ -526,7 +571,7 @@ class FleetControl:
         if own.is_off or own.token is not None:
             return None
         if own.message is None:
-            return self._new_order(robot, 0, 0)
+            return self._new_order(robot, own.arrived, own.arrived)
         if not own.is_acknowledged:
             return None
         if own.cancel is None:

@@ -181,6 +181,7 @@ class RobotLedger:
     released: int = 0
     orders: dict[str, SentOrder] = field(default_factory=dict)  # without old ones
     order_count: int = 0  # of all
+    first_order: int = 0  # since a person placed the robot
     message: Order | None = None  # the last order or update
     is_acknowledged: bool = False
     token: str | None = None  # of a doubt
@@ -193,7 +194,7 @@ class RobotLedger:
     is_off: bool = False  # taken off the floor
     jobs_of: dict[str, str] = field(default_factory=dict)  # action id: job
     attempts: dict[str, int] = field(default_factory=dict)  # job: number of its last action
-    finished: set[str] = field(default_factory=set)  # jobs of the route
+    finished: set[str] = field(default_factory=set)  # jobs of the route, skipped ones too
     failed: set[str] = field(default_factory=set)
     next_job: int = 0  # the number of the next new job: no name comes twice
     jobs_done: int = 0  # of all
@@ -487,6 +488,27 @@ def _take_off(own: RobotLedger, _: Entry) -> None:
     own.is_off = True
 
 
+def _place(own: RobotLedger, entry: Entry) -> None:
+    """Have a robot begin at a visit that no order has; orders of before prove nothing."""
+    own.arrived = own.released = entry["visit"]
+    own.message, own.is_acknowledged, own.first_order = None, False, own.order_count
+    own.token = own.cancel = own.fault = own.strays_at = None
+    own.is_off = False
+    for job in own.failed:
+        own.attempts[job] += 1
+    own.failed.clear()
+
+
+def _retry(own: RobotLedger, entry: Entry) -> None:
+    own.attempts[entry["job"]] += 1
+    own.failed.discard(entry["job"])
+
+
+def _skip(own: RobotLedger, entry: Entry) -> None:
+    own.finished.add(entry["job"])
+    own.failed.discard(entry["job"])
+
+
 _APPLY = {
     "arrived": _arrive,
     "order": _order,
@@ -501,4 +523,7 @@ _APPLY = {
     "cleared": _clear,
     "hold": _hold,
     "taken off": _take_off,
+    "placed": _place,
+    "again": _retry,
+    "skipped": _skip,
 }
