@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from rightofway.errors import listed
+from rightofway.languages import read_tables
 from rightofway.phrases import Phrase, counted, joined, parts_of
-from rightofway.viz.page.translations import tables
 
 SOURCES = Path(__file__).parents[1] / "src" / "rightofway"
 VALUE = re.compile(r"\{(\w+)\}")
@@ -32,7 +32,7 @@ def _templates() -> Iterator[str]:
             if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)):
                 continue
             texts = [str(each.value) for each in node.args if isinstance(each, ast.Constant)]
-            if node.func.id == "Phrase":
+            if node.func.id in {"Phrase", "chain_items"}:
                 yield from texts
             elif node.func.id == "counted" and len(texts) > 1:
                 yield from (f"{{number}} {text}" for text in texts)
@@ -40,7 +40,7 @@ def _templates() -> Iterator[str]:
 
 def german() -> dict[str, str]:
     """Return the German of each template."""
-    return dict(tables()["de"])
+    return dict(read_tables()["de"])
 
 
 def test_every_phrase_of_the_library_has_its_german() -> None:
@@ -81,3 +81,61 @@ def test_items_are_joined_as_in_a_sentence(items: list[str], text: str) -> None:
 
 def test_plain_text_has_no_parts() -> None:
     assert parts_of("D1") == "D1"
+
+
+WORDS = re.compile(r"[A-Za-z]{2,} [A-Za-z]{2,}")
+"""Two words: text for people, a sentence or a part of one."""
+
+NOT_SAID = {
+    *("fail", "at", "BadParameter", "UsageError", "InputError", "GaveUp", "NoPlanExists"),
+    *("PlannerSpec", "check", "option", "section", "write_text"),
+}
+"""Calls whose texts are errors, or help: both are English, as keys and options are."""
+
+REFUSED = {"message", "remedy", "hint", "fault"}
+"""Names of variables for the parts of an error."""
+
+MOST_LITERALS = {"cli": 12, "planners": 11, "report": 0}
+"""How many parts of errors and help a room makes in other ways; the numbers may only fall."""
+
+
+def literals_for_people(node: ast.AST) -> Iterator[str]:
+    """Yield the texts of several words below a node that no phrase holds."""
+    if isinstance(node, ast.Constant | ast.JoinedStr):
+        parts = [getattr(part, "value", " ") for part in getattr(node, "values", [node])]
+        text = "".join(part if isinstance(part, str) else " " for part in parts)
+        if WORDS.search(text):
+            yield text
+    elif not is_exempt(node):
+        children = ast.iter_child_nodes(node)
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            children = iter(node.body)  # decorators hold help
+        for child in children:
+            yield from literals_for_people(child)
+
+
+def is_exempt(node: ast.AST) -> bool:
+    """Return whether texts in a node are phrases, errors, help, documentation, or keys."""
+    match node:
+        case ast.Expr(value=ast.Constant()) | ast.Raise() | ast.Assert() | ast.Compare():
+            return True
+        case ast.match_case() | ast.Subscript() | ast.Set():
+            return True
+        case ast.Assign(targets=[ast.Name(id=name)]):
+            return name in REFUSED
+        case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name)):
+            return name in NOT_SAID or name in {"Phrase", "counted", "chain_items"}
+        case _:
+            return False
+
+
+@pytest.mark.parametrize("room", MOST_LITERALS)
+def test_what_a_room_says_to_people_is_a_phrase(room: str) -> None:
+    literals = [
+        f"{path.relative_to(SOURCES)}: {text}"
+        for path in sorted((SOURCES / room).rglob("*.py"))
+        for function in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(function, ast.FunctionDef)
+        for text in literals_for_people(function)
+    ]
+    assert len(set(literals)) <= MOST_LITERALS[room], "\n".join(literals)

@@ -14,7 +14,7 @@ from typing import Any, Self
 MAX_TEXT = 100_000
 """Characters of a text that is read as template and values: values may be phrases of phrases."""
 
-__all__ = ["Phrase", "PhraseBook", "counted", "joined", "parts_of", "phrase_of"]
+__all__ = ["Phrase", "PhraseBook", "chain_items", "counted", "joined", "parts_of", "phrase_of"]
 
 
 class Phrase(str):
@@ -152,17 +152,34 @@ class PhraseBook:
         return self._index[entry]
 
 
-def counted(number: int | str, one: str, many: str) -> Phrase:
+def counted(number: int | str, singular: str, plural: str) -> Phrase:
     """Return how many things there are: ``1 vertex``, ``2 vertices``.
 
     Parameters
     ----------
     number
         How many, as a number or as a person writes it.
-    one, many
+    singular, plural
         The thing, and several of them.
     """
-    return Phrase(f"{{number}} {one if str(number) == '1' else many}", number=str(number))
+    noun = singular if str(number) == "1" else plural
+    return Phrase(f"{{number}} {noun}", number=number if isinstance(number, str) else str(number))
+
+
+def chain_items(items: Sequence[str], template: str = "{first}, {second}") -> str:
+    """Return items one after another: ``R1, R2, R3``.
+
+    Parameters
+    ----------
+    items
+        Names or phrases, one at least.
+    template
+        What stands between two of them.
+    """
+    first, *rest = items
+    for item in rest:
+        first = Phrase(template, first=first, second=item)
+    return first
 
 
 def joined(items: Sequence[str]) -> str:
@@ -173,7 +190,5 @@ def joined(items: Sequence[str]) -> str:
     items
         Names or phrases, one at least.
     """
-    first, *rest = items
-    for item in rest[:-1]:
-        first = Phrase("{first}, {second}", first=first, second=item)
-    return Phrase("{first} and {last}", first=first, last=rest[-1]) if rest else first
+    *others, last = items
+    return Phrase("{first} and {last}", first=chain_items(others), last=last) if others else last

@@ -197,7 +197,10 @@ class Quantities:
     @checks_arguments
     def heading(self, words: str) -> str:
         """Return the heading of a column of times: ``completes [s]``."""
-        return f"{words} [{self.time_unit}]" if self.time_unit else words
+        if self.in_ticks:
+            return Phrase("{heading} [ticks]", heading=words)
+        unit = self.time_unit
+        return Phrase("{heading} [{unit}]", heading=words, unit=unit) if unit else words
 
     @checks_arguments
     def length(self, value: Value) -> str:

@@ -32,6 +32,7 @@ from rightofway.model.given import (
     checked_truths,
 )
 from rightofway.model.outcome import outcome_of_cost
+from rightofway.phrases import Phrase
 from rightofway.planners import (
     DEFAULT_PLANNER,
     IMPROVER,
@@ -303,7 +304,7 @@ def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
 
     tracks = first_plan(task, old)
     if tracks is None:
-        task.report("the old plan does not help: planning from nothing")
+        task.report(Phrase("the old plan does not help: planning from nothing"))
         refuse_closed_ways(task.scenario, task.deadline)
         return spec.load()(task)
     task.has_plan()
@@ -311,7 +312,7 @@ def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
     try:
         return spec.load()(replace(task, start=tracks))
     except GaveUp:
-        return Draft(tracks=tracks, status="the old plan, changed where it had to be")
+        return Draft(tracks=tracks, status=Phrase("the old plan, changed where it had to be"))
 
 
 def _handing_over(
@@ -327,7 +328,7 @@ def _handing_over(
         name=spec.name,
         options=_written_options(task),
         seed=task.seed,
-        status="so far",
+        status=Phrase("so far"),
         alone=alone,
     )
     least: list[int] = []

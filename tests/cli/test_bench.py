@@ -25,8 +25,8 @@ def test_the_example_is_run_and_reported_on(cli: Cli) -> None:
     pytest.importorskip("matplotlib")
     ended = cli("bench", EXAMPLES / "suite.toml", "--report", "report.html")
     assert ended.code == 0
-    assert ended.out.splitlines()[0] == "planner       solved    ratio  first plan [s]"
-    assert ended.out.splitlines()[1].startswith("two-level      27/27    1.")
+    assert ended.out.splitlines()[0] == "planner    solved  ratio  first plan [s]"
+    assert ended.out.splitlines()[1].startswith("two-level   27/27  1.")
     rows = rows_of("results.csv")
     # 3 counts x 3 seeds x 2 fleets on the random grid, 3 x 2 in the warehouse, 3 at the door
     assert Counter(row["map"] for row in rows) == {
@@ -107,7 +107,7 @@ def test_however_a_case_ends_it_is_a_row_with_the_reason(cli: Cli) -> None:
     }
     for name, (_, _, message) in ENDS.items():
         assert rows[name]["message"].startswith(message.rstrip())
-    assert ended.out.splitlines()[2:4] == ["lazy           0/1", "liar           0/1"]
+    assert ended.out.splitlines()[2:4] == ["lazy        0/1", "liar        0/1"]
     assert cli("bench", "suite.toml").out == ended.out
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase
+from rightofway.phrases import Phrase, chain_items, counted
 from rightofway.quantities import Quantities
 from rightofway.site import VertexId
 
@@ -62,21 +62,27 @@ FaultKind = Literal[
 """
 
 
-PLURALS: Mapping[FaultKind, str] = {
-    "unknown vertex": "unknown vertices",
-    "wrong home": "wrong homes",
-    "jump": "jumps",
-    "turn cut short": "turns cut short",
-    "stop missed": "stops missed",
-    "wrong end": "wrong ends",
-    "vertex conflict": "vertex conflicts",
-    "headway": "headways",
-    "swap conflict": "swap conflicts",
-    "rotation": "rotations",
-    "space conflict": "space conflicts",
-    "zone conflict": "zone conflicts",
+FAULT_NAMES: Mapping[FaultKind, tuple[Phrase, Phrase]] = {
+    "unknown vertex": (Phrase("unknown vertex"), Phrase("unknown vertices")),
+    "wrong home": (Phrase("wrong home"), Phrase("wrong homes")),
+    "backwards": (Phrase("backwards"), Phrase("backwards")),
+    "jump": (Phrase("jump"), Phrase("jumps")),
+    "too fast": (Phrase("too fast"), Phrase("too fast")),
+    "turn cut short": (Phrase("turn cut short"), Phrase("turns cut short")),
+    "work cut short": (Phrase("work cut short"), Phrase("work cut short")),
+    "stop missed": (Phrase("stop missed"), Phrase("stops missed")),
+    "wrong end": (Phrase("wrong end"), Phrase("wrong ends")),
+    "vertex conflict": (Phrase("vertex conflict"), Phrase("vertex conflicts")),
+    "headway": (Phrase("headway"), Phrase("headways")),
+    "swap conflict": (Phrase("swap conflict"), Phrase("swap conflicts")),
+    "rotation": (Phrase("rotation"), Phrase("rotations")),
+    "space conflict": (Phrase("space conflict"), Phrase("space conflicts")),
+    "too close": (Phrase("too close"), Phrase("too close")),
+    "zone conflict": (Phrase("zone conflict"), Phrase("zone conflicts")),
+    "closed": (Phrase("closed"), Phrase("closed")),
+    "barred": (Phrase("barred"), Phrase("barred")),
 }
-"""Of several faults of a kind; a kind that is not a noun has none."""
+"""What people call a fault of each kind, and several of it."""
 
 
 Verdict = tuple[Phrase, Phrase]
@@ -121,10 +127,20 @@ class Fault:
     @property
     def message(self) -> str:
         """What is wrong, with what would be right in brackets."""
-        return f"{self.reason} ({self.remedy})"
+        return Phrase("{reason} ({remedy})", reason=self.reason, remedy=self.remedy)
+
+    @property
+    def sentence(self) -> str:
+        """When it begins, what kind of fault it is, and the message."""
+        return Phrase(
+            "{moment}: {kind}: {message}",
+            moment=self.moment or Phrase("tick {tick}", tick=str(self.tick)),
+            kind=FAULT_NAMES[self.kind][0],
+            message=self.message,
+        )
 
     def __str__(self) -> str:
-        return f"{self.moment or f'tick {self.tick}'}: {self.kind}: {self.message}"
+        return str(self.sentence)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -155,16 +171,29 @@ class Report:
     @property
     def summary(self) -> str:
         """The number of faults of each kind, in a line."""
-        kinds = ", ".join(
-            f"{count} {kind if count == 1 else PLURALS.get(kind, kind)}"
+        if self.ok:
+            return Phrase("no fault")
+        kinds = [
+            Phrase("{number} {kind}", number=str(count), kind=FAULT_NAMES[kind][count != 1])
             for kind, count in self.counts.items()
+        ]
+        return Phrase(
+            "{faults}: {kinds}",
+            faults=counted(self.total, "fault", "faults"),
+            kinds=chain_items(kinds),
         )
-        return f"{self.total} fault{'s' * (self.total != 1)}: {kinds}" if kinds else "no fault"
 
     def __str__(self) -> str:
-        unlisted = self.total - len(self.faults)
-        more = [f"and {unlisted} more (raise the limit to list them)"] if unlisted else []
-        return "\n".join([self.summary, *map(str, self.faults), *more])
+        return "\n".join(self.list_sentences())
+
+    def list_sentences(self) -> Iterator[str]:
+        """Yield the number of faults of each kind, and each fault that is listed."""
+        yield self.summary
+        for fault in self.faults:
+            yield fault.sentence
+        if unlisted := self.total - len(self.faults):
+            number = str(unlisted)
+            yield Phrase("and {number} more (raise the limit to list them)", number=number)
 
 
 class FaultCollector:

@@ -11,7 +11,9 @@ import click
 
 from rightofway.cli.completion import files
 from rightofway.cli.options import as_json_option, writable
-from rightofway.cli.terminal import put_json, put_report, say
+from rightofway.cli.terminal import put_json, put_report, say, say_written
+from rightofway.phrases import Phrase
+from rightofway.report.lines import Table
 
 if TYPE_CHECKING:
     from rightofway.bench import Case, Results, Row
@@ -64,14 +66,21 @@ def bench(
             _run(cases, results, jobs=jobs, dask=dask)
         except KeyboardInterrupt:
             done = sum(case.key in results.rows for case in cases)
-            say(f"{output} has {done} of {len(cases)} cases; the same command goes on from here")
+            say(
+                Phrase(
+                    "{file} has {done} of {number} cases; the same command goes on from here",
+                    file=output,
+                    done=str(done),
+                    number=str(len(cases)),
+                )
+            )
             raise
         rows = [results.rows[case.key] for case in cases]
-    say(f"wrote {output}")
+    say_written(output)
     _summarize(rows, output, as_json=as_json)
     if report:
-        write_report(rows, report, f"Benchmark results: {Path(suite).name}")
-        say(f"wrote {report}")
+        write_report(rows, report, Phrase("Benchmark results: {file}", file=Path(suite).name))
+        say_written(report)
     return 1 if any(row["valid"] is False for row in rows) else 0
 
 
@@ -82,12 +91,22 @@ def _run(cases: Sequence[Case], results: Results, *, jobs: int | None, dask: str
     left = {case.key: case for case in cases if case.key not in results.rows}
     done = len(cases) - len(left)
     if done:
-        say(f"{done} of {len(cases)} cases are there already")
+        say(
+            Phrase(
+                "{done} of {number} cases are there already",
+                done=str(done),
+                number=str(len(cases)),
+            )
+        )
         commit = machine()["commit"]
         earlier = [results.rows[case.key]["commit"] for case in cases if case.key not in left]
         others = sum(known != commit for known in earlier)
         if others:
-            say(f"{others} of them by another commit (give another -o to run them again)")
+            text = Phrase(
+                "{number} of them by another commit (give another -o to run them again)",
+                number=str(others),
+            )
+            say(text)
     if not left:
         return
     rows = (
@@ -115,11 +134,10 @@ def _summarize(rows: Sequence[Row], output: str, *, as_json: bool) -> None:
         planners = [{"planner": name, **asdict(group)} for name, group in groups.items()]
         put_json({"results": output, "cases": len(rows), "planners": planners})
         return
-    lines = [("planner", "solved", "ratio", "first plan [s]")]
+    lines = []
     for name, group in groups.items():
         ratio = f"{group.ratio.median:.3f}" if group.ratio else ""
         seconds = f"{group.seconds.median:.2f}" if group.seconds else ""
         lines.append((name, f"{group.solved}/{group.cases}", ratio, seconds))
-    width = max(len(name) for name, *_ in lines)
-    for name, solved, ratio, seconds in lines:
-        put_report(f"{name:{width}}  {solved:>9}  {ratio:>7}  {seconds:>14}".rstrip())
+    headings = (Phrase("planner"), Phrase("solved"), Phrase("ratio"), Phrase("first plan [s]"))
+    put_report([Table(headings, lines)])

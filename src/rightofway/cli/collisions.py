@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -11,8 +12,9 @@ from rightofway.cli.completion import SCENARIOS, files, planners
 from rightofway.cli.inputs import count_option, foreign_options, read_either
 from rightofway.cli.options import as_json_option, quantities_of, ticks_option, writable
 from rightofway.cli.tables import clock_data, put_lists
-from rightofway.cli.terminal import progress, put_json
-from rightofway.report.lines import counted
+from rightofway.cli.terminal import language, progress, put_json
+from rightofway.languages import translate
+from rightofway.phrases import Phrase, counted
 
 if TYPE_CHECKING:
     from rightofway.metrics import NamedCollision
@@ -28,9 +30,11 @@ Examples:
 """
 
 
-LEGEND = """\
-before, left: conflicts of the whole fleet before and after the decision, counted tick by tick
-if i, if j: conflicts left if robot i waits, and if robot j waits"""
+LEGEND = Phrase(
+    "before, left: conflicts of the whole fleet before and after the decision, counted tick by"
+    " tick\nif i, if j: conflicts left if robot i waits, and if robot j waits"
+)
+"""What the columns of decisions hold."""
 
 
 @click.command(epilog=EXAMPLES, short_help="List where robots would meet if none of them waited.")
@@ -89,16 +93,25 @@ def collisions(
     if as_json:
         put_json(_collision_data(listed, plan, quantities))
     elif not output:
-        routes = "shortest routes" if plan is None else "routes of the plan"
-        ticks = f", in {counted(len(lists[0]), 'tick')}" if each_tick and listed else ""
-        parts = [f"On the {routes}, without waits: {_counted(listed)}{ticks}.", *_texts(lists)]
+        ticks = len(lists[0]) if each_tick else 0
+        parts = [_headline(listed, ticks, is_planned=plan is not None), *_texts(lists)]
         if len(lists) > 1:
-            parts[-1] += f"\n\n{LEGEND}"
+            parts.append(LEGEND)
         if plan is not None:
             left = named_collisions(scenario, plan.tracks)
-            parts.append(f"Left in the plan: {_counted(left)}.")
+            parts.append(Phrase("Left in the plan: {collisions}.", collisions=_counted(left)))
             parts += _texts([collision_list(left, quantities)])
-        click.echo("\n\n".join(parts))
+        click.echo("\n\n".join(translate(part, language()) for part in parts))
+
+
+def _headline(listed: Sequence[NamedCollision], ticks: int, *, is_planned: bool) -> str:
+    number = _counted(listed)
+    if ticks and listed:
+        counted_ticks = counted(ticks, "tick", "ticks")
+        number = Phrase("{collisions}, in {ticks}", collisions=number, ticks=counted_ticks)
+    if is_planned:
+        return Phrase("On the routes of the plan, without waits: {collisions}.", collisions=number)
+    return Phrase("On the shortest routes, without waits: {collisions}.", collisions=number)
 
 
 def _texts(lists: Sequence[Listing]) -> list[str]:
@@ -106,10 +119,12 @@ def _texts(lists: Sequence[Listing]) -> list[str]:
 
 
 def _counted(listed: Sequence[NamedCollision]) -> str:
-    kinds = [collision.kind for collision in listed]
-    collisions, swaps, near = map(kinds.count, ("collision", "swap", "too near"))
-    words = f"{collisions} collision{'s' * (collisions != 1)} and {swaps} swap{'s' * (swaps != 1)}"
-    return f"{words}, {near} near miss{'es' * (near != 1)}" if near else words
+    kinds = Counter(collision.kind for collision in listed)
+    collisions = counted(kinds["collision"], "collision", "collisions")
+    swaps = counted(kinds["swap"], "swap", "swaps")
+    text = Phrase("{first} and {last}", first=collisions, last=swaps)
+    near = counted(kinds["too near"], "near miss", "near misses")
+    return Phrase("{first}, {second}", first=text, second=near) if kinds["too near"] else text
 
 
 def _collision_data(

@@ -26,7 +26,8 @@ from rightofway.cli.options import (
     ticks_option,
 )
 from rightofway.cli.outputs import page_option
-from rightofway.cli.terminal import file_title, put_json, put_report, say
+from rightofway.cli.terminal import file_title, language, put_json, put_report, say, say_written
+from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.control.broker import Broker
@@ -156,7 +157,7 @@ def drive(
     quantities = quantities_of(opened.scenario, in_ticks=in_ticks)
 
     def narrate(tick: int, sentence: str) -> None:
-        say(f"{quantities.cell(tick):>8}  {sentence}")
+        say(Phrase("{time}  {text}", time=f"{quantities.cell(tick):>8}", text=sentence))
 
     outcome = drive_demo(
         opened,
@@ -175,12 +176,12 @@ def drive(
     else:
         from rightofway.control.report import report
 
-        put_report(report(outcome, quantities))
+        put_report(report(outcome, quantities, language()))
     if page:
         from rightofway.viz import write_page
 
         write_page(opened, page, actual=outcome.trace, title=file_title(plan))
-        say(f"wrote {page}")
+        say_written(page)
     return 0
 
 
@@ -204,7 +205,8 @@ def _show(letter: Letter) -> None:
 
 
 def _narrate(sentence: str) -> None:
-    say(f"{datetime.now().astimezone():%H:%M:%S}  {sentence}")
+    now = f"{datetime.now().astimezone():%H:%M:%S}"
+    say(Phrase("{time}  {text}", time=now, text=sentence))
 
 
 def _drive_at(
@@ -245,4 +247,4 @@ def _drive_at(
         asyncio.run(driver.run(broker, stays=stays))
     finally:
         opened.close()
-    _narrate("all robots are at the end of their way")
+    _narrate(Phrase("all robots are at the end of their way"))

@@ -9,9 +9,10 @@ import click
 
 from rightofway.cli.completion import words
 from rightofway.cli.options import writable
-from rightofway.cli.terminal import say
+from rightofway.cli.terminal import say, say_written
 from rightofway.errors import InputError, nearest
 from rightofway.files import write_whole
+from rightofway.phrases import Phrase
 from rightofway.report.examples import SUFFIXES, example_names, examples_folder, first_sentence
 
 NEW_EXAMPLES = """\b
@@ -57,7 +58,7 @@ def new(file: str) -> None:
     if Path(file).exists():
         raise InputError.at("", "the file exists (give another name, or remove it)", file)
     TEMPLATES[Path(file).suffix.lower()](file)
-    say(f"wrote {file} (edit it, then: rightofway plan {file} --page plan.html)")
+    say(Phrase("wrote {file} (edit it, then: rightofway plan {file} --page plan.html)", file=file))
 
 
 @click.command(epilog=EXAMPLES_EXAMPLES, short_help="List, print or copy the example files.")
@@ -121,9 +122,9 @@ def _write(example: Path, target: Path) -> None:
             raise InputError.at("", message, str(beside))
         beside.parent.mkdir(parents=True, exist_ok=True)
         write_whole(beside, path.read_bytes())
-        say(f"wrote {beside}")
+        say_written(beside)
     write_whole(target, text)
-    say(f"wrote {target}")
+    say_written(target)
 
 
 def _copy_all(target: Path) -> None:
@@ -135,4 +136,5 @@ def _copy_all(target: Path) -> None:
             copy = target / path.relative_to(folder)
             copy.parent.mkdir(parents=True, exist_ok=True)
             write_whole(copy, path.read_bytes())
-    say(f"wrote {target} (for example: rightofway plan {target / 'door.yaml'})")
+    door = str(target / "door.yaml")
+    say(Phrase("wrote {file} (for example: rightofway plan {door})", file=str(target), door=door))

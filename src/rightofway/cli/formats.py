@@ -13,8 +13,9 @@ from rightofway.cli.completion import PLANS, SCENARIOS, files, words
 from rightofway.cli.inputs import count_option, foreign_options, read_either
 from rightofway.cli.options import ListingCommand, writable
 from rightofway.cli.outputs import put_text, write
-from rightofway.cli.terminal import put_json, say
+from rightofway.cli.terminal import put_json, say, say_of, say_written
 from rightofway.errors import InputError, nearest
+from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.model import Plan, Scenario
@@ -187,7 +188,7 @@ def _write_layout(source: str, path: str, name: str | None, radius: Fraction | N
         raise InputError(fault.in_file(source) for fault in error.faults) from None
     put_text(text, path)
     for note in (*layout.notes, *losses):
-        say(f"{path}: {note}")
+        say_of(path, note)
 
 
 def _write_example(source: str, path: str, radius: Fraction) -> None:
@@ -201,7 +202,7 @@ def _write_example(source: str, path: str, radius: Fraction) -> None:
         click.echo(text, nl=False)
         return
     write_whole(path, text)
-    say(f"wrote {path}")
+    say_written(path)
 
 
 def _write_plan(plan: Plan, path: str, name: str | None) -> None:
@@ -211,14 +212,18 @@ def _write_plan(plan: Plan, path: str, name: str | None) -> None:
         text, notes = site_plan_text(plan, name)
         put_text(text, path)
         for note in notes:
-            say(f"{path}: {note}")
+            say_of(path, note)
     elif name is not None:
         put_text(foreign_text(plan, name), path)
         stages = [itinerary.stages for itinerary in plan.scenario.problem.itineraries]
         if any(len(own) > 1 or own[0].work for own in stages):
-            say(f"{path}: work, turning and ways back are left out, only cells and steps are kept")
+            say_of(
+                path,
+                Phrase("work, turning and ways back are left out, only cells and steps are kept"),
+            )
         if plan.scenario.problem.clock.tick != 1:
-            say(f"{path}: a step lasts {plan.scenario.quantities.duration(1)}")
+            step = plan.scenario.quantities.duration(1)
+            say_of(path, Phrase("a step lasts {time}", time=step))
     elif path == "-" or path.lower().endswith((".json", ".xlsx")):
         write(plan, path)
     else:
@@ -235,8 +240,9 @@ def _write_scenario(scenario: Scenario, path: str) -> None:
     else:
         write_scenario(scenario, path)
         if path.lower().endswith(".xlsx") and scenario.roadmap.obstacles:
-            say(f"{path}: the names of obstacles are left out (a map sheet has no place for them)")
-        say(f"wrote {path}")
+            text = Phrase("the names of obstacles are left out (a map sheet has no place for them)")
+            say_of(path, text)
+        say_written(path)
 
 
 def _write_pair(scenario: Scenario, path: Path) -> None:
@@ -249,8 +255,8 @@ def _write_pair(scenario: Scenario, path: Path) -> None:
         raise InputError(error.faults, error.source or str(path)) from None
     write_map(scenario.roadmap, map_path)
     for loss in losses:
-        say(f"{path}: {loss}")
-    say(f"wrote {path} and {map_path}")
+        say_of(path, loss)
+    say(Phrase("wrote {file} and {other}", file=str(path), other=str(map_path)))
 
 
 @click.command(epilog="Example:  rightofway schema scenario > scenario.schema.json")

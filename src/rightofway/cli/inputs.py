@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.terminal import say
+from rightofway.cli.terminal import say_of
 from rightofway.errors import InputError
 
 if TYPE_CHECKING:
@@ -96,5 +96,5 @@ def read_either(path: str, count: int | None = None, own: Collection[str] = ()) 
 
 def _noted(loaded: Loaded, path: str) -> Scenario:
     for note in loaded.notes:
-        say(f"{path}: {note}")
+        say_of(path, note)
     return loaded.scenario

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import asdict
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -13,8 +12,15 @@ from rightofway.cli.completion import SCENARIOS, files
 from rightofway.cli.inputs import point_to_examples
 from rightofway.cli.options import as_json_option, writable
 from rightofway.cli.outputs import PAGE_SUFFIXES, put_text, refuse_outputs
-from rightofway.cli.terminal import file_title, json_text, put_json, put_report, say
-from rightofway.report.lines import wrapped
+from rightofway.cli.terminal import (
+    file_title,
+    json_text,
+    language,
+    put_json,
+    put_report,
+    say_written,
+)
+from rightofway.report.lines import lay_out
 
 if TYPE_CHECKING:
     from rightofway.io.sites import Sites
@@ -86,6 +92,7 @@ def inspect(
     """
     from rightofway.io.sites import Choice, read_sites
     from rightofway.metrics import inspect as inspected
+    from rightofway.report.inspection import report_inspection
 
     point_to_examples(source)
     refuse_outputs(source, output, as_json=as_json)
@@ -98,22 +105,18 @@ def inspect(
 
         title = file_title(source)
         write_inspection(results, page, title=title, what=sites.what, notes=sites.notes)
-        say(f"wrote {page}")
+        say_written(page)
     if as_json or (output or "").lower().endswith(".json"):
         if as_json:
             put_json(data)
         if output not in (None, "-"):
             put_text(f"{json_text(data)}\n", output)
         return
-    lines = wrapped(f"{source}: {sites.what}")
-    for note in sites.notes:
-        lines += wrapped(note, "  ")
-    for name, site, result in results:
-        lines += ["", *([f"Level {name}"] if name else []), *_report(site, result, limit)]
+    report = report_inspection(source, sites.what, sites.notes, results, limit)
     if output not in (None, "-"):
-        put_text("\n".join((*lines, "")), output)
+        put_text(f"{lay_out(report, language())}\n", output)
     else:
-        put_report("\n".join(lines))
+        put_report(report)
 
 
 def _size(given: str | None) -> Fraction | None:
@@ -126,31 +129,6 @@ def _size(given: str | None) -> Fraction | None:
     if size <= 0:
         raise click.BadParameter(f"{given!r} is no length (give metres, like 0.5)")
     return size
-
-
-def _report(site: Site, result: Inspection, limit: int) -> list[str]:
-    from rightofway.metrics import HEADINGS, sentences
-
-    lines = [line for sentence in sentences(site, result) for line in wrapped(sentence)]
-    if not result.findings:
-        return [*lines, "Nothing was found that will hurt."]
-    shown: Counter[tuple[str, str]] = Counter()
-    severity = ""
-    for finding in result.findings:
-        if finding.severity != severity:
-            severity = finding.severity
-            number = sum(each_finding.severity == severity for each_finding in result.findings)
-            lines += ["", f"{HEADINGS[severity]}: {number}"]
-        shown[severity, finding.kind] += 1
-        if shown[severity, finding.kind] <= limit:
-            lines += wrapped(str(finding), "  ")
-        elif shown[severity, finding.kind] == limit + 1:
-            more = sum(
-                (each_finding.severity, each_finding.kind) == (severity, finding.kind)
-                for each_finding in result.findings
-            )
-            lines += wrapped(f"and {more - limit} more: {finding.kind} (see --limit)", "  ")
-    return lines
 
 
 def _data(source: str, sites: Sites, results: list[tuple[str, Site, Inspection]]) -> dict[str, Any]:

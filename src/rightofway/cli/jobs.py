@@ -10,6 +10,7 @@ import click
 from rightofway.cli.options import as_json_option
 from rightofway.cli.terminal import put_json, put_report, say
 from rightofway.errors import InputError
+from rightofway.phrases import Phrase
 
 ACTIONS = {
     "list": "list jobs that are not done",
@@ -107,12 +108,17 @@ def jobs(
     answer = commands.wait_for(number, wait)
     commands.close()
     if answer is None:
-        say(f"no answer within {wait:g} s: it is carried out when the control runs")
+        say(
+            Phrase(
+                "no answer within {time} s: it is carried out when the control runs",
+                time=f"{wait:g}",
+            )
+        )
         return 3
     if as_json:
         put_json(dict(answer))
     elif not answer["done"]:
-        say(f"refused: {answer['text']}")
+        say(Phrase("refused: {text}", text=answer["text"]))
     else:
         rows = (map(job.get, ("name", "at", "state")) for job in answer.get("jobs", ()))
         lines = ["  ".join(f"{cell:12}" for cell in row).rstrip() for row in rows]

@@ -22,10 +22,11 @@ from rightofway.cli.outputs import page_option, plan_output_option, refuse_outpu
 from rightofway.cli.terminal import (
     choose_deadline,
     file_title,
+    language,
     progress,
     put_json,
     put_report,
-    say,
+    say_written,
 )
 
 EXAMPLES = """\b
@@ -134,13 +135,14 @@ def laps(
     if as_json:
         put_json(laps_data(run))
     elif output != "-":
-        put_report(laps_report(run, quantities_of(problem, in_ticks=in_ticks)))
+        quantities = quantities_of(problem, in_ticks=in_ticks)
+        put_report(laps_report(run, quantities, language()))
     if page:
         from rightofway.viz import write_page
 
         plan, steady = excerpt(run)
         write_page(plan, page, steady=steady, title=file_title(scenario))
-        say(f"wrote {page}")
+        say_written(page)
     if output:
         plan, steady = plan_of_laps(run), excerpt(run)[1]
         write(replace(plan, steady=within(steady, list(map(len, plan.tracks)))), output)

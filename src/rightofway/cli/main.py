@@ -27,7 +27,7 @@ from typing import NoReturn, cast
 import click
 
 from rightofway import __version__
-from rightofway.cli.terminal import complain, measure_age, quiet_option, speak_utf8
+from rightofway.cli.terminal import add_shared_options, complain, measure_age, speak_utf8
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 
 MANY = 1000
@@ -80,7 +80,7 @@ MODULES = {name: module for group in GROUPS.values() for name, module in group.i
 @cache
 def _command(name: str) -> click.Command:
     command: click.Command = getattr(import_module(f"rightofway.cli.{MODULES[name]}"), name)
-    return cast("click.Command", quiet_option(command))
+    return cast("click.Command", add_shared_options(command))
 
 
 class _Modules(Mapping[str, click.Command]):
@@ -120,7 +120,7 @@ class _Commands(click.Group):
     epilog=START,
 )
 @click.version_option(__version__, "-V", "--version", prog_name="rightofway")
-@quiet_option
+@add_shared_options
 @click.option("--debug", is_flag=True, help="Show where an unexpected error comes from.")
 @click.pass_context
 def commands(context: click.Context, *, debug: bool) -> None:

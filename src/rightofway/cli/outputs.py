@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.options import writable
-from rightofway.cli.terminal import say
+from rightofway.cli.terminal import say, say_written
 from rightofway.files import write_whole
+from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -71,7 +72,8 @@ class _PageOption(click.Option):
 
     def handle_parse_result(self, ctx: click.Context, opts: Any, args: list[str]) -> Any:
         if self.EARLIER in opts:
-            say(f"{self.EARLIER} is now {self.opts[0]} (use that name)")
+            new = self.opts[0]
+            say(Phrase("{old} is now {new} (use that name)", old=self.EARLIER, new=new))
             opts = {self.name: opts[self.EARLIER], **opts}
         return super().handle_parse_result(ctx, opts, args)
 
@@ -99,7 +101,7 @@ def put_text(text: str, path: str) -> None:
         click.echo(text, nl=False)
     else:
         write_whole(path, text)
-        say(f"wrote {path}")
+        say_written(path)
 
 
 def write(plan: Plan, output: str | None) -> None:
@@ -110,4 +112,4 @@ def write(plan: Plan, output: str | None) -> None:
         click.echo(plan_text(plan), nl=False)
     elif output:
         PLAN_WRITERS.get(Path(output).suffix.lower(), _write_json)(plan, output)
-        say(f"wrote {output}")
+        say_written(output)

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.options import as_json_option, quantities_of
-from rightofway.cli.terminal import put_json, put_report
+from rightofway.cli.terminal import language, put_json, put_report
+from rightofway.phrases import Phrase
 from rightofway.report.examples import examples_folder, first_sentence
-from rightofway.report.lines import wrapped
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -26,7 +26,7 @@ Examples:
 TABLES = 11
 """Tables of the paper."""
 
-UNRECORDED = "no published row of these tables is recorded"
+UNRECORDED = Phrase("no published row of these tables is recorded")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,7 +42,7 @@ class _Row:
     def verdict(self) -> str:
         if self.published is None:
             return ""
-        return "equal" if self.published == self.ours else "differs"
+        return Phrase("equal") if self.published == self.ours else Phrase("differs")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,8 +85,11 @@ def _total(tables: Sequence[_Table], equal: int) -> str:
     """Return how many published rows are equal, and in how many tables there are any."""
     known = [table for table in tables if any(row.verdict for row in table.rows)]
     rows = sum(bool(row.verdict) for table in known for row in table.rows)
-    of = "" if len(known) == len(tables) else f", in {len(known)} of {len(tables)} tables"
-    return f"{equal} of {rows} published rows equal{of}"
+    text = Phrase("{equal} of {rows} published rows equal", equal=str(equal), rows=str(rows))
+    if len(known) == len(tables):
+        return text
+    counts = {"known": str(len(known)), "tables": str(len(tables))}
+    return Phrase("{rows}, in {known} of {tables} tables", rows=text, **counts)
 
 
 def _table(entry: dict[str, Any]) -> _Table:
@@ -119,7 +122,7 @@ def _print(table: _Table, *, log: bool) -> None:
     ticks = range(table.first_tick, table.first_tick + max(len(row.ours) for row in table.rows))
     cells = [str(cell) for row in table.rows for cell in row.ours]
     width = 1 + max(len(cell) for cell in [*cells, str(ticks[-1])])
-    put_report("\n".join(wrapped(f"{title} ({table.scenario}).")) + "\n")
+    put_report([Phrase("{title} ({scenario}).", title=title, scenario=table.scenario), ""])
     put_report(_line("tick", "", ticks, width))
     for row in table.rows:
         head = f"{row.robot} {row.kind}"
@@ -128,10 +131,14 @@ def _print(table: _Table, *, log: bool) -> None:
             head = ""
         put_report(f"{_line(head, 'ours', row.ours, width)}  {row.verdict}".rstrip())
     for fault in check(table.plan).faults:
-        put_report("\n" + "\n".join(wrapped(f"The published method leaves this: {fault}.")))
+        text = Phrase("The published method leaves this: {fault}.", fault=fault.sentence)
+        put_report(["", text])
     if log:
         put_report(
-            "\n" + decision_log(table.plan, quantities_of(table.plan.scenario, in_ticks=True))
+            "\n"
+            + decision_log(
+                table.plan, quantities_of(table.plan.scenario, in_ticks=True), language()
+            )
         )
     put_report("")
 

@@ -6,7 +6,6 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
-from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -26,6 +25,7 @@ from rightofway.cli.terminal import (
     choose_deadline,
     complain,
     file_title,
+    language,
     progress,
     put_json,
     put_report,
@@ -33,6 +33,7 @@ from rightofway.cli.terminal import (
     width,
 )
 from rightofway.errors import NoPlanExists
+from rightofway.phrases import Phrase
 from rightofway.planners import DEFAULT_PLANNER, IMPROVER, Feature, PlannerSpec, find, registered
 
 if TYPE_CHECKING:
@@ -175,8 +176,7 @@ def bound(
     """
     from rightofway.metrics import alone_completions
     from rightofway.planners.bounds import prove_bound
-    from rightofway.report.lines import short
-    from rightofway.report.plan import MAX_LINES
+    from rightofway.report.plan import report_bounds
     from rightofway.report.plan_data import measures
 
     problem = read_scenario(scenario, count)
@@ -191,26 +191,8 @@ def bound(
             bounds[proof.objective.value] = proof.bound
         put_json({**measures(problem), "lower_bound": bounds, "robots": robots})
         return
-    q = quantities_of(problem, in_ticks=in_ticks)
-    column = max(len("robot"), *(len(short(name)) for name in names[:MAX_LINES]))
-    lines = [
-        f"flowtime  at least {q.duration(sum(alone))}",
-        f"makespan  at least {q.duration(max(alone))}",
-    ]
-    if proof is not None:
-        reached = ", and a plan reaches it" if is_reached else ""
-        lines.append(f"{proof.objective}, proven  at least {q.duration(proof.bound)}{reached}")
-    lines += [
-        "",
-        f"{'robot':{column}}  {q.heading('alone')}",
-    ]
-    times = [q.cell(ticks) for ticks in alone]
-    width = max(map(len, [q.heading("alone"), *times]))
-    rows = zip(names, times, strict=True)
-    lines += [f"{short(name):{column}}  {text:>{width}}" for name, text in islice(rows, MAX_LINES)]
-    if len(names) > MAX_LINES:
-        lines.append(f"… and {len(names) - MAX_LINES} more robots (--json lists all)")
-    put_report("\n".join(lines))
+    quantities = quantities_of(problem, in_ticks=in_ticks)
+    put_report(report_bounds(problem, quantities, proof, is_reached=is_reached))
 
 
 def _run(
@@ -264,7 +246,7 @@ def _run(
         from rightofway.viz import write_page
 
         write_page(plan, page, title=file_title(source))
-        say(f"wrote {page} (open it in a browser)")
+        say(Phrase("wrote {file} (open it in a browser)", file=page))
     if output != "-":
         quantities = quantities_of(plan.scenario, in_ticks=in_ticks)
         _report(plan, quantities, log=log, table=table, as_json=as_json)
@@ -279,7 +261,9 @@ def _run(
     judged = check(plan)
     if judged.ok:
         return 0
-    complain(f"the plan still has {judged.summary} (--planner two-level has none)")
+    complain(
+        Phrase("the plan still has {faults} (--planner two-level has none)", faults=judged.summary)
+    )
     return 1
 
 
@@ -298,7 +282,7 @@ def no_plan_shown(problem: Any, page: str | None, title: str, *, as_json: bool) 
             from rightofway.viz import write_page
 
             write_page(fleet_at_home(problem), page, no_plan=error, title=title)
-            say(f"wrote {page} (it shows where robots are blocked)")
+            say(Phrase("wrote {file} (it shows where robots are blocked)", file=page))
         raise
 
 
@@ -309,9 +293,9 @@ def _report(plan: Plan, quantities: Quantities, *, log: bool, table: bool, as_js
     if as_json:
         put_json(summary_data(plan))
         return
-    put_report(summary(plan, quantities))
+    put_report(summary(plan, quantities, language()))
     if log:
-        put_report("\n" + decision_log(plan, quantities))
+        put_report("\n" + decision_log(plan, quantities, language()))
     if table:
         from rightofway.viz.table import as_text, table_of
 

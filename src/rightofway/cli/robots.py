@@ -11,7 +11,8 @@ from rightofway.cli.broker import broker_options
 from rightofway.cli.completion import PLANS, files
 from rightofway.cli.inputs import foreign_options, read_plan
 from rightofway.cli.options import seed_option
-from rightofway.cli.terminal import say
+from rightofway.cli.terminal import say, say_written
+from rightofway.phrases import Phrase
 
 EXAMPLES = """\b
 Examples:
@@ -82,10 +83,16 @@ def robots(
     trouble = troubles_of(troubles)
     if write_identities is not None:
         Path(write_identities).write_text(identities_text(names, fleet), encoding="utf-8")
-        say(f"wrote {write_identities}")
+        say_written(write_identities)
 
     def is_up() -> None:
-        say(f"{len(fleet)} robots are at {address.address}; end them with Ctrl-C")
+        say(
+            Phrase(
+                "{number} robots are at {address}; end them with Ctrl-C",
+                number=str(len(fleet)),
+                address=address.address,
+            )
+        )
 
     asyncio.run(
         run_robots(

@@ -21,11 +21,13 @@ from rightofway.cli.outputs import page_option, put_text
 from rightofway.cli.terminal import (
     file_title,
     json_text,
+    language,
     progress,
     put_json,
     put_report,
     say,
 )
+from rightofway.phrases import Phrase
 
 EXAMPLES = """\b
 Examples:
@@ -97,7 +99,8 @@ def simulate(
     if as_json or output == "-":
         put_json(data)
     else:
-        put_report(report(outcome, quantities_of(opened.scenario, in_ticks=in_ticks)))
+        quantities = quantities_of(opened.scenario, in_ticks=in_ticks)
+        put_report(report(outcome, quantities, language()))
     if output not in {None, "-"}:
         put_text(json_text(data) + "\n", str(output))
     if page:
@@ -106,5 +109,12 @@ def simulate(
         played = outcome.typical() if run is None else run
         trace = outcome.trace(played)
         write_page(outcome.plan, page, actual=trace, title=file_title(plan))
-        say(f"wrote {page}: run {played} of {outcome.runs}")
+        say(
+            Phrase(
+                "wrote {file}: run {number} of {runs}",
+                file=page,
+                number=str(played),
+                runs=str(outcome.runs),
+            )
+        )
     return 1 if outcome.collisions or outcome.deadlocks else 0

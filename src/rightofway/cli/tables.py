@@ -14,9 +14,11 @@ import click
 from rightofway.cli.completion import PLANS, files
 from rightofway.cli.inputs import foreign_options, read_plan
 from rightofway.cli.options import Time, as_json_option, quantities_of, ticks_option, writable
-from rightofway.cli.terminal import put_json, say, width
+from rightofway.cli.terminal import language, put_json, say_written, width
 from rightofway.errors import InputError
+from rightofway.languages import translate
 from rightofway.model.place_names import PlaceNames
+from rightofway.phrases import Phrase, chain_items
 from rightofway.values import written
 
 if TYPE_CHECKING:
@@ -159,7 +161,7 @@ def _write_all(plan: Plan, path: str, given: dict[str, Any]) -> None:
         message = "--all writes everything (leave out --from, --to, --step, --robots and --ticks)"
         raise click.UsageError(message)
     write_result(plan, path)
-    say(f"wrote {path}")
+    say_written(path)
 
 
 def _time_space_table(plan: Plan, shown: _Shown) -> TimeSpaceTable:
@@ -194,11 +196,12 @@ def _put_table(
     elif output:
         _write(output, as_csv(table) if suffix == ".csv" else f"{as_text(table, width(), None)}\n")
     if output and output != "-":
-        say(f"wrote {output}")
+        say_written(output)
     if as_json:
         put_json({**_table_data(table), **(more or {})})
     elif not output:
-        click.echo("\n\n".join([*words[:1], as_text(table, width()), *words[1:]]))
+        texts = [*words[:1], as_text(table, width()), *words[1:]]
+        click.echo("\n\n".join(translate(text, language()) for text in texts))
 
 
 def _write(path: str, content: str | bytes) -> None:
@@ -246,7 +249,7 @@ def _events(plan: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> 
     listing = event_list(plan, chosen, shown.quantities)
     if output and Path(output).suffix.lower() == ".parquet":
         _write(output, parquet_of(event_columns(plan, chosen)))
-        say(f"wrote {output}")
+        say_written(output)
     elif output:
         put_lists([listing], output)
     elif not as_json:
@@ -274,7 +277,7 @@ def put_lists(lists: Sequence[Listing], output: str) -> None:
             _write(output, lists[0].as_csv())
         case _:
             _write(output, "\n\n".join(listing.as_text(None) for listing in lists) + "\n")
-    say(f"wrote {output}")
+    say_written(output)
 
 
 def _groups(
@@ -304,7 +307,8 @@ def _groups(
     )
     completions = [None if group is None else group.completions for group in groups]
     words = _group_words(plan, decision, completions, shown.quantities)
-    return group_table, [f"Decision {number}: {words[0]}", "\n".join(words[1:])], completions
+    first = Phrase("Decision {number}: {text}", number=str(number), text=words[0])
+    return group_table, [first, chain_items(words[1:], "{first}\n{second}")], completions
 
 
 def _group_words(
@@ -315,14 +319,18 @@ def _group_words(
 ) -> list[str]:
     i, j = (plan.scenario.robots[robot].name for robot in decision.robots)
     place = PlaceNames(plan.scenario, numbered=True)(decision.vertices[0])
-    lines = [f"{i} and {j} meet at {place} at {quantities.moment(decision.tick)}."]
+    moment = quantities.moment(decision.tick)
+    meeting = {"robot": i, "other": j, "place": place, "moment": moment}
+    lines: list[str] = [Phrase("{robot} and {other} meet at {place} at {moment}.", **meeting)]
     for number, pair in enumerate(completions, 1):
         if pair is None:
-            lines.append(f"List {number}: no way was found.")
+            lines.append(Phrase("List {number}: no way was found.", number=str(number)))
             continue
         first, other = map(quantities.cell, pair)
         total = quantities.duration(sum(pair))
-        lines.append(f"List {number}: W({i}) + W({j}) = {first} + {other} = {total}")
+        sums = f"W({i}) + W({j}) = {first} + {other}"
+        values = {"number": str(number), "sum": sums, "total": total}
+        lines.append(Phrase("List {number}: {sum} = {total}", **values))
     waits = plan.scenario.robots[decision.waits].name
-    lines.append(f"{waits} waits ({decision.level} level).")
+    lines.append(Phrase("{robot} waits ({level} level).", robot=waits, level=decision.level))
     return lines

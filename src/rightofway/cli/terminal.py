@@ -9,18 +9,28 @@ import shutil
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from rightofway.deadline import Deadline
-from rightofway.errors import printable
+from rightofway.errors import nearest, printable
+from rightofway.phrases import Phrase
+
+if TYPE_CHECKING:
+    from rightofway.report.lines import Part
 
 QUIET = "rightofway.quiet"
 """Where a command keeps whether the user wants no messages."""
+
+LANGUAGE = "rightofway.language"
+"""Where a command keeps the language of reports and messages."""
+
+LANGUAGE_VARIABLE = "RIGHTOFWAY_LANGUAGE"
+"""The variable of the environment that names it where the option does not."""
 
 CLEAR = "\r\x1b[2K"
 """Empties the line that the cursor is in."""
@@ -61,27 +71,69 @@ def _set_quiet(context: click.Context, _parameter: click.Parameter, given: bool)
         context.meta[QUIET] = True
 
 
-def quiet_option(command: Any) -> Any:
-    """Add the option -q to a command or a function."""
-    return click.option("-q", "--quiet", is_flag=True, expose_value=False, callback=_set_quiet,
-                        help="Print no report and no messages, only errors.")(command)  # fmt: skip
+def language() -> str:
+    """Return the language in which the user wants reports and messages."""
+    context = click.get_current_context(silent=True)
+    return "en" if context is None else str(context.meta.get(LANGUAGE, "en"))
+
+
+def _set_language(context: click.Context, _parameter: click.Parameter, given: str | None) -> None:
+    if not given:
+        return
+    from rightofway.languages import ENGLISH, find_languages
+
+    known = [ENGLISH, *find_languages()]
+    if given not in known:
+        meant = nearest(given, known)
+        remedy = f"did you mean {meant}?" if meant else f"give {' or '.join(known)}"
+        raise click.BadParameter(f"{given!r} is not a known language ({remedy})")
+    context.meta[LANGUAGE] = given
+
+
+def add_shared_options(command: Any) -> Any:
+    """Add the options -q and --language to a command or a function."""
+    for option in (
+        click.option("--language", metavar="CODE", expose_value=False, is_eager=True,
+                     callback=_set_language, envvar=LANGUAGE_VARIABLE,
+                     help="Language of reports and messages, by its code; en by default."),
+        click.option("-q", "--quiet", is_flag=True, expose_value=False, callback=_set_quiet,
+                     help="Print no report and no messages, only errors."),
+    ):  # fmt: skip
+        command = option(command)
+    return command
 
 
 def say(message: str) -> None:
-    """Write a message, not a result, to standard error."""
+    """Write a message, not a result, to standard error, in the language of the user."""
     if not quiet():
         complain(message)
 
 
+def say_of(path: object, text: str) -> None:
+    """Say something about a file."""
+    say(Phrase("{file}: {text}", file=str(path), text=text))
+
+
+def say_written(path: object) -> None:
+    """Say that a file is written."""
+    say(Phrase("wrote {file}", file=str(path)))
+
+
 def complain(message: str) -> None:
     """Write what is wrong to standard error, also for users who want no messages."""
-    click.echo("\n".join(map(printable, message.split("\n"))), err=True)
+    from rightofway.languages import translate
+
+    text = translate(message, language())
+    click.echo("\n".join(map(printable, text.split("\n"))), err=True)
 
 
-def put_report(text: str) -> None:
-    """Write a report for people to standard output."""
+def put_report(report: str | Iterable[Part]) -> None:
+    """Write a report for people to standard output, in their language."""
+    from rightofway.report.lines import Line, lay_out
+
     if not quiet():
-        click.echo(text)
+        parts = [Line(report)] if isinstance(report, str) else report
+        click.echo(lay_out(parts, language()))
 
 
 def put_json(value: Any) -> None:
@@ -108,14 +160,17 @@ def progress(
         yield lambda _: None
         return
     began = time.monotonic() if since is None else since
-    latest, ended = [""], threading.Event()
+    latest, ended, shown_in = [""], threading.Event(), language()
+    from rightofway.languages import translate
     from rightofway.quantities import decimal
-
-    of = "" if limit is None else f" of {decimal(limit)}"
 
     def show(message: str) -> None:
         latest[0] = message
-        line = f"{time.monotonic() - began:.1f}{of} s, {message}".removesuffix(", ")
+        passed = f"{time.monotonic() - began:.1f}"
+        seconds = Phrase("{time} s", time=passed)
+        if limit is not None:
+            seconds = Phrase("{time} of {limit} s", time=passed, limit=decimal(limit))
+        line = ", ".join(filter(None, [translate(seconds, shown_in), translate(message, shown_in)]))
         while len(line) >= width() and ", " in line:
             line = line.rpartition(", ")[0]
         click.echo(f"{CLEAR}{line[: width() - 1]}", err=True, nl=False)

@@ -19,8 +19,17 @@ from rightofway.cli.inputs import (
 )
 from rightofway.cli.options import Time, as_json_option, quantities_of, ticks_option, writable
 from rightofway.cli.outputs import PAGE_SUFFIXES
-from rightofway.cli.terminal import complain, file_title, progress, put_json, put_report, say
+from rightofway.cli.terminal import (
+    complain,
+    file_title,
+    progress,
+    put_json,
+    put_report,
+    say,
+    say_written,
+)
 from rightofway.errors import InputError
+from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.check import Report
@@ -67,6 +76,7 @@ def check(*, plans: tuple[str, ...], limit: int, in_ticks: bool, as_json: bool) 
     others from being checked.
     """
     from rightofway.check import check as judge
+    from rightofway.report.plan import report_check
 
     code, reports, own = 0, [], own_among(plans)
     for path in plans:
@@ -81,11 +91,8 @@ def check(*, plans: tuple[str, ...], limit: int, in_ticks: bool, as_json: bool) 
         code = code or int(not report.ok)
         if as_json:
             reports.append({"plan": path, **_report_data(opened, report)})
-        elif report.ok:
-            robots, visits = len(opened.tracks), sum(map(len, opened.tracks))
-            put_report(f"{path}: no fault in {robots} robots and {visits} visits")
         else:
-            put_report(f"{path}: {report}")
+            put_report(report_check(path, opened, report))
     if as_json and reports:
         put_json(reports if len(plans) > 1 else reports[0])
     return code
@@ -172,7 +179,8 @@ def show(
     if isinstance(opened, Scenario):
         with progress(LIMIT) as report:
             opened = solve(opened, time_limit=LIMIT, report=report)
-        say(f"{plan}: {planning(opened, opened.scenario.quantities)}")
+        text = planning(opened, opened.scenario.quantities)
+        say(Phrase("{file}: {text}", file=plan, text=text))
     first, *titles = _titles([plan, *others])
     extras: dict[str, Any] = {
         "title": first,
@@ -191,7 +199,7 @@ def show(
         if at is not None:
             tick = floor(at / opened.scenario.problem.clock.tick)
         write_png(opened, output or "", tick, diagram=diagram)
-        say(f"wrote {output}")
+        say_written(output)
     elif output:
         _write(opened, output, extras)
 
@@ -257,7 +265,7 @@ def _write(plan: Plan, path: str, extras: dict[str, Any]) -> None:
     if path.lower().endswith(".gif"):
         film = write_gif(plan, path)
         apart = plan.scenario.quantities.duration(film.ticks_per_frame)
-        say(f"{film.frames} frames, {apart} apart")
+        say(Phrase("{number} frames, {time} apart", number=str(film.frames), time=apart))
     else:
         write_page(plan, path, **extras)
-    say(f"wrote {path}")
+    say_written(path)

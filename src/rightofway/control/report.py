@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rightofway.control.demo import DemoResult
+from rightofway.languages import ENGLISH
+from rightofway.phrases import Phrase, chain_items, counted
 from rightofway.quantities import Quantities
-from rightofway.report.lines import counted, row, short
+from rightofway.report.lines import Facts, Part, Table, lay_out
 
 __all__ = ["report"]
 
@@ -14,7 +16,7 @@ MAX_ROBOTS = 20
 """Robots in the report; --json has them all."""
 
 
-def report(result: DemoResult, quantities: Quantities) -> str:
+def report(result: DemoResult, quantities: Quantities, language: str = ENGLISH) -> str:
     """Return what was done, how much later than planned, and by how many messages.
 
     Parameters
@@ -23,47 +25,56 @@ def report(result: DemoResult, quantities: Quantities) -> str:
         The run.
     quantities
         How times are written.
+    language
+        The language of the report.
     """
-    return "\n".join([*_totals(result, quantities), "", *_robots(result, quantities)])
+    facts = Facts(list(_totals(result, quantities)))
+    return lay_out([facts, "", *_robots(result, quantities)], language)
 
 
-def _totals(result: DemoResult, quantities: Quantities) -> Iterator[str]:
-    sent = result.messages
-    actions = counted(sent.get("instantActions", 0), "instant action")
-    messages = f"{counted(sent['order'], 'order')}, {actions}, {counted(sent['state'], 'state')}"
-    yield row("jobs", f"{sum(result.jobs)} done", 10)
+def _totals(result: DemoResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
+    yield Phrase("jobs"), Phrase("{number} done", number=str(sum(result.jobs)))
     if result.trace is None:
         time = quantities.duration(result.now)
-        yield row("laps", f"{sum(result.laps)} in {time}", 10)
+        yield Phrase("laps"), Phrase("{number} in {time}", number=str(sum(result.laps)), time=time)
     else:
-        planned = quantities.duration(max(result.plan.completions))
         makespan = max(completion or 0 for completion in result.trace.completion)
-        yield row("makespan", f"{quantities.duration(makespan)}; planned {planned}", 10)
-    yield row("messages", messages, 10)
+        text = Phrase(
+            "{makespan}; planned {planned}",
+            makespan=quantities.duration(makespan),
+            planned=quantities.duration(max(result.plan.completions)),
+        )
+        yield Phrase("makespan"), text
+    sent = result.messages
+    messages = (
+        counted(sent["order"], "order", "orders"),
+        counted(sent.get("instantActions", 0), "instant action", "instant actions"),
+        counted(sent["state"], "state", "states"),
+    )
+    yield Phrase("messages"), chain_items(messages)
 
 
-def _robots(result: DemoResult, quantities: Quantities) -> Iterator[str]:
+def _robots(result: DemoResult, quantities: Quantities) -> Iterator[Part]:
     robots = result.plan.scenario.robots
     if result.trace is None:
-        yield "laps of each robot"
-        cells = [("robot", "jobs", "waits", "laps", "mean lap")]
+        yield Phrase("laps of each robot")
+        headings = (Phrase("laps"), Phrase("mean lap"))
         times = [
             (str(laps), quantities.cell(round(result.now / laps)) if laps else "-")
             for laps in result.laps
         ]
     else:
-        yield quantities.heading("completion of each robot")
-        cells = [("robot", "jobs", "waits", "planned", "actual")]
+        yield quantities.heading(Phrase("completion of each robot"))
+        headings = (Phrase("planned"), Phrase("actual"))
         pairs = zip(result.plan.completions, result.trace.completion, strict=True)
         times = [
             (quantities.cell(planned), quantities.cell(actual or 0)) for planned, actual in pairs
         ]
-    for robot in range(min(len(robots), MAX_ROBOTS)):
-        counts = (str(result.jobs[robot]), str(result.waits[robot]))
-        cells.append((short(robots[robot].name), *counts, *times[robot]))
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    for name, *others in cells:
-        right = (f"{cell:>{width}}" for cell, width in zip(others, widths[1:], strict=True))
-        yield "  ".join((f"{name:{widths[0]}}", *right))
+    rows = [
+        (robots[robot].name, str(result.jobs[robot]), str(result.waits[robot]), *times[robot])
+        for robot in range(min(len(robots), MAX_ROBOTS))
+    ]
+    yield Table((Phrase("robot"), Phrase("jobs"), Phrase("waits"), *headings), rows)
     if len(robots) > MAX_ROBOTS:
-        yield f"… and {counted(len(robots) - MAX_ROBOTS, 'more robot')}"
+        more = counted(len(robots) - MAX_ROBOTS, "more robot", "more robots")
+        yield Phrase("… and {robots}", robots=more)

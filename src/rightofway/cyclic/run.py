@@ -114,7 +114,14 @@ def share_time(
         left = sum(sizes[index] for index in open_ones)
         for index in open_ones:
             known = sum(simulation.ends != "open" for simulation in results.values())
-            report(f"{known} of {len(simulations)} groups done, next one of {sizes[index]} robots")
+            report(
+                Phrase(
+                    "{number} of {groups} groups done, the next one has {robots} robots",
+                    number=str(known),
+                    groups=str(len(simulations)),
+                    robots=str(sizes[index]),
+                )
+            )
             share = deadline.sooner(max(sizes[index] / left, least_share))
             left -= sizes[index]
             results[index] = advance(simulations[index], share)

@@ -32,6 +32,7 @@ from rightofway.cyclic.startup import start
 from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, Tick, checked_time_limit
 from rightofway.model.given import checked_functions, checked_number, checked_scenario, checked_seed
+from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
 from rightofway.precedence import unrolled
 from rightofway.search import Distances, RoundTrip
@@ -189,7 +190,14 @@ def _by_groups(
     for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
         group = groups[index]
         if report is not None:
-            report(f"{len(results)} of {len(groups)} groups done, next {len(group)} robots")
+            report(
+                Phrase(
+                    "{number} of {groups} groups done, the next one has {robots} robots",
+                    number=str(len(results)),
+                    groups=str(len(groups)),
+                    robots=str(len(group)),
+                )
+            )
         uses.subtract(excluded[index])
         taken.difference_update(row for row in excluded[index] if not uses[row])
         draw = random.Random(f"{seed} {index}")  # noqa: S311 (no secret depends on it)

@@ -17,6 +17,7 @@ from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.errors import GaveUp, InputError, shown
 from rightofway.model import Plan, PlannerRun, SteadyState, Track
 from rightofway.model.given import checked_number
+from rightofway.phrases import Phrase
 from rightofway.precedence import TimedEventGraph
 
 MOST_LAPS = 10**6
@@ -81,7 +82,7 @@ def whole_laps(result: CyclicResult, laps: int | None = None) -> Plan:
             raise GaveUp(f"{name} waits for ever (choose another rule)")
         return own, own * len(group.context.routes[index]) + 1
 
-    return _plan(result, "whole laps", laps_and_visits)
+    return _plan(result, Phrase("whole laps"), laps_and_visits)
 
 
 @checks_arguments

@@ -23,6 +23,7 @@ from rightofway.execution.statistics import (
 )
 from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
 from rightofway.model.given import checked_number, checked_seed, checked_truths
+from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 from rightofway.values import at, function
@@ -110,7 +111,8 @@ def simulate(
     try:
         for some in _execute(adg, policy, runs=runs, seed=seed, deadline=deadline, traces=traces):
             parts.append(some)
-            report(f"{sum(len(part.batch.completion) for part in parts)} of {runs} runs")
+            done = sum(len(part.batch.completion) for part in parts)
+            report(Phrase("{done} of {runs} runs", done=str(done), runs=str(runs)))
     except KeyboardInterrupt:
         if not (keep_runs and parts):
             raise

@@ -17,6 +17,7 @@ from dataclasses import replace
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Proof, Tick, Track, cost_of
 from rightofway.model.outcome import minimized
+from rightofway.phrases import Phrase, counted
 from rightofway.planners.bounds import SHARE as SHARE_OF_NODES
 from rightofway.planners.bounds import bound_by_prices
 from rightofway.planners.features import refuse_with_swaps_left
@@ -92,7 +93,9 @@ def _explained(task: Task) -> Draft | None:
     is_given = task.start is not None and explained.tracks != task.start
     if is_given and _cost(task, task.start or ()) <= _cost(task, explained.tracks):
         return None
-    return replace(explained, status=f"two-level, {explained.status}")
+    return replace(
+        explained, status=Phrase("{first}, {second}", first="two-level", second=explained.status)
+    )
 
 
 def _improved(task: Task, first: Draft | None) -> Draft:
@@ -129,9 +132,13 @@ class _Prover:
         tracks, done = search.tracks, _nodes_of(search)
         if tracks is not None:
             task.better(lambda: tracks)
-            return Draft(tracks=tracks, status=f"optimal: found by {done}", proof=proof)
+            status = Phrase("optimal: found by {nodes}", nodes=done)
+            return Draft(tracks=tracks, status=status, proof=proof)
         if search.is_proven:
-            draft = replace(draft, status=f"optimal: proven by {done} ({draft.status})")
+            status = Phrase(
+                "optimal: proven by {nodes} ({status})", nodes=done, status=draft.status
+            )
+            draft = replace(draft, status=status)
         return replace(draft, proof=proof)
 
     def priced(self, draft: Draft) -> Draft:
@@ -159,7 +166,7 @@ class _Prover:
         if search.tracks is not None:
             task.has_plan()
             proof = Proof(bound=search.bound or Tick(0), objective=minimized(task.scenario))
-            status = f"optimal: found by {_nodes_of(search)}"
+            status = Phrase("optimal: found by {nodes}", nodes=_nodes_of(search))
             return Draft(tracks=search.tracks, status=status, proof=proof)
         if search.is_proven:
             everybody = range(len(task.scenario.robots))
@@ -190,8 +197,8 @@ class _Prover:
 
 
 def _nodes_of(search: ConflictBasedSearch) -> str:
-    nodes = "node" if search.n_nodes == 1 else "nodes"
-    return f"{search.n_nodes} {nodes} of conflict-based search"
+    nodes = counted(search.n_nodes, "node", "nodes")
+    return Phrase("{nodes} of conflict-based search", nodes=nodes)
 
 
 def _is_optimal(task: Task, draft: Draft) -> bool:

@@ -33,6 +33,7 @@ from math import ceil
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Proof, Tick, cost_of
 from rightofway.model.outcome import Objective, minimized
+from rightofway.phrases import Phrase, counted
 from rightofway.planners.impossible import blocking_set
 from rightofway.planners.lns import improved
 from rightofway.planners.prioritized import fleet_search
@@ -73,23 +74,38 @@ def cbs(task: Task) -> Draft:
     except KeyboardInterrupt:
         if not task.keep_best or first is None:
             raise
-        return replace(first, status=f"interrupted: {first.status}")
-    done = f"{search.n_nodes} nodes"
+        return replace(first, status=Phrase("interrupted: {status}", status=first.status))
+    done = counted(search.n_nodes, "node", "nodes")
     if search.tracks is not None:
         task.has_plan()
         tracks = search.tracks
-        kind = "optimal" if factor == 1 else f"within {float(factor):g} of the optimum"
-        status = f"{kind}: found in {done}"
+        kind = Phrase("optimal")
+        if factor > 1:
+            kind = Phrase("within {factor} of the optimum", factor=f"{float(factor):g}")
+        status = Phrase("{kind}: found in {nodes}", kind=kind, nodes=done)
         if first is not None and cost_of(scenario, tracks) >= cost_of(scenario, first.tracks):
             tracks = first.tracks
-            status = f"{kind}: {done} prove it (first plan: {first.status})"
+            status = Phrase(
+                "{kind}: {nodes} prove it (first plan: {status})",
+                kind=kind,
+                nodes=done,
+                status=first.status,
+            )
         task.better(lambda: tracks)
     elif first is not None:
         tracks = first.tracks
         if search.is_proven:
-            status = f"optimal: {done} prove that nothing is better (first plan: {first.status})"
+            status = Phrase(
+                "optimal: {nodes} prove that nothing is better (first plan: {status})",
+                nodes=done,
+                status=first.status,
+            )
         else:
-            status = f"{done} found nothing better (first plan: {first.status})"
+            status = Phrase(
+                "{nodes} found nothing better (first plan: {status})",
+                nodes=done,
+                status=first.status,
+            )
     elif search.is_proven:
         robots = range(len(scenario.robots))
         raise NoPlanExists([blocking_set(scenario, robots, seed=task.seed, deadline=task.deadline)])
@@ -110,7 +126,7 @@ def cbs(task: Task) -> Draft:
 def _first_plan(task: Task) -> Draft | None:
     """Return the plan given or one by large neighbourhood search, None where it finds none."""
     if task.start is not None:
-        return Draft(tracks=task.start, status="the plan given")
+        return Draft(tracks=task.start, status=Phrase("the plan given"))
     iterations = ITERATIONS_PER_ROBOT * len(task.scenario.robots)
     hurried = replace(
         task, options={"iterations": iterations}, deadline=task.deadline.sooner(SHARE)

@@ -189,7 +189,7 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
         because = Phrase("one robot at a time finds no way, so all were planned together")
         return _plan_together(task, because)
     ordered = [track for _, track in sorted(tracks.items())]
-    status, names = "waits only", [robot.name for robot in task.scenario.robots]
+    status, names = Phrase("waits only"), [robot.name for robot in task.scenario.robots]
     if made_way:  # shift the visits of robots that waited for a robot on its former route
         ordered = graph_of(task.scenario.problem, ordered).tracks()
     rerouted = [
@@ -198,7 +198,8 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
         if tuple(ordered[robot].vertices.tolist()) != plan.routes[robot].vertices
     ]
     if rerouted:
-        status = f"re-routed {', '.join(names[robot] for robot in rerouted)}"
+        robots = ", ".join(names[robot] for robot in rerouted)
+        status = Phrase("re-routed {robots}", robots=robots)
     return Draft(
         tracks=tuple(ordered),
         status=status,
@@ -243,7 +244,7 @@ def _plan_together(task: Task, because: str) -> Draft:
         draft = plan_in_turn(task, fleet_search(task), "shortest")
     return replace(
         draft or plan_fleet(task),
-        status="re-routed all robots together",
+        status=Phrase("re-routed all robots together"),
         reroutes=tuple(Reroute(robot=robot, because=because) for robot in robots),
     )
 

@@ -328,7 +328,7 @@ def fleet_at_home(scenario: Scenario) -> Plan:
         tracks=tuple(Track.of([robot.home], [0]) for robot in scenario.robots),
         run=PlannerRun(
             name="none",
-            status="no plan exists",
+            status=Phrase("no plan exists"),
             outcome=Outcome(kind=OutcomeKind.NO_PLAN_EXISTS),
             alone=tuple(Tick(max(ticks, 0)) for ticks in alone.tolist()),
         ),

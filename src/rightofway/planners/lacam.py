@@ -24,6 +24,7 @@ from typing import NoReturn
 
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Track, route_through
+from rightofway.phrases import Phrase
 from rightofway.planners.impossible import (
     blocking_set,
     refuse_blocked_parts,
@@ -63,11 +64,11 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     if problem.closures is not None and (moved := plan_by_timed_moves(task)) is not None:
         return moved
     if not problem.resources.are_points:
-        task.report("no end by instants: planning the order of single moves")
+        task.report(Phrase("no end by instants: planning the order of single moves"))
         search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
         return plan_by_moves(task, search)
     if problem.is_open:
-        task.report("no end by instants: planning the order of moves without clocks")
+        task.report(Phrase("no end by instants: planning the order of moves without clocks"))
         refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
     try:
         tracks = plan_by_lacam(
@@ -85,12 +86,14 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     if tracks is None:
         raise GaveUp("time ran out in the search for the whole fleet (give a longer time limit)")
     task.has_plan()
-    return Draft(tracks=tuple(timetable_of(scenario, tracks)), status="order of moves first")
+    return Draft(
+        tracks=tuple(timetable_of(scenario, tracks)), status=Phrase("order of moves first")
+    )
 
 
 def _refuse_blocked(task: Task) -> NoReturn:
     """Raise for a fleet that is proven to have no plan: which robots block each other."""
-    task.report("no plan exists: looking for the robots that block each other")
+    task.report(Phrase("no plan exists: looking for the robots that block each other"))
     everybody = range(len(task.scenario.robots))
     blockages = blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
     raise NoPlanExists([blockages]) from None
@@ -118,7 +121,7 @@ def plan_by_instants(
     if tracks is None:
         return None
     task.has_plan()
-    return Draft(tracks=tuple(tracks), status="instant by instant")
+    return Draft(tracks=tuple(tracks), status=Phrase("instant by instant"))
 
 
 def timetable_of(scenario: Scenario, tracks: Sequence[Track]) -> list[Track]:

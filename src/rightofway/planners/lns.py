@@ -25,6 +25,7 @@ import numpy as np
 from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick, Track, cost_of
 from rightofway.model.outcome import minimized
+from rightofway.phrases import Phrase, chain_items, counted
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, planning_problem
@@ -62,7 +63,7 @@ def lns(task: Task) -> Draft:
     """Find a plan or take the one given, and improve it till time is up; options: `LnsOptions`."""
     search = fleet_search(task)
     if task.start is not None:
-        return _improve(task, search, Draft(tracks=task.start, status="the plan given"))
+        return _improve(task, search, Draft(tracks=task.start, status=Phrase("the plan given")))
     return improved(task, search)
 
 
@@ -107,7 +108,7 @@ def _together(task: Task) -> Draft | None:
     except GaveUp:
         return None
     task.better(lambda: draft.tracks)
-    return replace(draft, status="all together")
+    return replace(draft, status=Phrase("all together"))
 
 
 def _quickly_together(task: Task) -> Draft | None:
@@ -118,7 +119,7 @@ def _quickly_together(task: Task) -> Draft | None:
     if draft is None:
         return None
     task.better(lambda: draft.tracks)
-    return replace(draft, status="all together")
+    return replace(draft, status=Phrase("all together"))
 
 
 def _in_turn(task: Task, search: FleetSearch, *, has_plan: bool) -> Draft | None:
@@ -139,7 +140,8 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     task.better(lambda: first.tracks)
     spaced = _spaced(task, first.tracks)
     if spaced is None:
-        return replace(first, status=f"{first.status}; closures leave no time for longer headways")
+        status = Phrase("closures leave no time for longer headways")
+        return replace(first, status=chain_items([first.status, status], "{first}; {second}"))
     search.start(spaced)
     is_open = task.scenario.problem.closures is None
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
@@ -149,7 +151,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     bound = alone if first.proof is None else max(alone, first.proof.bound)
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED
-    done, ended = 0, ""
+    done, is_interrupted = 0, False
     try:
         while search.cost != bound and done < iterations:
             began, done_before, cost = time.perf_counter(), done, search.cost
@@ -162,29 +164,50 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
             rate = (done - done_before) / (time.perf_counter() - began)
             if search.cost < cost:
                 task.better(search.tracks)
-            reached = task.scenario.quantities.duration(search.cost)
-            gap = f", {search.cost / bound - 1:.1%} above the bound" if bound else ""
-            task.report(f"{minimized(task.scenario)} {reached}{gap}, {rate:.0f} attempts per s")
+            task.report(_progress(task, search.cost, bound, rate))
             if search.idle >= patience or deadline.seconds_left() == 0:
                 break
     except KeyboardInterrupt:
         if not task.keep_best:
             raise
-        ended = "interrupted: "
+        is_interrupted = True
     tracks = _found(task, search, tuple(spaced), is_better=search.cost < before)
     measured = partial(cost_of, task.scenario)
     cost = measured(tracks)
-    if cost == alone:
-        status = f"optimal: every robot as fast as alone (first plan: {first.status})"
-    elif cost == before:
-        status = f"{ended}{first.status}; {done} neighbourhoods found nothing better"
-    else:
-        status = f"{ended}improved by {done} neighbourhoods (first plan: {first.status})"
+    status = Phrase(
+        "optimal: every robot as fast as alone (first plan: {status})", status=first.status
+    )
+    if cost != alone:
+        is_better = cost != before
+        status = _status(first, done, is_better=is_better, is_interrupted=is_interrupted)
     if spaced is not first.tracks and measured(tracks) > measured(first.tracks):
         tracks = first.tracks  # the headway of planning costs more than the search gained
     saved = measured(first.tracks) - measured(tracks)
-    gain = Improvement(saved=Tick(saved), tries=done, interrupted=bool(ended))
+    gain = Improvement(saved=Tick(saved), tries=done, interrupted=is_interrupted)
     return Draft(tracks=tracks, status=status, improvement=gain, proof=first.proof)
+
+
+def _progress(task: Task, cost: int, bound: int, rate: float) -> str:
+    """Return what the search has reached."""
+    reached = task.scenario.quantities.duration(cost)
+    figures = [Phrase("{cause} {time}", cause=str(minimized(task.scenario)), time=reached)]
+    if bound:
+        figures.append(Phrase("{gap} above the bound", gap=f"{cost / bound - 1:.1%}"))
+    figures.append(Phrase("{rate} attempts per s", rate=f"{rate:.0f}"))
+    return chain_items(figures)
+
+
+def _status(first: Draft, done: int, *, is_better: bool, is_interrupted: bool) -> Phrase:
+    """Return what the search did with a first plan."""
+    values = {
+        "neighbourhoods": counted(done, "neighbourhood", "neighbourhoods"),
+        "status": first.status,
+    }
+    if is_better:
+        status = Phrase("improved by {neighbourhoods} (first plan: {status})", **values)
+    else:
+        status = Phrase("{status}; {neighbourhoods} found nothing better", **values)
+    return Phrase("interrupted: {status}", status=status) if is_interrupted else status
 
 
 def _found(

@@ -27,6 +27,7 @@ from typing import NamedTuple
 
 from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick
+from rightofway.phrases import Phrase, chain_items
 from rightofway.planners.conflict_resolution import rights_if_waits
 from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.planners.two_level import two_level
@@ -59,10 +60,14 @@ def local_search(task: Task) -> Draft:
     LocalSearch(task, graph).run(rounds=int(task.options["rounds"]))
     if graph.flowtime() > before.flowtime():  # the headway of planning costs more than flips gain
         graph = before
-    gain = f"flips took the flowtime from {before.flowtime()} to {graph.flowtime()} ticks"
+    gain = Phrase(
+        "flips took the flowtime from {before} to {after} ticks",
+        before=str(before.flowtime()),
+        after=str(graph.flowtime()),
+    )
     return Draft(
         tracks=tuple(graph.tracks()),
-        status=f"{first.status}; {gain}" if first.status else gain,
+        status=chain_items([*filter(None, [first.status]), gain], "{first}; {second}"),
         reroutes=first.reroutes,
         improvement=Improvement(saved=Tick(before.flowtime() - graph.flowtime())),
     )

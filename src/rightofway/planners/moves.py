@@ -33,6 +33,7 @@ from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Tick, Track, least_dwell
 from rightofway.native import excluded_by
+from rightofway.phrases import Phrase
 from rightofway.planners.impossible import fleet_of, no_room, smallest_set
 from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.search import Distances, FleetSearch
@@ -81,7 +82,7 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
     search.start(_in_sequence(task, moves))
     search.retime()
     task.has_plan()
-    return Draft(tracks=search.tracks(), status="order of moves first")
+    return Draft(tracks=search.tracks(), status=Phrase("order of moves first"))
 
 
 def tracks_by_moves(task: Task, *, ends_anywhere: Collection[int], most_states: int) -> list[Track]:

@@ -37,6 +37,7 @@ from typing import Literal
 
 from rightofway.errors import GaveUp
 from rightofway.model import Tick, flowtime_of
+from rightofway.phrases import Phrase
 from rightofway.planners.conflict_resolution import (
     PartialPlan,
     Resolution,
@@ -141,7 +142,8 @@ def _best_of(
             best, least = draft, reached
             task.better(lambda: draft.tracks)
             flowtime = task.scenario.quantities.duration(reached)
-            task.report(f"order {tried}: flowtime {flowtime}")
+            values = {"number": str(tried), "flowtime": str(flowtime)}
+            task.report(Phrase("order {number}: flowtime {flowtime}", **values))
         return reached
 
     try:
@@ -150,5 +152,7 @@ def _best_of(
         if best is None:
             raise
     assert best is not None, "at least one order is tried"
-    count = "1 order" if tried == 1 else f"{tried} orders"
-    return replace(best, status=f"{best.status}; best of {count}")
+    status = Phrase("{status}; best of 1 order", status=best.status)
+    if tried > 1:
+        status = Phrase("{status}; best of {number} orders", status=best.status, number=str(tried))
+    return replace(best, status=status)

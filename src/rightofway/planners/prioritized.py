@@ -21,6 +21,7 @@ import numpy as np
 
 from rightofway.deadline import Deadline
 from rightofway.model import Scenario, Stop, cost_of
+from rightofway.phrases import Phrase
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_of
 from rightofway.planners.task import Draft, Task, planning_problem
@@ -57,7 +58,7 @@ def prioritized(task: Task) -> Draft:
     if draft is not None:
         return draft
     task.deadline.check("planning robots one after another")
-    status = "all together, because robots one after another found no way"
+    status = Phrase("all together, because robots one after another found no way")
     return replace(plan_fleet(task), status=status)
 
 
@@ -118,7 +119,7 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     if problem.closures is not None:  # a robot may have waited for a kept home
         tracks = tuple(graph_of(planning_problem(task.scenario), tracks).tracks())
     task.has_plan()
-    return Draft(tracks=tracks, status="one after another")
+    return Draft(tracks=tracks, status=Phrase("one after another"))
 
 
 def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
@@ -133,7 +134,7 @@ def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
         return None
     tracks = timetable_of(task.scenario, search.tracks())
     task.has_plan()
-    status = "one after another at one pace, each then at its own"
+    status = Phrase("one after another at one pace, each then at its own")
     return Draft(tracks=tuple(tracks), status=status)
 
 

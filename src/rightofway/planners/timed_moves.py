@@ -22,6 +22,7 @@ from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import NEVER, Scenario, Tick, Track, least_dwell
 from rightofway.native import excluded_by
+from rightofway.phrases import Phrase
 from rightofway.planners.impossible import fleet_of, no_room, smallest_set
 from rightofway.planners.moves import Move, SingleMoves, State
 from rightofway.planners.task import Draft, Task, planning_problem
@@ -63,7 +64,7 @@ def plan_by_timed_moves(task: Task) -> Draft | None:
     if planning_problem(scenario) is not scenario.problem:
         return None  # its robots might rotate
     task.has_plan()
-    return Draft(tracks=tuple(_at_times(moves, last)), status="order of moves")
+    return Draft(tracks=tuple(_at_times(moves, last)), status=Phrase("order of moves"))
 
 
 def _search(moves: _TimedMoves, deadline: Deadline) -> _Timed | None:

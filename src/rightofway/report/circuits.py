@@ -10,7 +10,7 @@ from typing import Literal
 from rightofway.cyclic import Piece
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, counted, joined
+from rightofway.phrases import Phrase, chain_items, counted, joined
 from rightofway.site import VertexId
 
 MAX_STEPS = 12
@@ -108,9 +108,7 @@ def _step(piece: Piece, awaited: int, scenario: Scenario, place: PlaceNames) -> 
     )
 
 
-def circuit_in_words(
-    pieces: Sequence[Piece], scenario: Scenario, *, most: int = MAX_STEPS
-) -> Phrase:
+def circuit_in_words(pieces: Sequence[Piece], scenario: Scenario, *, most: int = MAX_STEPS) -> str:
     """Return what the robots of a critical circuit do, in one sentence.
 
     That is ``R2 enters N4 once R1 has left N4, drives to N8, works at N8, drives home; …``.
@@ -121,17 +119,12 @@ def circuit_in_words(
         return Phrase("{robot}'s own lap: it waits for no robot", robot=names[steps[0].robot])
     parts = []
     for robot, run in groupby(steps[:most], lambda step: step.robot):
-        first, *rest = (step.text for step in run)
-        for text in rest:
-            first = Phrase("{first}, {second}", first=first, second=text)
-        parts.append(Phrase("{robot} {steps}", robot=names[robot], steps=first))
+        texts = chain_items([step.text for step in run])
+        parts.append(Phrase("{robot} {steps}", robot=names[robot], steps=texts))
     if len(steps) > most:
         further = counted(len(steps) - most, "more step", "more steps")
         parts.append(Phrase("and {steps}", steps=further))
-    sentence, *others = parts
-    for part in others:
-        sentence = Phrase("{first}; {second}", first=sentence, second=part)
-    return sentence
+    return chain_items(parts, "{first}; {second}")
 
 
 def circuit_in_short(pieces: Sequence[Piece], scenario: Scenario, period: Tick) -> Phrase:

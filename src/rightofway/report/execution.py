@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 
 from rightofway.execution import PolicyGain, Quantiles, SimulationResult
+from rightofway.languages import ENGLISH
 from rightofway.model.place_names import PlaceNames
+from rightofway.phrases import Phrase, chain_items, counted
 from rightofway.quantities import Quantities, decimal
-from rightofway.report.lines import COLUMNS, counted, further, row, short
+from rightofway.report.lines import Facts, Part, Table, further, lay_out, short
 
 MAX_ROBOTS = 20
 """Robots in the report; --json has them all."""
@@ -20,100 +22,140 @@ LEAST_SHARE = 0.01
 """The report names a robot that causes at least this share of another one's lateness."""
 
 
-def report(outcome: SimulationResult, quantities: Quantities) -> str:
+def report(outcome: SimulationResult, quantities: Quantities, language: str = ENGLISH) -> str:
     """Return how often robots collided, how late each one was, and where lateness began."""
-    totals, robots = _totals(outcome, quantities), _robots(outcome, quantities)
-    return "\n".join([*totals, "", *robots, *_sources(outcome, quantities)])
+    facts = Facts(list(_totals(outcome, quantities)))
+    parts = [facts, "", *_robots(outcome, quantities), *_sources(outcome, quantities)]
+    return lay_out(parts, language)
 
 
-def _totals(outcome: SimulationResult, quantities: Quantities) -> Iterator[str]:
-    runs, late, clock, gain = outcome.runs, outcome.lateness, outcome.by_clock, outcome.gain
-    collisions = _count(outcome.collisions, "collision")
-    by_clock = "no run collides"
-    if clock.runs and clock.first.median is not None:
-        by_clock = (
-            f"{clock.runs / runs:.1%} of runs collide, {_per_run(clock.total, runs)},"
-            f" first at {quantities.moment(clock.first.median)} (median)"
-        )
-    rows = [
-        ("runs", f"{runs} with {', '.join(outcome.delays)}; seed {outcome.seed}"),
-        ("right of way", f"{collisions}, {_count(outcome.deadlocks, 'deadlock')}"),
-        ("by the clock", by_clock),
-        ("late", _lateness(late.all, quantities, "by")),
-    ]
+def _totals(outcome: SimulationResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
+    runs, late, gain = outcome.runs, outcome.lateness, outcome.gain
+    yield (
+        Phrase("runs"),
+        Phrase(
+            "{runs} with {delays}; seed {seed}",
+            runs=str(runs),
+            delays=", ".join(outcome.delays),
+            seed=str(outcome.seed),
+        ),
+    )
+    collisions = counted(outcome.collisions or Phrase("no"), "collision", "collisions")
+    deadlocks = counted(outcome.deadlocks or Phrase("no"), "deadlock", "deadlocks")
+    yield Phrase("right of way"), chain_items([collisions, deadlocks])
+    yield Phrase("by the clock"), _by_clock(outcome, quantities)
+    yield Phrase("late"), _lateness(late.all, quantities, is_delay=True)
     if late.flowtime.mean is not None:
-        rows.append(("flowtime", _lateness(late.flowtime, quantities)))
-        rows.append(("makespan", _lateness(late.makespan, quantities)))
+        yield Phrase("flowtime"), _lateness(late.flowtime, quantities)
+        yield Phrase("makespan"), _lateness(late.makespan, quantities)
+    stranded = _mean(outcome.stranded, runs)
     if outcome.plan.scenario.closures:
-        caught = f"robots per run: {_mean(outcome.caught, runs)} are caught in a closure,"
-        rows.append(("closures", f"{caught} {_mean(outcome.stranded, runs)} never complete"))
+        text = Phrase(
+            "robots per run: {caught} are caught in a closure, {stranded} never complete",
+            caught=_mean(outcome.caught, runs),
+            stranded=stranded,
+        )
+        yield Phrase("closures"), text
     if outcome.switches:
-        rows.append(("switched", _per_run(outcome.switches, runs)))
+        yield Phrase("switched"), _per_run(outcome.switches, runs)
     if outcome.replans:
-        rows.append(("replanned", _per_run(outcome.replans, runs)))
+        yield Phrase("replanned"), _per_run(outcome.replans, runs)
     if gain and gain.runs and gain.flowtime.mean is not None:
-        rows.append(("gain", _gain(gain, gain.flowtime.mean, quantities)))
+        yield Phrase("gain"), _gain(gain, gain.flowtime.mean, quantities)
     if outcome.broken:
-        broken = (
-            f"robots per run: {_mean(outcome.broken, runs)} break down,"
-            f" {_mean(outcome.stranded, runs)} wait for them for ever"
+        broken: str = Phrase(
+            "robots per run: {broken} break down, {stranded} wait for them for ever",
+            broken=_mean(outcome.broken, runs),
+            stranded=stranded,
         )
         if outcome.replans:
-            broken += f", {_mean(outcome.cut_off, runs)} are cut off from a place"
-        rows.append(("broken", broken))
-    for key, text in rows:
-        yield row(key, text, 14)
+            cut_off = _mean(outcome.cut_off, runs)
+            broken = chain_items(
+                [broken, Phrase("{number} are cut off from a place", number=cut_off)]
+            )
+        yield Phrase("broken"), broken
 
 
-def _gain(gain: PolicyGain, saved: float, quantities: Quantities) -> str:
-    """Compare runs with the plan's rights of way in the same runs; a loss is below zero."""
-    if not (gain.earlier or gain.later):
-        return "none"
-    return (
-        f"flowtime {quantities.duration(abs(saved))} {'less' if saved >= 0 else 'more'} on average"
-        " than with the plan's rights of way in the same runs;"
-        f" {gain.earlier / gain.runs:.0%} of runs earlier, {gain.later / gain.runs:.0%} later"
+def _by_clock(outcome: SimulationResult, quantities: Quantities) -> Phrase:
+    clock, runs = outcome.by_clock, outcome.runs
+    if not clock.runs or clock.first.median is None:
+        return Phrase("no run collides")
+    return Phrase(
+        "{share} of runs collide, {times}, first at {moment} (median)",
+        share=f"{clock.runs / runs:.1%}",
+        times=_per_run(clock.total, runs),
+        moment=quantities.moment(clock.first.median),
     )
 
 
-def _count(number: int, noun: str) -> str:
-    return f"{number or 'no'} {noun}" + "s" * (number != 1)
+def _gain(gain: PolicyGain, saved: float, quantities: Quantities) -> Phrase:
+    """Compare runs with the plan's rights of way in the same runs; a loss is below zero."""
+    if not (gain.earlier or gain.later):
+        return Phrase("none")
+    values = {
+        "time": quantities.duration(abs(saved)),
+        "earlier": f"{gain.earlier / gain.runs:.0%}",
+        "later": f"{gain.later / gain.runs:.0%}",
+    }
+    if saved < 0:
+        return Phrase(
+            "flowtime {time} more on average than with the plan's rights of way in the same runs;"
+            " {earlier} of runs earlier, {later} later",
+            **values,
+        )
+    return Phrase(
+        "flowtime {time} less on average than with the plan's rights of way in the same runs;"
+        " {earlier} of runs earlier, {later} later",
+        **values,
+    )
 
 
 def _mean(number: int, runs: int) -> str:
     return decimal(Fraction(number, runs))
 
 
-def _per_run(number: int, runs: int) -> str:
-    mean = _mean(number, runs)
-    return f"{mean} time{'s' * (mean != '1')} per run on average"
+def _per_run(number: int, runs: int) -> Phrase:
+    times = counted(_mean(number, runs), "time", "times")
+    return Phrase("{times} per run on average", times=times)
 
 
-def _lateness(lateness: Quantiles, quantities: Quantities, later: str = "later by") -> str:
+def _lateness(lateness: Quantiles, quantities: Quantities, *, is_delay: bool = False) -> Phrase:
+    """Return how late robots are, or how much later a sum of their times is."""
     mean, most = lateness.mean, lateness.max
     if mean is None or most is None:
-        return "no robot ever completes"
+        return Phrase("no robot ever completes")
     write = further(quantities)
+    times = {"time": quantities.duration(abs(mean))}
+    if mean < 0:
+        average = Phrase("earlier by {time} on average", **times)
+    elif is_delay:
+        average = Phrase("by {time} on average", **times)
+    else:
+        average = Phrase("later by {time} on average", **times)
     quantiles = (
-        ("median", lateness.median),
-        ("90% within", lateness.p90),
-        ("95% within", lateness.p95),
+        (Phrase("median"), lateness.median),
+        (Phrase("90% within"), lateness.p90),
+        (Phrase("95% within"), lateness.p95),
     )
-    parts = [f"{words} {write(ticks)}" for words, ticks in quantiles if ticks is not None]
-    average = f"{later if mean >= 0 else 'earlier by'} {quantities.duration(abs(mean))} on average"
-    return f"{average}; {', '.join(parts)}, at most {write(most)}"
+    parts: list[str] = [
+        Phrase("{cause} {time}", cause=name, time=write(ticks))
+        for name, ticks in quantiles
+        if ticks is not None
+    ]
+    parts.append(Phrase("at most {time}", time=write(most)))
+    return Phrase("{first}; {second}", first=average, second=chain_items(parts))
 
 
-def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[str]:
+def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]:
     names = [short(robot.name) for robot in outcome.plan.scenario.robots]
     robots, cell = outcome.lateness.robots, quantities.cell
     latest = sorted(range(len(robots)), key=lambda robot: -(robots[robot].quantiles.mean or 0))
     listed = sorted(latest[:MAX_ROBOTS])
-    rows = [("mean", "95%", "most", "own", "waiting for")]
+    rows = []
     for number in listed:
         robot, late = robots[number], robots[number].quantiles
         if late.mean is None or late.p95 is None or late.max is None:
-            rows.append(("", "", "", "", ""))
+            rows.append([names[number], Phrase("never completes")])
             continue
         waiting = [
             f"{names[other]} {cell(ticks)}"
@@ -121,40 +163,36 @@ def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[str]:
             if ticks >= LEAST_SHARE * late.mean
         ]
         times = (cell(late.mean), cell(late.p95), cell(late.max), cell(robot.own))
-        rows.append((*times, ", ".join(waiting[:3])))
-    yield quantities.heading("how late each robot is")
-    for line in _table(["robot", *(names[number] for number in listed)], rows):
-        yield line if len(line) <= COLUMNS else f"{line[: COLUMNS - 1]}…"
+        rows.append([names[number], *times, ", ".join(waiting[:3])])
+    yield quantities.heading(Phrase("how late each robot is"))
+    headings = (Phrase("mean"), "95%", Phrase("most"), Phrase("own"), Phrase("waiting for"))
+    yield Table((Phrase("robot"), *headings), rows, has_remarks=True)
     if len(robots) > len(listed):
-        yield f"… and {counted(len(robots) - len(listed), 'more robot')} that are less late"
+        more = counted(len(robots) - len(listed), "more robot", "more robots")
+        yield Phrase("… and {robots} that are less late", robots=more)
 
 
-def _sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[str]:
+def _sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]:
     sources = outcome.lateness.sources
     if not sources:
         return
     scenario = outcome.plan.scenario
     robots, place = scenario.robots, PlaceNames(scenario, numbered=True).where
-    listed, cell = sources[:MAX_SOURCES], quantities.cell
-    names = [f"{short(robots[source.robot].name)} at {place(source.vertex)}" for source in listed]
     rows = [
-        ("itself", "others"),
-        *((cell(source.own), cell(source.of_others)) for source in listed),
+        [
+            Phrase(
+                "{robot} at {place}",
+                robot=short(robots[source.robot].name),
+                place=place(source.vertex),
+            ),
+            quantities.cell(source.own),
+            quantities.cell(source.of_others),
+        ]
+        for source in sources[:MAX_SOURCES]
     ]
     yield ""
-    yield quantities.heading("where most lateness begins, mean per run")
-    yield from _table(["robot", *names], rows)
-    if len(sources) > len(listed):
-        yield f"… and {counted(len(sources) - len(listed), 'more place')} (--json lists all)"
-
-
-def _table(names: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Yield the lines of a table of times; a robot without times never completes."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    width = max(map(len, names))
-    for name, cells in zip(names, rows, strict=True):
-        line = "  ".join(
-            f"{text:{'<' if heading == 'waiting for' else '>'}{space}}"
-            for text, space, heading in zip(cells, widths, rows[0], strict=True)
-        )
-        yield f"{name:{width}}  {line if any(cells) else 'never completes'}".rstrip()
+    yield quantities.heading(Phrase("where most lateness begins, mean per run"))
+    yield Table((Phrase("robot"), Phrase("itself"), Phrase("others")), rows)
+    if len(sources) > len(rows):
+        more = counted(len(sources) - len(rows), "more place", "more places")
+        yield Phrase("… and {places} (--json lists all)", places=more)

@@ -18,8 +18,10 @@ from rightofway.cyclic import (
     ParameterEffect,
     parameter_effects,
 )
+from rightofway.languages import ENGLISH
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
+from rightofway.phrases import Phrase, chain_items, counted
 from rightofway.quantities import Quantities, decimal
 from rightofway.report.circuits import circuit_in_words
 from rightofway.report.laps_data import (
@@ -30,7 +32,7 @@ from rightofway.report.laps_data import (
     is_long,
     names_in,
 )
-from rightofway.report.lines import COLUMNS, counted, further, short, wrapped
+from rightofway.report.lines import Facts, Paragraph, Part, Table, further, lay_out
 
 MAX_GROUPS = 3
 """Groups in the report; --json has them all."""
@@ -48,95 +50,132 @@ Sites = dict[tuple[int, int | None, int, int], list[Tick]]
 """Waits by vertex, the other robot's vertex, waiting and awaited robot: their times [ticks]."""
 
 
-def laps_report(run: CyclicResult, quantities: Quantities) -> str:
+def laps_report(run: CyclicResult, quantities: Quantities, language: str = ENGLISH) -> str:
     """Return a result for people."""
+    return lay_out(_report(run, quantities), language)
+
+
+def _report(run: CyclicResult, quantities: Quantities) -> Iterator[Part]:
     together = [group for group in run.groups if len(group.robots) > 1]
-    ends = Counter(group.ends for group in together)
-    counts = [
-        (ends["repeats"], "periodic"),
-        (ends["deadlock"], "in deadlock"),
-        (ends["open"], "open: time ran out"),
-    ]
-    groups = [f"{number} of {len(together)} {words}" for number, words in counts if number]
-    alone = len(run.groups) - len(together)
-    if alone:
-        groups.append("1 robot meets no other" if alone == 1 else f"{alone} robots meet no other")
-    per = "per hour" if run.scenario.units.time else f"in {HOUR} time units"
-    lines = [
-        f"rule        {run.rule}, on {run.routes} routes",
-        f"groups      {'; '.join(groups)}",
-        f"throughput  {decimal(hour_of(run.scenario) * run.throughput())} laps {per}",
-    ]
+    rate = decimal(hour_of(run.scenario) * run.throughput())
+    throughput = Phrase("{rate} laps per hour", rate=rate)
+    if not run.scenario.units.time:
+        throughput = Phrase("{rate} laps in {hour} time units", rate=rate, hour=str(HOUR))
+    yield Facts(
+        [
+            (
+                Phrase("rule"),
+                Phrase("{rule}, on {routes} routes", rule=run.rule, routes=str(run.routes)),
+            ),
+            (Phrase("groups"), _groups(together, len(run.groups) - len(together))),
+            (Phrase("throughput"), throughput),
+        ]
+    )
     largest = sorted(together, key=lambda group: -len(group.robots))
     for group in largest[:MAX_GROUPS]:
-        lines += ["", *_group_lines(run.scenario, quantities, group)]
+        yield ""
+        yield from _group_lines(run.scenario, quantities, group)
         if group.comparison is not None:
-            lines += comparison_lines(group.comparison)
+            yield from comparison_lines(group.comparison)
     if len(largest) > MAX_GROUPS:
-        more = counted(len(largest) - MAX_GROUPS, "more group")
-        lines += ["", f"… and {more}, none larger (--json lists all)"]
-    return "\n".join(lines)
+        more = counted(len(largest) - MAX_GROUPS, "more group", "more groups")
+        yield ""
+        yield Phrase("… and {groups}, none larger (--json lists all)", groups=more)
 
 
-def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[str]:
-    size = f"{len(group.robots)} robots"
+def _groups(together: Sequence[GroupResult], alone: int) -> str:
+    ends = Counter(group.ends for group in together)
+    counts = [
+        (ends["repeats"], Phrase("periodic")),
+        (ends["deadlock"], Phrase("in deadlock")),
+        (ends["open"], Phrase("open: time ran out")),
+    ]
+    groups: list[str] = [
+        Phrase("{number} of {all} {end}", number=str(number), all=str(len(together)), end=end)
+        for number, end in counts
+        if number
+    ]
+    if alone:
+        groups.append(counted(alone, "robot meets no other", "robots meet no other"))
+    return chain_items(groups, "{first}; {second}")
+
+
+def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[Part]:
+    number = str(len(group.robots))
     if group.pattern is None:
-        source = "Laps until then"
+        source = Phrase("Laps until then")
         if group.ends != "deadlock":
             measured = group.measured()
             laps = decimal(Fraction(sum(measured.laps), len(measured.laps)), 1)
-            source = (
-                f"Measured, not proven: means of {laps} laps per robot"
-                f" from {quantities.moment(measured.warm_up)} on"
+            source = Phrase(
+                "Measured, not proven: means of {laps} laps per robot from {moment} on",
+                laps=laps,
+                moment=quantities.moment(measured.warm_up),
             )
-        yield from wrapped(f"{size}: {group.why}. {source}:")
-        yield from _robot_lines(scenario, quantities, group)
+        yield Phrase(
+            "{number} robots: {why}. {source}:", number=number, why=group.why, source=source
+        )
+        yield _robot_table(scenario, quantities, group)
+        yield from _further_robots(group)
         return
-    period, since = group.pattern.period, group.pattern.transient
-    repeats = f"period {quantities.duration(period)}, from {quantities.moment(since)} on"
-    yield from wrapped(f"{size}: {repeats}")
-    yield from _robot_lines(scenario, quantities, group)
+    yield Phrase(
+        "{number} robots: period {period}, from {moment} on",
+        number=number,
+        period=quantities.duration(group.pattern.period),
+        moment=quantities.moment(group.pattern.transient),
+    )
+    yield _robot_table(scenario, quantities, group)
+    yield from _further_robots(group)
     yield from _stuck_lines(scenario, group)
     if is_long(group):
-        yield f"waits and bottleneck: not computed for a period of more than {MAX_VISITS} visits"
+        yield Phrase(
+            "waits and bottleneck: not computed for a period of more than {number} visits",
+            number=str(MAX_VISITS),
+        )
         return
     yield from _wait_lines(scenario, quantities, group)
     bottleneck = group.bottleneck()
     if bottleneck:
-        yield from wrapped(f"bottleneck: {circuit_in_words(bottleneck.pieces, scenario)}")
+        circuit = circuit_in_words(bottleneck.pieces, scenario)
+        yield Phrase("bottleneck: {circuit}", circuit=circuit)
         yield from _sensitivity_lines(scenario, group)
 
 
-def _robot_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[str]:
+def _robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Table:
     counts = group.pattern.counts if group.pattern else group.measured().laps
-    never, cell, heading = "never" if group.pattern else "?", quantities.cell, quantities.heading
+    never: str = Phrase("never") if group.pattern else "?"
     rows = [
-        ("laps/period" if group.pattern else "laps", heading("mean lap"), heading("alone"), "waits")
-    ]
-    rows += [
-        (
+        [
+            name,
             str(laps),
-            never if mean is None else cell(mean),
-            cell(route.duration),
+            never if mean is None else quantities.cell(mean),
+            quantities.cell(route.duration),
             "" if share is None else f"{float(share):.1%}",
-        )
-        for laps, mean, share, route in islice(
-            zip(counts, group.mean_laps(), group.waiting_shares(), group.context.laps, strict=True),
+        ]
+        for name, laps, mean, share, route in islice(
+            zip(
+                names_in(scenario, group),
+                counts,
+                group.mean_laps(),
+                group.waiting_shares(),
+                group.context.laps,
+                strict=True,
+            ),
             MAX_LINES,
         )
     ]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    room = COLUMNS - sum(widths) - 2 * len(widths)
-    names = ["robot", *(short(name, room) for name in names_in(scenario, group)[:MAX_LINES])]
-    width = max(map(len, names))
-    for name, cells in zip(names, rows, strict=True):
-        line = "  ".join(f"{text:>{space}}" for text, space in zip(cells, widths, strict=True))
-        yield f"{name:{width}}  {line}".rstrip()
+    laps_heading = Phrase("laps/period") if group.pattern else Phrase("laps")
+    means, alone = map(quantities.heading, (Phrase("mean lap"), Phrase("alone")))
+    return Table((Phrase("robot"), laps_heading, means, alone, Phrase("waits")), rows)
+
+
+def _further_robots(group: GroupResult) -> Iterator[Part]:
     if len(group.robots) > MAX_LINES:
-        yield f"… and {counted(len(group.robots) - MAX_LINES, 'more robot')} (--json lists all)"
+        more = counted(len(group.robots) - MAX_LINES, "more robot", "more robots")
+        yield Phrase("… and {robots} (--json lists all)", robots=more)
 
 
-def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
+def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
     """Yield which robots make no lap in a pattern, where they stand and where they want to go."""
     counts = group.pattern.counts if group.pattern else ()
     stuck = [robot for robot, laps in enumerate(counts) if not laps]
@@ -144,35 +183,51 @@ def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
     for robot in stuck[:MAX_LINES]:
         name = scenario.robots[group.robots[robot]].name
         route, last = group.context.routes[robot], len(group.history[robot]) - 1
-        place_now, place_ahead = place(route.vertex(last)), place(route.vertex(last + 1))
-        listed.append(f"{name} in {place_now} on its way to {place_ahead}")
+        values = {"place": place(route.vertex(last)), "next": place(route.vertex(last + 1))}
+        listed.append(Phrase("{robot} in {place} on its way to {next}", robot=name, **values))
     if len(stuck) > MAX_LINES:
-        listed.append(f"{len(stuck) - MAX_LINES} more")
+        listed.append(Phrase("{number} more", number=str(len(stuck) - MAX_LINES)))
     if listed:
-        never = "1 robot stands" if len(stuck) == 1 else f"{len(stuck)} robots stand"
-        remedy = "another --rule may help, for example timetable"
-        yield from wrapped(f"{never} still for ever: {', '.join(listed)} ({remedy})")
+        yield Phrase(
+            "{stand} still for ever: {robots} (another --rule may help, for example timetable)",
+            stand=counted(len(stuck), "robot stands", "robots stand"),
+            robots=chain_items(listed),
+        )
 
 
-def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[str]:
+def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[Part]:
     """Yield which robot waits where for which other, in each period and in the first lap."""
     first, periodic = _sites(group.first_waits()), _sites(group.waits())
-    both = len(first.keys() & periodic.keys())
-    yield f"waits: {len(first)} in the first lap, {len(periodic)} in each period, {both} in both"
+    yield Phrase(
+        "waits: {first} in the first lap, {periodic} in each period, {both} in both",
+        first=str(len(first)),
+        periodic=str(len(periodic)),
+        both=str(len(first.keys() & periodic.keys())),
+    )
     robots, place = scenario.robots, PlaceNames(scenario, numbered=True)
     sites = list(periodic | first)
     for site in sites[:MAX_LINES]:
         vertex, beside, waiting, awaited = site
-        where = place(vertex) if beside is None else f"{place(vertex)} beside {place(beside)}"
-        text = f"{where}: {robots[waiting].name} waits for {robots[awaited].name}"
-        when = [
-            f"{words} at {_moments(quantities, waits[site])}"
-            for words, waits in (("first lap", first), ("each period", periodic))
-            if site in waits
-        ]
-        yield from wrapped(f"{text}, {'; '.join(when)}", "  ")
+        where = place(vertex)
+        if beside is not None:
+            where = Phrase("{place} beside {other}", place=where, other=place(beside))
+        when: list[str] = []
+        if site in first:
+            moments = _moments(quantities, first[site])
+            when.append(Phrase("first lap at {moments}", moments=moments))
+        if site in periodic:
+            moments = _moments(quantities, periodic[site])
+            when.append(Phrase("each period at {moments}", moments=moments))
+        text = Phrase(
+            "{place}: {robot} waits for {other}, {when}",
+            place=where,
+            robot=robots[waiting].name,
+            other=robots[awaited].name,
+            when=chain_items(when, "{first}; {second}"),
+        )
+        yield Paragraph(text, "  ")
     if len(sites) > MAX_LINES:
-        yield f"  … and {len(sites) - MAX_LINES} more"
+        yield Paragraph(Phrase("… and {number} more", number=str(len(sites) - MAX_LINES)), "  ")
 
 
 def _sites(waits: Sequence[LapWait]) -> Sites:
@@ -186,58 +241,76 @@ def _sites(waits: Sequence[LapWait]) -> Sites:
 def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
     """Return several times: ``5.35 s, 1 min 56.2 s and 1 more time``, ``time 4, 13``."""
     others = map(further(quantities), ticks[1:MAX_TIMES])
-    listed = ", ".join([quantities.moment(ticks[0]), *others])
+    listed = chain_items([quantities.moment(ticks[0]), *others])
     more = len(ticks) - MAX_TIMES
-    return f"{listed} and {counted(more, 'more time')}" if more > 0 else listed
+    if more <= 0:
+        return listed
+    return Phrase("{first} and {last}", first=listed, last=counted(more, "more time", "more times"))
 
 
-def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
+def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
     """Say which changes of a parameter by 10 % would shorten the period."""
     graph = group.graph()
     if graph is None:
         return
     if len(graph.vertex) > MAX_VISITS_OF_SENSITIVITY:
-        yield f"  sensitivity: not computed for more than {MAX_VISITS_OF_SENSITIVITY} visits"
+        most = str(MAX_VISITS_OF_SENSITIVITY)
+        text = Phrase("sensitivity: not computed for more than {number} visits", number=most)
+        yield Paragraph(text, "  ")
         return
     effects = parameter_effects(scenario, graph, most=MAX_EFFECTS)
     helpful = [
         parameter for parameter in effects if parameter.ten_per_cent < parameter.effect.cycle_time
     ]
     for parameter in helpful:
-        saved = 1 - parameter.ten_per_cent / parameter.effect.cycle_time
-        change = _change(scenario, parameter)
-        yield f"  {change}: the period gets {float(saved):.2%} shorter"
+        text = Phrase(
+            "{change}: the period gets {share} shorter",
+            change=_change(scenario, parameter),
+            share=f"{float(1 - parameter.ten_per_cent / parameter.effect.cycle_time):.2%}",
+        )
+        yield Paragraph(text, "  ")
     if not helpful:
-        yield "  no single change shortens the period: another circuit is as long"
+        text = Phrase("no single change shortens the period: another circuit is as long")
+        yield Paragraph(text, "  ")
 
 
-def _change(scenario: Scenario, effect: ParameterEffect) -> str:
+def _change(scenario: Scenario, effect: ParameterEffect) -> Phrase:
     if effect.robot is None:
-        return "10% less headway"
+        return Phrase("10% less headway")
     robot = scenario.robots[effect.robot]
     if effect.kind == "speed":
-        return f"{robot.name} 10% faster"
+        return Phrase("{robot} 10% faster", robot=robot.name)
     if effect.stop is None:
-        return f"{robot.name} 10% less turning"
+        return Phrase("{robot} 10% less turning", robot=robot.name)
     where = PlaceNames(scenario, numbered=True).where(robot.stops[effect.stop].at)
-    return f"{robot.name} 10% less work at {where}"
+    return Phrase("{robot} 10% less work at {place}", robot=robot.name, place=where)
 
 
-def comparison_lines(comparison: BaselineComparison) -> Iterator[str]:
+BASELINES = {
+    "repeats": Phrase("first come first served"),
+    "open": Phrase("first come first served as measured within its time"),
+    "starves": Phrase("first come first served, where a robot stands still for ever"),
+}
+"""What a timetable is compared with, by how that ends."""
+
+
+def comparison_lines(comparison: BaselineComparison) -> Iterator[Phrase]:
     """Yield how a timetable compares with its baseline, and how fair it is."""
-    baseline = {
-        "repeats": "first come first served",
-        "open": "first come first served as measured within its time",
-        "starves": "first come first served, where a robot stands still for ever",
-        "deadlock": "",
-    }[comparison.baseline_ends]
     if not comparison.baseline:
-        yield "throughput: first come first served ends in a deadlock"
+        yield Phrase("throughput: first come first served ends in a deadlock")
     elif comparison.throughput < comparison.baseline:
-        below = float(1 - comparison.throughput / comparison.baseline)
-        yield from wrapped(f"throughput: {below:.2%} below {baseline} (give more time)")
+        yield Phrase(
+            "throughput: {share} below {baseline} (give more time)",
+            share=f"{float(1 - comparison.throughput / comparison.baseline):.2%}",
+            baseline=BASELINES[comparison.baseline_ends],
+        )
     else:
-        gain = float(comparison.throughput / comparison.baseline - 1)
-        yield from wrapped(f"throughput: {gain:+.1%} against {baseline}")
-    share = f"{float(comparison.fairness):.0%}"
-    yield f"fairness: every robot makes at least {share} of the laps that it makes alone"
+        yield Phrase(
+            "throughput: {share} against {baseline}",
+            share=f"{float(comparison.throughput / comparison.baseline - 1):+.1%}",
+            baseline=BASELINES[comparison.baseline_ends],
+        )
+    yield Phrase(
+        "fairness: every robot makes at least {share} of the laps that it makes alone",
+        share=f"{float(comparison.fairness):.0%}",
+    )

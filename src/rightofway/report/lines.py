@@ -1,18 +1,23 @@
-"""Lines of reports: 80 columns, tables of times, counts."""
+"""Reports of 80 columns: paragraphs, facts and tables, laid out in the language of their reader."""
 
 from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
+from rightofway.languages import ENGLISH, translate
 from rightofway.quantities import Quantities, Value
 
 COLUMNS = 80
 """Longest line of a report."""
 
 MAX_NAME = 40
-"""Columns that a robot's name may take in a table."""
+"""Columns that a robot's name may take beside a column that is not aligned."""
+
+MAX_FACT = 4 * COLUMNS
+"""Characters of a fact; a longer one is cut."""
 
 NO_BREAK = "\N{NO-BREAK SPACE}"
 """A space at which no line is broken."""
@@ -21,30 +26,101 @@ UNIT = re.compile(r"(?<=\d) (?=[a-z])|(?<=\d h) (?=\d)|(?<=\d min) (?=\d)")
 """The spaces within ``2 min 34.3 s``."""
 
 
-def wrapped(text: str, indent: str = "") -> list[str]:
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    """A sentence with an indent; text alone is a paragraph without one, empty text a blank line."""
+
+    text: str
+    indent: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Text that is not broken, as what stands in it is wide as it is."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """Keys, and beside each what there is to say on it: one column for all."""
+
+    rows: Sequence[tuple[str, str]]
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of cells with a name before each; columns are aligned to the right.
+
+    Attributes
+    ----------
+    head
+        What the names are, then the headings of the columns.
+    rows
+        A name, then its cells; a row may have one cell in place of all.
+    has_remarks
+        Whether the last column has text, aligned to the left and cut at the end of the line.
+    """
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    has_remarks: bool = False
+
+
+Part = str | Paragraph | Line | Facts | Table
+
+
+def lay_out(parts: Iterable[Part], language: str = ENGLISH) -> str:
+    """Return a report in a language."""
+    return "\n".join(line for part in parts for line in _lines(part, language))
+
+
+def _lines(part: Part, language: str) -> Iterator[str]:
+    match part:
+        case Paragraph(text, indent):
+            yield from _broken(translate(text, language), indent, indent + "    ")
+        case Line(text):
+            yield translate(text, language)
+        case Facts(rows):
+            keys = [translate(key, language) for key, _ in rows]
+            column = max(map(len, keys)) + 2
+            for key, (_, text) in zip(keys, rows, strict=True):
+                fact = textwrap.shorten(translate(text, language), MAX_FACT, placeholder=" …")
+                yield from _broken(fact, f"{key:{column}}", " " * column)
+        case Table():
+            yield from _rows(part, language)
+        case _:
+            yield from _broken(translate(part, language), "", "    ") or [""]
+
+
+def _rows(table: Table, language: str) -> Iterator[str]:
+    rows = [[translate(cell, language) for cell in row] for row in (table.head, *table.rows)]
+    columns = len(table.head)
+    widths = [
+        max(len(row[k]) for row in rows if len(row) == columns)
+        for k in range(1, columns - table.has_remarks)
+    ]
+    room = MAX_NAME if table.has_remarks else COLUMNS - sum(widths) - 2 * len(widths)
+    names = [short(row[0], room) for row in rows]
+    first = max(map(len, names))
+    for name, row in zip(names, rows, strict=True):
+        cells = row[1:]
+        if len(row) == columns:
+            aligned = zip(row[1:], widths, strict=False)
+            cells = [f"{cell:>{width}}" for cell, width in aligned] + row[1 + len(widths) :]
+        yield short(f"{name:{first}}  {'  '.join(cells)}".rstrip(), COLUMNS)
+
+
+def _broken(text: str, first: str, following: str) -> list[str]:
     """Return the lines of a sentence; a number and its unit stay in one line."""
-    return _broken(text, indent, indent + "    ").splitlines()
-
-
-def row(key: str, text: str, column: int) -> str:
-    """Return a row of a report: a key, and from a column on its text, on several lines if long."""
-    return _broken(text, f"{key:{column}}", " " * column)
-
-
-def _broken(text: str, first: str, following: str) -> str:
     joined = UNIT.sub(NO_BREAK, text)
-    filled = textwrap.fill(joined, COLUMNS, initial_indent=first, subsequent_indent=following)
-    return filled.replace(NO_BREAK, " ")
+    lines = textwrap.wrap(joined, COLUMNS, initial_indent=first, subsequent_indent=following)
+    return [line.replace(NO_BREAK, " ") for line in lines]
 
 
 def short(name: str, columns: int = MAX_NAME) -> str:
     """Return a robot's name in the columns that it may take."""
     return name if len(name) <= columns else f"{name[: columns - 1]}…"
-
-
-def counted(number: int, noun: str) -> str:
-    """Return a number and its noun: ``1 more robot``, ``3 more robots``."""
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def further(quantities: Quantities) -> Callable[[Value], str]:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 
+from rightofway.check import Report
+from rightofway.languages import ENGLISH
 from rightofway.metrics import (
     Metrics,
+    alone_completions,
     collisions,
     free_running,
     lost_time,
@@ -16,10 +18,12 @@ from rightofway.metrics import (
     outcome_of,
     swaps,
 )
-from rightofway.model import Loss, LostTime, Objective, Plan
+from rightofway.model import Loss, LostTime, Objective, Plan, Proof, Scenario
+from rightofway.phrases import Phrase, chain_items, counted, joined
 from rightofway.quantities import Quantities, decimal
-from rightofway.report.lines import COLUMNS, counted, further, row, short, wrapped
+from rightofway.report.lines import Facts, Line, Paragraph, Part, Table, further, lay_out
 from rightofway.report.sentences import (
+    OBJECTIVES,
     Words,
     decision_in_words,
     explanation_of,
@@ -37,26 +41,30 @@ MAX_DETOURS = 8
 MAX_HOMES = 5
 """Homes on the way of other robots that a report names: those that cost most."""
 
-COLUMNS_OF_TIMES = ("completes", "alone", "detours", "makes room", "waits")
-"""Headings of the table of robots: the first is the sum of the others."""
+HEADINGS = (
+    Phrase("robot"),
+    Phrase("completes"),
+    Phrase("alone"),
+    Phrase("detours"),
+    Phrase("makes room"),
+    Phrase("waits"),
+)
+"""Headings of the table of robots: the first time is the sum of the others."""
 
 
-def summary(plan: Plan, quantities: Quantities) -> str:
+def summary(plan: Plan, quantities: Quantities, language: str = ENGLISH) -> str:
     """Return the costs of a plan, and where and to which others robots lose time."""
     words = Words(plan=plan, quantities=quantities)
     metrics, lost = measure(plan), lost_time(plan)
-    rows = [
-        ("planner", planning(plan, quantities)),
-        ("flowtime", _flowtime(words, metrics)),
-        ("makespan", words.time(metrics.makespan)),
-        ("lost time", _lost(words, lost)),
+    costs = [
+        (Phrase("planner"), planning(plan, quantities)),
+        (Phrase("flowtime"), _flowtime(words, metrics)),
+        (Phrase("makespan"), words.time(metrics.makespan)),
+        (Phrase("lost time"), _lost(words, lost)),
     ]
     if quantities.in_ticks:
-        rows.append(("tick", replace(quantities, in_ticks=False).duration(1)))
-    costs = [
-        row(key, textwrap.shorten(text, 4 * COLUMNS, placeholder=" …"), 11) for key, text in rows
-    ]
-    return "\n".join([*costs, "", *_robots(words, lost), *_losses(words, lost)])
+        costs.append((Phrase("tick"), replace(quantities, in_ticks=False).duration(1)))
+    return lay_out([Facts(costs), "", *_robots(words, lost), *_losses(words, lost)], language)
 
 
 def planning(plan: Plan, quantities: Quantities) -> str:
@@ -64,7 +72,9 @@ def planning(plan: Plan, quantities: Quantities) -> str:
     run, metrics, words = plan.run, measure(plan), Words(plan=plan, quantities=quantities)
     parts = [run.name]
     if run.seconds is not None:
-        parts[0] += f", planned in {decimal(run.seconds)} s"
+        parts = [
+            Phrase("{planner}, planned in {time} s", planner=run.name, time=decimal(run.seconds))
+        ]
     proven = proof_in_words(plan)
     if proven:
         parts.append(proven)
@@ -73,14 +83,18 @@ def planning(plan: Plan, quantities: Quantities) -> str:
     elif run.improvement is not None:
         parts.append(improvement_in_words(run.improvement, quantities))
     if run.start is not None:
-        start, fleet = run.start, counted(len(plan.tracks), "robot")
         parts.append(
-            f"{start.routes} of {fleet} keep their old route, {start.tracks} also its times"
+            Phrase(
+                "{routes} of {fleet} keep their old route, {tracks} also its times",
+                routes=str(run.start.routes),
+                fleet=counted(len(plan.tracks), "robot", "robots"),
+                tracks=str(run.start.tracks),
+            )
         )
     if run.reroutes:
         names = [words.robot(reroute.robot) for reroute in run.reroutes]
-        parts.append(f"rerouted: {', '.join(names)}")
-    return "; ".join(parts)
+        parts.append(Phrase("rerouted: {robots}", robots=chain_items(names)))
+    return chain_items(parts, "{first}; {second}")
 
 
 def _flowtime(words: Words, metrics: Metrics) -> str:
@@ -89,54 +103,61 @@ def _flowtime(words: Words, metrics: Metrics) -> str:
     if outcome.objective is Objective.FLOWTIME and outcome.bound is not None:
         bound = max(bound, outcome.bound)
     if metrics.flowtime == bound:
-        return f"{flowtime}, the least possible"
+        return Phrase("{flowtime}, the least possible", flowtime=flowtime)
     if not bound:
         return flowtime
-    gap = metrics.flowtime / bound - 1
-    return f"{flowtime}, {gap:.1%} above the lower bound of {words.time(bound)}"
+    return Phrase(
+        "{flowtime}, {gap} above the lower bound of {bound}",
+        flowtime=flowtime,
+        gap=f"{metrics.flowtime / bound - 1:.1%}",
+        bound=words.time(bound),
+    )
 
 
 def _lost(words: Words, lost: Sequence[LostTime]) -> str:
     parts = {
-        "detours": sum(times.detours for times in lost),
-        "making room": sum(times.making_room for times in lost),
-        "waiting": sum(times.waiting for times in lost),
+        Phrase("detours"): sum(times.detours for times in lost),
+        Phrase("making room"): sum(times.making_room for times in lost),
+        Phrase("waiting"): sum(times.waiting for times in lost),
     }
-    causes = [f"{key} {words.time(ticks)}" for key, ticks in parts.items() if ticks]
-    return f"{words.time(sum(parts.values()))}: {', '.join(causes)}" if causes else "none"
+    causes = [
+        Phrase("{cause} {time}", cause=cause, time=words.time(ticks))
+        for cause, ticks in parts.items()
+        if ticks
+    ]
+    if not causes:
+        return Phrase("none")
+    return Phrase(
+        "{time}: {causes}", time=words.time(sum(parts.values())), causes=chain_items(causes)
+    )
 
 
-def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
+def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     most = sorted(range(len(lost)), key=lambda robot: -lost[robot].lost)[:MAX_LINES]
     if len(lost) > MAX_LINES:
         most = [robot for robot in most if lost[robot].lost] or most
     listed, cell = sorted(most), words.quantities.cell
+    heading = Phrase("times of each robot")
+    if len(listed) < len(lost):
+        heading = Phrase("times of the robots that lose most")
+    yield words.quantities.heading(heading)
     rows = [
-        tuple(
-            map(
+        [
+            words.robot(robot),
+            *map(
                 cell,
                 (times.completion, times.alone, times.detours, times.making_room, times.waiting),
-            )
-        )
-        for times in (lost[robot] for robot in listed)
+            ),
+        ]
+        for robot, times in ((robot, lost[robot]) for robot in listed)
     ]
-    widths = [max(map(len, column)) for column in zip(COLUMNS_OF_TIMES, *rows, strict=True)]
-    room = COLUMNS - sum(widths) - 2 * len(widths)
-    names = [short(words.robot(robot), room) for robot in listed]
-    width = max(map(len, ("robot", *names)))
-    which = "each robot" if len(listed) == len(lost) else "the robots that lose most"
-    yield words.quantities.heading(f"times of {which}")
-    for name, cells in zip(("robot", *names), (COLUMNS_OF_TIMES, *rows), strict=True):
-        line = "  ".join(
-            f"{cell_text:>{space}}" for cell_text, space in zip(cells, widths, strict=True)
-        )
-        yield f"{name:{width}}  {line}"
+    yield Table(HEADINGS, rows)
     if len(lost) > len(listed):
-        rest = counted(len(lost) - len(listed), "more robot")
-        yield f"… and {rest} that lose less time (--json lists all)"
+        rest = counted(len(lost) - len(listed), "more robot", "more robots")
+        yield Phrase("… and {robots} that lose less time (--json lists all)", robots=rest)
 
 
-def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
+def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     """Yield where and to which robots time is lost, the largest losses first."""
     groups: dict[tuple[object, ...], list[Loss]] = {}
     for loss in chain.from_iterable(times.losses for times in lost):
@@ -147,31 +168,34 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     if largest:
         yield ""
     for group in largest[:MAX_LINES]:
-        yield from wrapped(sentence_on(words, group))
+        yield sentence_on(words, group)
     if len(largest) > MAX_LINES:
-        yield f"… and {len(largest) - MAX_LINES} more (--json lists all)"
+        yield Phrase("… and {number} more (--json lists all)", number=str(len(largest) - MAX_LINES))
     yield from _detours(words, lost)
     yield from _homes_in_the_way(words, chain.from_iterable(groups.values()))
 
 
-def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
+def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     """Yield one sentence on the robots whose drives take longer than on their shortest trips."""
     longest = sorted(
         (robot for robot in lost if robot.detours > 0), key=lambda robot: -robot.detours
     )
     if not longest:
         return
-    first, *others = longest[:MAX_DETOURS]
-    write = further(words.quantities)
-    listed = [f"{words.robot(first.robot)} {words.time(first.detours)}"]
-    listed += [f"{words.robot(times.robot)} {write(times.detours)}" for times in others]
-    rest = len(longest) - len(listed)
-    more = f" and {counted(rest, 'more robot')}" if rest else ""
+    times = [words.time, *[further(words.quantities)] * (MAX_DETOURS - 1)]
+    listed: list[str] = [
+        Phrase("{robot} {time}", robot=words.robot(lost_by.robot), time=write(lost_by.detours))
+        for lost_by, write in zip(longest, times, strict=False)
+    ]
+    robots = chain_items(listed)
+    if rest := len(longest) - len(listed):
+        more = counted(rest, "more robot", "more robots")
+        robots = Phrase("{first} and {last}", first=robots, last=more)
     yield ""
-    yield from wrapped(f"Detours: {', '.join(listed)}{more}.")
+    yield Phrase("Detours: {robots}.", robots=robots)
 
 
-def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[str]:
+def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
     """Say where the last place of a robot that loses time is on the way of others.
 
     Such a robot makes room at its last place; or it waits on its way there, while the other robot
@@ -197,34 +221,107 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[str]:
         yield ""
     for robot in largest[:MAX_HOMES]:
         last = scenario.problem.itineraries[robot].last
-        role = "home" if last == scenario.robots[robot].home else "last place"
         ranked = sorted(costs[robot], key=lambda other: -costs[robot][other])
-        names = [*map(words.robot, ranked[:3]), *(["others"] if ranked[3:] else [])]
-        listing = " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
-        lost = words.time(sum(costs[robot].values()))
-        yield from wrapped(
-            f"{words.places.where(last)}, the {role} of {words.robot(robot)}, is on the way of"
-            f" {listing} and costs {words.robot(robot)} {lost}: a {role} or a parking place off"
-            " that way would help."
-        )
+        names: list[str] = [*map(words.robot, ranked[:3])]
+        if ranked[3:]:
+            names.append(Phrase("others"))
+        values = {
+            "place": words.places.where(last),
+            "robot": words.robot(robot),
+            "others": joined(names),
+            "time": words.time(sum(costs[robot].values())),
+        }
+        if last == scenario.robots[robot].home:
+            yield Phrase(
+                "{place}, the home of {robot}, is on the way of {others} and costs {robot} {time}:"
+                " a home or a parking place off that way would help.",
+                **values,
+            )
+        else:
+            yield Phrase(
+                "{place}, the last place of {robot}, is on the way of {others} and costs {robot}"
+                " {time}: a last place or a parking place off that way would help.",
+                **values,
+            )
 
 
-def decision_log(plan: Plan, quantities: Quantities) -> str:
+def decision_log(plan: Plan, quantities: Quantities, language: str = ENGLISH) -> str:
     """Return every decision of the planner with its reason, in the order they were taken."""
-    words = Words(plan=plan, quantities=quantities)
-    lines: list[str] = []
+    return lay_out(_decisions(Words(plan=plan, quantities=quantities)), language)
+
+
+def _decisions(words: Words) -> Iterator[Part]:
+    plan = words.plan
     for decision in plan.run.decisions:
-        moment = quantities.moment(decision.tick)
-        lines += wrapped(f"At {moment}: {decision_in_words(words, decision)}")
-        lines += wrapped(explanation_of(words, decision), "    ")
+        yield Phrase(
+            "At {moment}: {decision}",
+            moment=words.moment(decision.tick),
+            decision=decision_in_words(words, decision),
+        )
+        yield Paragraph(explanation_of(words, decision), "    ")
     for reroute in plan.run.reroutes:
-        lines += wrapped(f"{words.robot(reroute.robot)} is rerouted: {reroute.because}.")
-    if lines:
-        return "\n".join(lines)
+        robot = words.robot(reroute.robot)
+        yield Phrase("{robot} is rerouted: {why}.", robot=robot, why=reroute.because)
+    if plan.run.decisions or plan.run.reroutes:
+        return
     tracks = free_running(plan)
     if not collisions(plan.scenario, tracks) and not swaps(tracks):
-        return "No decision was needed: no two robots meet."
-    records = "The search that found this plan records no decisions, so no wait has a reason here"
-    remedy = "`--planner two-level` plans with a reason for each decision"
-    waits_listed = "`rightofway table PLAN --events` lists each wait and the robot waited for"
-    return "\n".join(wrapped(f"{records} ({remedy}; {waits_listed})."))
+        yield Phrase("No decision was needed: no two robots meet.")
+        return
+    yield Phrase(
+        "The search that found this plan records no decisions, so no wait has a reason here"
+        " (`--planner two-level` plans with a reason for each decision;"
+        " `rightofway table PLAN --events` lists each wait and the robot waited for)."
+    )
+
+
+def report_bounds(
+    scenario: Scenario, quantities: Quantities, proof: Proof | None, *, is_reached: bool
+) -> list[Part]:
+    """Return what no plan can be below, and when each robot would be done alone.
+
+    ``proof`` is of a higher bound, which a plan may have reached.
+    """
+    alone = alone_completions(scenario)
+
+    def at_least(ticks: int) -> Phrase:
+        return Phrase("at least {time}", time=quantities.duration(ticks))
+
+    bounds: list[tuple[str, str]] = [
+        (Phrase("flowtime"), at_least(sum(alone))),
+        (Phrase("makespan"), at_least(max(alone))),
+    ]
+    if proof is not None and proof.bound is not None:
+        proven: str = at_least(proof.bound)
+        if is_reached:
+            proven = Phrase("{bound}, and a plan reaches it", bound=proven)
+        bounds.append(
+            (Phrase("{objective}, proven", objective=OBJECTIVES[proof.objective]), proven)
+        )
+    rows = [
+        (robot.name, quantities.cell(ticks))
+        for robot, ticks in zip(scenario.robots[:MAX_LINES], alone, strict=False)
+    ]
+    heading = quantities.heading(Phrase("alone"))
+    parts: list[Part] = [Facts(bounds), "", Table((Phrase("robot"), heading), rows)]
+    if len(alone) > MAX_LINES:
+        more = counted(len(alone) - MAX_LINES, "more robot", "more robots")
+        parts.append(Phrase("… and {robots} (--json lists all)", robots=more))
+    return parts
+
+
+def report_check(file: str, plan: Plan, judgement: Report) -> Iterator[Part]:
+    """Yield what the judge finds in the plan of a file, each fault in a line."""
+    if judgement.ok:
+        yield Line(
+            Phrase(
+                "{file}: no fault in {robots} robots and {visits} visits",
+                file=file,
+                robots=str(len(plan.tracks)),
+                visits=str(sum(map(len, plan.tracks))),
+            )
+        )
+        return
+    first, *others = judgement.list_sentences()
+    yield Line(Phrase("{file}: {text}", file=file, text=first))
+    yield from map(Line, others)

@@ -22,35 +22,9 @@ from rightofway.model import (
     Scenario,
 )
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, counted
+from rightofway.phrases import Phrase, chain_items, counted
 from rightofway.quantities import Quantities
 from rightofway.values import written
-
-FAULT_NAMES: Mapping[str, Phrase] = {
-    str(name): name
-    for name in (
-        Phrase("unknown vertex"),
-        Phrase("wrong home"),
-        Phrase("backwards"),
-        Phrase("jump"),
-        Phrase("too fast"),
-        Phrase("turn cut short"),
-        Phrase("work cut short"),
-        Phrase("stop missed"),
-        Phrase("wrong end"),
-        Phrase("vertex conflict"),
-        Phrase("headway"),
-        Phrase("swap conflict"),
-        Phrase("rotation"),
-        Phrase("space conflict"),
-        Phrase("too close"),
-        Phrase("zone conflict"),
-        Phrase("closed"),
-        Phrase("barred"),
-        Phrase("no plan"),
-    )
-}
-"""What people call the kinds of faults, and a reason why there is no plan."""
 
 OBJECTIVES: Mapping[Objective, Phrase] = {
     Objective.FLOWTIME: Phrase("flowtime"),
@@ -388,12 +362,10 @@ def figures_in_words(words: Words, decision: Decision) -> list[Phrase]:
     return sentences
 
 
-def explanation_of(words: Words, decision: Decision) -> Phrase:
+def explanation_of(words: Words, decision: Decision) -> str:
     """Return why the planner decided so, with the figures that it compared."""
-    text = reason_in_words(words, decision)
-    for sentence in figures_in_words(words, decision):
-        text = Phrase("{first} {second}", first=text, second=sentence)
-    return text
+    sentences = [reason_in_words(words, decision), *figures_in_words(words, decision)]
+    return chain_items(sentences, "{first} {second}")
 
 
 def closure_in_words(closure: Closure, scenario: Scenario) -> Phrase:

@@ -132,5 +132,5 @@ function listenToDrops(studio) {
   });
 }
 
-learn(await (await fetch("/viz/page/assets/texts/library.json")).json());
+learn(await (await fetch("/languages.json")).json());
 render(html`<${App} />`, document.body);

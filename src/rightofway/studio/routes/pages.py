@@ -16,10 +16,11 @@ from fastapi import APIRouter, Request, Response
 
 from rightofway import __version__
 from rightofway.io import schema
+from rightofway.languages import read_tables
 from rightofway.studio.errors import Refused
 from rightofway.studio.guard import MAX_BODY
 from rightofway.studio.routes.models import MAX_SECONDS, InStudio
-from rightofway.viz.page.document import style_sheet
+from rightofway.viz.page.document import compact_json, style_sheet
 from rightofway.viz.page.scripts import scripts_of
 
 MEDIA = {
@@ -59,6 +60,12 @@ async def viewer_asset(request: Request, path: str) -> Response:
     return _file(request, f"viz/page/assets/{path}")
 
 
+@router.get("/languages.json")
+async def send_languages(request: Request) -> Response:
+    """Return the sentences of the library in other languages."""
+    return _file(request, "languages.json")
+
+
 def _file(request: Request, path: str) -> Response:
     """Return a file, or that the browser has it already."""
     content = page_file(path)
@@ -73,6 +80,8 @@ def page_file(path: str) -> bytes:
     """Return a file of the page; `Refused` if there is none."""
     if path == STYLE:
         return style_sheet().encode()
+    if path == "languages.json":
+        return compact_json(read_tables()).encode()
     text = _text(path)
     if path == "studio/assets/index.html":  # else a browser asks for modules one after another
         modules = scripts_of("studio/assets/main", _text)

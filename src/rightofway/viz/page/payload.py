@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.check import Report
+from rightofway.check.faults import FAULT_NAMES
 from rightofway.cyclic import pieces_of_plan
 from rightofway.errors import InputError, NoPlanExists, shown
 from rightofway.metrics import Metrics, compare, joined_waits, lost_time, measure
@@ -34,10 +35,9 @@ from rightofway.model import (
 from rightofway.model.closures import Closure
 from rightofway.model.given import checked_plan
 from rightofway.model.steady_state import refuse_unknown_robots
-from rightofway.phrases import PhraseBook, parts_of
+from rightofway.phrases import Phrase, PhraseBook, parts_of
 from rightofway.report.circuits import circuit_in_short, circuit_in_words
 from rightofway.report.sentences import (
-    FAULT_NAMES,
     Words,
     closed_ticks,
     closed_vertices,
@@ -215,7 +215,7 @@ def _refuse_other_kinds(
 def _blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> FaultsData:
     """Return why there is no plan, as faults with the robots and vertices that they concern."""
     robot_of = {robot.name: index for index, robot in enumerate(scenario.robots)}
-    name = book.add(FAULT_NAMES["no plan"])
+    name = book.add(Phrase("no plan"))
     return {
         "count": len(no_plan.blockages),
         "kinds": [(name, len(no_plan.blockages))],
@@ -485,11 +485,11 @@ def _faults(plan: Plan, report: Report, book: PhraseBook) -> FaultsData:
     known = range(plan.scenario.roadmap.n_vertices)
     return {
         "count": report.total,
-        "kinds": [(book.add(FAULT_NAMES[kind]), count) for kind, count in report.counts.items()],
+        "kinds": [(book.add(FAULT_NAMES[kind][0]), count) for kind, count in report.counts.items()],
         "listed": [
             {
                 "kind": fault.kind,
-                "name": book.add(FAULT_NAMES[fault.kind]),
+                "name": book.add(FAULT_NAMES[fault.kind][0]),
                 "reason": book.add(fault.reason),
                 "remedy": book.add(fault.remedy),
                 "tick": fault.tick,

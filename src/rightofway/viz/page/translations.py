@@ -1,30 +1,18 @@
-"""What the library says in other languages: `texts/library.json` has a table for each of them.
-
-A page takes along what it says; the studio has the whole file.
-"""
+"""What a page takes along of the sentences in other languages: the templates that it says."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
-from functools import cache
 
-from rightofway.viz.page.scripts import asset
-
-
-@cache
-def tables() -> Mapping[str, Mapping[str, str]]:
-    """Return, for each language, its own of each English template."""
-    known: Mapping[str, Mapping[str, str]] = json.loads(asset("texts/library.json"))
-    return known
+from rightofway.languages import read_tables
 
 
 def translations_for(*parts: object) -> dict[str, dict[str, str]]:
-    """Return what plain data need of the tables."""
-    said = set(_texts(parts))
+    """Return what plain data need of the read_tables."""
+    templates = set(_texts(parts))
     return {
-        language: {template: own for template, own in table.items() if template in said}
-        for language, table in tables().items()
+        language: {template: own for template, own in table.items() if template in templates}
+        for language, table in read_tables().items()
     }
 
 

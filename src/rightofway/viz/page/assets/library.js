@@ -11,7 +11,7 @@ import { language } from "./language.js";
 const LIBRARIES = {};
 
 /**
- * Learn templates of `texts/library.json`: a page of a file brings those that it says.
+ * Learn templates of other languages: a page of a file brings those that it says, the studio all.
  *
  * @param {Record<string, Record<string, string>>} translations
  */

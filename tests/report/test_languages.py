@@ -1,0 +1,42 @@
+"""Reports in the language of their reader: the sentences of the page, in 80 columns."""
+
+from __future__ import annotations
+
+import pytest
+
+from rightofway import load, solve
+from rightofway.languages import ENGLISH, find_languages, translate
+from rightofway.phrases import Phrase, counted
+from rightofway.report.lines import COLUMNS, Facts, Table, lay_out
+from rightofway.report.plan import decision_log, summary
+from tests.cli.conftest import EXAMPLES
+
+
+def test_a_summary_in_german_has_the_sentences_of_the_page() -> None:
+    plan = solve(load(EXAMPLES / "door.yaml"), "two-level")
+    text = summary(plan, plan.scenario.quantities, "de")
+    assert "Zeitsumme    19 Zeiteinheiten" in text
+    assert "Bei Zeit 0: R1 wartet 1 Zeiteinheit in N0, bis R2 N1 verlässt." in text
+    assert "Roboter  fertig  allein  Umwege  macht Platz  wartet" in text
+
+
+@pytest.mark.parametrize("language", [ENGLISH, *find_languages()])
+def test_no_line_of_a_report_is_longer_than_80_columns(language: str) -> None:
+    plan = solve(load(EXAMPLES / "warehouse.yaml"), "two-level")
+    for text in (
+        summary(plan, plan.scenario.quantities, language),
+        decision_log(plan, plan.scenario.quantities, language),
+    ):
+        assert max(map(len, text.splitlines())) <= COLUMNS
+
+
+def test_columns_are_as_wide_as_the_words_of_the_language() -> None:
+    facts = Facts([(Phrase("flowtime"), counted(2, "tick", "ticks")), (Phrase("makespan"), "1")])
+    assert lay_out([facts]) == "flowtime  2 ticks\nmakespan  1"
+    assert lay_out([facts], "de") == "Zeitsumme    2 Zeitschritte\nGesamtdauer  1"
+    table = Table((Phrase("robot"), Phrase("alone")), [("R1", "10"), ("R2", Phrase("never"))])
+    assert lay_out([table], "de") == "Roboter  allein\nR1           10\nR2          nie"
+
+
+def test_text_that_is_no_phrase_is_said_as_it_is() -> None:
+    assert translate("by hand", "de") == "by hand"
