@@ -3,6 +3,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/tuple.h>
 
+#include <algorithm>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -29,12 +30,13 @@ clear : bool
     Whether tracks with the fewest conflicts are looked for.
 targets : bool
     Whether conflicts with robots that have reached their ends are resolved as such.
-mdds : bool
-    Whether pairs are solved by all their tracks, where a tree of `pair_nodes` does not.
 pairs : bool
     Whether nodes are split by the completion times of pairs that lose to each other.
 pair_nodes : int
     Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.
+joint_states : int
+    Joint states at most to solve a pair that needs more nodes, and for each fifty nodes to solve
+    a whole fleet of few robots; 0: no such search.
 factor : int
     A plan that costs at most this factor times the bound is enough, 1 or more. [millionths])";
 
@@ -59,6 +61,23 @@ Returns
 tuple of (int, int)
     How it ended (0: a plan within the factor, 1: proven that none costs less than `upper`, 2: stopped),
     and the proven bound, NEVER where no plan exists. [ticks])";
+
+constexpr auto together_doc = R"(Search the joint states of some robots, alone on the roads.
+
+Parameters
+----------
+robots : int32[K]
+    Different robots.
+most_states : int
+    Stop after this number of states.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s]
+
+Returns
+-------
+tuple of (int, int)
+    How it ended, as for `run`, and the proven bound of the sum of their costs, NEVER where no plan
+    exists. [ticks])";
 
 constexpr auto tracks_doc = R"(Return the tracks of the plan found, of no robot before.
 
@@ -96,6 +115,20 @@ class ConflictBasedSearch {
         }
     }
 
+    JointPlan together(const std::vector<RobotId>& robots, std::int64_t most_states,
+                       const Deadline& deadline) {
+        if (!JointSearch::knows(problem_)) {
+            return {};
+        }
+        const std::vector<SetId> sets(robots.size(), ConstraintSets::empty);
+        try {
+            return tracks_.together(robots, sets, {}, most_states, [&] { return deadline(); });
+        } catch (const Stopped&) {
+            return {};
+        }
+    }
+
+    const Problem& problem() const { return problem_; }
     Tick bound() const { return tree_.bound(); }
     std::int64_t n_nodes() const { return tree_.n_nodes(); }
     std::int64_t n_searches() const { return tracks_.n_searches(); }
@@ -143,6 +176,23 @@ std::tuple<int, Tick> run(ConflictBasedSearch& self, Tick upper, Tick enough,
     return {static_cast<int>(end), self.bound()};
 }
 
+std::tuple<int, Tick> together(ConflictBasedSearch& self, const ArrayIn<RobotId>& robots,
+                               std::int64_t most_states, std::optional<double> time_limit) {
+    require_ids("robots", view(robots), self.problem().n_robots());
+    std::vector<RobotId> group;
+    for (const RobotId robot : view(robots)) {
+        if (std::find(group.begin(), group.end(), robot) != group.end()) {
+            reject_entry("robots", group.size(), robot, "is given twice");
+        }
+        group.push_back(robot);
+    }
+    require_range("most_states", most_states, 0, never);
+    const Deadline deadline(time_limit);
+    const nb::gil_scoped_release released;
+    const JointPlan plan = self.together(group, most_states, deadline);
+    return {static_cast<int>(plan.end), plan.bound};
+}
+
 }  // namespace
 
 void bind_cbs(nb::module_& module) {
@@ -150,18 +200,21 @@ void bind_cbs(nb::module_& module) {
         .def(
             "__init__",
             [](ConflictBasedSearch* self, const Problem& problem, bool cardinal, bool bypass,
-               bool clear, bool targets, bool mdds, bool pairs, std::int64_t pair_nodes,
-               std::int64_t factor) {
+               bool clear, bool targets, bool pairs, std::int64_t pair_nodes,
+               std::int64_t joint_states, std::int64_t factor) {
                 require_range("pair_nodes", pair_nodes, 0, never);
+                require_range("joint_states", joint_states, 0, never);
                 require_range("factor", factor, 1'000'000, Tick{1} << 40);
-                new (self) ConflictBasedSearch(
-                    problem, {cardinal, bypass, clear, targets, mdds, pairs, pair_nodes, factor});
+                new (self) ConflictBasedSearch(problem, {cardinal, bypass, clear, targets, pairs,
+                                                         pair_nodes, joint_states, factor});
             },
             nb::arg("problem"), nb::arg("cardinal"), nb::arg("bypass"), nb::arg("clear"),
-            nb::arg("targets"), nb::arg("mdds"), nb::arg("pairs"), nb::arg("pair_nodes"),
+            nb::arg("targets"), nb::arg("pairs"), nb::arg("pair_nodes"), nb::arg("joint_states"),
             nb::arg("factor"), nb::keep_alive<1, 2>())
         .def("run", &run, nb::arg("upper"), nb::arg("enough"), nb::arg("most_nodes"),
              nb::arg("most_bytes"), nb::arg("time_limit").none(), run_doc)
+        .def("search_together", &together, array("robots"), nb::arg("most_states"),
+             nb::arg("time_limit").none(), together_doc)
         .def(
             "tracks",
             [](const ConflictBasedSearch& self) {

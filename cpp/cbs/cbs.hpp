@@ -10,7 +10,8 @@
 // resolved first, tracks of equal cost with fewer conflicts replace others without a split, and the
 // losses of pairs of robots, each solved for itself, raise the bound of a node by the least
 // weighted vertex cover. Two symmetries are one split each: a robot that has reached its end, and a
-// pair of which one robot or the other has to complete later (decision 36).
+// pair of which one robot or the other has to complete later (decision 36). A fleet of few robots
+// is searched by joint states in turn, which ends also where there is no plan (decision 44).
 //
 // With a factor above 1 it is a focal search: it takes in turn the node of least bound, and the
 // node with the fewest conflicts of those whose tracks cost little enough.
@@ -33,77 +34,19 @@
 #include <deque>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "cbs/cbs_options.hpp"
 #include "cbs/constrained_tracks.hpp"
 #include "cbs/constraint_sets.hpp"
+#include "cbs/pair_losses.hpp"
 #include "cbs/track_conflicts.hpp"
 #include "core/open_list.hpp"
 #include "core/search_end.hpp"
 #include "problem/problem.hpp"
 
 namespace rightofway {
-
-struct CbsOptions {
-    bool cardinal = true;  // resolve conflicts first that cost both robots something
-    bool bypass = true;    // replace tracks by others of equal cost with fewer conflicts
-    bool clear = true;     // look for tracks with the fewest conflicts
-    bool targets = true;   // resolve conflicts with robots that have reached their ends as such
-    bool mdds = true;      // solve pairs by all their tracks where a tree does not
-    bool pairs = true;     // split by completion times of pairs that lose to each other
-    // Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: no
-    // such losses.
-    std::int64_t pair_nodes = 20;
-    // A plan that costs at most this factor times the bound is enough [millionths].
-    std::int64_t factor = 1'000'000;
-};
-
-// What two robots lose by each other, above their least costs under their constraints: lower
-// bounds.
-struct PairLoss {
-    Tick together = 0;  // `never` if they have no plan
-    // The first robot loses this or more, or the second robot does; not known before it is asked.
-    std::array<Tick, 2> either{-1, -1};
-};
-
-// The losses of pairs of robots, each pair solved for itself and kept.
-class PairLosses {
-  public:
-    PairLosses(ConstrainedTracks& tracks, const CbsOptions& options)
-        : tracks_(tracks), options_(options) {
-        options_.clear = false;  // it costs more than the trees of most pairs
-    }
-
-    // A lower bound of what two robots lose together. Throws Stopped.
-    Tick together(std::array<RobotId, 2> robots, std::array<SetId, 2> sets,
-                  const StopCondition& is_over);
-
-    // Bounds of which one or the other holds in every plan; only for pairs that lose something
-    // together. Throws Stopped.
-    std::array<Tick, 2> either(std::array<RobotId, 2> robots, std::array<SetId, 2> sets,
-                               const StopCondition& is_over);
-
-  private:
-    struct Key {
-        std::array<RobotId, 2> robots;
-        std::array<SetId, 2> sets;
-        bool operator==(const Key&) const = default;
-    };
-    struct Hash {
-        std::size_t operator()(const Key& key) const;
-    };
-
-    PairLoss& of(const Key& key, const StopCondition& is_over);
-    std::optional<PairLoss> by_mdds(const Key& key, const StopCondition& is_over);
-    Tick bound_within(const Key& key, std::array<Tick, 2> costs, const StopCondition& is_over);
-
-    ConstrainedTracks& tracks_;
-    CbsOptions options_;
-    JointTracks joint_;
-    std::unordered_map<Key, PairLoss, Hash> known_;
-};
 
 // One tree, for some of the robots.
 class ConflictTree {
@@ -134,6 +77,8 @@ class ConflictTree {
     std::size_t bytes() const { return bytes_; }
 
   private:
+    static constexpr std::int64_t first_joint_search = 50;
+
     struct Node {
         std::vector<SetId> sets;
         std::vector<const ConstrainedTrack*> tracks;
@@ -158,6 +103,7 @@ class ConflictTree {
     void clear(Node& node, const StopCondition& is_over);
     const ConstrainedTrack* clearest(const Node& node, RobotId robot, const StopCondition& is_over);
     void take_best(Node& node, const StopCondition& is_over);
+    std::optional<SearchEnd> search_joint_states(Tick upper, const StopCondition& is_over);
     std::optional<TrackConflict> choose(Node& node, const StopCondition& is_over);
     std::optional<TrackConflict> split_pair(const Node& node, RobotId first, RobotId second,
                                             const StopCondition& is_over);
@@ -174,6 +120,7 @@ class ConflictTree {
 
     ConstrainedTracks& tracks_;
     std::vector<RobotId> robots_;
+    std::vector<SetId> sets_;  // of the root
     CbsOptions options_;
     PairLosses* losses_;
     ConflictFinder finder_;
@@ -190,6 +137,7 @@ class ConflictTree {
     Tick bound_ = 0;
     Tick cut_off_ = never;  // least bound of a node left out
     std::int64_t n_nodes_ = 0;
+    std::int64_t next_joint_search_ = first_joint_search;  // after these nodes
     std::size_t bytes_ = 0;
 };
 

@@ -11,8 +11,6 @@ namespace {
 // states: it has many where a robot can wait at many places. No proof needs its track.
 constexpr int most_questions = 20;
 
-constexpr std::size_t most_phases = 50'000;  // of all tracks of a robot, where they are one graph
-
 // Swaps and rotations at one instant are forbidden on edges, which points do not book otherwise.
 std::int32_t count_rows(const Problem& problem) {
     return problem.may_follow() && !problem.has_sizes() ? problem.n_resources() : problem.n_rows();
@@ -90,7 +88,10 @@ const std::vector<RobotId>& Traffic::robots_met(RobotId robot, const Constrained
 }
 
 ConstrainedTracks::ConstrainedTracks(const Problem& problem, SharedDistances& distances)
-    : problem_(problem), no_traffic_(problem), search_(problem.roads(), problem.rules()) {
+    : problem_(problem),
+      no_traffic_(problem),
+      search_(problem.roads(), problem.rules()),
+      joint_(problem, no_traffic_.table()) {
     for (RobotId robot = 0; robot < problem.n_robots(); ++robot) {
         trips_.emplace_back(distances, true);
     }
@@ -165,16 +166,34 @@ void ConstrainedTracks::release(SetId set, BookingTable& table) const {
     }
 }
 
-const TrackGraph* ConstrainedTracks::graph(RobotId robot, SetId set, Tick latest) {
-    BookingTable& table = no_traffic_.table();
-    SearchRequest request{trips_[index(robot)].read(robot), table};
-    request.latest = latest;
-    is_second_ = !is_second_;
-    TrackGraph& graph = graphs_[is_second_ ? 1 : 0];
-    const bool is_built =
-        graph.build(problem_, constrained(set, request, table), robot, search_, most_phases);
-    release(set, table);
-    return is_built ? &graph : nullptr;
+JointPlan ConstrainedTracks::together(std::span<const RobotId> robots, std::span<const SetId> sets,
+                                      std::span<const Tick> most, std::int64_t most_nodes,
+                                      const StopCondition& is_over) {
+    std::vector<GroupMember> members;
+    for (std::size_t k = 0; k < robots.size(); ++k) {
+        members.push_back({.robot = robots[k],
+                           .trip = &trips_[index(robots[k])].read(robots[k]),
+                           .constraints = sets_.at(sets[k])});
+        if (!most.empty() && most[k] < never) {
+            members.back().most = most[k] / problem_.weight(robots[k]);
+        }
+    }
+    JointPlan plan;
+    plan.end = joint_.run(members, most_nodes, is_over);
+    plan.bound = plan.end == SearchEnd::proven_none ? never : joint_.bound();
+    for (std::size_t k = 0; plan.end == SearchEnd::found && k < robots.size(); ++k) {
+        ConstrainedTrack track;
+        joint_.track(k, track.visits);
+        track.completion = completion(*members[k].trip, track.visits);
+        track.cost = track.completion;
+        for (std::size_t v = 1; v < track.visits.size(); ++v) {
+            track.cost += problem_.surcharge(
+                problem_.graph().edge(track.visits[v - 1].vertex, track.visits[v].vertex));
+        }
+        track.cost *= problem_.weight(robots[k]);
+        plan.tracks.push_back(keep(robots[k], std::move(track)));
+    }
+    return plan;
 }
 
 const ConstrainedTrack* ConstrainedTracks::search(RobotId robot, SetId set, SearchRequest request,
@@ -189,16 +208,20 @@ const ConstrainedTrack* ConstrainedTracks::search(RobotId robot, SetId set, Sear
     if (end != SearchEnd::found) {
         return nullptr;
     }
-    ConstrainedTrack& track = tracks_.emplace_back();
+    ConstrainedTrack track;
     search_.track(track.visits);
     // Prices are paid only where there are no surcharges, and are no cost.
     track.completion = search_.completion();
     track.cost =
         problem_.weight(robot) * (request.prices.empty() ? search_.cost() : track.completion);
+    return keep(robot, std::move(track));
+}
+
+const ConstrainedTrack* ConstrainedTracks::keep(RobotId robot, ConstrainedTrack&& track) {
     book(robot, track);
     bytes_ += sizeof(track) + track.visits.size() * sizeof(Visit) +
               track.bookings.size() * sizeof(RowBooking) + track.moves.size() * sizeof(Move);
-    return &track;
+    return &tracks_.emplace_back(std::move(track));
 }
 
 void ConstrainedTracks::book(RobotId robot, ConstrainedTrack& track) const {

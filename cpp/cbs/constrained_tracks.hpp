@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cbs/constraint_sets.hpp"
-#include "cbs/joint_tracks.hpp"
+#include "cbs/joint_search.hpp"
 #include "core/search_end.hpp"
 #include "distances/shared_distances.hpp"
 #include "distances/trip.hpp"
@@ -40,6 +40,13 @@ struct ConstrainedTrack {
     std::vector<Move> moves;           // by time; only where robots may follow each other at once
     Tick completion = 0;
     Tick cost = 0;  // completion time and surcharges of the edges, by the robot's weight
+};
+
+// Tracks of some robots.
+struct JointPlan {
+    SearchEnd end = SearchEnd::stopped;
+    Tick bound = 0;                               // of their costs; `never` if there is no plan
+    std::vector<const ConstrainedTrack*> tracks;  // where the search found a plan
 };
 
 // What the tracks of some robots exclude others from, besides closures.
@@ -85,9 +92,12 @@ class ConstrainedTracks {
     const ConstrainedTrack* clearest(RobotId robot, SetId set, Tick cost, Traffic& traffic,
                                      const StopCondition& is_over);
 
-    // All tracks that keep the constraints and complete by this tick; null if they are too many.
-    // The pointer stays valid until the next call but one.
-    const TrackGraph* graph(RobotId robot, SetId set, Tick latest);
+    // The tracks of least cost with which some robots, alone on the roads, keep clear of each other
+    // and of the constraints, each within a cost (empty: any); the bound where the search stops
+    // after `most_nodes` joint states. Throws Stopped. The pointers stay valid.
+    JointPlan together(std::span<const RobotId> robots, std::span<const SetId> sets,
+                       std::span<const Tick> most, std::int64_t most_nodes,
+                       const StopCondition& is_over);
 
     std::int64_t n_searches() const { return n_searches_; }
     // About how much memory the tracks take [bytes].
@@ -98,6 +108,7 @@ class ConstrainedTracks {
                                    BookingTable& table, const StopCondition& is_over);
     SearchRequest constrained(SetId set, SearchRequest request, BookingTable& table) const;
     void release(SetId set, BookingTable& table) const;
+    const ConstrainedTrack* keep(RobotId robot, ConstrainedTrack&& track);
     void book(RobotId robot, ConstrainedTrack& track) const;
 
     const Problem& problem_;
@@ -106,8 +117,7 @@ class ConstrainedTracks {
     SafeIntervalSearch search_;
     ConstraintSets sets_;
     std::vector<Tick> prices_;  // of an overlap with each robot
-    std::array<TrackGraph, 2> graphs_;
-    bool is_second_ = false;
+    JointSearch joint_;
     std::deque<ConstrainedTrack> tracks_;
     std::unordered_map<std::uint64_t, const ConstrainedTrack*> known_;
     std::int64_t n_searches_ = 0;

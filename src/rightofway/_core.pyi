@@ -890,17 +890,18 @@ class ConflictBasedSearch:
         Whether tracks with the fewest conflicts are looked for.
     targets : bool
         Whether conflicts with robots that have reached their ends are resolved as such.
-    mdds : bool
-        Whether pairs are solved by all their tracks, where a tree of `pair_nodes` does not.
     pairs : bool
         Whether nodes are split by the completion times of pairs that lose to each other.
     pair_nodes : int
         Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.
+    joint_states : int
+        Joint states at most to solve a pair that needs more nodes, and for each fifty nodes to solve
+        a whole fleet of few robots; 0: no such search.
     factor : int
         A plan that costs at most this factor times the bound is enough, 1 or more. [millionths]
     """
 
-    def __init__(self, problem: Problem, cardinal: bool, bypass: bool, clear: bool, targets: bool, mdds: bool, pairs: bool, pair_nodes: int, factor: int) -> None: ...
+    def __init__(self, problem: Problem, cardinal: bool, bypass: bool, clear: bool, targets: bool, pairs: bool, pair_nodes: int, joint_states: int, factor: int) -> None: ...
 
     def run(self, upper: int, enough: int, most_nodes: int, most_bytes: int, time_limit: float | None) -> tuple[int, int]:
         """
@@ -925,6 +926,26 @@ class ConflictBasedSearch:
         tuple of (int, int)
             How it ended (0: a plan within the factor, 1: proven that none costs less than `upper`, 2: stopped),
             and the proven bound, NEVER where no plan exists. [ticks]
+        """
+
+    def search_together(self, robots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], most_states: int, time_limit: float | None) -> tuple[int, int]:
+        """
+        Search the joint states of some robots, alone on the roads.
+
+        Parameters
+        ----------
+        robots : int32[K]
+            Different robots.
+        most_states : int
+            Stop after this number of states.
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+
+        Returns
+        -------
+        tuple of (int, int)
+            How it ended, as for `run`, and the proven bound of the sum of their costs, NEVER where no plan
+            exists. [ticks]
         """
 
     def tracks(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:

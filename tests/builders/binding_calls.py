@@ -470,12 +470,17 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "ConflictBasedSearch": lambda rng: {
         "problem": _problem(rng), "cardinal": rng.random() < 1 / 2, "bypass": rng.random() < 1 / 2,
         "clear": rng.random() < 1 / 2, "targets": rng.random() < 1 / 2,
-        "mdds": rng.random() < 1 / 2, "pairs": rng.random() < 1 / 2, "pair_nodes": rng.randrange(9),
+        "pairs": rng.random() < 1 / 2, "pair_nodes": rng.randrange(9),
+        "joint_states": rng.choice((0, 9, 1000)),
         "factor": rng.choice((10**6, 11 * 10**5)),
     },
     "ConflictBasedSearch.run": _timed(
         upper=_core.NEVER, enough=_core.NEVER, most_nodes=50, most_bytes=2**24
     ),
+    "ConflictBasedSearch.search_together": lambda rng: {
+        "robots": int32(*rng.sample(range(3), rng.randrange(4))), "most_states": 500,
+        "time_limit": 0.2,
+    },
     "ConflictBasedSearch.tracks": _always(),
     "ConflictBasedSearch.n_nodes": _always(),
     "ConflictBasedSearch.n_searches": _always(),

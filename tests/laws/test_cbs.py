@@ -27,9 +27,9 @@ switches = st.fixed_dictionaries(
         "bypass": st.booleans(),
         "clear": st.booleans(),
         "targets": st.booleans(),
-        "mdds": st.booleans(),
         "pairs": st.booleans(),
         "pair_nodes": st.sampled_from([0, 3, 100]),
+        "joint_states": st.sampled_from([0, 100, 10_000]),
     }
 )
 
@@ -68,6 +68,17 @@ def test_a_tree_finds_the_optimum_and_its_bound_is_never_above_it(
         plan = Plan(scenario=scenario, tracks=search.tracks, run=PlannerRun(name="cbs"))
         assert check(plan).ok
         assert plan.flowtime == search.bound == least
+
+
+@law(kinds, seeds)
+def test_a_search_over_joint_states_finds_the_optimum_or_proves_that_there_is_no_plan(
+    kind: str, seed: int
+) -> None:
+    scenario = KINDS[kind](seed)
+    search = _search(scenario)
+    least = least_flowtime(kind, scenario)
+    is_solved, together = search.search_together(range(len(scenario.robots)), states=10_000)
+    assert together == least if is_solved else least is None or (together or 0) <= least
 
 
 @law(kinds, seeds, st.integers(1, 30))

@@ -55,20 +55,8 @@ def test_without_its_closures_a_fleet_is_at_least_as_quick(seed: int) -> None:
     assert among is None or (free is not None and free <= among)
 
 
-OPEN = pytest.mark.xfail(
-    strict=True, reason="some trees of conflict-based search have more nodes than auto expands"
-)
-"""Marks kinds of which `auto` leaves one of the twenty fleets or more without a proof."""
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "kind",
-    [
-        pytest.param(kind, marks=OPEN) if kind in {"sizes", "three", "turning", "zones"} else kind
-        for kind in sorted(KINDS)
-    ],
-)
+@pytest.mark.parametrize("kind", sorted(KINDS))
 def test_auto_finds_the_optimum_of_tiny_fleets_or_proves_that_there_is_no_plan(kind: str) -> None:
     """All of twenty: seeds 0 to 19 of each kind."""
     assert all(_is_optimum_proven(kind, KINDS[kind](seed)) for seed in range(20))

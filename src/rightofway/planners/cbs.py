@@ -58,9 +58,9 @@ def cbs(task: Task) -> Draft:
         bypass=task.options["bypass"] == "yes",
         clear=task.options["clear"] == "yes",
         targets=task.options["targets"] == "yes",
-        mdds=task.options["mdds"] == "yes",
         pairs=task.options["pairs"] == "yes",
         pair_nodes=task.options["pair_nodes"],
+        joint_states=task.options["joint_states"],
         factor=factor,
     )
     ended = "time ran out"

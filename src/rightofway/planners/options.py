@@ -295,10 +295,6 @@ class CbsOptions(PlannerOptions):
         Literal["yes", "no"],
         "Resolve conflicts with robots that have reached their ends for all later ticks at once.",
     ] = "yes"
-    mdds: Annotated[
-        Literal["yes", "no"],
-        "Solve pairs that need more nodes by all their tracks (MDDs); or do not.",
-    ] = "yes"
     pairs: Annotated[
         Literal["yes", "no"],
         "Split nodes by the completion times of two robots that lose to each other.",
@@ -307,3 +303,8 @@ class CbsOptions(PlannerOptions):
         int,
         "Nodes for each pair of robots, whose losses by each other raise bounds; 0: none.",
     ] = 20
+    joint_states: Annotated[
+        int,
+        "Joint states to solve a pair that needs more nodes and, for each fifty nodes, a fleet of"
+        " at most four robots; 0: none.",
+    ] = 10_000

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+
+import numpy as np
 
 from rightofway import _core
 from rightofway.model import NEVER, Problem, Tick, Track
@@ -34,12 +37,13 @@ class ConflictBasedSearch:
         Whether tracks with the fewest conflicts are looked for.
     targets
         Whether conflicts with robots that have reached their ends are resolved as such.
-    mdds
-        Whether pairs are solved by all their tracks, where a tree of `pair_nodes` does not.
     pairs
         Whether nodes are split by the completion times of pairs that lose to each other.
     pair_nodes
         Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.
+    joint_states
+        Joint states at most to solve a pair that needs more nodes, and for each fifty nodes to
+        solve a whole fleet of at most four robots; 0: no such search.
     factor
         A plan that costs at most this factor times the bound is enough; 1 or more.
 
@@ -66,14 +70,14 @@ class ConflictBasedSearch:
         bypass: bool = True,
         clear: bool = True,
         targets: bool = True,
-        mdds: bool = True,
         pairs: bool = True,
         pair_nodes: int = 20,
+        joint_states: int = 10_000,
         factor: Fraction | int = 1,
     ) -> None:
         self._core = _core.ConflictBasedSearch(
-            bound(problem), cardinal, bypass, clear, targets, mdds, pairs, pair_nodes,
-            int(min(factor, MOST_FACTOR) * MILLION),
+            bound(problem), cardinal, bypass, clear, targets, pairs, pair_nodes,
+            joint_states, int(min(factor, MOST_FACTOR) * MILLION),
         )  # fmt: skip
         self.bound: Tick | None = Tick(0)
         self.tracks: tuple[Track, ...] | None = None
@@ -111,6 +115,29 @@ class ConflictBasedSearch:
         self.is_proven = end in {FOUND, PROVEN}
         if end == FOUND:
             self.tracks = tuple(tracks_of(*self._core.tracks()))
+
+    def search_together(
+        self, robots: Sequence[int], *, states: int, time_limit: float | None = None
+    ) -> tuple[bool, Tick | None]:
+        """Search the joint states of some robots, alone on the roads.
+
+        Parameters
+        ----------
+        robots
+            Different robots.
+        states
+            The number of states at most.
+        time_limit
+            When to stop [s].
+
+        Returns
+        -------
+        tuple of (bool, int or None)
+            Whether the search ended, and the least sum of their costs [ticks], None where they have
+            no plan; where the search did not end, a lower bound.
+        """
+        end, least = self._core.search_together(np.array(robots, np.int32), states, time_limit)
+        return end in {FOUND, PROVEN}, None if least == NEVER else Tick(least)
 
     @property
     def n_nodes(self) -> int:

@@ -1,10 +1,8 @@
 #include <doctest/doctest.h>
 
 #include <array>
-#include <vector>
 
-#include "cbs/cbs.hpp"
-#include "cbs/joint_tracks.hpp"
+#include "cbs/constrained_tracks.hpp"
 #include "fleets.hpp"
 
 namespace rightofway {
@@ -21,16 +19,15 @@ TEST_CASE("two robots that swap the ends of a corridor complete in turn, whoever
     const Problem problem = fleet.problem();
     SharedDistances distances(problem);
     ConstrainedTracks tracks(problem, distances);
-    JointTracks joint;
-    for (const Tick latest : {2, 3, 5}) {
-        const TrackGraph* first = tracks.graph(0, ConstraintSets::empty, latest);
-        const TrackGraph* second = tracks.graph(1, ConstraintSets::empty, latest);
-        REQUIRE(first != nullptr);
-        REQUIRE(second != nullptr);
-        REQUIRE(joint.search(problem, *first, *second, false, 1000, never_over));
-        CHECK(joint.completions().empty() == (latest < 5));
-        CHECK_FALSE(joint.search(problem, *first, *second, false, 0, never_over));
-    }
+    const std::array<RobotId, 2> robots{0, 1};
+    const std::array<SetId, 2> free{ConstraintSets::empty, ConstraintSets::empty};
+    const JointPlan plan = tracks.together(robots, free, {}, 1000, never_over);
+    REQUIRE(plan.end == SearchEnd::found);
+    CHECK(plan.bound == 7);
+    CHECK(plan.tracks[0]->cost + plan.tracks[1]->cost == 7);
+    const std::array<Tick, 2> in_time{3, 3};
+    CHECK(tracks.together(robots, free, in_time, 1000, never_over).end == SearchEnd::proven_none);
+    CHECK(tracks.together(robots, free, {}, 1, never_over).end == SearchEnd::stopped);
 }
 
 }  // namespace
