@@ -42,27 +42,6 @@ def test_no_two_rooms_export_one_name_for_different_things() -> None:
     assert {name: rooms for name, rooms in meanings.items() if len(rooms) > 1} == {}
 
 
-TWICE = {
-    "Activity": "of a robot on the floor, and on the page",
-    "ChangeData": "of the page's payload, and of the studio's answers",
-    "Circuit": "of a timed event graph, and of the studio's answers",
-    "ComparedRobot": "of the page's payload, and of the studio's answers",
-    "Draft": "of a planner, and of the studio",
-    "Fault": "of a plan, and of the studio's answers",
-    "Figures": "of a plan, and of the studio's answers",
-    "Finding": "of an inspection, and of the studio's answers",
-    "Flipped": "of a decision, and of the studio's answers",
-    "Lane": "of a roadmap, and of a map for orders",
-    "Lateness": "of executions, and of the studio's answers",
-    "PlannerData": "of the page's payload, and of the studio's answers",
-    "Problem": "of a scenario, and of the studio's answers",
-    "Progress": "of robots, and of the studio's answers",
-    "RobotLateness": "of executions, and of the studio's answers",
-    "Units": "of a scenario, and of the studio's answers",
-}
-"""Names that two classes have; the list may only grow shorter."""
-
-
 def test_no_two_classes_have_one_name() -> None:
     places = defaultdict[str, list[str]](list)
     for path, module in modules().items():
@@ -70,7 +49,7 @@ def test_no_two_classes_have_one_name() -> None:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 places[node.name].append(path.relative_to(SOURCES).as_posix())
     twice = {name: files for name, files in places.items() if len(files) > 1}
-    assert {name: files for name, files in twice.items() if name not in TWICE} == {}
+    assert twice == {}
 
 
 def exported_names(module: ast.Module) -> set[str]:

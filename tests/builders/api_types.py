@@ -28,7 +28,7 @@ from rightofway.studio.routes.answers import (
     Comparison,
     Payload,
     Phrase,
-    Problem,
+    RefusalData,
 )
 from rightofway.studio.routes.models import Document
 
@@ -59,7 +59,7 @@ PLACES = {"number": "${number}"}
 
 def api_types() -> str:
     """Return the declarations."""
-    wanted = [*ANSWERS.values(), *BODIES.values(), *EVENTS.values(), Problem]
+    wanted = [*ANSWERS.values(), *BODIES.values(), *EVENTS.values(), RefusalData]
     shapes = {each.__name__: each for root in wanted for each in _shapes(root, set())}
     declared = [_interface(shapes[name]) for name in sorted(shapes)]
     methods = [_conditional(method) for method in sorted({method for method, _ in ANSWERS})]

@@ -4,7 +4,7 @@ import pytest
 
 from rightofway.fleet_builder import FleetBuilder
 from rightofway.model import Plan, PlannerRun, Track
-from rightofway.viz.motion import Activity, Moment, Trip, end_of, trips_of
+from rightofway.viz.motion import Moment, Phase, Trip, end_of, trips_of
 from tests.builders.plans import door, loop
 
 
@@ -16,10 +16,10 @@ def cart() -> Trip:
 def test_a_visit_is_work_then_turning_then_waiting_then_the_drive(cart: Trip) -> None:
     # c is held from 4 to 14: 4 of work, 2 of turning, 3 of driving; 1 is left to wait
     assert list(cart.phases(2)) == [
-        (4, 8, Activity.WORK),
-        (8, 10, Activity.TURN),
-        (10, 11, Activity.WAIT),
-        (11, 14, Activity.DRIVE),
+        (4, 8, Phase.WORK),
+        (8, 10, Phase.TURN),
+        (10, 11, Phase.WAIT),
+        (11, 14, Phase.DRIVE),
     ]
 
 
@@ -30,9 +30,9 @@ def test_a_turn_between_two_edges_comes_before_the_wait() -> None:
     tracks = (Track.of([0, 1, 2], [0, 1, 5]),)
     (trip,) = trips_of(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
     assert list(trip.phases(1)) == [
-        (1, 3, Activity.TURN),
-        (3, 4, Activity.WAIT),
-        (4, 5, Activity.DRIVE),
+        (1, 3, Phase.TURN),
+        (3, 4, Phase.WAIT),
+        (4, 5, Phase.DRIVE),
     ]
 
 
@@ -58,15 +58,15 @@ def test_a_stage_that_is_left_out_is_served_nowhere() -> None:
 @pytest.mark.parametrize(
     ("tick", "moment"),
     [
-        (0, Moment(tail=0, head=1, activity=Activity.DRIVE, share=0.0)),
-        (1, Moment(tail=0, head=1, activity=Activity.DRIVE, share=0.5)),
-        (2, Moment(tail=1, head=2, activity=Activity.DRIVE, share=0.0)),
-        (5, Moment(tail=2, head=2, activity=Activity.WORK, share=0.25)),
-        (9, Moment(tail=2, head=2, activity=Activity.TURN, share=0.5)),
-        (10, Moment(tail=2, head=2, activity=Activity.WAIT, share=0.0)),
-        (12.5, Moment(tail=2, head=3, activity=Activity.DRIVE, share=0.5)),
-        (16, Moment(tail=0, head=0, activity=Activity.DONE, share=1.0)),
-        (99, Moment(tail=0, head=0, activity=Activity.DONE, share=1.0)),
+        (0, Moment(tail=0, head=1, activity=Phase.DRIVE, share=0.0)),
+        (1, Moment(tail=0, head=1, activity=Phase.DRIVE, share=0.5)),
+        (2, Moment(tail=1, head=2, activity=Phase.DRIVE, share=0.0)),
+        (5, Moment(tail=2, head=2, activity=Phase.WORK, share=0.25)),
+        (9, Moment(tail=2, head=2, activity=Phase.TURN, share=0.5)),
+        (10, Moment(tail=2, head=2, activity=Phase.WAIT, share=0.0)),
+        (12.5, Moment(tail=2, head=3, activity=Phase.DRIVE, share=0.5)),
+        (16, Moment(tail=0, head=0, activity=Phase.DONE, share=1.0)),
+        (99, Moment(tail=0, head=0, activity=Phase.DONE, share=1.0)),
     ],
 )
 def test_a_robot_is_where_the_plan_has_it(cart: Trip, tick: float, moment: Moment) -> None:
@@ -75,7 +75,7 @@ def test_a_robot_is_where_the_plan_has_it(cart: Trip, tick: float, moment: Momen
 
 def test_the_robot_that_gives_way_waits_first() -> None:
     # R1 could leave N0 at once; it drives for one tick before it enters N1 at 2
-    assert list(trips_of(door())[0].phases(0)) == [(0, 1, Activity.WAIT), (1, 2, Activity.DRIVE)]
+    assert list(trips_of(door())[0].phases(0)) == [(0, 1, Phase.WAIT), (1, 2, Phase.DRIVE)]
 
 
 def test_the_end_is_when_the_last_robot_is_done() -> None:

@@ -17,7 +17,7 @@ from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity
 from rightofway.control.messages import Condition, InstantAction, Message, Order
 from rightofway.control.notices import Notices
-from rightofway.control.order_map import Lane, OrderMap, Place
+from rightofway.control.order_map import OrderLane, OrderMap, Place
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.errors import InputError, printable, shown
 from rightofway.phrases import Phrase
@@ -283,7 +283,7 @@ class RobotEnd:
     ) -> None:
         self.robot, self._number, self._identity = robot, number, identity
         self.condition = Condition()
-        self.lanes: dict[tuple[str, str], Lane] = {}
+        self.lanes: dict[tuple[str, str], OrderLane] = {}
         self._places: dict[str, Place] = {}
         self._writer = _Writer(now)
 
@@ -329,7 +329,7 @@ class RobotEnd:
             is_known = edge.length is not None and edge.maxSpeed is not None
             if is_known and tail is not None and head is not None:
                 length, speed = edge.length or 0.0, edge.maxSpeed or 1.0
-                self.lanes[tail, head] = Lane(length=length, max_speed=speed)
+                self.lanes[tail, head] = OrderLane(length=length, max_speed=speed)
 
     def state(self) -> Letter:
         """Return its state as it is sent."""

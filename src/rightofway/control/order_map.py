@@ -12,7 +12,7 @@ from rightofway.errors import InputError
 from rightofway.model import Scenario
 from rightofway.site import Point, VertexId
 
-__all__ = ["Lane", "OrderMap", "Place", "Work"]
+__all__ = ["OrderLane", "OrderMap", "Place", "Work"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,7 +35,7 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lane:
+class OrderLane:
     """How an edge is driven.
 
     Attributes
@@ -77,7 +77,7 @@ class OrderMap:
     robot: int
     identity: Identity
     _places: dict[str, Place | None] = field(init=False, default_factory=dict)
-    _lanes: dict[tuple[str, str], Lane | None] = field(init=False, default_factory=dict)
+    _lanes: dict[tuple[str, str], OrderLane | None] = field(init=False, default_factory=dict)
     _shapes: Mapping[tuple[int, int], tuple[tuple[Point, ...], bool]] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -137,7 +137,7 @@ class OrderMap:
             )
         return self._places[name]
 
-    def lane(self, tail: str, head: str) -> Lane | None:
+    def lane(self, tail: str, head: str) -> OrderLane | None:
         """Return how the edge between two vertices is driven; None where there is none.
 
         Parameters
@@ -149,7 +149,7 @@ class OrderMap:
             self._lanes[tail, head] = self._made_lane(tail, head)
         return self._lanes[tail, head]
 
-    def _made_lane(self, tail: str, head: str) -> Lane | None:
+    def _made_lane(self, tail: str, head: str) -> OrderLane | None:
         scenario, roadmap = self.scenario, self.scenario.roadmap
         start, end = self._vertex(tail), self._vertex(head)
         edge = None if start is None or end is None else roadmap.edge(start, end)
@@ -163,7 +163,7 @@ class OrderMap:
         if shape is not None:
             course = (roadmap.point(start), *shape[0], roadmap.point(end))
             points = tuple(map(self._point, course))
-        return Lane(
+        return OrderLane(
             length=float(kind.length * self._metre),
             max_speed=float(speed * self._metre / (scenario.units.seconds or 1)),
             points=points,

@@ -22,7 +22,7 @@ from rightofway.control.messages import (
     RobotError,
     RobotState,
 )
-from rightofway.control.order_map import Lane, OrderMap, Place, Work
+from rightofway.control.order_map import OrderLane, OrderMap, Place, Work
 from rightofway.errors import InputError, InputFault, shown
 
 __all__ = [
@@ -219,7 +219,7 @@ def _edge(tail: str, head: str, sequence_id: int, order_map: OrderMap) -> _Edge:
     )
 
 
-def _trajectory(lane: Lane | None) -> _Trajectory | None:
+def _trajectory(lane: OrderLane | None) -> _Trajectory | None:
     """Return the shape of a lane as a clamped NURBS: straight pieces, or one Bézier curve."""
     if lane is None or not lane.points:
         return None

@@ -14,7 +14,7 @@ from enum import Enum
 from rightofway.model import NEVER, Plan, Stage, Tick
 
 
-class Activity(Enum):
+class Phase(Enum):
     """What a robot does."""
 
     DRIVE = "drive"
@@ -30,7 +30,7 @@ class Moment:
 
     tail: int
     head: int
-    activity: Activity
+    activity: Phase
     share: float  # of the activity that is over, 0 to 1
 
 
@@ -51,12 +51,12 @@ class Trip:
         vertex = self.vertices[visit]
         for begin, end, activity in self.phases(visit):
             if tick < end:
-                head = self.vertices[visit + 1] if activity is Activity.DRIVE else vertex
+                head = self.vertices[visit + 1] if activity is Phase.DRIVE else vertex
                 share = (tick - begin) / (end - begin)
                 return Moment(tail=vertex, head=head, activity=activity, share=share)
-        return Moment(tail=vertex, head=vertex, activity=Activity.DONE, share=1.0)
+        return Moment(tail=vertex, head=vertex, activity=Phase.DONE, share=1.0)
 
-    def phases(self, visit: int) -> Iterator[tuple[int, int, Activity]]:
+    def phases(self, visit: int) -> Iterator[tuple[int, int, Phase]]:
         """Yield (begin, end, activity) of a visit, in order, without empty ones."""
         now, last = self.enter[visit], visit == len(self.vertices) - 1
         leave = NEVER if last else self.enter[visit + 1]
@@ -65,22 +65,22 @@ class Trip:
         duties = [
             (ticks, activity)
             for stage in served
-            for ticks, activity in ((stage.work, Activity.WORK), (stage.turn, Activity.TURN))
-            if not (last and activity is Activity.TURN)
+            for ticks, activity in ((stage.work, Phase.WORK), (stage.turn, Phase.TURN))
+            if not (last and activity is Phase.TURN)
         ]
         if self.turns:
-            duties.append((self.turns[visit], Activity.TURN))
+            duties.append((self.turns[visit], Phase.TURN))
         for ticks, activity in duties:
             end = min(now + ticks, departure)
             if end > now:
                 yield now, end, activity
             now = end
         if not last and departure > now:
-            yield now, departure, Activity.WAIT
+            yield now, departure, Phase.WAIT
         if not last and leave > departure:
-            yield departure, leave, Activity.DRIVE
+            yield departure, leave, Phase.DRIVE
 
-    def all_phases(self) -> Iterator[tuple[int, int, int, Activity]]:
+    def all_phases(self) -> Iterator[tuple[int, int, int, Phase]]:
         """Yield (visit, begin, end, activity) of the whole trip, in order."""
         for visit in range(len(self.vertices)):
             for begin, end, activity in self.phases(visit):

@@ -25,20 +25,10 @@ export interface ByClock {
   share_of_runs: number;
 }
 
-/** Something in which a scenario differs from another one. */
-export interface ChangeData {
-  what: string;
-  robots: Array<string>;
-  key: string;
-  before: string;
-  after: string;
-  text: string;
-}
-
 /** In what the scenario of a run differs from that of a run before it. */
 export interface Changes {
   before: number | null;
-  changes: Array<ChangeData>;
+  changes: Array<ScenarioChange>;
 }
 
 /** Rules of laps, notations of delays, formats of exports, each with a sentence. */
@@ -58,7 +48,7 @@ export interface CirclePiece {
 }
 
 /** A circle that sets the pace for some values. */
-export interface Circuit {
+export interface CircuitData {
   periods: number;
   pieces: Array<CirclePiece> | null;
   visits: Array<[number, number]>;
@@ -73,7 +63,7 @@ export interface CommandLine {
 export interface Compared {
   runs: Array<number>;
   plans: Array<ComparedFigures>;
-  robots: Array<ComparedRobot>;
+  robots: Array<RobotCompletions>;
   titles: Array<string>;
   comparison: ComparisonPayload;
 }
@@ -85,18 +75,12 @@ export interface ComparedFigures {
   lower_bound: number;
   text: FigureTexts;
   tick: [number, number];
-  units: Units;
+  units: UnitNames;
   scenario: string;
   start?: Kept | null;
   robots?: number;
   faults?: number;
   time: Record<string, number>;
-}
-
-/** When a robot completes in each plan [time unit]; null where it is not in it. */
-export interface ComparedRobot {
-  name: string;
-  completion: Array<number | null>;
 }
 
 /** The period as a function of a speed, a work time or the headway. */
@@ -122,7 +106,7 @@ export interface Curves {
   exact: boolean;
   why: string;
   curves: Array<CurveData>;
-  circuits: Array<Circuit>;
+  circuits: Array<CircuitData>;
 }
 
 /** A fleet that is to be dealt out over the map of a document. */
@@ -158,20 +142,30 @@ export interface DelayChoices {
 
 /** What becomes of a plan with delays. */
 export interface DelaysReport {
-  units: Units;
+  units: UnitNames;
   tick: number | string;
   runs: number;
   collisions: number;
   played: number;
-  lateness: Lateness;
+  lateness: LatenessData;
   by_clock: ByClock;
   spread: SpreadData | null;
   ranks: Ranks;
   text: string;
 }
 
+/** One thing wrong with a document: where, as text, as keys and indices, and for people. */
+export interface DocumentFault {
+  place: string;
+  path: Array<string | number>;
+  message: string;
+  line: number | null;
+  named: string;
+  about: string;
+}
+
 /** A document that somebody draws. */
-export interface Draft {
+export interface DraftBody {
   document: ScenarioDocument;
   revision?: string | null;
 }
@@ -202,7 +196,7 @@ export interface ErrorData {
   kind: string;
   message: string;
   status?: number;
-  faults?: Array<Fault>;
+  faults?: Array<DocumentFault>;
   reasons?: Array<Reason>;
   robots?: Array<string>;
   vertices?: Array<string>;
@@ -231,36 +225,12 @@ export interface FactAndRemedy {
   remedy: PhraseData;
 }
 
-/** One thing wrong with a document: where, as text, as keys and indices, and for people. */
-export interface Fault {
-  place: string;
-  path: Array<string | number>;
-  message: string;
-  line: number | null;
-  named: string;
-  about: string;
-}
-
 /** Figures as people read them. */
 export interface FigureTexts {
   flowtime: string;
   makespan: string;
   lower_bound: string;
   gap: string | null;
-}
-
-/** What a plan costs [ticks]. */
-export interface Figures {
-  flowtime: number;
-  makespan: number;
-  lower_bound: number;
-  text: FigureTexts;
-  tick: [number, number];
-  units: Units;
-  scenario: string;
-  start?: Kept | null;
-  robots?: number;
-  faults?: number;
 }
 
 /** A file of the folder. */
@@ -277,18 +247,6 @@ export interface FileList {
   is_whole: boolean;
 }
 
-/** What will hurt on a map. */
-export interface Finding {
-  kind: string;
-  severity: "error" | "warning" | "note";
-  fact: string;
-  remedy: string;
-  vertices: Array<string>;
-  robots: Array<string>;
-  sentence: string;
-  phrases: FactAndRemedy;
-}
-
 /** A right of way that is to be flipped. */
 export interface Flip {
   waits: string;
@@ -299,8 +257,8 @@ export interface Flip {
 }
 
 /** A timetable in which another robot goes first. */
-export interface Flipped {
-  before: Figures;
+export interface FlippedPlan {
+  before: PlanFigures;
   run: RunData;
 }
 
@@ -359,15 +317,15 @@ export interface LapsAnswer {
 
 /** What a fleet that repeats its trips achieves. */
 export interface LapsReport {
-  units: Units;
+  units: UnitNames;
   groups: Array<LapGroup>;
   text: string;
 }
 
 /** Lateness of the fleet and of each robot. */
-export interface Lateness {
+export interface LatenessData {
   flowtime: LatenessFigures;
-  robots: Array<RobotLateness>;
+  robots: Array<RobotLatenessData>;
 }
 
 /** Lateness over all runs [ticks]. */
@@ -467,7 +425,7 @@ export interface Opened {
   document?: ScenarioDocument;
   save_as?: string;
   revision?: string;
-  figures?: Figures;
+  figures?: PlanFigures;
   run?: RunData;
 }
 
@@ -492,11 +450,25 @@ export interface PlacedDocument {
   folder: string;
 }
 
+/** What a plan costs [ticks]. */
+export interface PlanFigures {
+  flowtime: number;
+  makespan: number;
+  lower_bound: number;
+  text: FigureTexts;
+  tick: [number, number];
+  units: UnitNames;
+  scenario: string;
+  start?: Kept | null;
+  robots?: number;
+  faults?: number;
+}
+
 /** An event: a run has a better plan. */
 export interface PlanFound {
   number: number;
   revision: number;
-  figures: Figures;
+  figures: PlanFigures;
 }
 
 /** What `plan --json` reports of a plan; the page shows the plan itself. */
@@ -504,7 +476,7 @@ export interface PlanSummary {
 }
 
 /** A planner. */
-export interface PlannerData {
+export interface PlannerEntry {
   name: string;
   summary: string;
   features: Array<string>;
@@ -515,7 +487,7 @@ export interface PlannerData {
 export interface PlannerList {
   default: string;
   improver: string;
-  planners: Array<PlannerData>;
+  planners: Array<PlannerEntry>;
 }
 
 /** An option of a planner. */
@@ -527,20 +499,6 @@ export interface PlannerOption {
   least: number | string;
   most: number | string | null;
   whole: boolean;
-}
-
-/** The answer to a request that is refused. */
-export interface Problem {
-  error: ErrorData;
-}
-
-/** An event of a run that is going on. */
-export interface Progress {
-  number: number;
-  seconds?: number;
-  flowtime?: number;
-  lower_bound?: number;
-  message?: string;
 }
 
 /** Runs from the best to the worst. */
@@ -557,13 +515,24 @@ export interface Reason {
   vertices: Array<string>;
 }
 
+/** The answer to a request that is refused. */
+export interface RefusalData {
+  error: ErrorData;
+}
+
 /** A name for a run. */
 export interface Rename {
   name: string;
 }
 
+/** When a robot completes in each plan [time unit]; null where it is not in it. */
+export interface RobotCompletions {
+  name: string;
+  completion: Array<number | null>;
+}
+
 /** How late a robot is over all runs, by itself and for others [ticks]. */
-export interface RobotLateness {
+export interface RobotLatenessData {
   name: string;
   mean: number;
   p95: number;
@@ -584,7 +553,7 @@ export interface RunData {
   started: number | null;
   ended: number | null;
   status: string;
-  figures: Figures | null;
+  figures: PlanFigures | null;
   error: ErrorData | null;
   points: Array<[number, number]>;
   revision: number;
@@ -602,6 +571,15 @@ export interface RunList {
 /** A run that was deleted. */
 export interface RunNumber {
   number: number;
+}
+
+/** An event of a run that is going on. */
+export interface RunProgress {
+  number: number;
+  seconds?: number;
+  flowtime?: number;
+  lower_bound?: number;
+  message?: string;
 }
 
 /** The settings of the task of a run; which there are depends on its kind. */
@@ -637,6 +615,28 @@ export interface Saved {
   revision: string;
 }
 
+/** Something in which a scenario differs from another one. */
+export interface ScenarioChange {
+  what: string;
+  robots: Array<string>;
+  key: string;
+  before: string;
+  after: string;
+  text: string;
+}
+
+/** What will hurt on a map. */
+export interface SiteFinding {
+  kind: string;
+  severity: "error" | "warning" | "note";
+  fact: string;
+  remedy: string;
+  vertices: Array<string>;
+  robots: Array<string>;
+  sentence: string;
+  phrases: FactAndRemedy;
+}
+
 /** How many runs have which flowtime [ticks]. */
 export interface SpreadData {
   counts: Array<number>;
@@ -657,17 +657,17 @@ export interface Survey {
 /** What an editor shows at each change. */
 export interface SurveyData {
   ok: boolean;
-  faults: Array<Fault>;
+  faults: Array<DocumentFault>;
   notes: Array<PhraseData | string>;
   site: SitePayload | null;
-  findings: Array<Finding>;
+  findings: Array<SiteFinding>;
   sentences: Array<string>;
   phrases: Array<PhraseData>;
   scenario?: string | null;
 }
 
 /** Units of a scenario, each a name or null. */
-export interface Units {
+export interface UnitNames {
   length: string | null;
   time: string | null;
 }
@@ -675,7 +675,7 @@ export interface Units {
 /** The faults of a document. */
 export interface Validation {
   ok: boolean;
-  faults: Array<Fault>;
+  faults: Array<DocumentFault>;
   notes: Array<PhraseData | string>;
 }
 
@@ -715,7 +715,7 @@ export type PatchAnswer<Path extends string> =
 /** What POST answers, by the path with what follows it. */
 export type PostAnswer<Path extends string> =
   Path extends `/runs/${number}/cancel` | `/runs/${number}/cancel?${string}` ? RunData :
-  Path extends `/runs/${number}/flip` | `/runs/${number}/flip?${string}` ? Flipped :
+  Path extends `/runs/${number}/flip` | `/runs/${number}/flip?${string}` ? FlippedPlan :
   Path extends `/runs/${number}/laps` | `/runs/${number}/laps?${string}` ? LapsAnswer :
   Path extends `/runs/${number}/stop` | `/runs/${number}/stop?${string}` ? RunData :
   Path extends `/deal` | `/deal?${string}` ? Dealt :
@@ -736,14 +736,14 @@ export type PutAnswer<Path extends string> =
 export interface Bodies {
   PATCH: Rename;
   POST: Placed | Survey | Deal | NewPlan | NewImprovement | NewLaps | NewSimulation | OtherLaps | Flip;
-  PUT: Save | Draft;
+  PUT: Save | DraftBody;
 }
 
 /** What events hold, by their names. */
 export interface Events {
   runs: RunList;
   run: RunData;
-  progress: Progress;
+  progress: RunProgress;
   plan: PlanFound;
   deleted: RunNumber;
 }

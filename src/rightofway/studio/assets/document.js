@@ -6,7 +6,7 @@ import { Latest } from "./latest.js";
 import { liesAt, liesIn } from "./fault_place.js";
 import { later, present } from "./given.js";
 /** @import { Refusal } from "./api.js" */
-/** @import { Fault, SurveyData } from "./api_types.js" */
+/** @import { DocumentFault, SurveyData } from "./api_types.js" */
 /** @import { Edit, Found, ScenarioDocument, SitePayload } from "./types.js" */
 
 const CHANGED = 412; // the status of a draft that another page has changed
@@ -192,7 +192,7 @@ export class ScenarioStore extends Observable {
   /**
    * Faults at a place of the document and below it.
    * @param {...(string | number)} path The keys and indices that lead to the place.
-   * @returns {Fault[]}
+   * @returns {DocumentFault[]}
    */
   faultsAt(...path) {
     return this.faults.filter((fault) => liesIn(fault, ...path));

@@ -4,7 +4,7 @@ import { html, useState } from "./vendor/htm-preact.js";
 import { languageOf, said } from "../../viz/page/assets/library.js";
 import { nameOf } from "./fault_place.js";
 import { words } from "./words.js";
-/** @import { Finding } from "./api_types.js" */
+/** @import { SiteFinding } from "./api_types.js" */
 /** @import { Studio } from "./studio.js" */
 /** @import { Props } from "./types.js" */
 
@@ -17,7 +17,7 @@ export function Findings({ studio }) {
   const { findings } = store.survey;
   const shown = isWhole ? findings : findings.slice(0, FIRST);
   /**
-   * @param {Finding} finding
+   * @param {SiteFinding} finding
    * @returns {void}
    */
   const light = ({ vertices }) => studio.light(vertices);
@@ -50,14 +50,14 @@ export function Findings({ studio }) {
  */
 const Phrase = ({ phrase }) => html`<span lang=${languageOf(phrase)}>${said(phrase)}</span>`;
 
-/** @param {{severity: Finding["severity"]}} props */
+/** @param {{severity: SiteFinding["severity"]}} props */
 const Sign = ({ severity }) =>
   html`<span class=${`severity ${severity}`} role="img" aria-label=${words.severities[severity]}>${{ error: "✕", warning: "!", note: "i" }[severity]}</span>`;
 
 /**
  * Light the places of a finding, and bring them into sight.
  * @param {Studio} studio
- * @param {Finding} finding
+ * @param {SiteFinding} finding
  * @returns {void}
  */
 function show(studio, { vertices: names }) {

@@ -8,7 +8,7 @@ import type {
 import type { Fraction } from "../../viz/page/assets/quantities.js";
 import type { Roadmap } from "../../viz/page/assets/roadmap.js";
 import type { Theme } from "../../viz/page/assets/theme.js";
-import type { Events, Fault, NewPlan, RunData } from "./api_types.js";
+import type { Events, DocumentFault, NewPlan, RunData } from "./api_types.js";
 import type { PickTool } from "./draw/backdrop.js";
 import type { SelectTool } from "./draw/select_tool.js";
 import type { ParameterCurve } from "./runs/parameter_curve.js";
@@ -331,7 +331,7 @@ export type DroppedFile = File & { path?: string };
 export type Tab = "map" | "robots" | "plan";
 
 /** What is refused, and the place in the document that it is about. */
-export type Complaint = Pick<Fault, "place" | "message"> & Partial<Fault>;
+export type Complaint = Pick<DocumentFault, "place" | "message"> & Partial<DocumentFault>;
 
 /** How to search, as the fields of the form have it. */
 export interface SearchForm {

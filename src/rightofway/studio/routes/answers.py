@@ -13,7 +13,7 @@ from typing_extensions import TypedDict
 from rightofway.studio.routes.models import (
     Deal,
     Document,
-    Draft,
+    DraftBody,
     Flip,
     NewRun,
     OtherLaps,
@@ -40,7 +40,7 @@ Ratio = tuple[int, int]
 """Numerator and denominator."""
 
 
-class Fault(TypedDict):
+class DocumentFault(TypedDict):
     """One thing wrong with a document: where, as text, as keys and indices, and for people."""
 
     place: str
@@ -65,13 +65,13 @@ class ErrorData(TypedDict):
     kind: str
     message: str
     status: NotRequired[int]
-    faults: NotRequired[list[Fault]]
+    faults: NotRequired[list[DocumentFault]]
     reasons: NotRequired[list[Reason]]
     robots: NotRequired[list[str]]
     vertices: NotRequired[list[str]]
 
 
-class Problem(TypedDict):
+class RefusalData(TypedDict):
     """The answer to a request that is refused."""
 
     error: ErrorData
@@ -181,7 +181,7 @@ class Glance(TypedDict):
     picture: str
 
 
-class Units(TypedDict):
+class UnitNames(TypedDict):
     """Units of a scenario, each a name or null."""
 
     length: str | None
@@ -204,7 +204,7 @@ class Kept(TypedDict):
     tracks: int
 
 
-class Figures(TypedDict):
+class PlanFigures(TypedDict):
     """What a plan costs [ticks]."""
 
     flowtime: int
@@ -212,7 +212,7 @@ class Figures(TypedDict):
     lower_bound: int
     text: FigureTexts
     tick: Ratio
-    units: Units
+    units: UnitNames
     scenario: str
     start: NotRequired[Kept | None]
     robots: NotRequired[int]
@@ -254,7 +254,7 @@ class RunData(TypedDict):
     started: float | None
     ended: float | None
     status: str
-    figures: Figures | None
+    figures: PlanFigures | None
     error: ErrorData | None
     points: list[tuple[float, float]]
     revision: int
@@ -276,7 +276,7 @@ class RunList(TypedDict):
     are_kept: bool
 
 
-class Progress(TypedDict):
+class RunProgress(TypedDict):
     """An event of a run that is going on."""
 
     number: int
@@ -291,7 +291,7 @@ class PlanFound(TypedDict):
 
     number: int
     revision: int
-    figures: Figures
+    figures: PlanFigures
 
 
 class Opened(TypedDict):
@@ -304,7 +304,7 @@ class Opened(TypedDict):
     document: NotRequired[Document]
     save_as: NotRequired[str]
     revision: NotRequired[str]
-    figures: NotRequired[Figures]
+    figures: NotRequired[PlanFigures]
     run: NotRequired[RunData]
 
 
@@ -328,7 +328,7 @@ class FactAndRemedy(TypedDict):
     remedy: Phrase
 
 
-class Finding(TypedDict):
+class SiteFinding(TypedDict):
     """What will hurt on a map."""
 
     kind: str
@@ -345,10 +345,10 @@ class SurveyData(TypedDict):
     """What an editor shows at each change."""
 
     ok: bool
-    faults: list[Fault]
+    faults: list[DocumentFault]
     notes: list[Phrase | str]
     site: Payload | None
-    findings: list[Finding]
+    findings: list[SiteFinding]
     sentences: list[str]
     phrases: list[Phrase]
     scenario: NotRequired[str | None]
@@ -358,7 +358,7 @@ class Validation(TypedDict):
     """The faults of a document."""
 
     ok: bool
-    faults: list[Fault]
+    faults: list[DocumentFault]
     notes: list[Phrase | str]
 
 
@@ -390,7 +390,7 @@ class PlannerOption(TypedDict):
     whole: bool
 
 
-class PlannerData(TypedDict):
+class PlannerEntry(TypedDict):
     """A planner."""
 
     name: str
@@ -404,7 +404,7 @@ class PlannerList(TypedDict):
 
     default: str
     improver: str
-    planners: list[PlannerData]
+    planners: list[PlannerEntry]
 
 
 class DelayChoices(TypedDict):
@@ -463,7 +463,7 @@ class CommandLine(TypedDict):
     command: str
 
 
-class ChangeData(TypedDict):
+class ScenarioChange(TypedDict):
     """Something in which a scenario differs from another one."""
 
     what: str
@@ -478,16 +478,16 @@ class Changes(TypedDict):
     """In what the scenario of a run differs from that of a run before it."""
 
     before: int | None
-    changes: list[ChangeData]
+    changes: list[ScenarioChange]
 
 
-class ComparedFigures(Figures):
+class ComparedFigures(PlanFigures):
     """What a plan costs, beside another one."""
 
     time: dict[str, float]
 
 
-class ComparedRobot(TypedDict):
+class RobotCompletions(TypedDict):
     """When a robot completes in each plan [time unit]; null where it is not in it."""
 
     name: str
@@ -499,7 +499,7 @@ class Compared(TypedDict):
 
     runs: list[int]
     plans: list[ComparedFigures]
-    robots: list[ComparedRobot]
+    robots: list[RobotCompletions]
     titles: list[str]
     comparison: Comparison
 
@@ -529,7 +529,7 @@ class CurveData(TypedDict):
     pieces: list[CurvePiece]
 
 
-class Circuit(TypedDict):
+class CircuitData(TypedDict):
     """A circle that sets the pace for some values."""
 
     periods: int
@@ -543,7 +543,7 @@ class Curves(TypedDict):
     exact: bool
     why: str
     curves: list[CurveData]
-    circuits: list[Circuit]
+    circuits: list[CircuitData]
 
 
 class LapGroup(TypedDict):
@@ -569,7 +569,7 @@ class LapsAnswer(TypedDict):
 class LapsReport(TypedDict):
     """What a fleet that repeats its trips achieves."""
 
-    units: Units
+    units: UnitNames
     groups: list[LapGroup]
     text: str
 
@@ -582,7 +582,7 @@ class LatenessFigures(TypedDict):
     max: float
 
 
-class RobotLateness(TypedDict):
+class RobotLatenessData(TypedDict):
     """How late a robot is over all runs, by itself and for others [ticks]."""
 
     name: str
@@ -592,11 +592,11 @@ class RobotLateness(TypedDict):
     waiting: dict[str, float]
 
 
-class Lateness(TypedDict):
+class LatenessData(TypedDict):
     """Lateness of the fleet and of each robot."""
 
     flowtime: LatenessFigures
-    robots: list[RobotLateness]
+    robots: list[RobotLatenessData]
 
 
 class ByClock(TypedDict):
@@ -623,12 +623,12 @@ class Ranks(TypedDict):
 class DelaysReport(TypedDict):
     """What becomes of a plan with delays."""
 
-    units: Units
+    units: UnitNames
     tick: Exact
     runs: int
     collisions: int
     played: int
-    lateness: Lateness
+    lateness: LatenessData
     by_clock: ByClock
     spread: SpreadData | None
     ranks: Ranks
@@ -642,10 +642,10 @@ class PlanSummary(TypedDict):
 Report = LapsReport | DelaysReport | PlanSummary
 
 
-class Flipped(TypedDict):
+class FlippedPlan(TypedDict):
     """A timetable in which another robot goes first."""
 
-    before: Figures
+    before: PlanFigures
     run: RunData
 
 
@@ -681,10 +681,10 @@ ANSWERS: dict[tuple[str, str], Any] = {
     ("GET", "/runs/{number}/report"): Report,
     ("GET", "/runs/{number}/changes"): Changes,
     ("POST", "/runs/{number}/laps"): LapsAnswer,
-    ("POST", "/runs/{number}/flip"): Flipped,
+    ("POST", "/runs/{number}/flip"): FlippedPlan,
     ("GET", "/compare"): Compared,
 }
-"""What each route answers that the page asks; `Problem` where it refuses."""
+"""What each route answers that the page asks; `RefusalData` where it refuses."""
 
 BODIES: dict[tuple[str, str], Any] = {
     ("PUT", "/documents/{path}"): Save,
@@ -692,7 +692,7 @@ BODIES: dict[tuple[str, str], Any] = {
     ("POST", "/survey"): Survey,
     ("POST", "/inline"): Placed,
     ("POST", "/deal"): Deal,
-    ("PUT", "/drafts/{name}"): Draft,
+    ("PUT", "/drafts/{name}"): DraftBody,
     ("POST", "/runs"): NewRun,
     ("PATCH", "/runs/{number}"): Rename,
     ("POST", "/runs/{number}/laps"): OtherLaps,
@@ -703,7 +703,7 @@ BODIES: dict[tuple[str, str], Any] = {
 EVENTS: dict[str, type] = {
     "runs": RunList,
     "run": RunData,
-    "progress": Progress,
+    "progress": RunProgress,
     "plan": PlanFound,
     "deleted": RunNumber,
 }

@@ -15,7 +15,7 @@ from rightofway.errors import InputError
 from rightofway.studio.errors import Busy, Refused
 from rightofway.studio.routes.models import (
     Deal,
-    Draft,
+    DraftBody,
     FilePath,
     InStudio,
     Placed,
@@ -198,7 +198,7 @@ def get_draft(studio: InStudio, name: str) -> dict[str, Any]:
 
 
 @router.put("/drafts/{name:path}", tags=["drafts"])
-def put_draft(studio: InStudio, name: str, draft: Draft) -> dict[str, Any]:
+def put_draft(studio: InStudio, name: str, draft: DraftBody) -> dict[str, Any]:
     """Keep what somebody draws; when the answer comes, it is on the disk."""
     if not (0 < len(name) <= 500 and name.isprintable()):  # noqa: PLR2004
         remedy = "give from 1 to 500 characters that can be printed"

@@ -74,7 +74,7 @@ class Save(Placed):
     )
 
 
-class Draft(Model):
+class DraftBody(Model):
     """A document that somebody draws."""
 
     document: Document

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.quantities import Quantities
-from rightofway.viz.motion import Activity, Trip
+from rightofway.viz.motion import Phase, Trip
 from rightofway.viz.palette import mix
 from rightofway.viz.placement import edge_length, vertices_in_line
 from rightofway.viz.raster.canvas import Pen, Scene
@@ -41,12 +41,12 @@ MOST_STRETCHED = 1.6
 MOST_CHARACTERS = 14
 
 LINE_WIDTH, BUSY_WIDTH = 2.0, 4.5
-BUSY = (Activity.WORK, Activity.TURN)
+BUSY = (Phase.WORK, Phase.TURN)
 
-HALF_HEIGHTS = {Activity.DRIVE: 0.12, Activity.WORK: 0.36, Activity.TURN: 0.36}
+HALF_HEIGHTS = {Phase.DRIVE: 0.12, Phase.WORK: 0.36, Phase.TURN: 0.36}
 """Of a robot's row; an activity that is not here leaves a gap."""
 
-STACK = (Activity.WORK, Activity.TURN, Activity.DRIVE, Activity.WAIT)
+STACK = (Phase.WORK, Phase.TURN, Phase.DRIVE, Phase.WAIT)
 """Bands of the census from the bottom up; robots that are done are the empty space above."""
 
 
@@ -127,12 +127,10 @@ class Diagram:
         for trip, colour in zip(scene.trips, scene.colours, strict=True):
             faint, until = mix(scene.theme.paper, colour, 0.5), trip.enter[-1]
             for visit, begin, until, activity in trip.all_phases():
-                head = trip.vertices[visit + (activity is Activity.DRIVE)]
+                head = trip.vertices[visit + (activity is Phase.DRIVE)]
                 stroke = (self._x(begin), rows[trip.vertices[visit]]), (self._x(until), rows[head])
                 width = BUSY_WIDTH if activity in BUSY else LINE_WIDTH
-                is_faint = activity is Activity.WAIT or not self._is_true(
-                    trip.vertices[visit], head
-                )
+                is_faint = activity is Phase.WAIT or not self._is_true(trip.vertices[visit], head)
                 pen.line(stroke, faint if is_faint else colour, 1 if is_faint else width)
             y = rows[trip.vertices[-1]]
             pen.line([(self._x(until), y), (self._x(scene.end), y)], faint, LINE_WIDTH)

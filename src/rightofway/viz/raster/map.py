@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from rightofway.site import Grid
-from rightofway.viz.motion import Activity, Moment
+from rightofway.viz.motion import Moment, Phase
 from rightofway.viz.page.background import background_of, place_of, unreadable
 from rightofway.viz.palette import ink_on
 from rightofway.viz.raster.canvas import Ground, Pen, Point, Scene
@@ -243,14 +243,14 @@ def _robot(pen: Pen, scene: Scene, moment: Moment, disc: Disc) -> None:
     )
     ink = scene.ground if has_size else colour
     pen.disc(middle, radius + 1.25 * pen.hairline, scene.ground)
-    if activity is Activity.WAIT:
+    if activity is Phase.WAIT:
         pen.ring(middle, radius, WHOLE, colour, max(radius * 0.26, pen.hairline))
     else:
-        pen.disc(middle, radius, scene.faint(colour, 0.45 if activity is Activity.DONE else 1))
-    if activity is Activity.WORK:
+        pen.disc(middle, radius, scene.faint(colour, 0.45 if activity is Phase.DONE else 1))
+    if activity is Phase.WORK:
         pen.ring(middle, dial, WHOLE, scene.faint(colour, 0.75 if has_size else 0.25), dial_width)
         pen.ring(middle, dial, (0, moment.share), ink, dial_width)
-    elif activity is Activity.TURN:
+    elif activity is Phase.TURN:
         for side in (0, 0.5):
             begin = side + moment.share / 2
             pen.ring(middle, dial, (begin, begin + 0.14), ink, dial_width)

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.viz.motion import Activity, Moment
+from rightofway.viz.motion import Moment, Phase
 from rightofway.viz.palette import ink_on
 from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.sizes import Sizes
@@ -76,7 +76,7 @@ class MapNames:
             box = self._beside(robot, (x, y), pen.text_width(name, ROBOT_TYPE) * scale, taken)
             if box is not None:
                 taken.append(box)
-                done = moment.activity is Activity.DONE
+                done = moment.activity is Phase.DONE
                 ink = self.scene.theme.muted if done else self.scene.theme.ink
                 self._write(pen, name, box, ink, ROBOT_TYPE)
                 written.append((name, box))
@@ -92,7 +92,7 @@ class MapNames:
     def _write_inside(
         self, pen: Pen, robot: int, moment: Moment, middle: Point, size: float
     ) -> None:
-        is_hollow = moment.activity in (Activity.WAIT, Activity.DONE)
+        is_hollow = moment.activity in (Phase.WAIT, Phase.DONE)
         ink = self.scene.theme.ink if is_hollow else ink_on(self.scene.colours[robot])
         name = self.scene.plan.scenario.robots[robot].name
         pen.text(middle, name, ink, size=size, anchor="mm")

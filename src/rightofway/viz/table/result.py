@@ -14,7 +14,7 @@ from rightofway.extras import needed
 from rightofway.files import archive_of, write_whole
 from rightofway.metrics import free_running, lost_time, measure, named_collisions
 from rightofway.model import Plan
-from rightofway.viz.motion import Activity, trips_of
+from rightofway.viz.motion import Phase, trips_of
 from rightofway.viz.palette import robot_colours
 from rightofway.viz.placement import edge_length, vertices_in_line
 from rightofway.viz.table.listing import ListColumn, Listing
@@ -223,7 +223,7 @@ def _line(trip: Any) -> Iterator[tuple[int, int]]:
     """Yield the corners of a robot's line: when, and at which vertex."""
     yield trip.enter[0], trip.vertices[0]
     for visit, begin, end, activity in trip.all_phases():
-        if activity is Activity.DRIVE:
+        if activity is Phase.DRIVE:
             yield begin, trip.vertices[visit]
             yield end, trip.vertices[visit + 1]
 

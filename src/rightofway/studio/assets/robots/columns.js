@@ -4,7 +4,7 @@ import { said } from "../../../viz/page/assets/library.js";
 import { numberOf, placeOfText, textOfPlace } from "../draw/places.js";
 import { ATTRIBUTES } from "./attributes.js";
 import { stopsOf, textOfStops, withKey, withStops } from "./fleet.js";
-/** @import { Fault } from "../api_types.js" */
+/** @import { DocumentFault } from "../api_types.js" */
 /** @import { Column, Numeral, RobotData, Stop } from "../types.js" */
 
 /**
@@ -115,7 +115,7 @@ export const COLUMNS = [
 
 /**
  * The column of a fault of a robot: "target" is of the stops.
- * @param {Pick<Fault, "path">} fault
+ * @param {Pick<DocumentFault, "path">} fault
  * @returns {string}
  */
 export function columnOf({ path }) {

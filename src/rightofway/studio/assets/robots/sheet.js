@@ -16,7 +16,7 @@ import {
 } from "./block.js";
 import { columnOf } from "./columns.js";
 import { freeName, removeRobots, sortRobots, writtenIn } from "./fleet.js";
-/** @import { Fault } from "../api_types.js" */
+/** @import { DocumentFault } from "../api_types.js" */
 /** @import { Block, Column, Edit, Props, RobotData, SheetCell } from "../types.js" */
 /** @import { PageEvent } from "../vendor/htm-preact.js" */
 
@@ -283,8 +283,8 @@ function stepFrom({ key, shiftKey, target }) {
 }
 
 /**
- * @param {Fault[]} faults
- * @returns {Map<number, Fault[]>}
+ * @param {DocumentFault[]} faults
+ * @returns {Map<number, DocumentFault[]>}
  */
 function faultsByRow(faults) {
   const found = new Map();

@@ -6,12 +6,12 @@ import { changeInWords } from "../../../viz/page/assets/compared_table.js";
 import { words } from "../words.js";
 import { doNotRun, faultsOf } from "./faults.js";
 import { Term } from "./term.js";
-/** @import { ComparedRobot } from "../api_types.js" */
+/** @import { RobotCompletions } from "../api_types.js" */
 /** @import { Props } from "../types.js" */
 
 /**
  * Robots whose completion time differs: name and difference [time unit], the largest gain first.
- * @param {{robots: ComparedRobot[]}} compared
+ * @param {{robots: RobotCompletions[]}} compared
  * @returns {{name: string, by: number}[]}
  */
 function differences({ robots }) {

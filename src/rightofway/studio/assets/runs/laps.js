@@ -20,7 +20,7 @@ import {
   written,
 } from "./parameter_curve.js";
 import { later, present } from "../given.js";
-/** @import { LapGroup, LapsAnswer, LapsReport, Units } from "../api_types.js" */
+/** @import { LapGroup, LapsAnswer, LapsReport, UnitNames } from "../api_types.js" */
 /** @import { Studio } from "../studio.js" */
 /** @import { Fraction } from "../../../viz/page/assets/quantities.js" */
 /** @import { Moved, OtherOrder, Props, RobotData } from "../types.js" */
@@ -44,7 +44,7 @@ function largest(groups) {
 
 /** Times and speeds in the units of the scenario; the report has exact times, not ticks. */
 class Said {
-  /** @param {Units} units */
+  /** @param {UnitNames} units */
   constructor(units) {
     this.units = units;
     this.quantities = new Quantities(units, [1, 1]);

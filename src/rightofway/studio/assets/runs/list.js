@@ -6,7 +6,7 @@ import { Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { doNotRun, faultsOf, inShort } from "./faults.js";
 import { canBeShown, isOver, isWithoutPlan } from "./run_store.js";
-/** @import { ErrorData, Figures, RunData } from "../api_types.js" */
+/** @import { ErrorData, PlanFigures, RunData } from "../api_types.js" */
 /** @import { Studio } from "../studio.js" */
 /** @import { LiveRun, Props } from "../types.js" */
 /** @import { PageEvent } from "../vendor/htm-preact.js" */
@@ -231,7 +231,7 @@ function Row({ studio, run, order, isOwn }) {
 
 /**
  * How far the flowtime is above the bound: a bar, full from twice the bound on, and a figure.
- * @param {{figures: Figures}} props
+ * @param {{figures: PlanFigures}} props
  */
 function Gap({ figures: { flowtime, lower_bound: bound, text } }) {
   const share = Math.min(flowtime / bound - 1, 1);

@@ -3,7 +3,7 @@
 import { html } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
 import { language, words } from "../words.js";
-/** @import { PlannerData, PlannerOption } from "../api_types.js" */
+/** @import { PlannerEntry, PlannerOption } from "../api_types.js" */
 /** @import { Props, SearchForm } from "../types.js" */
 
 /** @param {Props} props */
@@ -52,7 +52,7 @@ export function Settings({ studio }) {
 
 /**
  * The options of a planner as its registry describes them; a field that is left empty has the default.
- * @param {{spec: PlannerData, given: Record<string, string | number>, set: (options: Record<string, string | number>) => void}} props
+ * @param {{spec: PlannerEntry, given: Record<string, string | number>, set: (options: Record<string, string | number>) => void}} props
  */
 function Options({ spec, given, set }) {
   /**
