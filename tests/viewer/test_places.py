@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+from rightofway import load
 from rightofway.solve import solve
 from tests.builders.fleets import grid_fleet
 from tests.builders.payloads import in_metres
@@ -54,3 +57,20 @@ def test_no_name_of_a_place_lies_on_the_route_of_the_robot_chosen(show: Opener) 
         for x, y in viewer.all_on_map(middles.tolist()):
             for name in written:
                 assert not overlap(name.box, (x - 2, y - 2, x + 2, y + 2)), name
+
+
+def test_a_split_lane_has_one_name_at_its_middle_joint(show: Opener, tmp_path: Path) -> None:
+    """Two lanes cross; each is cut at every metre, and names of all pieces would cover the map."""
+    (tmp_path / "lanes.yaml").write_text(
+        "format: rightofway-scenario/1\n"
+        "map:\n"
+        "  roadmap:\n"
+        "    vertices: {W: [0, 1], E: [6, 1], N: [2, 3], S: [2, -1]}\n"
+        "    edges: [[W, E], [N, S]]\n"
+        "  spacing: 1\n"
+        "robots: [{name: R1, home: W, target: E}]\n",
+        encoding="utf-8",
+    )
+    viewer = show(solve(load(tmp_path / "lanes.yaml")), "#tick=4")
+    names = [name.text for name in viewer.names()]
+    assert sorted(name for name in names if "-" in name) == ["N-S", "W-E"]

@@ -62,6 +62,7 @@ def map_data(
         "sides": np.round(sides, decimals).tolist(),
         "limits": _limits(roadmap),
         "zones": [(zone.name, list(zone.vertices), list(zone.edges)) for zone in roadmap.zones],
+        "joints": _joints(roadmap),
         "curves": [
             [tail, head, *np.round(_drawn(plane, roadmap, points), decimals).ravel().tolist()]
             for tail, head, points in drawing.curves
@@ -116,6 +117,12 @@ def _obstacles(roadmap: Roadmap, grid: Grid) -> list[ObstacleRow]:
         x, y, width, height = (round(float(side / size), DECIMALS["grid"]) for side in sides)
         rows.append((obstacle.name, x, y, width, height))
     return rows
+
+
+def _joints(roadmap: Roadmap) -> list[list[int]]:
+    """Return the vertices between the pieces of each split lane, once for both directions."""
+    joints = {min(lane.joints, lane.joints[::-1]): None for lane in roadmap.lanes}
+    return [list(map(int, vertices)) for vertices in joints]
 
 
 def _limits(roadmap: Roadmap) -> list[tuple[str, list[int]]]:

@@ -97,7 +97,8 @@ class GridData(MapMarks):
 class NetworkData(MapMarks):
     """A map of vertices and lanes; tails and heads are first differences.
 
-    A curve has tail, head, and the points between them as x, y, x, y, …
+    A curve has tail, head, and the points between them as x, y, x, y, …; joints are the vertices
+    between the pieces of each split lane.
     """
 
     names: list[str]
@@ -106,6 +107,7 @@ class NetworkData(MapMarks):
     heads: list[int]
     lengths: list[float]
     sides: NotRequired[list[float]]
+    joints: NotRequired[list[list[int]]]
     curves: NotRequired[list[list[float]]]
     close: NotRequired[CloseData]
 

@@ -208,7 +208,7 @@ export interface MetricsData {
   lowerBound: number;
 }
 
-/** A map of vertices and lanes; tails and heads are first differences. A curve has tail, head, and the points between them as x, y, x, y, … */
+/** A map of vertices and lanes; tails and heads are first differences. A curve has tail, head, and the points between them as x, y, x, y, …; joints are the vertices between the pieces of each split lane. */
 export interface NetworkData {
   width: number;
   height: number;
@@ -225,6 +225,7 @@ export interface NetworkData {
   heads: number[];
   lengths: number[];
   sides?: number[];
+  joints?: number[][];
   curves?: number[][];
   close?: CloseData;
 }

@@ -127,7 +127,10 @@ export class PlaceNames {
       : inSight) {
       const mark = marks.get(vertex);
       const font = this.theme.font(PLACE_TYPE, mark ? 600 : 400);
-      const name = cut(roadmap.label(vertex), mark && LONGEST_MARK);
+      const isNamed = mark || this.choice.lit.includes(vertex);
+      const laneName = isNamed ? undefined : roadmap.laneNames.get(vertex);
+      if (laneName === "") continue; // a split lane has one name
+      const name = cut(laneName ?? roadmap.label(vertex), mark && LONGEST_MARK);
       const box = this.#spot(vertex, this.#widths.of(context, name, font), mark);
       if (!box) continue;
       this.names.take(...box);

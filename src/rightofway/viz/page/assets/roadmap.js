@@ -35,6 +35,8 @@ export class Roadmap {
   lanes = { oneWay: [], bothWays: [] };
   /** @type {Map<number, Curve>} */
   curves = new Map();
+  /** @type {Map<number, string>} */
+  laneNames = new Map(); // of split lanes, at their middle joints; empty at the others
   /** @type {{ tail: number, head: number, limit: string }[]} */
   limits = [];
   /** @type {string | null} */
@@ -297,6 +299,11 @@ export class Roadmap {
   /** @param {NetworkData} raw */
   #readNetwork(raw) {
     this.names = raw.names;
+    for (const joints of raw.joints ?? []) {
+      for (const vertex of joints) this.laneNames.set(vertex, "");
+      const middle = joints[joints.length >> 1];
+      this.laneNames.set(middle, raw.names[middle].replace(/\/\d+$/, ""));
+    }
     this.x = Float64Array.from(raw.names, (_, vertex) => raw.points[2 * vertex]);
     this.y = Float64Array.from(raw.names, (_, vertex) => raw.points[2 * vertex + 1]);
     this.tails = fromDifferences(raw.tails, Int32Array);
