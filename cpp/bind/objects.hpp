@@ -51,6 +51,10 @@ struct BoundTurning {
     Ints class_of;
     Ints ticks;
     std::int32_t n_kinds;
+
+    TurnArrays arrays() const {
+        return {view(offset), view(kind), view(class_of), view(ticks), n_kinds};
+    }
 };
 
 struct BoundClosures {

@@ -111,7 +111,9 @@ stage_work, stage_turn : int64[S], int64[S]
     How long the robot works there, and then turns. [ticks]
 stage_tables : list of int32[V]
     For each stage, the least ticks from each vertex to its vertex; -1 where the robot must not
-    go.)";
+    go.
+turning : Turning or None
+    How long the robot turns; it is the only one there. None where turning takes no time.)";
 
 constexpr auto find_route_doc =
     R"(Find a route for a round trip, and when to take it, among the bookings of others.
@@ -143,6 +145,7 @@ struct BoundTrip {
     Ticks stage_work;
     Ticks stage_turn;
     std::vector<Ints> stage_tables;
+    std::optional<BoundTurning> turning;
 };
 
 std::optional<Route> find_route(const PeriodicBookings& self, const BoundRoads& bound,
@@ -166,6 +169,11 @@ std::optional<Route> find_route(const PeriodicBookings& self, const BoundRoads& 
     bool is_found = false;
     {
         const nb::gil_scoped_release released;
+        if (given.turning) {
+            require_graph(roads.graph, "heads");
+            require_turns(roads.graph, given.turning->arrays(), 1);
+            trip.turns = Turns::of(given.turning->arrays(), 0);
+        }
         is_found = PeriodicSearch(roads, self).run(trip, phase, found, deadline, first_row);
     }
     if (!is_found) {
@@ -221,9 +229,9 @@ std::optional<ArrayOut<Tick>> connect(PeriodicBookings& self, const ArrayIn<Vert
 
 void bind_periodic_bookings(nb::module_& module) {
     nb::class_<BoundTrip>(module, "RoundTrip", trip_doc)
-        .def(nb::init<Ints, Ints, Ticks, Ticks, std::vector<Ints>>(), array("pace"),
-             array("stage_vertex"), array("stage_work"), array("stage_turn"),
-             nb::arg("stage_tables"));
+        .def(nb::init<Ints, Ints, Ticks, Ticks, std::vector<Ints>, std::optional<BoundTurning>>(),
+             array("pace"), array("stage_vertex"), array("stage_work"), array("stage_turn"),
+             nb::arg("stage_tables"), nb::arg("turning").none() = nb::none());
     nb::class_<PeriodicBookings>(module, "PeriodicBookings", class_doc)
         .def("__init__", &init, nb::arg("rules"), nb::arg("n_rows"), nb::arg("period").none(),
              nb::arg("lists").none() = nb::none(), nb::keep_alive<1, 5>())

@@ -189,8 +189,7 @@ void init(Problem* self, const BoundRoads& roads, const BoundRobots& robots,
     TurnArrays turns;
     if (turning != nullptr) {
         require_length("class_of", turning->class_of.size(), robots.home.size());
-        turns = {view(turning->offset), view(turning->kind), view(turning->class_of),
-                 view(turning->ticks), turning->n_kinds};
+        turns = turning->arrays();
     }
     Closures closed;
     if (closures != nullptr) {

@@ -25,6 +25,37 @@ void require_durations(const char* name, std::span<const Tick> ticks) {
 
 }  // namespace
 
+void require_turns(const Graph& graph, const TurnArrays& turns, std::size_t n_robots) {
+    if (turns.n_kinds < 0) {
+        reject("n_turn_kinds", turns.n_kinds, "is negative");
+    }
+    const auto n_kinds = static_cast<std::size_t>(turns.n_kinds);
+    const std::size_t n_classes = n_kinds == 0 ? 0 : turns.ticks.size() / n_kinds;
+    require_length("turn_ticks", turns.ticks.size(), n_classes * n_kinds);
+    require_length("turn_class", turns.class_of.size(), n_robots);
+    for (std::size_t r = 0; r < turns.class_of.size(); ++r) {
+        if (turns.class_of[r] != -1) {
+            require_id("turn_class[" + std::to_string(r) + "]", turns.class_of[r],
+                       static_cast<std::int64_t>(n_classes));
+        }
+    }
+    require_length("turn_offset", turns.offset.size(), graph.indices.size());
+    require_ids("turn_kind", turns.kind, turns.n_kinds);
+    for (std::size_t e = 0; e < graph.indices.size(); ++e) {
+        const auto n_entries = static_cast<std::int64_t>(turns.kind.size());
+        const std::int64_t first = graph.indptr[index(graph.indices[e])];
+        const std::int64_t end = graph.indptr[index(graph.indices[e] + 1)];
+        if (turns.offset[e] < -first || turns.offset[e] > n_entries - end) {
+            reject_entry("turn_offset", e, turns.offset[e], "leads out of turn_kind");
+        }
+    }
+    for (std::size_t k = 0; k < turns.ticks.size(); ++k) {
+        if (turns.ticks[k] < 0) {
+            reject_entry("turn_ticks", k, turns.ticks[k], "is negative");
+        }
+    }
+}
+
 Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const Resources& resources,
                  const TurnArrays& turns, const Closures& closures)
     : arrays_(arrays),
@@ -58,7 +89,7 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const R
     check_robots();
     check_resources();
     if (!turns_.class_of.empty()) {
-        check_turns();
+        require_turns(graph(), turns_, arrays_.home.size());
     }
     check_closures();
 }
@@ -76,37 +107,6 @@ void Problem::check_closures() {
             closures_.end[k] > never) {
             reject_entry("closed_until", k, closures_.end[k],
                          "is not after closed_from, or later than never");
-        }
-    }
-}
-
-void Problem::check_turns() const {
-    if (turns_.n_kinds < 0) {
-        reject("n_turn_kinds", turns_.n_kinds, "is negative");
-    }
-    const auto n_kinds = static_cast<std::size_t>(turns_.n_kinds);
-    const std::size_t n_classes = n_kinds == 0 ? 0 : turns_.ticks.size() / n_kinds;
-    require_length("turn_ticks", turns_.ticks.size(), n_classes * n_kinds);
-    require_length("turn_class", turns_.class_of.size(), arrays_.home.size());
-    for (std::size_t r = 0; r < turns_.class_of.size(); ++r) {
-        if (turns_.class_of[r] != -1) {
-            require_id("turn_class[" + std::to_string(r) + "]", turns_.class_of[r],
-                       static_cast<std::int64_t>(n_classes));
-        }
-    }
-    require_length("turn_offset", turns_.offset.size(), arrays_.heads.size());
-    require_ids("turn_kind", turns_.kind, turns_.n_kinds);
-    for (std::size_t e = 0; e < arrays_.heads.size(); ++e) {
-        const auto n_entries = static_cast<std::int64_t>(turns_.kind.size());
-        const std::int64_t first = graph().indptr[index(arrays_.heads[e])];
-        const std::int64_t end = graph().indptr[index(arrays_.heads[e] + 1)];
-        if (turns_.offset[e] < -first || turns_.offset[e] > n_entries - end) {
-            reject_entry("turn_offset", e, turns_.offset[e], "leads out of turn_kind");
-        }
-    }
-    for (std::size_t k = 0; k < turns_.ticks.size(); ++k) {
-        if (turns_.ticks[k] < 0) {
-            reject_entry("turn_ticks", k, turns_.ticks[k], "is negative");
         }
     }
 }
@@ -188,13 +188,15 @@ Itinerary Problem::itinerary(RobotId robot) const {
             arrays_.surcharges};
 }
 
-Turns Problem::turns(RobotId robot) const {
-    if (turns_.class_of.empty() || turns_.class_of[index(robot)] < 0) {
+Turns Problem::turns(RobotId robot) const { return Turns::of(turns_, robot); }
+
+Turns Turns::of(const TurnArrays& turns, RobotId robot) {
+    if (turns.class_of.empty() || turns.class_of[index(robot)] < 0) {
         return {};
     }
-    const auto n = static_cast<std::size_t>(turns_.n_kinds);
-    const auto first = index(turns_.class_of[index(robot)]) * n;
-    return {turns_.offset, turns_.kind, turns_.ticks.subspan(first, n)};
+    const auto n = static_cast<std::size_t>(turns.n_kinds);
+    const auto first = index(turns.class_of[index(robot)]) * n;
+    return {turns.offset, turns.kind, turns.ticks.subspan(first, n)};
 }
 
 Tick Problem::quickest_edge(RobotId robot) const {

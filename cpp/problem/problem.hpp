@@ -66,8 +66,14 @@ struct TurnArrays {
     std::int32_t n_kinds = 0;
 };
 
+// Throws std::invalid_argument if turns do not fit a graph or the number of robots.
+void require_turns(const Graph& graph, const TurnArrays& turns, std::size_t n_robots);
+
 // The turns of one robot.
 struct Turns {
+    // Those of robot r; its arrays fit.
+    static Turns of(const TurnArrays& turns, RobotId robot);
+
     std::span<const std::int64_t> offset;
     std::span<const std::int32_t> kind;
     std::span<const std::int32_t> ticks;  // by kind; empty: turning takes no time
@@ -224,7 +230,6 @@ class Problem {
   private:
     void check_robots() const;
     void check_resources();
-    void check_turns() const;
     void check_closures();
 
     ProblemArrays arrays_;

@@ -1,6 +1,7 @@
 #include "search/periodic_search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/reject.hpp"
 
@@ -53,19 +54,46 @@ bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
         to_go_[index(stage)] = dwell_of(stage) + rest(trip.stage_vertex[index(stage)], stage + 1);
     }
     const Tick first = bookings_.fold(phase);
+    const std::vector<EdgeId> last = last_edges();
     bool is_found = false;
-    bookings_.for_each_gap(first_row_ + trip.home, first, first + bookings_.period(),
-                           [&](const PeriodicBookings::Gap& home) {
-                               is_found = close_from(
-                                   home, home.start == -never ? first : home.start, found);
-                               return !is_found && !is_stopped_;
-                           });
+    bookings_.for_each_gap(
+        first_row_ + trip.home, first, first + bookings_.period(),
+        [&](const PeriodicBookings::Gap& home) {
+            PeriodicRoundTrip other;
+            for (const EdgeId edge : last) {
+                if (!is_stopped_ &&
+                    close_from(home, home.start == -never ? first : home.start, edge, other) &&
+                    (!is_found || other.enter.front() < found.enter.front())) {
+                    found = std::move(other);
+                    is_found = true;
+                }
+            }
+            return !is_found && !is_stopped_;
+        });
     return is_found;
 }
 
-// Finds the earliest start in a gap of the home from which the robot returns a period later.
-bool PeriodicSearch::close_from(const PeriodicBookings::Gap& home, Tick start,
+// The edges with which a trip may end, one search for each; one search for all where turning takes
+// no time.
+std::vector<EdgeId> PeriodicSearch::last_edges() const {
+    if (!trip_->turns.take_time()) {
+        return {none};
+    }
+    std::vector<EdgeId> edges;
+    const auto& heads = roads_.graph.indices;
+    for (std::size_t e = 0; e < heads.size(); ++e) {
+        if (heads[e] == trip_->home && trip_->pace[index(roads_.length_class[e])] != barred) {
+            edges.push_back(static_cast<EdgeId>(e));
+        }
+    }
+    return edges;
+}
+
+// Finds the earliest start in a gap of the home from which the robot returns a period later, along
+// the last edge.
+bool PeriodicSearch::close_from(const PeriodicBookings::Gap& home, Tick start, EdgeId last,
                                 PeriodicRoundTrip& found) {
+    last_edge_ = last;
     const Tick leaves =
         home.end == never ? start : home.end - bookings_.headway() - dwell_of(last_stage());
     while (start <= leaves && !is_stopped_) {
@@ -94,7 +122,7 @@ Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick sta
     open_.clear();
     goal_ = none;
     start_ = start;
-    reach({start, home, trip_->home, 0, none, 0, none});
+    reach({start, home, trip_->home, 0, none, last_edge_, 0, none});
     while (!open_.empty()) {
         const OpenList::Entry top = open_.pop();
         const Node& node = nodes_[index(top.node)];
@@ -104,7 +132,7 @@ Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick sta
         const bool is_same_gap =
             home.end == never || node.gap.start == home.start + bookings_.period();
         if (node.from != none && node.stage == last_stage() && node.vertex == trip_->home &&
-            is_same_gap) {
+            is_same_gap && (last_edge_ == none || node.edge == last_edge_)) {
             goal_ = top.node;
             return node.enter;
         }
@@ -147,7 +175,7 @@ void PeriodicSearch::drive(std::int32_t from, EdgeId edge, std::int32_t stage, T
     if (ticks == barred) {
         return;
     }
-    const Tick soonest = here.enter + dwell + ticks;
+    const Tick soonest = here.enter + dwell + trip_->turns.between(here.edge, edge) + ticks;
     const Tick last =
         std::min(here.gap.end == never ? never : here.gap.end - bookings_.headway(), latest - left);
     if (soonest > last) {
@@ -160,7 +188,7 @@ void PeriodicSearch::drive(std::int32_t from, EdgeId edge, std::int32_t stage, T
         first_row_ + next, soonest, last - approach, [&](const PeriodicBookings::Gap& gap) {
             const Tick enter = bookings_.enters(here.gap, gap, soonest, last, approach, row);
             if (enter < never) {
-                reach({enter, gap, next, stage, from, ticks, none});
+                reach({enter, gap, next, stage, from, edge, ticks, none});
             }
             return true;
         });
@@ -170,8 +198,10 @@ void PeriodicSearch::reach(const Node& node) {
     std::int32_t& head = at_[index(node.vertex)];
     for (std::int32_t k = head; k != none; k = nodes_[index(k)].next) {
         Node& known = nodes_[index(k)];
+        const bool is_headed_alike = last_edge_ == none || known.edge == node.edge;
         // The start node is no return: a round trip takes time.
-        if (known.stage == node.stage && known.gap == node.gap && known.from != none) {
+        if (known.stage == node.stage && known.gap == node.gap && known.from != none &&
+            is_headed_alike) {
             if (node.enter < known.enter) {
                 const std::int32_t next = known.next;
                 known = node;
@@ -198,17 +228,20 @@ std::uint64_t PeriodicSearch::key(const Node& node) const {
 void PeriodicSearch::trace(PeriodicRoundTrip& found) const {
     found = {};
     std::vector<std::int32_t> stages;
+    std::vector<EdgeId> edges;
     for (std::int32_t k = goal_; k != none; k = nodes_[index(k)].from) {
         const Node& node = nodes_[index(k)];
         found.vertex.push_back(node.vertex);
         found.drive.push_back(node.drive);
         found.enter.push_back(node.enter);
         stages.push_back(node.stage);
+        edges.push_back(node.edge);
     }
     std::reverse(found.vertex.begin(), found.vertex.end());
     std::reverse(found.drive.begin(), found.drive.end());
     std::reverse(found.enter.begin(), found.enter.end());
     std::reverse(stages.begin(), stages.end());
+    std::reverse(edges.begin(), edges.end());
     // The return is the first visit, a period later.
     found.drive.front() = found.drive.back();
     found.enter.front() = found.enter.back() - bookings_.period();
@@ -218,6 +251,7 @@ void PeriodicSearch::trace(PeriodicRoundTrip& found) const {
     found.dwell.assign(found.vertex.size(), 0);
     found.dwell.front() = dwell_of(last_stage());
     for (std::size_t k = 0; k < found.dwell.size(); ++k) {
+        found.dwell[k] += trip_->turns.between(edges[k], edges[k + 1]);
         for (std::int32_t stage = stages[k]; stage < stages[k + 1]; ++stage) {
             found.dwell[k] += dwell_of(stage);
         }

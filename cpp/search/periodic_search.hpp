@@ -3,6 +3,8 @@
 // A* on safe intervals (Phillips & Likhachev, "SIPP: Safe interval path planning for dynamic
 // environments", ICRA 2011). A state is (vertex, gap, stage); an earlier enter into a gap is never
 // worse than a later one. Time is unrolled. Any visit at the vertex of the next stage may serve it.
+// Where turning takes time, the edge driven in is a part of the state, and a trip begins with the
+// heading with which it ends: each edge that leads home is tried as the last one.
 //
 // The trip closes as in periodic_bookings.hpp: the robot is home in its start gap at most a period
 // later. If the return is d ticks too late, the start moves by d. A later start never returns
@@ -36,7 +38,8 @@ class PeriodicSearch {
 
     // Finds a route and its enters; false as in `PeriodicBookings::search`. Tries the gaps of the
     // home in order, from the gap at `phase` on; in the first possible gap the return is earliest.
-    // Throws std::invalid_argument if roads and bookings do not fit together. Where robots have
+    // Throws std::invalid_argument if roads and bookings do not fit together. The turns of the trip
+    // are of these roads. Where robots have
     // sizes, the robot's rows begin at `first_row`.
     bool run(const Trip& trip, Tick phase, PeriodicRoundTrip& found, const StopCondition& is_over,
              std::int32_t first_row = 0);
@@ -48,10 +51,13 @@ class PeriodicSearch {
         VertexId vertex;
         std::int32_t stage;  // number of stages served before this visit
         std::int32_t from;
+        EdgeId edge;  // driven in; `none` in the first visit where turning takes no time
         std::int32_t drive;
         std::int32_t next;  // next node in the list of this vertex
     };
-    bool close_from(const PeriodicBookings::Gap& home, Tick start, PeriodicRoundTrip& found);
+    bool close_from(const PeriodicBookings::Gap& home, Tick start, EdgeId last,
+                    PeriodicRoundTrip& found);
+    std::vector<EdgeId> last_edges() const;
     Tick earliest_return(const PeriodicBookings::Gap& home, Tick start, Tick latest);
     void expand(std::int32_t from, Tick latest);
     void drive(std::int32_t from, EdgeId edge, std::int32_t stage, Tick dwell, Tick latest);
@@ -71,6 +77,7 @@ class PeriodicSearch {
     std::vector<Node> nodes_;
     OpenList open_;  // least return first, then least remaining ticks
     Tick start_ = 0;
+    EdgeId last_edge_ = none;        // that leads home; `none`: any
     std::vector<std::int32_t> at_;   // head of each vertex's list of nodes
     std::vector<VertexId> touched_;  // vertices with a list
     std::int32_t goal_ = -1;

@@ -135,7 +135,7 @@ def problem_arguments(kind: str) -> Arguments:
         robots["size_of"] = int32(0, 1, 0)
         arguments |= {"rules": _rules(books_ahead=True), "lists": _lists()}
     elif kind == "turns":
-        arguments["turning"] = _turning()
+        arguments["turning"] = _turning(0, -1, 1)
     elif kind.startswith("clos"):
         arguments["closures"] = _closures(V + EDGE[0, 1] if kind == "closed edges" else 1)
     elif kind == "barred":
@@ -172,11 +172,11 @@ def _lists() -> Part:
     })  # fmt: skip
 
 
-def _turning() -> Part:
+def _turning(*class_of: int) -> Part:
     kinds = [CLASSES[one] ^ CLASSES[other] for one in range(E) for other in range(E)]
     return Part("Turning", {
         "offset": int64(*range(0, E * E, E)), "kind": int32(*kinds),
-        "class_of": int32(0, -1, 1), "ticks": int32(0, 2, 0, 5), "n_kinds": 2,
+        "class_of": int32(*class_of), "ticks": int32(0, 2, 0, 5), "n_kinds": 2,
     })  # fmt: skip
 
 
@@ -246,17 +246,17 @@ def _sized(rng: random.Random, arguments: Arguments) -> Arguments:
     return _with_edges(arguments, rng.randrange(3)) if rng.random() < 1 / 3 else arguments
 
 
-def _trip() -> Part:
+def _trip(turning: Part | None) -> Part:
     return Part("RoundTrip", {
         "pace": int32(1, 2), "stage_vertex": int32(11, 0), "stage_work": int64(2, 1),
-        "stage_turn": int64(1, 0), "stage_tables": [to_stop(11), to_stop(0)],
+        "stage_turn": int64(1, 0), "stage_tables": [to_stop(11), to_stop(0)], "turning": turning,
     })  # fmt: skip
 
 
 def _find_route(rng: random.Random) -> Arguments:
     return {
         "roads": _roads(),
-        "trip": _trip(),
+        "trip": _trip(rng.choice((None, _turning(1)))),
         "phase": rng.randrange(50),
         "time_limit": 0.2,
         "first_row": 0,
@@ -410,9 +410,9 @@ def _always(**arguments: Any) -> Callable[[random.Random], Arguments]:
 
 PARTS = (
     _roads(), problem_arguments("sizes")["robots"], _rules(), _lists().arguments["drawing"],
-    _lists(), _turning(), _closures(1),
-    _trip(), _horizon(), _routes(*[1] * 12), _rows_of_routes(), _closed(), _order([0] * 13, []),
-    _delays(),
+    _lists(), _turning(0, -1, 1), _closures(1),
+    _trip(_turning(0)), _horizon(), _routes(*[1] * 12), _rows_of_routes(), _closed(),
+    _order([0] * 13, []), _delays(),
 )  # fmt: skip
 """Objects that others are made of; what is wrong in them is found by those, or at once."""
 

@@ -17,7 +17,6 @@ from rightofway.cyclic.to_plan import whole_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Closure, Plan, Scenario, Tick
 from rightofway.planners import planning_problem
-from rightofway.search import Distances, RoundTrip
 from rightofway.site import VertexId
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.fleets import grid_fleet
@@ -263,13 +262,6 @@ def test_a_robot_with_a_turn_rate_turns_in_each_visit_of_its_lap_and_at_home_bet
     first = run_laps(scenario).groups[0].pattern
     assert first is not None
     assert first.enter(0, 6) == 6 + 8  # it does not turn before its first lap
-
-
-def test_a_route_of_laps_is_not_searched_for_a_robot_that_turns() -> None:
-    scenario = grid_fleet(["...", "@@."], [("N0", "N5")])
-    scenario = replace(scenario, rules=replace(scenario.rules, turn_rate=Fraction(45)))
-    with pytest.raises(InputError, match="routes of laps are chosen without headings"):
-        RoundTrip.of(scenario.problem.itineraries[0], Distances(scenario.roadmap))
 
 
 def test_laps_refuse_closures_at_one_time_and_trips_that_do_not_come_home() -> None:

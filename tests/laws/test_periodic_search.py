@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from rightofway.cyclic.route import cyclic_routes
 from rightofway.model import BookingRules, Itinerary, Lap, Rules, Scenario, Tick, drives_along
+from rightofway.model.lap import turns_of_lap
 from rightofway.planners import planning_problem
 from rightofway.precedence import CyclicSchedule
 from rightofway.search import Distances, PeriodicBookings, RoundTrip
@@ -18,7 +19,15 @@ from tests.builders.laws import law, leave
 from tests.builders.periodic import timetable_of
 from tests.oracles import periodic_bookings as oracle
 
-RULES = [Rules(), Rules(headway=Fraction(1)), Rules(occupancy="both"), Rules(rotations=False)]
+RULES = [
+    Rules(),
+    Rules(headway=Fraction(1)),
+    Rules(occupancy="both"),
+    Rules(rotations=False),
+    Rules(turn_rate=Fraction(90)),
+    Rules(turn_rate=Fraction(45), occupancy="both"),
+]
+"""Some robots turn on the spot: by 90 degrees in one tick, or in two."""
 
 
 def crowd(
@@ -48,7 +57,8 @@ def does_its_work(scenario: Scenario, itinerary: Itinerary, lap: Lap) -> bool:
     """Tell whether a lap of one stop is on the roadmap and serves what is to be done."""
     stop, home = itinerary.stages
     drives = drives_along(scenario.roadmap, itinerary, [lap.vertices[-1], *lap.vertices])
-    served = [(v, dwell) for v, dwell in zip(lap.vertices, lap.dwell, strict=True) if dwell]
+    dwells = (lap.dwell - turns_of_lap(scenario.roadmap, itinerary, lap.vertices)).tolist()
+    served = [(v, dwell) for v, dwell in zip(lap.vertices, dwells, strict=True) if dwell]
     due = [(one.vertex, one.work + one.turn) for one in (home, stop)]
     return (
         list(lap.drive) == drives
@@ -105,3 +115,18 @@ def test_a_route_does_not_enter_forbidden_vertices() -> None:
     found = circle.find_route(RoundTrip.of(itinerary, distances, forbidden=forbidden), 0)
     assert found is not None
     assert found[0].vertices == (0, 3, 6, 7, 8, 7, 6, 3)
+
+
+def test_a_robot_that_turns_slowly_drives_round_the_border() -> None:
+    """Round the border it turns 4 times by 90 degrees; there and back by 180, 90, 180 and 90."""
+    scenario = grid_fleet(["...", "...", "..."], [("N0", "N8")])
+    scenario = replace(scenario, rules=replace(scenario.rules, turn=None, turn_rate=Fraction(30)))
+    itinerary, distances = scenario.problem.itineraries[0], Distances(scenario.roadmap)
+    circle = PeriodicBookings(9, Tick(40), rules=BookingRules())
+    found = circle.find_route(RoundTrip.of(itinerary, distances), 0)
+    assert found is not None
+    lap, enter = found
+    turns = turns_of_lap(scenario.roadmap, itinerary, lap.vertices).tolist()
+    assert sorted(turns) == [0, 0, 0, 0, 3, 3, 3, 3]
+    assert lap.duration == 8 + 4 * 3
+    assert enter[0] % 40 == enter[0]

@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
+import numpy as np
+
 from rightofway.model import Itinerary, Lap, drives_along
 from rightofway.precedence import CyclicSchedule
 from rightofway.site import Roadmap
@@ -129,43 +131,49 @@ def has_a_route(
 ) -> bool:
     """Tell whether one lap fits in among others on any way, by trying all ways tick by tick.
 
-    The last stage of the itinerary is at home and the one before it is not.
+    The last stage of the itinerary is at home and the one before it is not. A robot that turns
+    begins a lap with the heading with which it ends.
     """
     period, home = int(others.period), itinerary.home
     free, comes = _taken(others, headway=headway, books_ahead=books_ahead)
     turn = itinerary.stages[-1].work + itinerary.stages[-1].turn
 
-    def steps(vertex: int, stage: int, enter: int, dwell: int, end: int) -> Iterator[_State]:
+    def steps(state: _State, dwell: int, end: int) -> Iterator[_State]:
         """Yield all that may follow a visit that lasts so long at least and is left by the end."""
-        for head in roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist():
+        vertex, stage, enter, before = state
+        for edge in range(int(roadmap.indptr[vertex]), int(roadmap.indptr[vertex + 1])):
+            head = int(roadmap.heads[edge])
             drive = drives_along(roadmap, itinerary, [vertex, head])[0]
             ahead = drive if books_ahead else 0
-            for leave in range(enter + dwell + drive, end + 1):
+            turns = itinerary.turning.of(before, edge) if itinerary.turning else 0
+            for leave in range(enter + dwell + turns + drive, end + 1):
                 if not free(vertex, enter, leave + headway):
                     break
                 swaps = (leave % period, head, vertex) in comes and not headway and not ahead
                 if free(head, leave - ahead, leave + 1 + headway) and not swaps:
-                    yield head, stage, leave
+                    yield head, stage, leave, edge if itinerary.turning else -1
         following = itinerary.stages[stage]
         if stage < len(itinerary.stages) - 1 and following.vertex == vertex:
-            yield from steps(vertex, stage + 1, enter, dwell + following.work + following.turn, end)
+            longer = dwell + following.work + following.turn
+            yield from steps((vertex, stage + 1, enter, before), longer, end)
 
-    def closes(start: int) -> bool:
+    def closes(start: int, heading: int) -> bool:
         last, end = len(itinerary.stages) - 1, start + period
         states = _reached(
-            steps(home, 0, start, turn, end),
-            lambda state: steps(*state, 0, end),
+            steps((home, 0, start, heading), turn, end),
+            lambda state: steps(state, 0, end),
         )
         # At home again it waits there.
         return free(home, start, start + 1 + headway) and any(
-            (vertex, stage) == (home, last) and free(home, enter, end + 1 + headway)
-            for vertex, stage, enter in states
+            (vertex, stage, edge) == (home, last, heading) and free(home, enter, end + 1 + headway)
+            for vertex, stage, enter, edge in states
         )
 
-    return any(map(closes, range(period)))
+    headings = np.flatnonzero(roadmap.heads == home).tolist() if itinerary.turning else [-1]
+    return any(closes(start, heading) for start in range(period) for heading in headings)
 
 
-_State = tuple[int, int, int]
+_State = tuple[int, int, int, int]
 
 
 def _reached(first: Iterable[_State], steps: Callable[[_State], Iterable[_State]]) -> set[_State]:

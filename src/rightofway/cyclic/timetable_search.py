@@ -220,9 +220,7 @@ def _part(
     """Return the problem of one group, without vertices of other groups."""
     scenario, robots = fleet.context.scenario, [route.robot for route in group]
     trips: tuple[RoundTrip, ...] = ()
-    # A search for a new lap knows no headings, so robots that turn keep to the given laps.
-    turns = any(scenario.problem.itineraries[robot].turning is not None for robot in robots)
-    if len(fleet) <= params.most_with_round_trips and not turns:
+    if len(fleet) <= params.most_with_round_trips:
         distances = Distances(scenario.roadmap)
         round_trips = [_round_trip(scenario, robot, distances, taken) for robot in robots]
         trips = tuple(trip for trip in round_trips if trip is not None)

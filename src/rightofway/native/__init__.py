@@ -7,7 +7,14 @@ from rightofway.native.bookings import (
     native_closures,
     native_rows,
 )
-from rightofway.native.problem import bound, compiler, native_rules, roads_of, tracks_of
+from rightofway.native.problem import (
+    bound,
+    compiler,
+    native_rules,
+    native_turning,
+    roads_of,
+    tracks_of,
+)
 from rightofway.native.resources import clashes, excluded_by, lists_of, vertices_near
 
 __all__ = [
@@ -22,6 +29,7 @@ __all__ = [
     "native_closures",
     "native_rows",
     "native_rules",
+    "native_turning",
     "roads_of",
     "tracks_of",
     "vertices_near",

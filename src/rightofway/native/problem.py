@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+from collections.abc import Sequence
 from itertools import accumulate, chain, pairwise
 from weakref import WeakKeyDictionary
 
@@ -63,7 +64,7 @@ def bound(problem: Problem) -> _core.Problem:
             ),
             native_rules(problem.booking_rules),
             lists=lists_of(sizes),
-            turning=_turning(problem),
+            turning=native_turning([robot.turning for robot in robots]),
             surcharges=np.array(robots[0].surcharges, np.int64) if robots[0].surcharges else None,
             closures=(
                 None if closed is None else _core.Closures(closed.row, closed.start, closed.end)
@@ -96,13 +97,17 @@ def roads_of(roadmap: Roadmap) -> _core.Roads:
     )
 
 
-def _turning(problem: Problem) -> _core.Turning | None:
-    """Return how long robots turn; robots of one turn rate are a class."""
-    robots = problem.itineraries
+def native_turning(turnings: Sequence[Turning | None]) -> _core.Turning | None:
+    """Return how long robots turn; robots of one turn rate are a class.
+
+    Parameters
+    ----------
+    turnings
+        For each robot; None where turning takes no time.
+    """
     number: dict[Turning, int] = {}
     class_of = [
-        -1 if robot.turning is None else number.setdefault(robot.turning, len(number))
-        for robot in robots
+        -1 if turning is None else number.setdefault(turning, len(number)) for turning in turnings
     ]
     classes = list(number)
     if not classes or not len(classes[0].ticks):

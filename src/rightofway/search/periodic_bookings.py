@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.errors import InputError
 from rightofway.model import (
     NEVER,
     BookingRules,
@@ -28,7 +27,8 @@ from rightofway.model import (
     Tick,
     visits_of_laps,
 )
-from rightofway.native import excluded_by, lists_of, native_rules, roads_of
+from rightofway.model.turning import Turning
+from rightofway.native import excluded_by, lists_of, native_rules, native_turning, roads_of
 from rightofway.search.distances import Distances
 from rightofway.site import Roadmap, VertexId
 
@@ -48,12 +48,15 @@ class RoundTrip:
     tables
         For each stage the least ticks from every vertex [ticks], -1 where the robot must not go;
         int32[V].
+    turning
+        How long the robot turns; None where it turns in no time.
     """
 
     roadmap: Roadmap
     pace: NDArray[np.int32]
     stages: tuple[Stage, ...]
     tables: tuple[NDArray[np.int32], ...]
+    turning: Turning | None = None
 
     @classmethod
     def of(
@@ -69,15 +72,7 @@ class RoundTrip:
             The tables that guide the search.
         forbidden
             Vertices that the robot must not visit.
-
-        Raises
-        ------
-        InputError
-            For a robot with a turn rate: a route is chosen without headings.
         """
-        if itinerary.turning is not None:
-            message = "turns on the spot, and routes of laps are chosen without headings"
-            raise InputError.at("itinerary", f"{message} (search on a lap, or leave out turn_rate)")
         stages = _with_one_home(itinerary.stages)
         tables = tuple(distances.to(stage.vertex, itinerary.edge_ticks) for stage in stages)
         if forbidden:
@@ -89,6 +84,7 @@ class RoundTrip:
             pace=np.array(itinerary.edge_ticks, np.int32),
             stages=stages,
             tables=tables,
+            turning=itinerary.turning,
         )
 
 
@@ -254,6 +250,7 @@ class PeriodicBookings:
                 np.array([stage.work for stage in trip.stages], np.int64),
                 np.array([stage.turn for stage in trip.stages], np.int64),
                 list(trip.tables),
+                native_turning([trip.turning]),
             ),
             phase,
             time_limit,
