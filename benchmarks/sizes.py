@@ -34,7 +34,7 @@ from rightofway.io import scenario_of
 from rightofway.metrics import measure
 from rightofway.model import Robot, Scenario, Stop
 from rightofway.model.problem import problem_of
-from rightofway.native import lists_of
+from rightofway.native import bind_lists
 from rightofway.planners import planning_problem
 from rightofway.search import FleetSearch, plan_by_lacam
 from rightofway.site import VertexId
@@ -263,7 +263,7 @@ def _on_random_graph(document: dict[str, Any]) -> tuple[float, ...]:
     except rightofway.GaveUp:
         return lanes, edges, reading, nan, nan, nan
     metrics = measure(plan)
-    lists = lists_of(scenario.problem.resources)
+    lists = bind_lists(scenario.problem.resources)
     first = plan.run.first_plan_seconds
     assert lists is not None, "discs have a size"
     assert first is not None, "there is a plan"

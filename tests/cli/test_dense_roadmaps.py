@@ -18,7 +18,7 @@ from rightofway.deadline import Deadline, check_work, limit_loop, limit_work
 from rightofway.errors import GaveUp
 from rightofway.io import load
 from rightofway.model.resources import resources_of
-from rightofway.native import lists_of
+from rightofway.native import bind_lists
 from rightofway.site import Edge, roadmap_of_edges
 
 
@@ -130,7 +130,7 @@ def test_a_fleet_finds_the_rows_that_it_books_and_no_others(dense: Path) -> None
     scenario = load(dense)
     plan = solve(scenario, "prioritized", time_limit=None)
     assert not check(plan).faults
-    lists = lists_of(scenario.problem.resources)
+    lists = bind_lists(scenario.problem.resources)
     assert lists is not None
     assert 0 < lists.n_found < lists.n_rows / 20
 
@@ -144,7 +144,7 @@ def test_a_place_more_costs_no_look_at_all_others() -> None:
     roadmap = roadmap_of_edges(positions, lanes)
     resources = resources_of(roadmap, [Fraction("0.3")], Fraction(0))
     began = time.process_time()
-    assert lists_of(resources) is not None
+    assert bind_lists(resources) is not None
     assert time.process_time() - began < 3
 
 

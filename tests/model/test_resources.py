@@ -13,7 +13,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.model import Resources, Rules, Scenario
 from rightofway.model.resources import circle_around, close_pairs, resources_of
-from rightofway.native import clashes, excluded_by, lists_of, vertices_near
+from rightofway.native import bind_lists, clashes, excluded_by, find_vertices_near
 from rightofway.site import Edge, Roadmap, roadmap_of_edges, roadmap_of_grid
 from rightofway.site.zones import NamedZone
 from tests.builders.any_fleet import any_fleet
@@ -32,11 +32,11 @@ def test_a_point_excludes_others_from_its_vertex_and_needs_no_lists() -> None:
     """Three vertices, then four edges."""
     trips = [("N0", "N2"), ("N2", "N0")]
     resources = grid_fleet(["..."], trips).problem.resources
-    assert lists_of(resources) is None
+    assert bind_lists(resources) is None
     excluded = [excluded_by(resources, row) for row in range(7)]
     assert excluded == [[0], [1], [2], [], [], [], []]
     assert list(clashes(resources, [1, 2])) == []
-    assert vertices_near(resources, 0, 2) == [2]
+    assert find_vertices_near(resources, 0, 2) == [2]
 
 
 def test_crossing_lanes_exclude_each_other_in_both_directions() -> None:

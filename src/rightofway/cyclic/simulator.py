@@ -17,7 +17,7 @@ from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.rules import NATIVE_RULES
 from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick
-from rightofway.native import BookedRows, native_rows, native_rules
+from rightofway.native import BookedRows, bind_rows, bind_rules
 from rightofway.planners import Deadline
 from rightofway.site import VertexId
 
@@ -78,7 +78,7 @@ class CyclicSimulator:
         pacemaker = choose_pacemaker(laps, -(-longest // params.pacemaker_part))
         rows = BookedRows.of_laps(context.scenario.problem, context.robots, laps, [1] * len(laps))
         self._kernel = _core.CyclicSimulator(
-            native_rules(context.booking_rules),
+            bind_rules(context.booking_rules),
             _core.Routes(
                 np.cumsum([0, *map(len, laps)], dtype=np.int32),
                 np.array([vertex for lap in laps for vertex in lap.vertices], np.int32),
@@ -96,7 +96,7 @@ class CyclicSimulator:
             ),
             rule=NATIVE_RULES.index(rule),
             loss=np.array([max(LAP_LOSS // lap.duration, 1) for lap in laps], np.int64),
-            rows=native_rows(rows),
+            rows=bind_rows(rows),
         )
 
     @property

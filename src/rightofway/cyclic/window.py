@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from rightofway.cyclic.route import GroupContext
 from rightofway.model import Route, Tick
-from rightofway.native import BookedRows, lists_of
+from rightofway.native import BookedRows, bind_lists
 from rightofway.planners import Deadline, Task
 from rightofway.planners.conflict_resolution import PartialPlan
 from rightofway.precedence import Meeting, PrecedenceGraph, Segment
@@ -140,7 +140,7 @@ class Window:
         """Return what the visits book where robots have a size; the last vertices are free."""
         scenario = self.context.scenario
         resources = scenario.problem.resources
-        lists = lists_of(resources)
+        lists = bind_lists(resources)
         if lists is None:
             return None
         beyond = np.array([-1], np.int32)

@@ -16,7 +16,7 @@ from rightofway.arguments import checks_arguments, one_for_each
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, stays_of
 from rightofway.model.resources import Resources
 from rightofway.model.sorting import order_by
-from rightofway.native import booked_times, excluded_by
+from rightofway.native import book_times, excluded_by
 from rightofway.site import VertexId
 
 
@@ -35,7 +35,7 @@ def bookings_of(
     scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> BookedPlaces:
     """Return what a fleet books under the scenario's rules."""
-    start, end = booked_times(scenario.problem, tracks, stays)
+    start, end = book_times(scenario.problem, tracks, stays)
     vertex = np.concatenate([track.vertices for track in tracks])
     robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
     order = order_by(vertex, start)  # stable, so by robot where all else is equal

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rightofway.model import Plan, Route, Scenario, Stays, Tick, Track, Wait
 from rightofway.model.given import checked_plan
-from rightofway.native import BookedRows, booked_times
+from rightofway.native import BookedRows, book_times
 from rightofway.precedence import PrecedenceGraph, order_of
 from rightofway.precedence.graph import Pairs
 from rightofway.site import VertexId
@@ -82,7 +82,7 @@ def freed_by(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
     """
     rules, (start, end) = (
         scenario.problem.booking_rules,
-        booked_times(scenario.problem, tracks, stays),
+        book_times(scenario.problem, tracks, stays),
     )
     robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
     first, second = rights_of_way(scenario, tracks, stays).T

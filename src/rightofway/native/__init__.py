@@ -3,34 +3,34 @@
 from rightofway.native.bookings import (
     BookedRows,
     ClosedPlaces,
-    booked_times,
-    native_closures,
-    native_rows,
+    bind_closures,
+    bind_rows,
+    book_times,
 )
 from rightofway.native.problem import (
+    bind_roads,
+    bind_rules,
+    bind_turning,
     bound,
     compiler,
-    native_rules,
-    native_turning,
-    roads_of,
     tracks_of,
 )
-from rightofway.native.resources import clashes, excluded_by, lists_of, vertices_near
+from rightofway.native.resources import bind_lists, clashes, excluded_by, find_vertices_near
 
 __all__ = [
     "BookedRows",
     "ClosedPlaces",
-    "booked_times",
+    "bind_closures",
+    "bind_lists",
+    "bind_roads",
+    "bind_rows",
+    "bind_rules",
+    "bind_turning",
+    "book_times",
     "bound",
     "clashes",
     "compiler",
     "excluded_by",
-    "lists_of",
-    "native_closures",
-    "native_rows",
-    "native_rules",
-    "native_turning",
-    "roads_of",
+    "find_vertices_near",
     "tracks_of",
-    "vertices_near",
 ]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import NEVER, Lap, Problem, Route, Stays, Tick, Track
-from rightofway.native.resources import lists_of
+from rightofway.native.resources import bind_lists
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -45,7 +45,7 @@ class BookedRows:
             The vertices that each robot visits.
         """
         resources = problem.resources
-        lists = lists_of(resources)
+        lists = bind_lists(resources)
         if lists is None:
             return None
         at_vertex, along_edge = [], []
@@ -74,7 +74,7 @@ class BookedRows:
             Robots of the scenario, the lap of each, and how many laps it makes in a period.
         """
         resources = problem.resources
-        lists = lists_of(resources)
+        lists = bind_lists(resources)
         if lists is None:
             return None
         at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
@@ -145,7 +145,7 @@ class ClosedPlaces:
         )
 
 
-def booked_times(
+def book_times(
     problem: Problem, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return from when to when each visit books its vertex, robot after robot; int64, shape (N,).
@@ -164,7 +164,7 @@ def booked_times(
     return problem.booking_rules.start(enter, drive_in), end
 
 
-def native_rows(rows: BookedRows | None) -> _core.VisitRows | None:
+def bind_rows(rows: BookedRows | None) -> _core.VisitRows | None:
     """Return what visits book as kernels take it.
 
     Parameters
@@ -177,7 +177,7 @@ def native_rows(rows: BookedRows | None) -> _core.VisitRows | None:
     return _core.VisitRows(rows.lists, rows.vertex, rows.edge)
 
 
-def native_closures(closed: ClosedPlaces | None) -> _core.VisitClosures | None:
+def bind_closures(closed: ClosedPlaces | None) -> _core.VisitClosures | None:
     """Return when the places of visits are closed as kernels take it.
 
     Parameters

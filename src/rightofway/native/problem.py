@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, shown
 from rightofway.model import BookingRules, Problem, Tick, Track
 from rightofway.model.turning import Turning
-from rightofway.native.resources import lists_of
+from rightofway.native.resources import bind_lists
 from rightofway.site import Roadmap
 
 _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
@@ -48,7 +49,7 @@ def bound(problem: Problem) -> _core.Problem:
         pace_of = [number.setdefault(robot.edge_ticks, len(number)) for robot in robots]
         stages = [stage for robot in robots for stage in robot.stages]
         native = _BOUND[problem] = _core.Problem(
-            roads_of(roadmap),
+            bind_roads(roadmap),
             _core.Robots(
                 paces=np.array(list(chain.from_iterable(number)), np.int32),
                 pace_of=np.array(pace_of, np.int32),
@@ -62,9 +63,9 @@ def bound(problem: Problem) -> _core.Problem:
                 size_of=sizes.size_of,
                 weight=np.array([robot.weight for robot in robots], np.int64),
             ),
-            native_rules(problem.booking_rules),
-            lists=lists_of(sizes),
-            turning=native_turning([robot.turning for robot in robots]),
+            bind_rules(problem.booking_rules),
+            lists=bind_lists(sizes),
+            turning=bind_turning([robot.turning for robot in robots]),
             surcharges=np.array(robots[0].surcharges, np.int64) if robots[0].surcharges else None,
             closures=(
                 None if closed is None else _core.Closures(closed.row, closed.start, closed.end)
@@ -73,7 +74,7 @@ def bound(problem: Problem) -> _core.Problem:
     return native
 
 
-def native_rules(rules: BookingRules) -> _core.BookingRules:
+def bind_rules(rules: BookingRules) -> _core.BookingRules:
     """Return when visits book as kernels take it.
 
     Parameters
@@ -84,7 +85,7 @@ def native_rules(rules: BookingRules) -> _core.BookingRules:
     return _core.BookingRules(int(rules.headway), rules.books_ahead, rules.rotations)
 
 
-def roads_of(roadmap: Roadmap) -> _core.Roads:
+def bind_roads(roadmap: Roadmap) -> _core.Roads:
     """Return the graph of a roadmap.
 
     Parameters
@@ -97,7 +98,8 @@ def roads_of(roadmap: Roadmap) -> _core.Roads:
     )
 
 
-def native_turning(turnings: Sequence[Turning | None]) -> _core.Turning | None:
+@checks_arguments
+def bind_turning(turnings: Sequence[Turning | None]) -> _core.Turning | None:
     """Return how long robots turn; robots of one turn rate are a class.
 
     Parameters

@@ -33,7 +33,7 @@ LIMB = 32
 
 
 @checks_arguments
-def lists_of(resources: Resources) -> _core.ExcludedRows | None:
+def bind_lists(resources: Resources) -> _core.ExcludedRows | None:
     """Return the rows that each row excludes; None for points.
 
     Parameters
@@ -116,7 +116,7 @@ def excluded_by(resources: Resources, row: int) -> list[int]:
 
 
 @checks_arguments
-def vertices_near(resources: Resources, robot: int, vertex: int) -> list[int]:
+def find_vertices_near(resources: Resources, robot: int, vertex: int) -> list[int]:
     """Return the vertices that robots of some size cannot book while a robot is at a vertex.
 
     Parameters

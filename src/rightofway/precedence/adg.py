@@ -25,9 +25,9 @@ from rightofway.model import NEVER, Route, Scenario, Tick, Track, route_of
 from rightofway.native import (
     BookedRows,
     ClosedPlaces,
-    native_closures,
-    native_rows,
-    native_rules,
+    bind_closures,
+    bind_rows,
+    bind_rules,
 )
 from rightofway.precedence.graph import Pairs, graph_on
 
@@ -217,12 +217,12 @@ class ActionDependencyGraph:
         first, second = (column.copy() for column in self.order.T)
         begins = np.searchsorted(second, np.arange(len(self.vertex) + 1)).astype(np.int32)
         self._kernel = _core.ActionDependencyGraph(
-            native_rules(scenario.problem.booking_rules),
+            bind_rules(scenario.problem.booking_rules),
             _core.Routes(self.first_visit, self.vertex, self.dwell, self.drive),
             _core.Order(self.planned, begins, first, self.since),
             _kernel_of(delay_model),
-            native_rows(BookedRows.of(scenario.problem, [route.vertices for route in self.routes])),
-            native_closures(ClosedPlaces.of(scenario.problem, self.routes)),
+            bind_rows(BookedRows.of(scenario.problem, [route.vertices for route in self.routes])),
+            bind_closures(ClosedPlaces.of(scenario.problem, self.routes)),
         )
 
     def order_at(self, when: NDArray[np.int64]) -> Pairs:

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.arguments import checks_arguments, one_for_each
 from rightofway.model import BookingRules, Problem, Route, Tick, Track, route_of
-from rightofway.native import BookedRows, ClosedPlaces, native_closures, native_rows, native_rules
+from rightofway.native import BookedRows, ClosedPlaces, bind_closures, bind_rows, bind_rules
 from rightofway.precedence.segments import (
     IncompatiblePair,
     Segment,
@@ -108,7 +108,7 @@ class PrecedenceGraph:
         self._robot = np.repeat(np.arange(len(routes)), lengths).tolist()
         self._last_dwells: int = sum(route.dwell[-1] for route in routes)
         self._kernel = _core.PrecedenceGraph(
-            native_rules(rules),
+            bind_rules(rules),
             _core.Routes(
                 self._first,
                 np.array([vertex for route in routes for vertex in route.vertices], np.int32),
@@ -116,8 +116,8 @@ class PrecedenceGraph:
                 np.array([ticks for route in routes for ticks in route.drive], np.int64),
             ),
             forbid_swaps,
-            native_rows(rows),
-            native_closures(closed),
+            bind_rows(rows),
+            bind_closures(closed),
         )
 
     def visit(self, robot: int, index: int) -> Visit:

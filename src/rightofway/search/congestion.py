@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.model import Itinerary, Problem
 from rightofway.model.given import checked_index
-from rightofway.native import bound, vertices_near
+from rightofway.native import bound, find_vertices_near
 from rightofway.search.distances import Distances, Path
 from rightofway.site import VertexId
 
@@ -84,7 +84,7 @@ class Congestion:
         for robot, itinerary in enumerate(robots):
             places = [itinerary.home, *(stage.vertex for stage in itinerary.stages)]
             for place in places:
-                station[vertices_near(problem.resources, robot, place)] = cost
+                station[find_vertices_near(problem.resources, robot, place)] = cost
         oncoming = [int(ONCOMING * SHARES)] * len(robots)
         return cls(problem, distances, shares=SHARES, station=station, oncoming=oncoming)
 

@@ -28,7 +28,7 @@ from rightofway.model import (
     visits_of_laps,
 )
 from rightofway.model.turning import Turning
-from rightofway.native import excluded_by, lists_of, native_rules, native_turning, roads_of
+from rightofway.native import bind_lists, bind_roads, bind_rules, bind_turning, excluded_by
 from rightofway.search.distances import Distances
 from rightofway.site import Roadmap, VertexId
 
@@ -154,9 +154,9 @@ class PeriodicBookings:
     ) -> None:
         self.period = NEVER if period is None else period
         self._rows = rows
-        lists = None if rows is None else lists_of(rows.resources)
+        lists = None if rows is None else bind_lists(rows.resources)
         self._kernel = _core.PeriodicBookings(
-            native_rules(rules),
+            bind_rules(rules),
             n_vertices if lists is None else lists.n_rows,
             period,
             lists,
@@ -243,14 +243,14 @@ class PeriodicBookings:
         """
         rows = self._rows
         route = self._kernel.find_route(
-            roads_of(trip.roadmap),
+            bind_roads(trip.roadmap),
             _core.RoundTrip(
                 trip.pace,
                 np.array([stage.vertex for stage in trip.stages], np.int32),
                 np.array([stage.work for stage in trip.stages], np.int64),
                 np.array([stage.turn for stage in trip.stages], np.int64),
                 list(trip.tables),
-                native_turning([trip.turning]),
+                bind_turning([trip.turning]),
             ),
             phase,
             time_limit,
