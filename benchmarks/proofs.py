@@ -1,10 +1,15 @@
 """How many fleets `cbs` proves optimal, or within a factor, and what that takes.
 
-``python -m benchmarks.proofs [--folder FOLDER] [--factor F] [--seconds S] [--classic] FLEET ...``
+``python -m benchmarks.proofs [--folder FOLDER] [--factor F] [--seconds S] [--classic]
+[--gaps] FLEET ...``
 takes fleets as MAP:ROBOTS: maps of the MovingAI benchmark, from a folder with ``maps`` and
 ``scens`` in it, or grids that are drawn: ``24x20`` has 24 x 24 cells with 20 % walls. Robots have
 the speeds 1, 1/2, 1/3, 1/5 in turn, and `occupancy: both`; with ``--classic`` they have one speed,
 and `occupancy: one`. Trips are one way, without work.
+
+With ``--gaps`` the table says how far plans of `two-level`, `lns` and `auto` are above the optimum
+or, where `cbs` does not prove it, above the best lower bound; each planner has a third of the
+seconds.
 """
 
 from __future__ import annotations
@@ -21,9 +26,13 @@ from rightofway.bench.fleets import scenario_document
 from rightofway.errors import GaveUp
 from rightofway.io import scenario_of
 from rightofway.model import OutcomeKind, Rules, Scenario
+from rightofway.planners.bounds import prove_bound
 
 SPEEDS = (Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(1, 5))
 EQUAL = (Fraction(1),)
+
+PLANNERS = ("two-level", "lns", "auto")
+"""Whose plans are compared with the optimum."""
 
 
 def fleet(folder: Path | None, name: str, robots: int, seed: int, *, classic: bool) -> Scenario:
@@ -58,6 +67,35 @@ def figures(scenario: Scenario, factor: Fraction, seconds: float) -> tuple[bool,
     return is_proven, f"{ratio:.3f}", f"{time.process_time() - began:.1f}"
 
 
+def gaps(scenario: Scenario, seconds: float) -> tuple[bool, list[float | None]]:
+    """Return whether the optimum is proven, and how far each planner is above the best bound."""
+    plans: list[rightofway.Plan | None] = []
+    for planner in (*PLANNERS, "cbs"):
+        limit = seconds if planner == "cbs" else seconds / 3
+        try:
+            plans.append(rightofway.solve(scenario, planner, limit))
+        except GaveUp:
+            plans.append(None)
+    proven = [plan.run.outcome for plan in plans if plan is not None]
+    bounds = [outcome.bound for outcome in proven if outcome is not None and outcome.bound]
+    proof, _ = prove_bound(scenario, time_limit=seconds)
+    bound = max([proof.bound, *bounds])
+    above = [None if plan is None else plan.flowtime / bound - 1 for plan in plans[:-1]]
+    return any(plan is not None and plan.flowtime == bound for plan in plans), above
+
+
+def line_of_gaps(rows: list[tuple[bool, list[float | None]]]) -> list[str]:
+    """Return the proofs among some fleets, and for each planner what its plans are above them."""
+    columns = zip(*(above for _, above in rows), strict=True)
+    return [
+        f"{sum(is_proven for is_proven, _ in rows)} of {len(rows)}",
+        *(
+            ", ".join("-" if gap is None else f"{100 * gap:.1f}" for gap in gaps)
+            for gaps in columns
+        ),
+    ]
+
+
 def main() -> None:
     """Print the table, a line for each map and number of robots."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.proofs")
@@ -66,23 +104,26 @@ def main() -> None:
     parser.add_argument("--factor", type=Fraction, default=Fraction(1))
     parser.add_argument("--seconds", type=float, default=30.0)
     parser.add_argument("--classic", action="store_true")
+    parser.add_argument("--gaps", action="store_true")
     given = parser.parse_args()
-    lines = []
+    lines: list[tuple[str, ...]] = []
     for each in given.fleets:
         name, robots = each.rsplit(":", 1)
-        rows = [
-            figures(
-                fleet(given.folder, name, int(robots), seed, classic=given.classic),
-                given.factor,
-                given.seconds,
-            )
-            for seed in SEEDS
+        fleets = [
+            fleet(given.folder, name, int(robots), seed, classic=given.classic) for seed in SEEDS
         ]
+        if given.gaps:
+            measured = line_of_gaps([gaps(scenario, given.seconds) for scenario in fleets])
+            lines.append((name, robots, *measured))
+            continue
+        rows = [figures(scenario, given.factor, given.seconds) for scenario in fleets]
         proven = sum(is_proven for is_proven, _, _ in rows)
         ratios = ", ".join(ratio for _, ratio, _ in rows)
         cpu = ", ".join(spent for _, _, spent in rows)
         lines.append((name, robots, f"{proven} of {len(rows)}", ratios, cpu))
-    heads = ("map", "robots", "proven", "cost / bound", "processor [s]")
+    heads: tuple[str, ...] = ("map", "robots", "proven", "cost / bound", "processor [s]")
+    if given.gaps:
+        heads = ("map", "robots", "proven", *(f"`{planner}` [%]" for planner in PLANNERS))
     print(table(heads, lines))  # noqa: T201
 
 

@@ -38,7 +38,9 @@ joint_states : int
     Joint states at most to solve a pair that needs more nodes, and for each fifty nodes to solve
     a whole fleet of few robots; 0: no such search.
 factor : int
-    A plan that costs at most this factor times the bound is enough, 1 or more. [millionths])";
+    A plan that costs at most this factor times the bound is enough, 1 or more. [millionths]
+latest : int
+    No robot completes later, NEVER for no limit; only without surcharges. [ticks])";
 
 constexpr auto run_doc = R"(Search on; the search can be continued.
 
@@ -201,16 +203,22 @@ void bind_cbs(nb::module_& module) {
             "__init__",
             [](ConflictBasedSearch* self, const Problem& problem, bool cardinal, bool bypass,
                bool clear, bool targets, bool pairs, std::int64_t pair_nodes,
-               std::int64_t joint_states, std::int64_t factor) {
+               std::int64_t joint_states, std::int64_t factor, Tick latest) {
                 require_range("pair_nodes", pair_nodes, 0, never);
                 require_range("joint_states", joint_states, 0, never);
                 require_range("factor", factor, 1'000'000, Tick{1} << 40);
+                if (latest < 0 || (latest >= Tick{1} << 40 && latest != never)) {
+                    reject("latest", latest, "is negative or too late");
+                }
+                if (latest != never && problem.has_surcharges()) {
+                    throw std::invalid_argument("latest: costs have surcharges");
+                }
                 new (self) ConflictBasedSearch(problem, {cardinal, bypass, clear, targets, pairs,
-                                                         pair_nodes, joint_states, factor});
+                                                         pair_nodes, joint_states, factor, latest});
             },
             nb::arg("problem"), nb::arg("cardinal"), nb::arg("bypass"), nb::arg("clear"),
             nb::arg("targets"), nb::arg("pairs"), nb::arg("pair_nodes"), nb::arg("joint_states"),
-            nb::arg("factor"), nb::keep_alive<1, 2>())
+            nb::arg("factor"), nb::arg("latest"), nb::keep_alive<1, 2>())
         .def("run", &run, nb::arg("upper"), nb::arg("enough"), nb::arg("most_nodes"),
              nb::arg("most_bytes"), nb::arg("time_limit").none(), run_doc)
         .def("search_together", &together, array("robots"), nb::arg("most_states"),

@@ -27,6 +27,16 @@ ConflictTree::ConflictTree(ConstrainedTracks& tracks, std::vector<RobotId> robot
     if (robots_.size() == static_cast<std::size_t>(tracks.problem().n_robots())) {
         traffic_.emplace(tracks.problem());
     }
+    most_.assign(robots_.size(), never);
+    for (std::size_t k = 0; k < robots_.size() && options.latest < never; ++k) {
+        most_[k] = tracks.problem().weight(robots_[k]) * options.latest;
+    }
+}
+
+void ConflictTree::limit(std::span<const Tick> most) {
+    for (std::size_t k = 0; k < most_.size(); ++k) {
+        most_[k] = std::min(most_[k], most[k]);
+    }
 }
 
 bool ConflictTree::start(std::span<const SetId> sets, const StopCondition& is_over) {
@@ -34,7 +44,7 @@ bool ConflictTree::start(std::span<const SetId> sets, const StopCondition& is_ov
     root.sets.assign(sets.begin(), sets.end());
     for (std::size_t k = 0; k < robots_.size(); ++k) {
         const ConstrainedTrack* track = tracks_.best(robots_[k], root.sets[k], is_over);
-        if (track == nullptr || (!most_.empty() && track->cost > most_[k])) {
+        if (track == nullptr || track->cost > most_[k]) {
             bound_ = never;
             return false;
         }
@@ -235,7 +245,8 @@ const ConstrainedTrack* ConflictTree::clearest(const Node& node, RobotId robot,
     const Tick cost = node.tracks[place]->cost;
     const Tick most =
         options_.factor > no_factor ? std::max(cost, most_cost() - (node.cost - cost)) : cost;
-    return tracks_.clearest(robots_[place], node.sets[place], most, *traffic_, is_over);
+    return tracks_.clearest(robots_[place], node.sets[place], std::min(most, most_[place]),
+                            *traffic_, is_over);
 }
 
 // Gives each robot that conflicts a track with fewer conflicts, if it has one.
@@ -309,7 +320,7 @@ std::optional<ConflictTree::Node> ConflictTree::child(const Node& node, RobotId 
                                                       Tick upper, const StopCondition& is_over) {
     const auto place = index(robot);
     const ConstrainedTrack* track = tracks_.best(robots_[place], set, is_over);
-    if (track == nullptr || (!most_.empty() && track->cost > most_[place])) {
+    if (track == nullptr || track->cost > most_[place]) {
         return std::nullopt;
     }
     Node one{.sets = node.sets,

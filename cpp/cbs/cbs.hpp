@@ -55,8 +55,8 @@ class ConflictTree {
     ConflictTree(ConstrainedTracks& tracks, std::vector<RobotId> robots, const CbsOptions& options,
                  PairLosses* losses);
 
-    // Costs that the robots' tracks must not exceed; empty: none.
-    void limit(std::vector<Tick> most) { most_ = std::move(most); }
+    // Costs that the robots' tracks must not exceed, besides the latest completion of all.
+    void limit(std::span<const Tick> most);
 
     // Makes the root. False if a robot has no track, so that no plan exists. Throws Stopped.
     bool start(std::span<const SetId> sets, const StopCondition& is_over);
@@ -130,7 +130,7 @@ class ConflictTree {
     OpenList costly_;  // those whose tracks cost too much to be enough, least cost first
     OpenList focal_;   // those whose tracks do not, fewest conflicts first
     bool takes_least_ = false;  // whether the next node is that of least bound
-    std::vector<Tick> most_;    // cost of each robot's track; empty: any
+    std::vector<Tick> most_;    // cost of each robot's track
     std::vector<TrackConflict> met_;
     std::vector<const ConstrainedTrack*> found_;
     Tick first_ = 0;  // bound of the root

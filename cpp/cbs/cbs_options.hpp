@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "core/types.hpp"
+
 namespace rightofway {
 
 struct CbsOptions {
@@ -19,6 +21,7 @@ struct CbsOptions {
     std::int64_t joint_states = 10'000;
     // A plan that costs at most this factor times the bound is enough [millionths].
     std::int64_t factor = 1'000'000;
+    Tick latest = never;  // no robot completes later
 };
 
 }  // namespace rightofway

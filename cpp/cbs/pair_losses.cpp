@@ -29,9 +29,7 @@ PairLoss& PairLosses::of(const Key& key, const StopCondition& is_over) {
 Tick PairLosses::least_loss(const Key& key, std::array<Tick, 2> costs,
                             const StopCondition& is_over) {
     ConflictTree tree(tracks_, {key.robots.begin(), key.robots.end()}, options_, nullptr);
-    if (costs != std::array<Tick, 2>{never, never}) {
-        tree.limit({costs.begin(), costs.end()});
-    }
+    tree.limit(costs);
     if (!tree.start(key.sets, is_over)) {
         return never;
     }
@@ -41,6 +39,10 @@ Tick PairLosses::least_loss(const Key& key, std::array<Tick, 2> costs,
         return never;
     }
     Tick bound = tree.bound();
+    for (std::size_t side = 0; side < 2 && options_.latest < never; ++side) {
+        costs[side] =
+            std::min(costs[side], tracks_.problem().weight(key.robots[side]) * options_.latest);
+    }
     if (end == SearchEnd::stopped && options_.joint_states > 0 &&
         JointSearch::knows(tracks_.problem())) {
         const JointPlan joint =

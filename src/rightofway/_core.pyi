@@ -901,9 +901,11 @@ class ConflictBasedSearch:
         a whole fleet of few robots; 0: no such search.
     factor : int
         A plan that costs at most this factor times the bound is enough, 1 or more. [millionths]
+    latest : int
+        No robot completes later, NEVER for no limit; only without surcharges. [ticks]
     """
 
-    def __init__(self, problem: Problem, cardinal: bool, bypass: bool, clear: bool, targets: bool, pairs: bool, pair_nodes: int, joint_states: int, factor: int) -> None: ...
+    def __init__(self, problem: Problem, cardinal: bool, bypass: bool, clear: bool, targets: bool, pairs: bool, pair_nodes: int, joint_states: int, factor: int, latest: int) -> None: ...
 
     def run(self, upper: int, enough: int, most_nodes: int, most_bytes: int, time_limit: float | None) -> tuple[int, int]:
         """

@@ -472,7 +472,7 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
         "clear": rng.random() < 1 / 2, "targets": rng.random() < 1 / 2,
         "pairs": rng.random() < 1 / 2, "pair_nodes": rng.randrange(9),
         "joint_states": rng.choice((0, 9, 1000)),
-        "factor": rng.choice((10**6, 11 * 10**5)),
+        "factor": rng.choice((10**6, 11 * 10**5)), "latest": rng.choice((_core.NEVER, 40)),
     },
     "ConflictBasedSearch.run": _timed(
         upper=_core.NEVER, enough=_core.NEVER, most_nodes=50, most_bytes=2**24

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from rightofway import OutcomeKind, check, solve
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Plan, PlannerRun, Scenario, cost_of
+from rightofway.model import Objective, Plan, PlannerRun, Scenario, cost_of
 from rightofway.model.outcome import minimized
 from rightofway.planners.bounds import prove_bound
 from rightofway.search import ConflictBasedSearch, least_completions
@@ -19,6 +19,7 @@ from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import planned
 from tests.builders.laws import law, leave
 from tests.builders.tiny import KINDS, least_flowtime
+from tests.oracles import joint_space
 
 kinds, seeds = st.sampled_from(sorted(KINDS)), st.integers(0, 10**6)
 switches = st.fixed_dictionaries(
@@ -173,6 +174,24 @@ def test_robots_count_by_their_weights(seed: int) -> None:
     assert outcome.bound <= least <= cost_of(scenario, answer.tracks)
     if outcome.kind is OutcomeKind.OPTIMAL:
         assert cost_of(scenario, answer.tracks) == least
+
+
+@law(st.sampled_from(["sizes", "three", "trips", "zones"]), seeds)
+def test_the_least_makespan_is_proven(kind: str, seed: int) -> None:
+    scenario = KINDS[kind](seed)
+    least = joint_space.least_makespan(scenario)
+    answer = _answer(scenario, {"objective": "makespan", "nodes": NODES})
+    if not isinstance(answer, Plan):
+        assert least is None or isinstance(answer, GaveUp)
+        return
+    assert least is not None
+    outcome = answer.run.outcome
+    assert outcome is not None
+    assert outcome.bound is not None
+    assert outcome.objective is Objective.MAKESPAN
+    assert outcome.bound <= least <= answer.makespan
+    if outcome.kind is OutcomeKind.OPTIMAL:
+        assert answer.makespan == least
 
 
 @law(any_fleet(), st.integers(1, 30))

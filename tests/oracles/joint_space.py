@@ -151,6 +151,34 @@ def least_flowtime(scenario: Scenario) -> int | None:
     return None
 
 
+def least_makespan(scenario: Scenario) -> int | None:
+    """Return the least time [ticks] at which all robots have completed, None for no plan.
+
+    All joint states tick by tick, each with the least latest completion of robots that are done;
+    only without closures.
+    """
+    fleet = _Fleet(scenario)
+    states = {tuple(State(itinerary.home) for itinerary in scenario.problem.itineraries): 0}
+    reached, tick, best = set(states), 0, None
+    known = dict(states)
+    while reached and (best is None or tick < best):
+        after: dict[tuple[State, ...], int] = {}
+        for robots in reached:
+            for chosen in fleet.together(robots, tick):
+                latest = known[robots]
+                for before, action in zip(robots, chosen, strict=True):
+                    if action[0].is_done and not before.is_done:
+                        latest = max(latest, tick + action[2])
+                then = tuple(action[0] for action in chosen)
+                after[then] = min(latest, after.get(then, latest))
+        tick += 1
+        reached = {then for then, latest in after.items() if latest < known.get(then, latest + 1)}
+        known.update((then, after[then]) for then in reached)
+        ends = [known[then] for then in reached if all(robot.is_done for robot in then)]
+        best = min([*ends, *([] if best is None else [best])], default=None)
+    return best
+
+
 def _exchanges(one: State, one_after: State, other: State, other_after: State) -> bool:
     """Tell whether two robots exchange their vertices at the end of a tick."""
     moves = one.vertex != one_after.vertex

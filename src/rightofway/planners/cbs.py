@@ -29,31 +29,43 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from math import ceil
+from typing import Any
 
-from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Proof, Tick, cost_of
+from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.model import Proof, Tick, completions_of, cost_of
 from rightofway.model.outcome import Objective, minimized
 from rightofway.phrases import Phrase, counted
 from rightofway.planners.impossible import blocking_set
 from rightofway.planners.lns import improved
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Draft, Task
-from rightofway.search import ConflictBasedSearch
+from rightofway.search import ConflictBasedSearch, least_completions
 
 SHARE = 0.25
 """The part of the time for the first plan."""
+
+SHARE_OF_TREE = 0.5
+"""The part of the time left for one tree of the search for the least makespan."""
 
 ITERATIONS_PER_ROBOT = 200
 """How many neighbourhoods of the first plan are replanned for each robot."""
 
 
 def cbs(task: Task) -> Draft:
-    """Plan a fleet with least flowtime and surcharges; options: `CbsOptions`."""
-    scenario, factor = task.scenario, Fraction(task.options["suboptimality"])
+    """Plan a fleet with least flowtime and surcharges, or makespan; options: `CbsOptions`."""
+    is_of_makespan = task.options["objective"] == "makespan"
+    if is_of_makespan and task.scenario.roadmap.has_surcharges:
+        message = "makespan leaves out the surcharges of the roadmap (minimize the flowtime)"
+        raise InputError.at(("options", "objective"), message)
     first = _first_plan(task)
-    upper = None if first is None else cost_of(scenario, first.tracks)
-    search = ConflictBasedSearch(
-        scenario.problem,
+    if is_of_makespan:
+        return _of_least_makespan(task, first or _of_least_flowtime(task, None))
+    return _of_least_flowtime(task, first)
+
+
+def _search(task: Task, **limits: Any) -> ConflictBasedSearch:
+    return ConflictBasedSearch(
+        task.scenario.problem,
         cardinal=task.options["cardinal"] == "first",
         bypass=task.options["bypass"] == "yes",
         clear=task.options["clear"] == "yes",
@@ -61,8 +73,15 @@ def cbs(task: Task) -> Draft:
         pairs=task.options["pairs"] == "yes",
         pair_nodes=task.options["pair_nodes"],
         joint_states=task.options["joint_states"],
-        factor=factor,
+        **limits,
     )
+
+
+def _of_least_flowtime(task: Task, first: Draft | None) -> Draft:
+    """Return an optimal plan, or the first plan with what is proven of it."""
+    scenario, factor = task.scenario, Fraction(task.options["suboptimality"])
+    upper = None if first is None else cost_of(scenario, first.tracks)
+    search = _search(task, factor=factor)
     ended = "time ran out"
     try:
         search.run(
@@ -119,6 +138,53 @@ def cbs(task: Task) -> Draft:
         bound=Tick(search.bound or 0),
         objective=minimized(scenario),
         factor=factor if factor > 1 else None,
+    )
+    return Draft(tracks=tracks, status=status, proof=proof)
+
+
+def _of_least_makespan(task: Task, first: Draft) -> Draft:
+    """Return a plan whose last robot completes as early as is proven to be possible, or nearly.
+
+    A tree whose tracks may not complete after some tick ends without a plan, or with one. The ticks
+    between the last robot alone and the best plan are halved by such trees. Where one ends
+    undecided, only later ticks are tried.
+    """
+    scenario, factor = task.scenario, Fraction(task.options["suboptimality"])
+    tracks, best = first.tracks, max(completions_of(scenario, first.tracks))
+    alone = least_completions(scenario)
+    assert alone is not None, "there is no time limit"
+    bound = tried = latest = int(alone.max())  # no plan is below the bound; no tick is tried again
+    left = task.options["nodes"] or None
+    n_nodes = 0
+    while tried < best and best > factor * bound and (left is None or left > 1):
+        seconds = task.deadline.sooner(SHARE_OF_TREE).seconds_left()
+        if seconds == 0:
+            break
+        search = _search(task, latest=latest)
+        try:
+            search.run(nodes=left and -(-left // 2), time_limit=seconds)
+        except KeyboardInterrupt:
+            if not task.keep_best:
+                raise
+            break
+        n_nodes += search.n_nodes
+        left = left and left - search.n_nodes
+        if search.tracks is not None:
+            tracks, best = search.tracks, max(completions_of(scenario, search.tracks))
+        else:
+            if search.is_proven:
+                bound = latest + 1
+            tried = latest + 1
+        latest = (tried + best - 1) // 2
+    kind = Phrase("optimal") if best == bound else Phrase("best found")
+    status = Phrase(
+        "{kind}: {nodes} for the makespan (first plan: {status})",
+        kind=kind,
+        nodes=counted(n_nodes, "node", "nodes"),
+        status=first.status,
+    )
+    proof = Proof(
+        bound=Tick(bound), objective=Objective.MAKESPAN, factor=factor if factor > 1 else None
     )
     return Draft(tracks=tracks, status=status, proof=proof)
 

@@ -273,6 +273,10 @@ class LnsOptions(PlannerOptions):
 class CbsOptions(PlannerOptions):
     """Options of ``cbs``."""
 
+    objective: Annotated[
+        Literal["flowtime", "makespan"],
+        "Minimize the flowtime, by weights and with surcharges; or the latest completion time.",
+    ] = "flowtime"
     suboptimality: Annotated[
         Fraction,
         Least(1),

@@ -46,6 +46,8 @@ class ConflictBasedSearch:
         solve a whole fleet of at most four robots; 0: no such search.
     factor
         A plan that costs at most this factor times the bound is enough; 1 or more.
+    latest
+        No robot completes later [ticks]; None for no limit. Only without surcharges.
 
     Attributes
     ----------
@@ -74,10 +76,12 @@ class ConflictBasedSearch:
         pair_nodes: int = 20,
         joint_states: int = 10_000,
         factor: Fraction | int = 1,
+        latest: int | None = None,
     ) -> None:
         self._core = _core.ConflictBasedSearch(
             bound(problem), cardinal, bypass, clear, targets, pairs, pair_nodes,
             joint_states, int(min(factor, MOST_FACTOR) * MILLION),
+            NEVER if latest is None else latest,
         )  # fmt: skip
         self.bound: Tick | None = Tick(0)
         self.tracks: tuple[Track, ...] | None = None
