@@ -138,8 +138,8 @@ FIRST_WORDS = """
     plan prepare prioritize prove put reaches read receive recognizes refuse release relocate remind
     remove rename repair repeat replan replay report reroute reset resolve restore resume retime
     retry reverse rollback run save say search send serve set sets settle share show simulate skip
-    solve speak splice split spread start stay step stop stretch submit survey switch take tell to
-    trace translate turn upload validate wait waits widen withdraw work write
+    solve speak splice split spread start stay step stop stream stretch submit survey switch take
+    tell to trace translate turn upload validate wait waits widen withdraw work write
 """
 VERBS = frozenset(FIRST_WORDS.split())
 """First words of functions: verbs, claims (``is_empty``), ``as_``, ``to_``; add what is missing."""

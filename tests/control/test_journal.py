@@ -71,13 +71,13 @@ def test_another_process_reads_what_is_committed_while_the_journal_is_written(
     reads = (
         "from pathlib import Path; from rightofway.control import JournalReader;"
         f"reader = JournalReader(Path({str(path)!r}));"
-        "print(reader.is_written, *(row[:2] for row in reader.rows()))"
+        "print(reader.is_written, *(row[:2] for row in reader.read_rows()))"
     )
     shown = subprocess.run([sys.executable, "-c", reads], capture_output=True, check=True)
     assert shown.stdout.decode().strip() == "True (1, 10.5) (2, 10.5)"
     reader = JournalReader(path)
     journal.commit(ENTRIES[:1])
-    assert reader.rows(after=2) == [JournalRow(3, 11.0, ENTRIES[0])]
+    assert reader.read_rows(after=2) == [JournalRow(3, 11.0, ENTRIES[0])]
     journal.close()
     assert not reader.is_written
     reader.close()
@@ -108,13 +108,13 @@ def test_a_journal_of_an_earlier_version_goes_on_with_moments(tmp_path: Path) ->
     database.commit()
     database.close()
     reader = JournalReader(path)
-    assert reader.rows() == [JournalRow(1, None, ENTRIES[0])]
+    assert reader.read_rows() == [JournalRow(1, None, ENTRIES[0])]
     reader.close()
     journal = SqliteJournal(path, lambda: 7.0)
     journal.commit(ENTRIES[1:])
     assert list(journal.entries()) == ENTRIES
     reader = JournalReader(path)
-    assert [row.moment for row in reader.rows()] == [None, 7.0]
+    assert [row.moment for row in reader.read_rows()] == [None, 7.0]
     reader.close()
     journal.close()
 

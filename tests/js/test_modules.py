@@ -12,7 +12,7 @@ from rightofway.viz.page.scripts import asset, classic_script, scripts_of
 NAME = re.compile(r"^(?:export )?(?:async )?(?:class|function\*?|const|let) (\w+)", re.MULTILINE)
 
 
-@pytest.mark.parametrize("entry", ["main", "inspect_main"])
+@pytest.mark.parametrize("entry", ["main", "inspect_main", "watch_main"])
 def test_no_two_modules_of_a_page_declare_the_same_name(entry: str) -> None:
     modules = defaultdict[str, list[str]](list)
     for module in scripts_of(entry):
@@ -22,7 +22,7 @@ def test_no_two_modules_of_a_page_declare_the_same_name(entry: str) -> None:
     assert {name: found for name, found in modules.items() if len(found) > 1} == {}
 
 
-@pytest.mark.parametrize("entry", ["main", "inspect_main"])
+@pytest.mark.parametrize("entry", ["main", "inspect_main", "watch_main"])
 def test_no_page_carries_types_of_its_modules(entry: str) -> None:
     """They are comments that fill lines, which are left out as others are."""
     for module in scripts_of(entry):

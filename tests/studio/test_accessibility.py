@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.resources import files
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,6 +11,7 @@ import pytest
 from rightofway.io import load
 from rightofway.solve import solve
 from rightofway.viz import write_page
+from tests.builders.accessibility import PACKAGE, serious
 from tests.builders.browsers import Viewer, needs_browser
 from tests.builders.drawing import studio_page
 from tests.builders.states import EXAMPLES, examples, states
@@ -21,27 +21,12 @@ if TYPE_CHECKING:
 
     from tests.builders.studios import Client
 
-PACKAGE = "axe_playwright_python"
 pytestmark = [
     needs_browser,
     pytest.mark.skipif(not find_spec(PACKAGE), reason="there is no axe"),
 ]
 
 THEMES, LANGUAGES = ("light", "dark"), ("en", "de")
-
-RUN = """async () => {
-  const { violations } = await axe.run(document, { resultTypes: ["violations"] });
-  return violations.filter(({ impact }) => ["serious", "critical"].includes(impact))
-    .flatMap(({ id, nodes }) => nodes.map(({ html, failureSummary, target }) =>
-      `${id}: ${target} ${html.slice(0, 200)} ${failureSummary.split("\\n")[1]}`));
-}"""
-
-
-def serious(viewer: Viewer) -> Any:
-    """Return what axe calls serious or critical on a page, contrast included."""
-    if not viewer.page.evaluate("Boolean(window.axe)"):
-        viewer.page.evaluate(files(PACKAGE).joinpath("axe.min.js").read_text("utf-8"))
-    return viewer.page.evaluate(RUN)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -96,7 +96,11 @@ def test_the_page_names_no_address() -> None:
 
 
 def test_every_script_is_on_a_page_and_short() -> None:
-    used = {*scripts_of("main"), *scripts_of("inspect_main"), *scripts_of("widget")}
+    used = {
+        module
+        for entry in ("main", "inspect_main", "watch_main", "widget")
+        for module in scripts_of(entry)
+    }
     assets = Path(page_of.__code__.co_filename).parent / "assets"
     for script in assets.rglob("*.js"):
         assert script.relative_to(assets).with_suffix("").as_posix() in used

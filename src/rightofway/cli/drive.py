@@ -5,9 +5,11 @@ from __future__ import annotations
 import asyncio
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing, contextmanager
 from datetime import datetime
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import click
@@ -27,13 +29,16 @@ from rightofway.cli.options import (
 )
 from rightofway.cli.outputs import page_option
 from rightofway.cli.terminal import file_title, language, put_json, put_report, say, say_written
+from rightofway.cli.watch import WatchPage, add_page_options
 from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.control.broker import Broker
+    from rightofway.control.demo import DemoResult
     from rightofway.control.endpoints import Letter
     from rightofway.control.identities import Identity
     from rightofway.model import Plan
+    from rightofway.quantities import Quantities
 
 EXAMPLES = """\b
 Examples:
@@ -42,6 +47,8 @@ Examples:
   rightofway drive laps.json --demo --laps inf
   rightofway drive plan.json --demo --delays stop:R1@5+20 --page driven.html
   rightofway drive plan.json --broker mqtt://hub --identities robots.yaml
+  rightofway drive plan.json --demo --live
+  rightofway drive plan.json --replay
   rightofway drive plan.json --dry-run --identities robots.yaml
 """
 
@@ -81,6 +88,13 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @click.option("--dry-run", is_flag=True,
               help="Connect to nobody: print what robots would be sent that do what they are asked,"
               " a topic and a message a line.")  # fmt: skip
+@click.option("--replay", is_flag=True,
+              help="Drive nothing: serve the page of what the journal of the plan has, also while"
+              " a control writes it.")  # fmt: skip
+@click.option("--live", is_flag=True,
+              help="Serve a page on which to watch the robots and to hold them; it stays when they"
+              " have ended, until Ctrl-C.")  # fmt: skip
+@add_page_options
 @click.option("--metrics", type=click.IntRange(1, 65535), metavar="PORT",
               help="Serve metrics for Prometheus at a port of this machine.")  # fmt: skip
 @click.option("--stay", is_flag=True,
@@ -110,6 +124,10 @@ def drive(
     ca_file: str | None,
     journal: str | None,
     dry_run: bool,
+    replay: bool,
+    live: bool,
+    host: str,
+    port: int | None,
     metrics: int | None,
     stay: bool,
     time_scale: float,
@@ -127,31 +145,41 @@ def drive(
     clock. A late robot makes others wait; nothing collides. What happens goes to standard error,
     the report to standard output. A PLAN of - is standard input.
     """
+    if [demo, broker is not None, dry_run, replay].count(True) != 1:
+        raise click.UsageError("give one of --broker, --demo, --dry-run and --replay")
     if laps is not None and page:
         raise click.UsageError("laps without end fill no page (leave out --page or --laps)")
-    if [demo, broker is not None, dry_run].count(True) != 1:
-        raise click.UsageError("give one of --broker, --demo and --dry-run")
+    _refuse_combinations(
+        drives_robots=demo or broker is not None,
+        has_broker=broker is not None,
+        is_live=live,
+        has_identities=identities is not None,
+        has_journal_name=journal is not None or plan != "-" or not (replay or broker is not None),
+    )
     from rightofway.control.identities import load_identities
 
-    if broker is not None and identities is None:
-        raise click.UsageError("robots at a broker have identities (give --identities)")
-    if broker is not None and journal is None and plan == "-":
-        raise click.UsageError("a plan from standard input has no name (give --journal)")
     opened = read_plan(plan)
     names = [robot.name for robot in opened.scenario.robots]
     known = load_identities(identities, names) if identities else []
+    journal_file = Path(journal) if journal else Path(plan).with_suffix(".journal")
+
+    shown = WatchPage(plan=opened, title=file_title(plan), host=host, port=port)
+    if replay:
+        with shown.serve(journal_file, takes_orders=False):
+            shown.wait_for_interrupt()
+        return 0
     if broker is not None:
         from rightofway.control.broker import Broker
 
         address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
-        file = journal or str(Path(plan).with_suffix(".journal"))
         _drive_at(
-            address, opened, known, file, laps=laps, switch=switch, metrics=metrics, stays=stay
-        )
+            address, opened, known, journal_file, shown if live else None,
+            laps=laps, switch=switch, metrics=metrics, stays=stay,
+        )  # fmt: skip
         return 0
-    from rightofway.control.demo import drive_demo
-
     if dry_run:
+        from rightofway.control.demo import drive_demo
+
         drive_demo(opened, identities=known, watch=_show)
         return 0
     quantities = quantities_of(opened.scenario, in_ticks=in_ticks)
@@ -159,30 +187,77 @@ def drive(
     def narrate(tick: int, sentence: str) -> None:
         say(Phrase("{time}  {text}", time=f"{quantities.cell(tick):>8}", text=sentence))
 
-    outcome = drive_demo(
-        opened,
-        delay_texts(delays),
-        seed,
-        laps=laps,
-        switch=switch,
-        identities=known,
-        report=narrate,
-        wait_until=_playing(opened, time_scale),
-    )
+    from rightofway.control.demo import drive_demo
+
+    with _kept_demo(shown if live else None, journal) as file:
+        outcome = drive_demo(
+            opened,
+            delay_texts(delays),
+            seed,
+            laps=laps,
+            switch=switch,
+            identities=known,
+            report=narrate,
+            wait_until=_playing(opened, time_scale),
+            journal=file,
+            pace=None if math.isinf(time_scale) else time_scale,
+            stays=stay,
+        )
+        _report_demo(opened, outcome, quantities, seed, as_json=as_json)
+        if page:
+            from rightofway.viz import write_page
+
+            write_page(opened, page, actual=outcome.trace, title=file_title(plan))
+            say_written(page)
+        if live:
+            shown.wait_for_interrupt()
+    return 0
+
+
+def _report_demo(
+    plan: Plan, outcome: DemoResult, quantities: Quantities, seed: int, *, as_json: bool
+) -> None:
+    """Print what robots of a demo have done."""
     if as_json:
         from rightofway.report.plan_data import measures
 
-        put_json({**measures(opened.scenario), "seed": seed, **outcome.as_dict()})
+        put_json({**measures(plan.scenario), "seed": seed, **outcome.as_dict()})
     else:
         from rightofway.control.report import report
 
         put_report(report(outcome, quantities, language()))
-    if page:
-        from rightofway.viz import write_page
 
-        write_page(opened, page, actual=outcome.trace, title=file_title(plan))
-        say_written(page)
-    return 0
+
+def _refuse_combinations(
+    *,
+    drives_robots: bool,
+    has_broker: bool,
+    is_live: bool,
+    has_identities: bool,
+    has_journal_name: bool,
+) -> None:
+    """Refuse options that do not go together."""
+    if is_live and not drives_robots:
+        raise click.UsageError("--live goes with --broker and --demo (--replay is a page already)")
+    if has_broker and not has_identities:
+        raise click.UsageError("robots at a broker have identities (give --identities)")
+    if not has_journal_name:
+        raise click.UsageError("a plan from standard input has no name (give --journal)")
+
+
+@contextmanager
+def _kept_demo(page: WatchPage | None, journal: str | None) -> Iterator[Path | None]:
+    """Yield the journal of a demo, if it has one; serve its page, if that is wanted."""
+    if page is None:
+        yield Path(journal) if journal else None
+        return
+    from rightofway.control.journal import SqliteJournal
+
+    with TemporaryDirectory(prefix="rightofway-demo-") as folder:
+        file = Path(journal or Path(folder) / "demo.journal")
+        SqliteJournal(file).close()  # a page reads what is there
+        with page.serve(file, takes_orders=True):
+            yield file
 
 
 def _playing(plan: Plan, time_scale: float) -> Callable[[int], None]:
@@ -213,7 +288,8 @@ def _drive_at(
     broker: Broker,
     plan: Plan,
     identities: list[Identity],
-    journal: str,
+    journal: Path,
+    page: WatchPage | None,
     *,
     laps: int | None,
     metrics: int | None,
@@ -231,20 +307,21 @@ def _drive_at(
 
         counted = FleetMetrics([robot.name for robot in plan.scenario.robots])
         counted.serve(metrics)
-    opened = SqliteJournal(Path(journal))
-    try:
-        commands = Commands(Path(journal))
-        driver = Driver(
-            plan,
-            identities,
-            opened,
-            laps=laps,
-            commands=commands,
-            switch=switch,
-            report=_narrate,
-            metrics=counted,
-        )
-        asyncio.run(driver.run(broker, stays=stays))
-    finally:
-        opened.close()
-    _narrate(Phrase("all robots are at the end of their way"))
+    with ExitStack() as stack:
+        with closing(SqliteJournal(journal)) as opened:
+            driver = Driver(
+                plan,
+                identities,
+                opened,
+                laps=laps,
+                commands=Commands(journal),
+                switch=switch,
+                report=_narrate,
+                metrics=counted,
+            )
+            if page is not None:
+                stack.enter_context(page.serve(journal, takes_orders=True))
+            asyncio.run(driver.run(broker, stays=stays))
+        _narrate(Phrase("all robots are at the end of their way"))
+        if page is not None:
+            page.wait_for_interrupt()

@@ -7,24 +7,28 @@ arrives at once and nothing is lost. Simulated time goes from one step of a robo
 from __future__ import annotations
 
 import heapq
+import time
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from functools import lru_cache, partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from rightofway.check import check
+from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity, simulated_identities
-from rightofway.control.journal import Entry
+from rightofway.control.journal import BatchedJournal, Entry, SqliteJournal
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.ledger import RobotLedger, RouteToDrive
-from rightofway.control.notices import Notices
+from rightofway.control.notices import Notices, make_notice
+from rightofway.control.operator import Operator
 from rightofway.control.order_map import OrderMap
 from rightofway.control.routes import routes_to_drive
 from rightofway.control.simulated_robot import SimulatedRobot
@@ -33,10 +37,14 @@ from rightofway.errors import InputError
 from rightofway.execution import replay
 from rightofway.model import ExecutionTrace, Plan, Tick, Track
 from rightofway.model.route import drives_along
+from rightofway.phrases import Phrase, parts_of
 
 __all__ = ["DemoResult", "drive_demo"]
 
 Report = Callable[[Tick, str], None]
+
+PAUSE = 0.1
+"""Seconds between two looks at what people ask for."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,7 +56,8 @@ class DemoResult:
     plan
         The plan.
     trace
-        Where robots were, and how long each visit and drive took; None of laps.
+        Where robots were, and how long each visit and drive took; None of laps, and where people
+        have changed what robots were to do.
     jobs
         How many jobs each robot has done.
     laps
@@ -100,6 +109,9 @@ def drive_demo(
     report: Report = lambda *_: None,
     wait_until: Callable[[Tick], None] = lambda _: None,
     watch: Callable[[Letter], None] = lambda _: None,
+    journal: Path | None = None,
+    pace: float | None = None,
+    stays: bool = False,
 ) -> DemoResult:
     """Have simulated robots drive a plan by right of way, until all jobs are done.
 
@@ -128,12 +140,19 @@ def drive_demo(
         Is called before robots do something at a time.
     watch
         Receives each message as it is sent.
+    journal
+        A new file in which what happens is kept, with the simulated time; pages read it, and people
+        ask for more in the table of commands beside it.
+    pace
+        How many simulated seconds `wait_until` lets pass in one, for pages; None without pauses.
+    stays
+        With a journal, whether to go on when all robots have come to the end of their way.
 
     Raises
     ------
     InputError
         If the plan has faults or rotations, the delays cannot be read, or a robot would break down
-        for ever; with laps, also if robots do not return home.
+        for ever; with laps, also if robots do not return home; if the journal has a run already.
     """
     judged = check(plan)
     if not judged.ok:
@@ -145,12 +164,67 @@ def drive_demo(
         if completion is None:
             message = f"{name} would never complete, and a demo ends when all jobs are done"
             raise InputError.at("delays", f"{message} (give delays that end)")
-    control = FleetControl(_NothingKept())
     identities = identities or simulated_identities(names, version)
-    dispatcher = Dispatcher(control, plan, repeated)
-    demo = _Demo(dispatcher, durations, identities, watch=watch, report=report)
-    demo.switches = switch
-    return demo.run(wait_until, laps)
+    clock = _SimulatedClock(plan)
+    record = None if journal is None else _DemoRecord(journal, clock, pace, stays=stays)
+    try:
+        control = FleetControl(record.journal if record else _NothingKept())
+        dispatcher = Dispatcher(control, plan, repeated)
+        demo = _Demo(dispatcher, durations, identities, clock, record, watch=watch, report=report)
+        demo.switches = switch
+        return demo.run(wait_until, laps)
+    finally:
+        if record:
+            record.close()
+
+
+class _SimulatedClock:
+    """The time of a demo [ticks]."""
+
+    def __init__(self, plan: Plan) -> None:
+        clock, seconds = plan.scenario.problem.clock, plan.scenario.units.seconds
+        self._tick = float(clock.tick * (seconds or 1))  # [s]
+        self.now = 0
+
+    def read_seconds(self) -> float:
+        """Return the time [s]."""
+        return self.now * self._tick
+
+    def to_ticks(self, seconds: float) -> int:
+        """Return a time in ticks, one at least."""
+        return max(round(seconds / self._tick), 1)
+
+
+class _DemoRecord:
+    """The journal of a demo, and what people ask for meanwhile."""
+
+    def __init__(
+        self, path: Path, clock: _SimulatedClock, pace: float | None, *, stays: bool
+    ) -> None:
+        self._file = SqliteJournal(path, clock.read_seconds)
+        if next(iter(self._file.history()), None) is not None:
+            self._file.close()
+            message = "has a run already, and a demo begins anew (name another file)"
+            raise InputError.at(str(path), message)
+        self.journal, self.commands = BatchedJournal(self._file), Commands(path)
+        self.step = clock.to_ticks(PAUSE * (pace or 1))  # between two looks at what people ask for
+        self._pace, self.stays = pace, stays
+        self.journal.commit([{"kind": "pace", "seconds": pace}])
+
+    def write(self, entry: Entry) -> None:
+        """Write an entry."""
+        self.journal.commit([entry])
+
+    def wait(self) -> None:
+        """Wait for people where no pause does."""
+        if self._pace is None:
+            time.sleep(PAUSE)
+
+    def close(self) -> None:
+        """Give the files free."""
+        self.journal.flush()
+        self._file.close()
+        self.commands.close()
 
 
 class _NothingKept:
@@ -220,6 +294,8 @@ class _Demo:
         dispatcher: Dispatcher,
         durations: _Durations,
         identities: Sequence[Identity],
+        clock: _SimulatedClock,
+        record: _DemoRecord | None,
         *,
         watch: Callable[[Letter], None],
         report: Report,
@@ -227,10 +303,10 @@ class _Demo:
         plan, control = dispatcher.plan, dispatcher.control
         dispatcher.begin("demo")
         self._plan, self._control, self._watch = plan, control, watch
-        self._now, self._report = 0, report
+        self._clock, self._record, self._report = clock, record, report
         maps = [OrderMap(plan.scenario, *numbered) for numbered in enumerate(identities)]
         names = [robot.name for robot in plan.scenario.robots]
-        notices = Notices(names, lambda sentence: self._report(Tick(self._now), sentence))
+        notices = Notices(names, self._tell, keep=record.write if record else lambda _: None)
         self._end = ControlEnd(control, maps, self._timestamp, notices)
         stoppages = durations.round(0).stoppages or ((),) * len(identities)
         self._robots = [
@@ -249,6 +325,13 @@ class _Demo:
         self._story = Story(control.ledger, names)
         self._sent = Counter[str]()
         self._dispatcher, self.switches = dispatcher, False
+
+    @property
+    def _now(self) -> int:
+        return self._clock.now
+
+    def _tell(self, sentence: str) -> None:
+        self._report(Tick(self._now), sentence)
 
     def _timestamp(self) -> str:
         """Return the simulated time as messages have it: a time unit is a second after 1970."""
@@ -277,19 +360,68 @@ class _Demo:
                 if not robot.is_busy and (end := robot.begin_step(self._now)) is not None:
                     heapq.heappush(agenda, (end, number))
             if not agenda or agenda[0][0] > self._now:
-                for happening in self._story.go_on():
-                    self._report(Tick(self._now), happening.text)
-            if not agenda:
+                self._end_instant()
+            if not agenda and not self._waits_for_people:
                 return
+            moment = agenda[0][0] if agenda else self._now + self._step
+            if not self._come_to(moment, wait_until) or not agenda:
+                continue
             moment, number = heapq.heappop(agenda)
-            if moment > self._now:
-                if self.switches:
-                    self._exchange(self._end.letters(self._dispatcher.switch()))
-                wait_until(Tick(moment))
-            self._now = moment
             self._robots[number].end_step(moment)
             self._exchange([self._robots[number].end.state()])
             yield
+
+    @property
+    def _waits_for_people(self) -> bool:
+        """Whether there may be more to do though no robot does anything."""
+        if self._record is None or (self._control.is_done and not self._record.stays):
+            return False
+        self._record.wait()
+        return True
+
+    @property
+    def _step(self) -> int:
+        return self._record.step if self._record else 0
+
+    def _end_instant(self) -> None:
+        """Tell what is new; keep it."""
+        for happening in self._story.go_on():
+            self._tell(happening.text)
+        if self._record:
+            self._record.journal.flush()
+
+    def _come_to(self, moment: int, wait_until: Callable[[Tick], None]) -> bool:
+        """Let time pass until a moment; return false where people have asked for more before."""
+        if moment == self._now:
+            return True
+        if self.switches:
+            self._exchange(self._end.letters(self._dispatcher.switch()))
+        while self._record and moment > self._now + self._step:
+            if self._obey():
+                return False
+            wait_until(Tick(self._now + self._step))
+            self._clock.now += self._step
+        wait_until(Tick(moment))
+        self._clock.now = moment
+        return not self._obey()
+
+    def _obey(self) -> bool:
+        """Carry out what people have asked for; return whether there was anything."""
+        if self._record is None:
+            return False
+        messages, answers = Operator(self._dispatcher).obey(self._record.commands)
+        if not answers:
+            return False
+        for _, answer in answers:
+            if text := answer["text"]:
+                said = text if answer["done"] else Phrase("refused: {reason}", reason=text)
+                self._tell(said)
+                self._record.write(make_notice(parts_of(said)))
+        self._exchange(self._end.letters(messages))
+        self._end_instant()
+        for number, answer in answers:
+            self._record.commands.answer(number, answer)
+        return True
 
     def _exchange(self, letters: list[Letter]) -> None:
         """Deliver letters, and all that is answered, in their order."""
@@ -309,12 +441,23 @@ class _Demo:
         robots = self._control.ledger.robots
         return DemoResult(
             plan=self._plan,
-            trace=None if is_endless else self._trace(),
+            trace=None if is_endless or not self._is_as_planned else self._trace(),
             jobs=tuple(own.jobs_done for own in robots),
             laps=tuple(own.laps_done for own in robots),
             now=Tick(self._now),
             waits=tuple(self._story.waits),
             messages=dict(sorted(self._sent.items())),
+        )
+
+    @property
+    def _is_as_planned(self) -> bool:
+        """Whether people have not changed what robots were to do."""
+        name = self._plan.scenario.roadmap.name
+        return not any(
+            own.is_off
+            or own.route.end != len(track)
+            or own.route.places != tuple(map(name, track.vertices.tolist()))[own.route.first :]
+            for own, track in zip(self._control.ledger.robots, self._plan.tracks, strict=True)
         )
 
     def _trace(self) -> ExecutionTrace:

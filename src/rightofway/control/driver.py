@@ -24,7 +24,7 @@ from rightofway.control.identities import Identity
 from rightofway.control.journal import BatchedJournal, Entry, Journal, JournalFailed
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.messages import Message
-from rightofway.control.notices import Notices, notice
+from rightofway.control.notices import Notices, make_notice
 from rightofway.control.operator import Operator
 from rightofway.control.order_map import OrderMap
 from rightofway.control.story import Story
@@ -133,7 +133,7 @@ class Driver:
     def _tell(self, text: str, kind: str = "", *, is_over: bool = False) -> None:
         """Report a sentence, and write it into the journal."""
         self._report(text)
-        self._keep(notice(parts_of(text), kind=kind, is_over=is_over))
+        self._keep(make_notice(parts_of(text), kind=kind, is_over=is_over))
 
     async def run(self, broker: Broker, *, stays: bool = False) -> None:
         """Drive over any number of connections, until robots are at their ends or made all laps.

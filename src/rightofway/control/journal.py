@@ -196,7 +196,9 @@ class JournalReader:
     def __init__(self, path: Path) -> None:
         self._path = path
         try:
-            self._database = sqlite3.connect(f"{path.absolute().as_uri()}?mode=rw", uri=True)
+            self._database = sqlite3.connect(
+                f"{path.absolute().as_uri()}?mode=rw", uri=True, check_same_thread=False
+            )
             self._database.execute("PRAGMA query_only = TRUE")
             self._database.execute("SELECT 1 FROM entries LIMIT 1")
         except sqlite3.Error as error:
@@ -204,7 +206,7 @@ class JournalReader:
             raise InputError.at(str(path), message) from error
         self._moment = "moment" if _has_moments(self._database) else "NULL"
 
-    def rows(self, after: int = 0) -> list[JournalRow]:
+    def read_rows(self, after: int = 0) -> list[JournalRow]:
         """Return the entries behind one, in their order, as far as they are still kept.
 
         Parameters

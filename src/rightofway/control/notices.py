@@ -11,7 +11,7 @@ from rightofway.errors import printable
 from rightofway.phrases import Phrase, parts_of
 from rightofway.report.driving import about_robot
 
-__all__ = ["Notices", "notice"]
+__all__ = ["Notices", "make_notice"]
 
 QUIET = 600.0
 """Seconds after which a kind of trouble that comes and goes is reported again."""
@@ -66,7 +66,7 @@ class Notices:
             plain = sentence if isinstance(sentence, Phrase) else printable(sentence)
             text = about_robot(printable(self._names[robot]), plain)
             self._report(text)
-        self._keep(notice(parts_of(text), robot, kind, is_over=is_over))
+        self._keep(make_notice(parts_of(text), robot, kind, is_over=is_over))
 
     def once(self, robot: int, kind: str, sentence: str) -> bool:
         """Report a sentence unless one of its kind was reported lately; return whether it was.
@@ -119,7 +119,7 @@ class Notices:
         self._present[robot] = reported
 
 
-def notice(text: object, robot: int = -1, kind: str = "", *, is_over: bool = False) -> Entry:
+def make_notice(text: object, robot: int = -1, kind: str = "", *, is_over: bool = False) -> Entry:
     """Return the entry of what people were told.
 
     Parameters

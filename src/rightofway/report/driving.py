@@ -14,6 +14,7 @@ __all__ = [
     "ends_way",
     "finishes_work",
     "goes_on",
+    "say_start",
     "sets_out",
     "waits_until",
 ]
@@ -30,6 +31,11 @@ def about_robot(robot: str, predicate: str) -> Phrase:
         What it does or is, without its name.
     """
     return Phrase("{robot} {predicate}", robot=robot, predicate=predicate)
+
+
+def say_start() -> Phrase:
+    """Return that a control has begun to drive a plan, or goes on with it."""
+    return Phrase("the control has started")
 
 
 def sets_out(robot: str, place: str, target: str) -> Phrase:

@@ -16,11 +16,24 @@ from rightofway.io.faults import validate
 from rightofway.studio.errors import StudioError
 from rightofway.studio.guard import Access, Guard, error_body
 from rightofway.studio.messages import as_error
-from rightofway.studio.routes import documents, glances, pages, planners, plans, questions, runs
+from rightofway.studio.routes import (
+    documents,
+    drives,
+    glances,
+    pages,
+    planners,
+    plans,
+    questions,
+    runs,
+)
 from rightofway.studio.routes.models import kind_of
 from rightofway.studio.session import Studio
+from rightofway.studio.watching import Watched
 
 API = "/api/v1"
+
+WATCH = "/drives/0/"
+"""Where the page of a fleet is that is watched without a studio."""
 
 DESCRIPTION = """Plans for fleets of mobile robots: documents, runs, plans, questions.
 
@@ -57,6 +70,24 @@ def create_app(studio: Studio, access: Access, *, has_page: bool = True) -> Fast
         app.include_router(routes.router, prefix=API)
     if has_page:
         app.include_router(pages.router)
+    return _guarded(app, access)
+
+
+def create_watch(watched: Watched, access: Access) -> FastAPI:
+    """Return the server of the page of one fleet that is driven, at `WATCH` and at the top."""
+    app = FastAPI(title="rightofway drive", openapi_url=None, docs_url=None, redoc_url=None)
+    app.state.drives = {0: watched}
+    app.include_router(drives.router)
+
+    @app.get("/")
+    async def get_page(request: Request) -> Response:
+        return await drives.get_page(request, 0)
+
+    return _guarded(app, access)
+
+
+def _guarded(app: FastAPI, access: Access) -> FastAPI:
+    """Return an application with the guard and the one form of errors."""
     app.add_exception_handler(StudioError, _refused)
     app.add_exception_handler(InputError, _faulty)
     app.add_exception_handler(RequestValidationError, _not_fitting)

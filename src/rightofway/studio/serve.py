@@ -8,16 +8,19 @@ import socket
 import ssl
 import threading
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import uvicorn
+from fastapi import FastAPI
 
 from rightofway.errors import InputError
-from rightofway.studio.app import create_app
+from rightofway.phrases import Phrase
+from rightofway.studio.app import create_app, create_watch
 from rightofway.studio.connections import AT_ONCE, Connection, allow_descriptors
 from rightofway.studio.guard import Access
 from rightofway.studio.session import Studio
+from rightofway.studio.watching import Watched
 
 PORT = 7477
 """The port that is taken where it is free, so that an address can be kept."""
@@ -79,8 +82,14 @@ def serve(
         if opens_browser:
             threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
-    config = uvicorn.Config(
-        create_app(studio, access, has_page=has_page),
+    config = _config(create_app(studio, access, has_page=has_page), certificate, key)
+    with contextlib.closing(listener), contextlib.suppress(KeyboardInterrupt):
+        _Server(config, studio, ready).run(sockets=[listener])
+
+
+def _config(app: FastAPI, certificate: str | None = None, key: str | None = None) -> uvicorn.Config:
+    return uvicorn.Config(
+        app,
         http=Connection,
         ws="none",
         backlog=AT_ONCE,
@@ -92,8 +101,34 @@ def serve(
         timeout_graceful_shutdown=3,
         h11_max_incomplete_event_size=16_384,
     )
-    with contextlib.closing(listener), contextlib.suppress(KeyboardInterrupt):
-        _Server(config, studio, ready).run(sockets=[listener])
+
+
+@contextlib.contextmanager
+def serve_watch(
+    watched: Watched, *, host: str, port: int | None, say: Callable[[str], None]
+) -> Iterator[None]:
+    """Serve the page of a fleet that is driven, in a thread, as long as the context lasts.
+
+    Raises
+    ------
+    InputError
+        If the address cannot be listened on.
+    """
+    listener = bound(host, port)
+    actual = listener.getsockname()[1]
+    access = Access.on(host, actual)
+    query = f"?token={access.token}" if access.token else ""
+    server = uvicorn.Server(_config(create_watch(watched, access)))
+    thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
+    with contextlib.closing(listener):
+        thread.start()
+        say(Phrase("watch it: {address}", address=f"http://{_called(host)}:{actual}/{query}"))
+        try:
+            yield
+        finally:
+            watched.hang_up()
+            server.should_exit = True
+            thread.join(5)
 
 
 def refuse_certificate(certificate: str | None, key: str | None) -> None:

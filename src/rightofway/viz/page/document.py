@@ -91,18 +91,19 @@ def page_of(
     return document_of(about, payload, "main")
 
 
-def document_of(about: str, payload: Mapping[str, object], entry: str) -> str:
+def document_of(
+    about: str, payload: Mapping[str, object], entry: str, *, connects: bool = False
+) -> str:
     """Return a page of style, plain data and scripts, as one HTML document.
 
-    Returns
-    -------
-    str
-        HTML. Its content security policy forbids any connection, and any script but these.
+    Its content security policy forbids any script but these and any connection, but with
+    ``connects`` those to the server that it comes from.
     """
+    own = "connect-src 'self'; "
     style, scripts = style_sheet(), [classic_script(name) for name in scripts_of(entry)]
     parts = {
         "title": html.escape(about).encode("ascii", "xmlcharrefreplace").decode(),
-        "policy": "default-src 'none'; img-src data:; "
+        "policy": f"default-src 'none'; img-src data:; {own * connects}"
         f"style-src {_hash(style)}; script-src {' '.join(map(_hash, scripts))}",
         "style": style,
         "payload": as_script(payload),

@@ -31,6 +31,35 @@ PhraseEntry = TypeAliasType("PhraseEntry", "str | list[int]")
 """Text, or the index of a template and of its values; see `PhraseBook`."""
 
 
+RouteRow = TypeAliasType("RouteRow", tuple[float, int, Literal["route"], int, list[int]])
+"""Tick, robot, kind, the first visit that is another one, the vertices from there on."""
+
+VisitRow = TypeAliasType("VisitRow", tuple[float, int, Literal["arrived", "released", "done"], int])
+"""Tick, robot, kind, visit: arrived at, released up to, done with its work."""
+
+HoldRow = TypeAliasType("HoldRow", tuple[float, int, Literal["hold", "off"], bool])
+"""Tick, robot, kind, whether a person holds it, or has taken it off the floor."""
+
+SaysRow = TypeAliasType(
+    "SaysRow",
+    tuple[
+        float,
+        int,
+        Literal["says"],
+        Literal["work", "drive", "wait", "end", "news", "alarm"],
+        PhraseData,
+        list[int],
+    ],
+)
+"""Tick, robot (-1 for none), kind, what it is about, sentence, robots that are waited for."""
+
+AlarmRow = TypeAliasType("AlarmRow", tuple[float, int, Literal["alarm"], str, PhraseData | None])
+"""Tick, robot (-1 for none), kind, the kind of trouble, the sentence; null where it ends."""
+
+DrivenRow = TypeAliasType("DrivenRow", RouteRow | VisitRow | HoldRow | SaysRow | AlarmRow)
+"""Something that happened to a fleet that is driven."""
+
+
 class UnitsData(TypedDict):
     """The names of the units; null where the scenario names none."""
 
@@ -254,6 +283,27 @@ class FloorData(TypedDict):
     losses: list[LossRow]
 
 
+class DrivenFrame(TypedDict):
+    """What happened since the frame before; ``begins`` where it is all that is known."""
+
+    number: int
+    now: float
+    runs: bool
+    begins: bool
+    rows: list[DrivenRow]
+
+
+class FeedData(TypedDict):
+    """A fleet that is driven: what is known, and what a page asks for more, if there is more.
+
+    ``stream`` is the address of frames; ``orders`` that to which orders of people are sent.
+    """
+
+    frame: DrivenFrame
+    stream: NotRequired[str]
+    orders: NotRequired[str]
+
+
 class ChangeData(TypedDict):
     """Something in which a scenario differs from another one; see `Change`."""
 
@@ -355,6 +405,7 @@ class Payload(PlanData):
 
     translations: dict[str, dict[str, str]]
     map: MapData
+    driven: NotRequired[FeedData]
     others: NotRequired[list[OtherPlan]]
     comparison: NotRequired[ComparisonData]
 

@@ -56,3 +56,12 @@ export function lastAtMost(numbers, limit) {
   }
   return low;
 }
+
+/**
+ * First differences: [3, 4, 6] as [3, 1, 2].
+ *
+ * @param {readonly number[]} numbers
+ */
+export function toDifferences(numbers) {
+  return numbers.map((number, i) => (i ? number - numbers[i - 1] : number));
+}

@@ -11,6 +11,7 @@ import { joined, upperFirst } from "./words.js";
 /** @import { Clock } from "./clock.js" */
 /** @import { Comparison } from "./comparison.js" */
 /** @import { DecisionData, FaultData } from "./payload.d.ts" */
+/** @import { Live } from "./live.js" */
 /** @import { Plan } from "./plan.js" */
 /** @import { Robot, Stage } from "./robot.js" */
 /** @import { Space } from "./space.js" */
@@ -30,8 +31,10 @@ export class Card {
    * @param {Words} words
    * @param {Comparison | null} comparison
    * @param {Space} space
+   * @param {Live | null} [live] of a fleet that is driven
    */
-  constructor(root, plan, clock, choice, words, comparison, space) {
+  constructor(root, plan, clock, choice, words, comparison, space, live = null) {
+    this.live = live;
     this.root = root;
     this.plan = plan;
     this.clock = clock;
@@ -42,6 +45,25 @@ export class Card {
     this.box = root.part("card");
     choice.on("choice", () => this.#show());
     choice.on("mode", () => this.#show());
+  }
+
+  /** Write again what is known of a robot that is driven, where that has changed. */
+  refresh() {
+    const { robot } = this.choice;
+    if (!robot?.isDriven || this.box.hidden) return;
+    const { scrollTop } = this.box;
+    const [known] = this.root.all(".card .facts.now", HTMLElement);
+    const fresh = this.#now(robot);
+    if (!known || known.textContent === fresh.textContent) return;
+    known.replaceWith(fresh);
+    this.box.scrollTop = scrollTop;
+  }
+
+  /** @param {Robot} robot */
+  #now(robot) {
+    const list = facts(this.live?.facts(robot.index) ?? []);
+    list.classList.add("now");
+    return list;
   }
 
   #show() {
@@ -89,6 +111,7 @@ export class Card {
     return [
       this.#header(swatch(robot), element("h2", { className: "name" }, robot.name)),
       ...(robot instanceof FloorRobot || this.plan.steady ? [] : this.#sum(robot)),
+      ...(robot.isDriven ? [this.#now(robot)] : []),
       facts([
         ...this.#times(robot),
         ...changes,
@@ -167,6 +190,8 @@ export class Card {
    * @returns {Term[]}
    */
   #times(robot) {
+    if (robot instanceof FloorRobot && robot.isDriven)
+      return [[texts.planned, this.words.time(robot.planned.completion)]];
     if (robot instanceof FloorRobot) return this.#floorTimes(robot);
     return this.plan.steady ? this.#lapTimes(robot) : [];
   }
@@ -222,7 +247,7 @@ export class Card {
     if (stage.turn && stage.visit + 1 < robot.vertices.length)
       dwell.push(texts.turns(this.words.duration(stage.turn)));
     const text = [this.words.where(stage.vertex), ...dwell].join(", ");
-    if (stage.visit < 0) return goTo(texts.never, text, () => {});
+    if (stage.visit < 0) return goTo(this.live ? texts.driven.notYet : texts.never, text, () => {});
     return this.#moment(robot.enter[stage.visit], text);
   }
 

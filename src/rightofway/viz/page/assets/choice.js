@@ -9,7 +9,7 @@ import { Observable } from "./observable.js";
  * What the user looks at: a robot, a decision or fault, the heat map, the plan or what became of it,
  * the bottleneck, a corridor, what robots book, places of a finding. It is the fleet that views show, and
  * writes nothing into the plan. Events: `choice`, `heat`, `mode`,
- * `bottleneck`, `corridor`, `space`.
+ * `bottleneck`, `corridor`, `space`; `fleet` when the robots of a fleet that is driven have gone on.
  */
 export class Choice extends Observable {
   /** @param {Site} plan */

@@ -24,9 +24,15 @@ export const RATES = [1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512
 /** A whole plan, or two periods, play in about this long [s], unless the user changes the speed. */
 const PLEASANT_SECONDS = 24;
 
+/** How fast a clock catches up with the moment that it follows [1/s]. */
+const CATCH_UP = 4;
+
+/** How near it has to come to be there [ticks]. */
+const CLOSE = 0.02;
+
 /**
  * The moment shown. Events: `tick` when it changes, `playing` when it starts, stops, or changes pace,
- * `loop` when it begins or ends to play a stretch of time again and again.
+ * `loop` when it begins or ends to play a stretch of time again and again, `end` when time ends later.
  */
 export class Clock extends Observable {
   /**
@@ -46,6 +52,9 @@ export class Clock extends Observable {
     /** @type {Stretch | null} */
     this.loop = null;
     this.turns = 0; // how often it has gone back since it loops
+    /** @type {(() => number) | null} */
+    this.live = null; // the moment at which it is now, of a fleet that is driven
+    this.following = false; // whether that moment is shown
     this.#events = new FleetMemo(fleet, () => eventsOf(fleet));
   }
 
@@ -67,6 +76,7 @@ export class Clock extends Observable {
    * @param {number} tick
    */
   seek(tick) {
+    this.following = false;
     if (this.loop && tick > this.loop.to) this.setLoop(null);
     this.turns = 0;
     this.#go(tick);
@@ -114,8 +124,25 @@ export class Clock extends Observable {
     this.tell("playing");
   }
 
+  /** Show the moment at which it is now, as long as nobody looks at another one. */
+  follow() {
+    if (!this.live) return;
+    this.following = this.playing = true;
+    this.tell("playing");
+  }
+
+  /**
+   * Have time end later.
+   *
+   * @param {number} end
+   */
+  lengthen(end) {
+    this.end = end;
+    this.tell("end");
+  }
+
   pause() {
-    this.playing = false;
+    this.playing = this.following = false;
     this.tell("playing");
   }
 
@@ -141,7 +168,18 @@ export class Clock extends Observable {
    * @param {number} seconds
    */
   advance(seconds) {
+    if (this.following && this.live) {
+      const behind = this.live() - this.tick; // caught up with smoothly: frames come some times a second
+      const share = Math.abs(behind) < CLOSE ? 1 : 1 - Math.exp(-CATCH_UP * seconds);
+      this.#go(this.tick + behind * share);
+      return;
+    }
     const tick = this.tick + seconds * this.rate * this.ticksPerUnit;
+    if (this.live && tick >= this.live()) {
+      this.#go(this.live());
+      this.follow();
+      return;
+    }
     this.#go(this.loop ? this.#wrapped(tick) : tick);
     if (this.tick >= this.end && !this.loop) this.pause();
   }

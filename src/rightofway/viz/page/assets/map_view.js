@@ -17,6 +17,7 @@ import { Use } from "./use.js";
 import { Viewport } from "./viewport.js";
 import { Words } from "./words.js";
 
+/** @import { MapReleased } from "./map_released.js" */
 /** @import { Root } from "./root.js" */
 /** @import { Site } from "./site.js" */
 /** @import { Theme } from "./theme.js" */
@@ -35,6 +36,7 @@ import { Words } from "./words.js";
  * @property {Use} [use]
  * @property {Bottleneck | null} [bottleneck]
  * @property {Root | null} [tools] where the buttons that act on it are
+ * @property {((sizes: MapSizes) => MapReleased) | null} [released] what is released to a fleet that is driven
  */
 
 /** The moment of a map on which nothing moves. */
@@ -65,6 +67,7 @@ export class MapView {
       use = new Use(choice),
       bottleneck = null,
       tools = null,
+      released = null,
     } = {},
   ) {
     this.canvas = canvas;
@@ -98,6 +101,7 @@ export class MapView {
     );
     this.robots = new MapRobots(plan, motion, ghosts, this.sizes, theme, choice);
     this.route = new MapRoute(plan, motion, this.sizes, theme, choice);
+    this.released = released?.(this.sizes) ?? null;
     this.names = new MapNames(plan, motion, this.viewport, this.sizes, clock, theme, choice, use);
     this.tip = new MapTip(canvas, plan, motion, clock, choice, words, use, this.space);
     canvas.parentElement?.style.setProperty(
@@ -128,6 +132,7 @@ export class MapView {
     context.scale(scale, scale);
     this.bookings.paint(context, scale);
     this.route.paint(context, scale);
+    this.released?.paint(context, scale, this.clock.tick);
     this.bottleneck?.paintRobots(context, this.motion, scale);
     this.robots.paint(context, scale);
     this.bookings.paintOver(context, scale);

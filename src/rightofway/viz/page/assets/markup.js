@@ -179,6 +179,10 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
       <label data-title="floorAtLength" data-key="F"><input type="radio" name="mode" value="floor"><span data-text="floor"></span></label>
       <label data-title="bothAtLength" data-key="F"><input type="radio" name="mode" value="both"><span data-text="both"></span></label>
     </fieldset>
+    <div id="live-box" class="live-box" hidden>
+      <button type="button" id="live" class="quiet live" aria-pressed="false" data-text="live" data-title="liveAtLength"></button>
+      <output id="live-state" class="live-state"></output>
+    </div>
     <button type="button" id="loop" class="quiet loop" aria-pressed="false" hidden><svg viewBox="0 0 20 20"><path d="M15.5 7A6.2 6.2 0 1 0 16 11.5M15.8 3.5V7.2H12"/></svg><span data-text="loop"></span></button>
     ${READOUT}
     <button type="button" id="help-open" class="quiet help-open" data-label="keys" data-title="keys" data-key="?">?</button>
@@ -191,12 +195,25 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
 </main>
 
 <aside class="side" data-label="side">
+  <section id="alarms" class="alarms" aria-live="polite" aria-labelledby="alarm-title" hidden>
+    <h2 id="alarm-title" data-text="alarms"></h2>
+    <ul id="alarm-list"></ul>
+  </section>
+  <div id="orders" class="orders" role="toolbar" data-label="orders" hidden>
+    <button type="button" id="hold-all" class="quiet" data-text="holdAll"></button>
+    <button type="button" id="go-all" class="quiet" data-text="goAll"></button>
+    <button type="button" id="hold-one" class="quiet" data-text="holdOne" hidden></button>
+    <button type="button" id="clear-one" class="quiet" data-text="clearOne" hidden></button>
+    <button type="button" id="remove-one" class="quiet" data-text="removeOne" hidden></button>
+    <output id="order-answer"></output>
+  </div>
   ${CARD}
   <div class="tabs" role="tablist">
     <button type="button" role="tab" id="tab-robots" aria-controls="robots" aria-selected="true"><span data-text="robots"></span> <b></b></button>
     <button type="button" role="tab" id="tab-decisions" aria-controls="decisions" aria-selected="false" tabindex="-1"><span data-text="decisions"></span> <b></b></button>
     <button type="button" role="tab" id="tab-faults" class="tab-faults" aria-controls="faults" aria-selected="false" tabindex="-1"><span data-text="faults"></span> <b></b></button>
     <button type="button" role="tab" id="tab-compared" aria-controls="compared" aria-selected="false" tabindex="-1"><span data-text="compared"></span> <b></b></button>
+    <button type="button" role="tab" id="tab-log" aria-controls="log" aria-selected="false" tabindex="-1"><span data-text="log"></span> <b></b></button>
   </div>
   <div class="panel" id="robots" role="tabpanel" aria-labelledby="tab-robots">
     ${foundList({
@@ -220,6 +237,9 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
     </div>
     <div id="compared-robots" class="compared-wide robots-pane"></div>
   </div>
+  <div class="panel" id="log" role="tabpanel" aria-labelledby="tab-log" hidden>
+    ${foundList({ item: "told", label: "log", hint: "findPlace", find: "findTold" })}
+  </div>
 </aside>
 
 <section class="paper" aria-hidden="true">
@@ -231,6 +251,14 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
   <h2 data-text="made"></h2>
   <div id="made"></div>
   <form method="dialog"><button type="submit" data-text="close"></button></form>
+</dialog>
+
+<dialog id="order-confirm" class="about" aria-labelledby="order-question">
+  <p id="order-question"></p>
+  <form method="dialog">
+    <button type="submit" id="order-yes" data-text="yes"></button>
+    <button type="submit" data-text="cancel"></button>
+  </form>
 </dialog>
 
 <dialog id="help" class="help" data-label="keys">

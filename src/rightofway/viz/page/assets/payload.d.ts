@@ -1,5 +1,7 @@
 // Generated from viz/page/schema.py: change it there, then run `just types-refresh`.
 
+export type AlarmRow = [number, number, "alarm", string, PhraseData | null];
+
 /** A picture under the map; without ``href`` for a page that has the picture itself. */
 export interface BackgroundData {
   x: number;
@@ -104,6 +106,17 @@ export interface DrivenData {
   completion: number | null;
 }
 
+/** What happened since the frame before; ``begins`` where it is all that is known. */
+export interface DrivenFrame {
+  number: number;
+  now: number;
+  runs: boolean;
+  begins: boolean;
+  rows: DrivenRow[];
+}
+
+export type DrivenRow = RouteRow | VisitRow | HoldRow | SaysRow | AlarmRow;
+
 /** A place where the plan breaks a rule, or a reason why there is no plan; texts by index. */
 export interface FaultData {
   kind: string;
@@ -120,6 +133,13 @@ export interface FaultsData {
   count: number;
   kinds: [number, number][];
   listed: FaultData[];
+}
+
+/** A fleet that is driven: what is known, and what a page asks for more, if there is more. ``stream`` is the address of frames; ``orders`` that to which orders of people are sent. */
+export interface FeedData {
+  frame: DrivenFrame;
+  stream?: string;
+  orders?: string;
 }
 
 /** Figures as people read them. */
@@ -171,6 +191,8 @@ export interface GridData {
   rows: string[];
   obstacles?: ObstacleRow[];
 }
+
+export type HoldRow = [number, number, "hold" | "off", boolean];
 
 /** What the page of an inspection is given. */
 export interface InspectionPayload {
@@ -283,6 +305,7 @@ export interface Payload {
   noPlan?: true;
   translations: Record<string, Record<string, string>>;
   map: MapData;
+  driven?: FeedData;
   others?: OtherPlan[];
   comparison?: ComparisonData;
 }
@@ -322,6 +345,10 @@ export interface RobotData {
   index?: number;
 }
 
+export type RouteRow = [number, number, "route", number, number[]];
+
+export type SaysRow = [number, number, "says", "work" | "drive" | "wait" | "end" | "news" | "alarm", PhraseData, number[]];
+
 export type StageRow = [number, number, number, number];
 
 /** Robots that repeat themselves together; critical visits are pairs of robot and visit. The bottleneck has two texts: in short, and its steps. */
@@ -341,3 +368,5 @@ export interface UnitsData {
   length: string | null;
   time: string | null;
 }
+
+export type VisitRow = [number, number, "arrived" | "released" | "done", number];

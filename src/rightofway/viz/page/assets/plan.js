@@ -5,6 +5,7 @@ import { Site } from "./site.js";
 import { Steady } from "./steady.js";
 
 /** @import { ComparisonData, Payload } from "./payload.d.ts" */
+/** @import { Driven } from "./driven.js" */
 /** @import { Robot } from "./robot.js" */
 
 /** All that the page knows of a plan, as payload.py wrote it. */
@@ -19,6 +20,7 @@ export class Plan extends Site {
     this.line = raw.line.map(([vertex, at]) => ({ vertex, at })); // of a small fleet: its places in one line
     giveLosses(this.planned, raw.losses);
     this.happened = raw.floor ? onTheFloor(raw, raw.floor, this.planned) : null;
+    this.feed = raw.driven ?? null;
     this.robots = this.happened ?? this.planned; // a view may show those planned instead: see Choice
     this.steady = raw.steady && raw.laps ? new Steady(raw.steady, raw.laps, this.planned) : null;
     this.faults = raw.faults.listed;
@@ -33,6 +35,17 @@ export class Plan extends Site {
     this.decisions = raw.decisions;
     this.reroutes = raw.reroutes;
     this.metrics = raw.metrics;
+  }
+
+  /**
+   * Show a fleet that is driven beside what was planned.
+   *
+   * @param {Driven} driven
+   */
+  beDriven(driven) {
+    if (this.feed) driven.take(this.feed.frame);
+    this.driven = driven;
+    this.robots = this.happened = driven.robots;
   }
 
   /** All plans that are compared end together, each in its own ticks. */

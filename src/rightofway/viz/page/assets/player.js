@@ -38,9 +38,10 @@ import { Words } from "./words.js";
  *
  * @param {HTMLElement} element `document.body` where the player is the page
  * @param {Payload} payload what `payload_of` returns
+ * @param {typeof import("./watching.js").WATCHING | null} [watching] for a fleet that is driven
  * @returns {PlayerHandle}
  */
-export function createPlayer(element, payload) {
+export function createPlayer(element, payload, watching = null) {
   const root = new Root(element);
   root.fill(MARKUP);
   learn(payload.translations);
@@ -49,6 +50,8 @@ export function createPlayer(element, payload) {
   offerLanguages(root.part("language", HTMLSelectElement));
 
   const plan = new Plan(payload);
+  if (watching) plan.beDriven(new watching.Driven(payload.robots, plan.planned));
+  const { driven } = plan;
   const words = new Words(plan);
   const theme = new Theme(root);
   const choice = new Choice(plan);
@@ -67,6 +70,10 @@ export function createPlayer(element, payload) {
     use,
     bottleneck,
     tools: root,
+    released:
+      watching && driven
+        ? (sizes) => new watching.MapReleased(plan, driven, motion, sizes, choice)
+        : null,
   });
   const diagram = new Diagram(root, plan, clock, choice, theme, words, use, bottleneck);
   const transport = new Transport(root, plan, clock, words);
@@ -75,8 +82,9 @@ export function createPlayer(element, payload) {
   const states = new States(root, motion, choice);
   const comparison =
     plan.comparison && new Comparison(root, plan, clock, choice, theme, mapView, diagram);
-  new Card(root, plan, clock, choice, words, comparison, mapView.space); // before the lists, whose height depends on it
-  const robotList = new RobotList(root, plan, motion, clock, choice, words);
+  const live = watching && driven && new watching.Live(root, plan, driven, clock, choice, words);
+  const card = new Card(root, plan, clock, choice, words, comparison, mapView.space, live); // before the lists, whose height depends on it
+  const robotList = new RobotList(root, plan, motion, clock, choice, words, live);
   const decisionList = makeDecisionList(root, plan, clock, choice, words);
   const faultList = makeFaultList(root, plan, clock, choice, words);
   const tabs = new Tabs(
@@ -86,12 +94,14 @@ export function createPlayer(element, payload) {
       hasNoReasons(plan) ? "–" : decisionList.items.length,
       plan.faultCount || null,
       comparison && comparison.plans.length,
+      plan.driven && plan.driven.story.length,
     ],
     () => {
       robotList.refresh();
       decisionList.refresh();
       faultList.refresh();
       comparison?.refresh();
+      live?.log.refresh();
     },
   );
   const deepLink = new DeepLink(root, plan, clock, choice);
@@ -136,6 +146,8 @@ export function createPlayer(element, payload) {
       written = clock.wholeTick;
       states.refresh();
       robotList.refresh();
+      live?.refresh();
+      if (live) card.refresh();
     },
   );
 
@@ -168,10 +180,11 @@ export function createPlayer(element, payload) {
   choice.on("corridor", repaintAll);
   choice.on("space", repaintAll);
   clock.on("loop", repaintAll);
-  choice.on("mode", () => {
-    written = NaN;
-    repaintAll();
-  });
+  for (const event of ["mode", "fleet"])
+    choice.on(event, () => {
+      written = NaN;
+      repaintAll();
+    });
   theme.on("theme", repaintAll);
   mapView.viewport.on("view", () => {
     mapView.base.stale = true;
@@ -188,6 +201,7 @@ export function createPlayer(element, payload) {
   frames.ask();
   if (
     !linked &&
+    !plan.feed?.stream &&
     !plan.faultCount &&
     !root.isEmbedded &&
     !matchMedia("(prefers-reduced-motion: reduce)").matches

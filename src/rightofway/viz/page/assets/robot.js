@@ -37,6 +37,16 @@ export class Robot {
     this.phases = phasesOf(this);
   }
 
+  /** The vertices of its whole way, those that it has not come to as well. */
+  get way() {
+    return this.vertices;
+  }
+
+  /** Whether it is driven now, so that it is not known how it goes on. */
+  get isDriven() {
+    return false;
+  }
+
   get home() {
     return this.vertices[0];
   }

@@ -8,6 +8,7 @@ import { VirtualList } from "./virtual_list.js";
 /** @import { Root } from "./root.js" */
 /** @import { Choice } from "./choice.js" */
 /** @import { Clock } from "./clock.js" */
+/** @import { Live } from "./live.js" */
 /** @import { Motion } from "./motion.js" */
 /** @import { Plan } from "./plan.js" */
 /** @import { Robot } from "./robot.js" */
@@ -25,8 +26,10 @@ export class RobotList {
    * @param {Clock} clock
    * @param {Choice} choice
    * @param {Words} words
+   * @param {Live | null} live of a fleet that is driven
    */
-  constructor(root, plan, motion, clock, choice, words) {
+  constructor(root, plan, motion, clock, choice, words, live) {
+    this.live = live;
     this.root = root;
     this.plan = plan;
     this.motion = motion;
@@ -44,7 +47,7 @@ export class RobotList {
     connectFind(this.find, this.list, () => this.#select());
     this.sort.addEventListener("click", () => this.#toggleSort());
     choice.on("choice", () => this.list.setChosen(choice.robot));
-    choice.on("mode", () => this.#select());
+    for (const event of ["mode", "fleet"]) choice.on(event, () => this.#select());
     this.sort.hidden = Boolean(plan.steady && !plan.happened); // robots make different numbers of laps
     this.#select();
   }
@@ -84,6 +87,10 @@ export class RobotList {
 
   /** @param {Robot} robot */
   #state(robot) {
+    if (this.live && robot instanceof FloorRobot && robot.isDriven) {
+      const doing = this.live.doing(robot.index);
+      return doing || texts.activities[this.motion.activity[robot.index]];
+    }
     return this.#isStuck(robot) ? texts.stuck : texts.activities[this.motion.activity[robot.index]];
   }
 
@@ -135,6 +142,11 @@ export class RobotList {
    */
   #now(robot) {
     const { index } = robot;
+    if (robot instanceof FloorRobot && robot.isDriven) {
+      const visit = robot.phases.visit[this.motion.phase[index]];
+      const late = robot.lateness(this.clock.wholeTick, visit);
+      return late === null ? "" : this.words.lateness(late);
+    }
     if (robot instanceof FloorRobot) {
       if (this.motion.activity[index] === BROKEN || this.#isStuck(robot)) return "";
       return this.words.lateness(

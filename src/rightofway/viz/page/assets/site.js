@@ -4,6 +4,7 @@ import { Robot } from "./robot.js";
 
 /** @import { ClosureData, DecisionData, FaultData, LevelData, Payload } from "./payload.d.ts" */
 /** @import { FloorRobot } from "./floor.js" */
+/** @import { Driven } from "./driven.js" */
 /** @import { Steady } from "./steady.js" */
 
 /** @typedef {Omit<ClosureData, "until"> & { until: number }} Closure That lasts for ever until infinity. */
@@ -32,6 +33,8 @@ export class Site {
     this.decisions = [];
     /** @type {FloorRobot[] | null} */
     this.happened = null;
+    /** @type {Driven | null} */
+    this.driven = null;
     /** @type {Steady | null} */
     this.steady = null;
     this.end = 0;

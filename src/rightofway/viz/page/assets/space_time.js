@@ -57,7 +57,7 @@ export class SpaceTime {
     const { robot, decision, fault, corridor } = this.choice;
     if (corridor) return corridor;
     const isOfTwo = decision || fault;
-    return robot && !(isOfTwo && this.plan.line.length) ? robot.vertices : null;
+    return robot && !(isOfTwo && this.plan.line.length) ? robot.way : null;
   }
 
   /** What the axis is. */

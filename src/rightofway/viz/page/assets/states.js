@@ -39,7 +39,7 @@ export class States {
     );
     this.ghost = element("li", {}, sign(GHOST_SIGN), texts.byPlan);
     root.part("states").replaceChildren(...this.rows, this.ghost);
-    choice.on("mode", () => this.#suit());
+    for (const event of ["mode", "fleet"]) choice.on(event, () => this.#suit());
     this.#suit();
   }
 

@@ -75,11 +75,11 @@ export class Summary {
 
   /** What figures cannot say: faults, robots that are stuck, what repeats itself. */
   #outcome() {
-    const { faultCount, noPlan, happened, steady, robots } = this.plan;
+    const { faultCount, noPlan, happened, steady, planned: robots } = this.plan;
     if (noPlan) return texts.noPlan;
     if (this.comparison) return this.#comparedOutcome();
     if (faultCount) return texts.doNotRun(faultCount);
-    if (happened) {
+    if (happened && !this.plan.driven) {
       const failed = happened.filter(({ ending }) => ending !== DONE).length;
       return failed ? texts.neverArrived(failed, this.plan.endsAtHome) : "";
     }
@@ -122,17 +122,18 @@ export class Summary {
         String(count),
         "",
       ]);
-    const figures = happened
-      ? this.#floorFigures()
-      : steady
-        ? this.#steadyFigures()
-        : this.#planFigures();
+    const figures =
+      happened && !this.plan.driven
+        ? this.#floorFigures()
+        : steady
+          ? this.#steadyFigures()
+          : this.#planFigures();
     return figures.filter(([, value]) => value);
   }
 
   /** @returns {Figure[]} */
   #planFigures() {
-    const { robots, metrics, endsAtHome } = this.plan;
+    const { planned: robots, metrics, endsAtHome } = this.plan;
     const latest = mostOf(robots, ({ completion }) => completion);
     const loser = mostOf(robots, ({ delay }) => delay);
     return [

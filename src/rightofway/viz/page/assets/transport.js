@@ -67,6 +67,7 @@ export class Transport {
     });
     this.speed.addEventListener("change", () => clock.setRate(Number(this.speed.value)));
     clock.on("playing", () => this.#showPlaying());
+    clock.on("end", () => (this.slider.max = String(clock.end)));
   }
 
   #showPlaying() {

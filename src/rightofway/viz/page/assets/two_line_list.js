@@ -7,7 +7,7 @@ import { VirtualList } from "./virtual_list.js";
 /** @import { Clock } from "./clock.js" */
 /** @import { Root } from "./root.js" */
 
-/** @typedef {{ head: string, detail: string, isEnglish?: boolean, isChosen: () => boolean, choose: () => void }} TwoLines An item of a list. */
+/** @typedef {{ head: string, detail: string, isEnglish?: boolean, isAlarm?: boolean, isChosen: () => boolean, choose: () => void }} TwoLines An item of a list. */
 
 /** A list with a search field, of items with a head and a detail. */
 export class TwoLineList {
@@ -37,6 +37,12 @@ export class TwoLineList {
 
   refresh() {
     this.list.refresh();
+  }
+
+  /** @param {TwoLines[]} items */
+  setItems(items) {
+    this.items = items;
+    this.#select();
   }
 
   #select() {
@@ -73,5 +79,6 @@ function fillTwoLines(row, item) {
     element("span", { className: "text name", lang: item.isEnglish ? "en" : language }, text),
   );
   row.lang = lines[0].lang; // of its title
+  lines[0].classList.toggle("wrong", Boolean(item.isAlarm));
   row.replaceChildren(...lines);
 }

@@ -67,6 +67,19 @@ export const ENGLISH = {
     findDecision: "Find a decision",
     findFault: "Find a fault",
     findCompared: "Find a robot to compare",
+    live: "Live",
+    liveAtLength: "Show what robots do now",
+    alarms: "Alarms",
+    orders: "Orders to the robots",
+    holdAll: "Hold all robots",
+    goAll: "Let all robots go",
+    holdOne: "Hold the robot",
+    clearOne: "The robot is where it is shown",
+    removeOne: "The robot is off the floor",
+    log: "Log",
+    findTold: "Find in the log",
+    yes: "Yes",
+    cancel: "Cancel",
     close: "Close",
     level: "Level",
     findings: "Findings",
@@ -255,6 +268,48 @@ export const ENGLISH = {
     late: (time) => `${time} late`,
     /** @param {string} time */
     early: (time) => `${time} early`,
+  },
+
+  /** A fleet that is driven. */
+  driven: {
+    isLive: "now",
+    lookingBack: "looking back",
+    recorded: "recorded",
+    ended: "the control has ended",
+    disconnected: "no connection; trying again",
+    nothingTold: "Nothing has happened yet.",
+    /** @param {string} names */
+    waitsFor: (names) => `waits for ${names}`,
+    held: "held by a person",
+    off: "off the floor",
+    waiting: "Waits",
+    since: "Since",
+    releasedTerm: "Released",
+    horizon: "Planned next",
+    nothing: "nothing",
+    operator: "Operator",
+    alarm: "Alarm",
+    notYet: "to come",
+    /** @param {string} name */
+    holdOne: (name) => `Hold ${name}`,
+    /** @param {string} name */
+    goOne: (name) => `Let ${name} go`,
+    /** @param {string} name */
+    clearOne: (name) => `${name} is where it is shown`,
+    /** @param {string} name */
+    removeOne: (name) => `${name} is off the floor`,
+    holdAllAsked: "Hold all robots? Each stops at the end of what is released to it.",
+    goAllAsked: "Let all robots go? Those that were held go on.",
+    /** @param {string} name */
+    clearAsked: (name) =>
+      `Is ${name} at the place where it is shown? It goes on from there, and others rely on it.`,
+    /** @param {string} name */
+    removeAsked: (name) =>
+      `Is ${name} off the floor? Others drive through the places that it held.`,
+    asked: "asked…",
+    carriedOut: "carried out",
+    /** @param {string} reason */
+    refused: (reason) => `refused: ${reason}`,
   },
 
   /** Between plans. */

@@ -1,0 +1,77 @@
+"""The page of a fleet that is driven: its options, and its server beside a command."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rightofway.cli.terminal import complain
+from rightofway.errors import InputError
+from rightofway.phrases import Phrase
+
+if TYPE_CHECKING:
+    from rightofway.model import Plan
+
+
+def add_page_options(command: Any) -> Any:
+    """Add the options that say where the page is served."""
+    for option in reversed(
+        (
+            click.option("--host", default="127.0.0.1", show_default=True, metavar="ADDRESS",
+                         help="Where the page of --live or --replay listens. Other machines than"
+                         " this one need the token that is in the printed address."),
+            click.option("--port", type=click.IntRange(1, 65535), metavar="PORT",
+                         help="The port of that page; a free one by default."),
+        )
+    ):  # fmt: skip
+        command = option(command)
+    return command
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WatchPage:
+    """The page on which people watch robots that drive a plan.
+
+    Attributes
+    ----------
+    plan
+        The plan.
+    title
+        What the page is about.
+    host, port
+        Where it is served.
+    """
+
+    plan: Plan
+    title: str
+    host: str
+    port: int | None
+
+    @contextmanager
+    def serve(self, journal: Path, *, takes_orders: bool) -> Iterator[None]:
+        """Serve the page of a journal as long as the context lasts."""
+        if not (find_spec("fastapi") and find_spec("uvicorn")):
+            message = "needs packages that are not installed (pip install 'rightofway[studio]')"
+            raise InputError.at("--live" if takes_orders else "--replay", message)
+        from rightofway.studio.serve import serve_watch
+        from rightofway.studio.watching import Watched
+
+        watched = Watched(
+            self.plan, journal, title=self.title, address="/drives/0/", takes_orders=takes_orders
+        )
+        with serve_watch(watched, host=self.host, port=self.port, say=complain):
+            yield
+
+    def wait_for_interrupt(self) -> None:
+        """Go on until Ctrl-C."""
+        complain(Phrase("the page stays until Ctrl-C"))
+        with suppress(KeyboardInterrupt):
+            while True:
+                time.sleep(3600)

@@ -1,0 +1,301 @@
+"""What happened to a fleet that was driven, as pages show it: a fold over the rows of a journal.
+
+The journal may be that of a control that runs, in this process or another one, or of one that has
+ended: a page that is live and a replay are given the same rows (decision 45).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from rightofway.control.journal import JournalRow
+from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive
+from rightofway.control.story import Story
+from rightofway.errors import InputError, shown
+from rightofway.model import Plan
+from rightofway.phrases import parts_of
+from rightofway.report.driving import say_start
+from rightofway.viz.page.schema import DrivenFrame, DrivenRow, SaysRow
+
+__all__ = ["Recording", "RowSource"]
+
+MAX_ROWS = 200_000
+"""Rows that are kept; beyond that a recording begins again with what is known."""
+
+DECIMALS = 2
+"""Decimals of a moment [ticks]."""
+
+EVERYBODY = ("plan", "splice", "snapshot")
+"""Kinds of entries that may change what is known of all robots."""
+
+
+class RowSource(Protocol):
+    """Where rows of a journal come from, see `JournalReader`."""
+
+    @property
+    def is_written(self) -> bool:
+        """Whether a control runs."""
+
+    def read_rows(self, after: int = 0) -> Sequence[JournalRow]:
+        """Return the rows behind one."""
+
+
+@dataclass(slots=True)
+class _Shown:
+    """What pages know of a robot."""
+
+    route: RouteToDrive | None = None
+    arrived: int = -1
+    released: int = -1
+    done: int = -1  # the last visit whose work is done
+    is_on_hold: bool = False
+    is_off: bool = False
+    alarms: dict[str, Any] = field(default_factory=dict)  # the sentence of each kind
+    wait: SaysRow | None = None  # the last sentence on whom it waits for
+
+
+class Recording:
+    """What a journal says of a run, in ticks of its plan.
+
+    Parameters
+    ----------
+    plan
+        The plan with which the journal begins.
+    source
+        Its rows.
+    clock
+        Returns the time of this machine [s].
+
+    Attributes
+    ----------
+    now
+        The latest moment that is known [ticks].
+    is_running
+        Whether a control writes the journal.
+    """
+
+    def __init__(
+        self, plan: Plan, source: RowSource, clock: Callable[[], float] = time.time
+    ) -> None:
+        self._plan, self._source, self._clock = plan, source, clock
+        self._roadmap = plan.scenario.roadmap
+        seconds = plan.scenario.units.seconds or 1
+        self._per_second = 1 / float(plan.scenario.problem.clock.tick * seconds)
+        self.now, self.is_running = 0.0, False
+        self._last = 0  # the number of the last row that was read
+        self._began: float | None = None
+        self._moment, self._seen = 0.0, 0.0  # of the last row; when it was read
+        self._pace: float | None = 1.0  # seconds of the journal in one; None for unknown
+        self._is_simulated = False
+        self._ledger = Ledger()
+        self._story: Story | None = None
+        self._shown: list[_Shown] = []
+        self._general = _Shown()  # what is about no robot
+        self._told: dict[int, Any] = {}  # the last sentence on each robot
+        self._rows: list[DrivenRow] = []
+        self._first = 0  # the number of the first row that is kept
+
+    @property
+    def count(self) -> int:
+        """How many rows there have been."""
+        return self._first + len(self._rows)
+
+    def look(self) -> None:
+        """Read what is new in the journal.
+
+        Raises
+        ------
+        InputError
+            If the journal is of another plan.
+        """
+        self.is_running = self._source.is_written
+        group: list[JournalRow] = []
+        for row in self._source.read_rows(self._last):
+            if group and row.moment != group[0].moment:
+                self._take(group)
+                group = []
+            group.append(row)
+        if group:
+            self._take(group)
+        self.now = max(self.now, self._tick(self._present()))
+        if len(self._rows) > MAX_ROWS:
+            self._begin_again()
+
+    def take_frame(self, after: int = 0) -> DrivenFrame:
+        """Return what is behind a number of rows.
+
+        Parameters
+        ----------
+        after
+            How many rows are known already.
+        """
+        begins = not self._first <= after <= self.count or not after
+        rows = self._rows if begins else self._rows[after - self._first :]
+        return {
+            "number": self.count,
+            "now": round(self.now, DECIMALS),
+            "runs": self.is_running,
+            "begins": begins,
+            "rows": list(rows),
+        }
+
+    # --- moments ---------------------------------------------------------------------------------
+
+    def _present(self) -> float:
+        """Return the moment of the journal at which it is now [s]."""
+        if not self.is_running or self._pace is None or self._began is None:
+            return self._moment
+        if self._is_simulated:
+            return self._moment + (self._clock() - self._seen) * self._pace
+        return self._clock()
+
+    def _tick(self, moment: float) -> float:
+        return 0.0 if self._began is None else (moment - self._began) * self._per_second
+
+    # --- from entries to rows --------------------------------------------------------------------
+
+    def _take(self, group: Sequence[JournalRow]) -> None:
+        """Take in the entries of one moment."""
+        moment = group[0].moment
+        if moment is not None:
+            self._began = moment if self._began is None else self._began
+            self._moment, self._seen = max(self._moment, moment), self._clock()
+        tick = round(
+            max(self._tick(self._moment), self._rows[-1][0] if self._rows else 0), DECIMALS
+        )
+        self.now = max(self.now, tick)
+        changed = set[int]()
+        for row in group:
+            changed.update(self._apply(row, tick))
+            self._last = row.number
+        for robot in sorted(changed):
+            self._compare(robot, tick)
+        if self._story is not None:
+            for happening in self._story.go_on(sorted(changed)):
+                robot, kind, text, others = happening
+                says: SaysRow = (tick, robot, "says", kind, parts_of(text), list(others))
+                self._rows.append(says)
+                self._shown[robot].wait = says if kind == "wait" else None
+
+    def _apply(self, row: JournalRow, tick: float) -> Iterable[int]:
+        """Take in an entry; return the robots of which it may say something."""
+        entry = row.entry
+        kind = entry["kind"]
+        self._ledger.apply(entry)
+        if kind == "notice":
+            self._notice(entry, tick)
+            return ()
+        if kind == "pace":
+            self._pace, self._is_simulated = entry["seconds"], True
+            return ()
+        if kind == "started":
+            self._rows.append((tick, -1, "says", "news", parts_of(say_start()), []))
+        if kind in EVERYBODY:
+            if not self._shown:
+                self._refuse_another_plan()
+                self._shown = [_Shown() for _ in self._ledger.robots]
+                self._story = Story(self._ledger, self._ledger.names)
+            return range(len(self._shown))
+        robot = int(entry.get("robot", -1))
+        if kind == "fault":
+            self._alarm(robot, "fault", self._told.get(robot, entry["fault"]), tick)
+        elif kind == "failed":
+            self._alarm(robot, "failed", self._told.get(robot, entry["job"]), tick)
+        return () if robot < 0 else (robot,)
+
+    def _refuse_another_plan(self) -> None:
+        names = tuple(robot.name for robot in self._plan.scenario.robots)
+        if self._ledger.names != names:
+            theirs = ", ".join(self._ledger.names[:3])
+            message = f"is of other robots, {theirs} (give the plan that they drive)"
+            raise InputError.at("journal", message)
+        for own in self._ledger.robots:
+            for place in own.route.places:
+                try:
+                    self._roadmap.vertex(place)
+                except InputError:
+                    message = f"is of another map, with {shown(place)} (give the plan of it)"
+                    raise InputError.at("journal", message) from None
+
+    def _notice(self, entry: Any, tick: float) -> None:
+        """Show what people were told."""
+        robot, about, text = entry["robot"], entry["about"], entry["text"]
+        if text:
+            is_alarm = about and not entry["over"]
+            self._rows.append((tick, robot, "says", "alarm" if is_alarm else "news", text, []))
+            self._told[robot] = text
+        if about:
+            self._alarm(robot, about, None if entry["over"] else text, tick)
+
+    def _alarm(self, robot: int, kind: str, text: Any, tick: float) -> None:
+        """Show that trouble of a kind begins, or with None that it ends."""
+        alarms = (self._shown[robot] if 0 <= robot < len(self._shown) else self._general).alarms
+        if text is None and kind not in alarms:
+            return
+        self._rows.append((tick, robot, "alarm", kind, text))
+        if text is None:
+            del alarms[kind]
+        else:
+            alarms[kind] = text
+
+    def _compare(self, robot: int, tick: float) -> None:
+        """Show in what a robot differs from what pages know of it."""
+        own, known = self._ledger.robots[robot], self._shown[robot]
+        if own.route is not known.route:
+            self._show_route(robot, own.route, known, tick)
+        if own.arrived > known.arrived:
+            known.arrived = own.arrived
+            self._rows.append((tick, robot, "arrived", own.arrived))
+        if own.released != known.released:
+            known.released = own.released
+            self._rows.append((tick, robot, "released", own.released))
+        jobs = own.route.jobs_at(own.arrived)
+        if jobs and known.done < own.arrived and own.finished.issuperset(jobs):
+            known.done = own.arrived
+            self._rows.append((tick, robot, "done", own.arrived))
+        if own.is_on_hold != known.is_on_hold:
+            known.is_on_hold = own.is_on_hold
+            self._rows.append((tick, robot, "hold", own.is_on_hold))
+        if own.is_off != known.is_off:
+            known.is_off = own.is_off
+            self._rows.append((tick, robot, "off", own.is_off))
+        if own.fault is None:
+            self._alarm(robot, "fault", None, tick)
+        if not own.failed:
+            self._alarm(robot, "failed", None, tick)
+
+    def _show_route(self, robot: int, route: RouteToDrive, known: _Shown, tick: float) -> None:
+        """Show a route from the first visit on that differs from the one known."""
+        old, visit = known.route, route.first
+        if old is not None:
+            visit = max(old.first, route.first)
+            end = min(old.end, route.end)
+            while visit < end and old.place(visit) == route.place(visit):
+                visit += 1
+        known.route = route
+        if old is None or visit < max(route.end, old.end):
+            vertices = [
+                int(self._roadmap.vertex(place)) for place in route.stretch(visit, route.end)
+            ]
+            self._rows.append((tick, robot, "route", visit, vertices))
+
+    def _begin_again(self) -> None:
+        """Keep no rows but those that say what is known now."""
+        self._first = self.count
+        tick = self._rows[-1][0]
+        self._rows = []
+        for robot, known in enumerate(self._shown):
+            own: RobotLedger = self._ledger.robots[robot]
+            wait, alarms = known.wait, known.alarms
+            self._shown[robot] = fresh = _Shown(alarms=alarms, wait=wait)
+            self._compare(robot, tick)
+            for kind, text in alarms.items():
+                self._rows.append((tick, robot, "alarm", kind, text))
+            if wait is not None and own.arrived == own.released:
+                self._rows.append((tick, *wait[1:]))
+            fresh.done = own.arrived
+        for kind, text in self._general.alarms.items():
+            self._rows.append((tick, -1, "alarm", kind, text))

@@ -1,0 +1,162 @@
+"""Fleets that are driven, for pages that watch them: a page, a stream of frames, orders of people.
+
+What pages are sent is read from the journal of a control, in this process or in another one. What
+people ask for goes into the table of commands beside it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import secrets
+from collections.abc import AsyncGenerator, Mapping
+from pathlib import Path
+from typing import Any
+
+from rightofway.control.commands import Commands
+from rightofway.control.journal import JournalReader
+from rightofway.control.recording import Recording
+from rightofway.errors import InputError
+from rightofway.languages import read_tables
+from rightofway.model import Plan
+from rightofway.studio.errors import Busy, Refused
+from rightofway.viz.page.document import compact_json, document_of
+from rightofway.viz.page.payload import payload_of
+from rightofway.viz.page.schema import FeedData
+
+__all__ = ["ORDERS", "Watched"]
+
+EVERY = 0.25
+"""Seconds between two frames."""
+
+HEARTBEAT = 15.0
+"""So often a page hears something of a run that has ended [s]."""
+
+MAX_PAGES = 64
+"""Pages that may watch a fleet at once."""
+
+PATIENCE = 10.0
+"""How long a page waits for the answer to an order [s]."""
+
+ORDERS = ("hold", "go", "clear", "remove", "close", "open")
+"""What pages may ask a control for."""
+
+
+class Watched:
+    """A fleet that is driven, or was.
+
+    Parameters
+    ----------
+    plan
+        The plan with which its journal begins.
+    journal
+        The file of the journal.
+    title
+        What its page is about.
+    address
+        Where its page is, as other addresses begin with it.
+    takes_orders
+        Whether pages may ask the control for something.
+    """
+
+    def __init__(
+        self, plan: Plan, journal: Path, *, title: str, address: str = "/", takes_orders: bool
+    ) -> None:
+        self._plan, self._journal, self._title = plan, journal, title
+        self._address, self._takes_orders = address, takes_orders
+        self._recording = Recording(plan, JournalReader(journal))
+        self._token = secrets.token_hex(4)  # of this reading: rows have their numbers in it
+        self._pages = 0
+        self._is_over = False
+
+    def hang_up(self) -> None:
+        """End all streams."""
+        self._is_over = True
+
+    def make_page(self, *, is_whole: bool = False) -> str:
+        """Return the page.
+
+        Parameters
+        ----------
+        is_whole
+            Whether it has all that has happened, and asks for no more.
+        """
+        self._recording.look()
+        feed: FeedData = {"frame": self._recording.take_frame()}
+        if not is_whole:
+            feed["frame"]["rows"] = []  # they come with the first frame
+            feed["stream"] = f"{self._address}stream"
+            if self._takes_orders:
+                feed["orders"] = f"{self._address}orders"
+        payload = payload_of(self._plan, title=self._title)
+        payload["driven"] = feed
+        payload["translations"] = {language: dict(own) for language, own in read_tables().items()}
+        about = f"{self._title}: {len(self._plan.scenario.robots)} robots"
+        return document_of(about, payload, "watch_main", connects=not is_whole)
+
+    async def stream_frames(self, known: str) -> AsyncGenerator[str]:
+        """Yield what happens as server-sent events.
+
+        Parameters
+        ----------
+        known
+            The id of the last event that the page has; empty for none.
+
+        Raises
+        ------
+        Busy
+            If too many pages watch already.
+        """
+        if self._pages >= MAX_PAGES:
+            raise Busy(f"{MAX_PAGES} pages watch this fleet already (close some)")
+        token, _, number = known.partition("-")
+        after = int(number) if token == self._token and number.isdecimal() else 0
+        self._pages += 1
+        try:
+            last, silence = None, 0.0
+            while not self._is_over:
+                self._recording.look()
+                frame = self._recording.take_frame(after)
+                said = frame["number"], frame["now"], frame["runs"]
+                silence += EVERY
+                if said != last or silence > HEARTBEAT:
+                    yield f"id: {self._token}-{frame['number']}\ndata: {compact_json(frame)}\n\n"
+                    last, after, silence = said, frame["number"], 0.0
+                await asyncio.sleep(EVERY)
+        finally:
+            self._pages -= 1
+
+    def give_order(self, order: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Ask the control for something; return what became of it.
+
+        Parameters
+        ----------
+        order
+            Its ``kind``, and the ``name`` of a robot or place.
+
+        Raises
+        ------
+        Refused
+            If this page takes no orders.
+        InputError
+            If it is none of those that pages may give.
+        """
+        if not self._takes_orders:
+            raise Refused("this page only watches (open that of the control)", 403)
+        kind, name = order.get("kind"), order.get("name")
+        if kind not in ORDERS:
+            message = (
+                f"{json.dumps(kind)[:40]} is no order of a page (give one of {', '.join(ORDERS)})"
+            )
+            raise InputError.at("kind", message)
+        if name is not None and not isinstance(name, str):
+            raise InputError.at("name", f"{json.dumps(name)[:40]} is no name (give text)")
+        commands = Commands(self._journal)
+        try:
+            number = commands.ask({"kind": kind, "name": name})
+            answer = commands.wait_for(number, PATIENCE)
+        finally:
+            commands.close()
+        if answer is None:
+            return {"done": False, "text": "no control runs: it is carried out at its next start"}
+        return answer

@@ -1,0 +1,159 @@
+"""What pages are told of a fleet that is driven: a fold over its journal."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+import rightofway
+from rightofway.control import JournalReader, JournalRow, SqliteJournal
+from rightofway.control import recording as module
+from rightofway.control.demo import drive_demo
+from rightofway.control.notices import make_notice
+from rightofway.control.recording import Recording
+from rightofway.errors import InputError
+from rightofway.model import Plan
+from rightofway.phrases import Phrase, parts_of, phrase_of
+from tests.builders.pages import ROOT
+from tests.builders.plans import door
+from tests.builders.warehouses import warehouse
+
+
+def recorded(plan: Plan, folder: Path, **options: object) -> list[JournalRow]:
+    """Return the journal of a demo."""
+    drive_demo(plan, journal=folder / "demo.journal", **options)  # type: ignore[arg-type]
+    reader = JournalReader(folder / "demo.journal")
+    rows = reader.read_rows()
+    reader.close()
+    return rows
+
+
+class Journalled:
+    """Rows of a journal, of which only some have been written."""
+
+    def __init__(self, rows: Sequence[JournalRow]) -> None:
+        self._rows, self.until = rows, 0.0
+        self.is_written = False
+
+    def read_rows(self, after: int = 0) -> list[JournalRow]:
+        """Return the rows behind one, up to the moment."""
+        return [row for row in self._rows if row.number > after and (row.moment or 0) <= self.until]
+
+
+def test_a_recording_says_where_robots_are_what_they_hold_and_whom_they_wait_for(
+    tmp_path: Path,
+) -> None:
+    """The door: R1 waits at N0 until R2, which has set out for N8, is at N4, at 2."""
+    source = Journalled(recorded(door(), tmp_path))
+    recording = Recording(door(), source)
+    recording.look()
+    frame = recording.take_frame()
+    assert frame["begins"]
+    assert [row[1:] for row in frame["rows"] if row[2] in {"arrived", "released"}] == [
+        (0, "arrived", 0), (0, "released", 0), (1, "arrived", 0), (1, "released", 4),
+    ]  # fmt: skip
+    (wait,) = [row for row in frame["rows"] if row[2] == "says" and row[3] == "wait"]
+    assert phrase_of(list(wait[4])) == "R1 waits at N0 until R2 is at N4"
+    assert wait[5] == [1]
+    source.until = 2.0
+    recording.look()
+    assert [row for row in recording.take_frame(frame["number"])["rows"] if row[2] != "says"] == [
+        (1.0, 1, "arrived", 1), (2.0, 0, "released", 1), (2.0, 1, "arrived", 2),
+    ]  # fmt: skip
+
+
+def test_read_bit_by_bit_or_at_once_a_journal_says_the_same(tmp_path: Path) -> None:
+    rows = recorded(warehouse(8), tmp_path, delays="exponential:0.4", seed=2)
+    whole, bit = Journalled(rows), Journalled(rows)
+    whole.until = float("inf")
+    at_once, bit_by_bit = Recording(warehouse(8), whole), Recording(warehouse(8), bit)
+    at_once.look()
+    for row in rows[::7]:
+        bit.until = row.moment or 0.0
+        bit_by_bit.look()
+    bit.until = whole.until
+    bit_by_bit.look()
+    assert at_once.take_frame() == bit_by_bit.take_frame()
+
+
+def test_who_comes_late_or_again_gets_what_is_missing(tmp_path: Path) -> None:
+    source = Journalled(recorded(door(), tmp_path))
+    source.until = 12.0
+    recording = Recording(door(), source)
+    recording.look()
+    whole = recording.take_frame()
+    assert not recording.take_frame(whole["number"])["rows"]
+    again = recording.take_frame(5)
+    assert (again["begins"], again["rows"]) == (False, whole["rows"][5:])
+    beyond = recording.take_frame(whole["number"] + 1)  # of another reading: the page forgets it
+    assert (beyond["begins"], beyond["rows"]) == (True, whole["rows"])
+
+
+def test_a_recording_that_begins_again_says_what_is_known_now(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = Journalled(recorded(door(), tmp_path))
+    source.until = 7.0
+    recording = Recording(door(), source)
+    recording.look()
+    before = recording.count
+    monkeypatch.setattr(module, "MAX_ROWS", 10)
+    recording.look()
+    rows = recording.take_frame()["rows"]
+    assert recording.count == before + len(rows)
+    assert [row[1:] for row in rows if row[2] in {"arrived", "released"}] == [
+        (0, "arrived", 4), (0, "released", 4), (1, "arrived", 5), (1, "released", 8),
+    ]  # fmt: skip
+    assert [row[1:4] for row in rows if row[2] == "says"] == [(0, "says", "wait")]
+
+
+def test_alarms_begin_and_end(tmp_path: Path) -> None:
+    path = tmp_path / "run.journal"
+    drive_demo(door(), journal=path)
+    moments = iter((20.0, 21.0))
+    journal = SqliteJournal(path, lambda: next(moments))
+    lost = parts_of(Phrase("is not connected"))
+    journal.commit([make_notice(lost, 0, "lost")])
+    journal.commit([make_notice("", 0, "lost", is_over=True)])
+    journal.close()
+    reader = JournalReader(path)
+    recording = Recording(door(), reader)
+    recording.look()
+    alarms = [row for row in recording.take_frame()["rows"] if row[2] == "alarm"]
+    assert alarms == [(20.0, 0, "alarm", "lost", lost), (21.0, 0, "alarm", "lost", None)]
+    reader.close()
+
+
+def test_the_journal_of_other_robots_is_refused(tmp_path: Path) -> None:
+    source = Journalled(recorded(door(), tmp_path))
+    other = rightofway.solve(rightofway.load(ROOT / "examples" / "bay.yaml"), "prioritized")
+    with pytest.raises(InputError, match="is of other robots, R1, R2"):
+        Recording(other, source).look()
+
+
+@pytest.mark.slow
+def test_a_hundred_robots_take_less_than_100_kilobytes_a_second(tmp_path: Path) -> None:
+    """A second of the plan in a second, in the busiest second of a warehouse with 100 robots."""
+    plan = warehouse(100)
+    source = Journalled(recorded(plan, tmp_path))
+    recording = Recording(plan, source)
+    recording.look()
+    most, known = 0, recording.count
+    for second in range(1, 60):
+        source.until = float(second)
+        recording.look()
+        frame = recording.take_frame(known)
+        known = frame["number"]
+        most = max(most, len(json.dumps(frame, separators=(",", ":"))))
+    empty = 4 * len(json.dumps(recording.take_frame(known)))  # four frames a second
+    assert 2_000 < most + empty < 100_000
+
+
+def test_a_demo_begins_anew_and_takes_no_journal_of_another_run(tmp_path: Path) -> None:
+    rows = recorded(door(), tmp_path)
+    assert rows[0].entry == {"kind": "pace", "seconds": None}
+    with pytest.raises(InputError, match="has a run already"):
+        drive_demo(door(), journal=tmp_path / "demo.journal")

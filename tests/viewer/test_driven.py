@@ -1,0 +1,251 @@
+"""The page of a fleet that is driven: live, looked back on, replayed, and without its server."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from rightofway.control.demo import drive_demo
+from tests.builders.accessibility import serious
+from tests.builders.browsers import expect
+from tests.builders.drives import driven, watched
+from tests.builders.languages import english_on
+from tests.builders.plans import door
+from tests.builders.players import Player, nameless_on
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Locator
+
+
+@pytest.fixture
+def stack() -> Iterator[ExitStack]:
+    with ExitStack() as made:
+        yield made
+
+
+def opened(browser: Browser, stack: ExitStack, address: str, **context: Any) -> Player:
+    """Return the page at an address, painted with what has happened."""
+    made = stack.enter_context(
+        browser.new_context(**{"viewport": {"width": 1280, "height": 800}, **context})
+    )
+    viewer = Player(made.new_page())
+    viewer.page.goto(address)
+    viewer.painted()
+    return viewer
+
+
+def row_of(viewer: Player, robot: str) -> Locator:
+    """Return a robot's row in the list; rows name other robots, too."""
+    rows = viewer.page.locator("#robot-list").get_by_role("option")
+    return rows.filter(has=viewer.page.locator(".name", has_text=robot))
+
+
+def shows(viewer: Player, tick: float) -> None:
+    """Wait until a live page has come to a moment."""
+    viewer.poll(lambda: viewer.tick == tick, f"the page at {tick}")
+
+
+def told(viewer: Player) -> list[str]:
+    """Return the sentences of the log, the latest first."""
+    viewer.page.get_by_role("tab", name="Log").click()
+    viewer.painted()
+    rows = viewer.page.get_by_role("listbox", name="Log").get_by_role("option")
+    return [text.split("\n")[0] for text in rows.all_inner_texts()]
+
+
+def disc_at(viewer: Player, place: tuple[float, float], colour: str) -> bool:
+    """Return whether a robot of a colour is drawn at a place of the site."""
+    x, y = viewer.on_map(place)
+    return any(
+        abs(disc.x - x) < 3 and abs(disc.y - y) < 3
+        for disc in viewer.discs()
+        if disc.colour == colour and not disc.is_dashed
+    )
+
+
+def colours(viewer: Player) -> list[str]:
+    """Return the colours of the robots, by the dots of the list."""
+    swatches = viewer.page.locator("#robot-list .swatch")
+    return [
+        str(swatch.evaluate("(it) => it.style.getPropertyValue('--robot')"))
+        for swatch in swatches.all()
+    ]
+
+
+def test_a_page_follows_a_demo_from_the_first_release_to_home(
+    browser: Browser, stack: ExitStack, tmp_path: Path
+) -> None:
+    """R2 goes through the door (N4) first; R1 waits for it at N0, then drives to N6."""
+    drive = stack.enter_context(driven(door(), tmp_path / "demo.journal"))
+    viewer = opened(browser, stack, stack.enter_context(watched(door(), tmp_path / "demo.journal")))
+    expect(viewer.page.get_by_role("button", name="Live", pressed=True)).to_be_visible()
+    expect(row_of(viewer, "R1")).to_contain_text("waits for R2")
+    blue, red = colours(viewer)
+    assert disc_at(viewer, (0.5, 0.5), blue)
+    row_of(viewer, "R2").click()
+    card = viewer.page.locator("#card")
+    expect(card).to_contain_text("ReleasedN1, N4, N7, N8")  # its base, at once
+    expect(card).to_contain_text("Planned nextN7, N4, N1, N2")
+    drive.let(2)
+    shows(viewer, 2)
+    expect(row_of(viewer, "R1")).to_contain_text("driving")
+    assert disc_at(viewer, (1.5, 1.5), red)
+    expect(card).to_contain_text("ReleasedN7, N8")
+    drive.let(5)
+    expect(row_of(viewer, "R2")).to_contain_text("waits for R1")
+    assert told(viewer)[:2] == [
+        "R2 waits at N8 until R1 is at N6",
+        "R2 has done its work at N8 (1 of 1)",
+    ]
+    drive.end()
+    expect(viewer.page.get_by_text("the control has ended")).to_be_visible()
+    assert told(viewer)[0] == "R1 is at the end of its way, N0"
+    viewer.page.get_by_role("tab", name="Robots").click()
+    for robot in ("R1", "R2"):
+        expect(row_of(viewer, robot)).to_contain_text("done")
+    shows(viewer, 12)
+    assert disc_at(viewer, (0.5, 0.5), blue)
+    assert disc_at(viewer, (2.5, 0.5), red)
+    assert viewer.complaints == []
+
+
+def test_what_is_released_is_drawn(browser: Browser, stack: ExitStack, tmp_path: Path) -> None:
+    """Beside the middle of N7, on R2's base, is a paler red; once R2 is past, there is none."""
+    drive = stack.enter_context(driven(door(), tmp_path / "demo.journal"))
+    viewer = opened(browser, stack, stack.enter_context(watched(door(), tmp_path / "demo.journal")))
+    expect(row_of(viewer, "R1")).to_contain_text("waits for R2")
+    spot = viewer.on_map((1.5, 2.2))  # between N4 and N7
+    red, green, blue, _ = viewer.colour(spot)
+    assert red > max(green, blue) + 20
+    drive.let(5)
+    shows(viewer, 5)
+    viewer.page.get_by_text("Floor", exact=True).click()  # no lines to planned places
+    viewer.painted()
+    red, green, blue, _ = viewer.colour(spot)
+    assert red <= max(green, blue) + 20
+
+
+def state(viewer: Player) -> tuple[Any, ...]:
+    """Return what a page says and draws at the moment shown."""
+    viewer.page.get_by_role("tab", name="Robots").click()
+    viewer.painted()
+    viewer.page.get_by_text("Floor", exact=True).click()
+    viewer.painted()
+    discs = sorted((disc.colour, round(disc.x), round(disc.y)) for disc in viewer.discs())
+    rows = viewer.page.locator("#robot-list").get_by_role("option").all_inner_texts()
+    return discs, rows
+
+
+def test_a_replay_shows_what_the_live_page_has_shown(
+    browser: Browser, stack: ExitStack, tmp_path: Path
+) -> None:
+    journal = tmp_path / "demo.journal"
+    drive = stack.enter_context(driven(door(), journal))
+    live = opened(browser, stack, stack.enter_context(watched(door(), journal)))
+    seen = {}
+    for tick in (2, 5, 8):
+        drive.let(tick)
+        shows(live, tick)
+        live.painted()
+        seen[tick] = state(live)
+    drive.end()
+    replay = opened(
+        browser, stack, stack.enter_context(watched(door(), journal, takes_orders=False))
+    )
+    expect(replay.page.get_by_text("the control has ended")).to_be_visible()
+    expect(replay.page.get_by_role("toolbar", name="Orders to the robots")).to_be_hidden()
+    for tick, shown in seen.items():
+        replay.seek(tick)
+        assert state(replay) == shown, tick
+    assert replay.end == 12
+
+
+def test_who_looks_back_stays_there_and_comes_back_by_a_button(
+    browser: Browser, stack: ExitStack, tmp_path: Path
+) -> None:
+    drive = stack.enter_context(driven(door(), tmp_path / "demo.journal"))
+    viewer = opened(browser, stack, stack.enter_context(watched(door(), tmp_path / "demo.journal")))
+    drive.let(4)
+    shows(viewer, 4)
+    viewer.seek(1)
+    drive.let(6)
+    expect(viewer.page.get_by_text("looking back")).to_be_visible()
+    expect(row_of(viewer, "R1")).to_contain_text("waits for R2")
+    assert viewer.tick == 1
+    viewer.page.get_by_role("button", name="Live").click()
+    shows(viewer, 6)
+    assert viewer.complaints == []
+
+
+def test_a_page_that_has_lost_its_server_says_so_and_gets_what_it_has_missed(
+    browser: Browser, stack: ExitStack, tmp_path: Path
+) -> None:
+    journal = tmp_path / "demo.journal"
+    drive = stack.enter_context(driven(door(), journal))
+    with watched(door(), journal) as address:
+        viewer = opened(browser, stack, address)
+        drive.let(3)
+        shows(viewer, 3)
+    expect(viewer.page.get_by_text("no connection; trying again")).to_be_visible()
+    assert row_of(viewer, "R2").is_visible()
+    drive.let(5)
+    port = int(address.rstrip("/").rpartition(":")[2])
+    stack.enter_context(watched(door(), journal, port=port))
+    expect(row_of(viewer, "R2")).to_contain_text("waits for R1")
+    shows(viewer, 5)
+    assert told(viewer).count("R2 has done its work at N8 (1 of 1)") == 1
+
+
+def test_a_person_holds_robots_and_lets_them_go(
+    browser: Browser, stack: ExitStack, tmp_path: Path
+) -> None:
+    """Held at 0, R1 is let go last, by its own button."""
+    journal = tmp_path / "demo.journal"
+    drive = stack.enter_context(driven(door(), journal))
+    viewer = opened(browser, stack, stack.enter_context(watched(door(), journal)))
+    page = viewer.page
+    page.get_by_role("button", name="Hold all robots").click()
+    dialog = page.get_by_role("dialog")
+    expect(dialog).to_contain_text("Hold all robots?")
+    dialog.get_by_role("button", name="Cancel").click()
+    expect(dialog).to_be_hidden()
+    page.get_by_role("button", name="Hold all robots").click()
+    page.get_by_role("dialog").get_by_role("button", name="Yes").click()
+    drive.let(10**9)
+    expect(row_of(viewer, "R2")).to_contain_text("held by a person")
+    expect(page.get_by_text("carried out")).to_be_visible()
+    row_of(viewer, "R2").click()
+    page.get_by_role("button", name="Let R2 go").click()
+    expect(page.get_by_role("button", name="Hold R2")).to_be_visible()
+    row_of(viewer, "R1").click()
+    page.get_by_role("button", name="Let R1 go").click()
+    expect(page.get_by_text("the control has ended")).to_be_visible()
+    expect(page.get_by_role("toolbar", name="Orders to the robots")).to_be_hidden()
+    assert viewer.complaints == []
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("width", [1280, 390])
+def test_the_page_has_no_serious_fault_and_fits(
+    browser: Browser, stack: ExitStack, tmp_path: Path, theme: str, width: int
+) -> None:
+    journal = tmp_path / "demo.journal"
+    drive_demo(door(), journal=journal)
+    viewer = opened(
+        browser, stack, stack.enter_context(watched(door(), journal)),
+        color_scheme=theme, locale="de", viewport={"width": width, "height": 800},
+    )  # fmt: skip
+    expect(viewer.page.get_by_text("die Steuerung ist zu Ende")).to_be_visible()
+    assert english_on(viewer) == []
+    assert nameless_on(viewer) == []
+    assert serious(viewer) == []
+    viewer.page.get_by_role("tab", name="Verlauf").click()
+    viewer.painted()
+    assert serious(viewer) == []
+    assert english_on(viewer) == []
+    assert viewer.is_as_wide_as(width)
+    assert viewer.complaints == []
