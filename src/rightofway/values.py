@@ -166,13 +166,13 @@ def truth(value: object) -> bool:
     raise ValueError(f"{shown(value)} is neither true nor false (give True or False)")
 
 
-def one_of(kind: type[T], what: str, remedy: str) -> Callable[[object], T]:
-    """Return a reader of values of a class; ``what`` another value is not, as in "no plan"."""
+def one_of(kind: type[T], fault: str, remedy: str) -> Callable[[object], T]:
+    """Return a reader of values of a class; ``fault`` is said of others, as in "no plan"."""
 
     def read(value: object) -> T:
         if isinstance(value, kind):
             return value
-        raise ValueError(f"{shown(value)} is {what} ({remedy})")
+        raise ValueError(f"{shown(value)} is {fault} ({remedy})")
 
     return read
 

@@ -148,4 +148,4 @@ def test_a_finer_grid_of_one_floor_keeps_the_places() -> None:
         roadmap=roadmap_of_grid(("....", "...."), cell_size=Fraction(1, 2)),
         robots=(Robot(name="R", home=VertexId(0), stops=(stop(2),)),),
     )
-    assert [change.what for change in changes(coarse, fine)] == ["map"]
+    assert [change.subject for change in changes(coarse, fine)] == ["map"]

@@ -30,7 +30,9 @@ def inspected(browser: Browser, tmp_path: Path) -> Iterator[Open]:
         found = read_sites(source, Choice())
         levels = [(name, site, inspect(site)) for name, site in found.sites]
         path = tmp_path / "site.html"
-        write_inspection(levels, path, title=source.name, what=found.what, notes=found.notes)
+        write_inspection(
+            levels, path, title=source.name, description=found.description, notes=found.notes
+        )
         contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
         viewer = Player(contexts[-1].new_page())
         viewer.page.goto(path.as_uri())

@@ -89,7 +89,7 @@ def test_the_page_of_an_inspection_says_findings_in_german(
     (tmp_path / "edges.csv").write_text("from,to,both_ways\nA,B,true\nC,D,true\nB,D,true\nE,D,0\n")
     found = read_sites(tmp_path / "nodes.csv", Choice())
     levels = [(name, site, inspect(site)) for name, site in found.sites]
-    write_inspection(levels, tmp_path / "site.html", title="hall", what=found.what)
+    write_inspection(levels, tmp_path / "site.html", title="hall", description=found.description)
     context = browser.new_context(locale="de-DE")
     viewer = Viewer(context.new_page())
     viewer.page.goto((tmp_path / "site.html").as_uri())

@@ -41,6 +41,8 @@ def test_a_map_needs_no_plan() -> None:
 
 def test_names_bring_no_element_with_them() -> None:
     site = yard()
-    page = inspection_page([(EVIL, site, inspect(site))], title=EVIL, what=EVIL, notes=[EVIL])
+    page = inspection_page(
+        [(EVIL, site, inspect(site))], title=EVIL, description=EVIL, notes=[EVIL]
+    )
     assert "<img" not in page
     assert payload_in(page)["notes"] == [EVIL]

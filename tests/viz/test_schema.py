@@ -85,7 +85,7 @@ def test_the_payload_of_a_fleet_without_a_plan_has_the_declared_types() -> None:
 def test_the_payload_of_every_inspection_has_the_declared_types(name: str) -> None:
     sites = read_sites(TESTS / "data" / "layouts" / name, Choice())
     levels = [(level, site, inspect(site)) for level, site in sites.sites]
-    page = inspection_page(levels, title=name, what="a hall", notes=["one"])
+    page = inspection_page(levels, title=name, description="a hall", notes=["one"])
     INSPECTION.validate_json(payload_text_in(page), strict=True, extra="forbid")
 
 

@@ -104,7 +104,9 @@ def inspect(
         from rightofway.viz import write_inspection
 
         title = file_title(source)
-        write_inspection(results, page, title=title, what=sites.what, notes=sites.notes)
+        write_inspection(
+            results, page, title=title, description=sites.description, notes=sites.notes
+        )
         say_written(page)
     if as_json or (output or "").lower().endswith(".json"):
         if as_json:
@@ -112,7 +114,7 @@ def inspect(
         if output not in (None, "-"):
             put_text(f"{json_text(data)}\n", output)
         return
-    report = report_inspection(source, sites.what, sites.notes, results, limit)
+    report = report_inspection(source, sites.description, sites.notes, results, limit)
     if output not in (None, "-"):
         put_text(f"{lay_out(report, language())}\n", output)
     else:
@@ -135,7 +137,7 @@ def _data(source: str, sites: Sites, results: list[tuple[str, Site, Inspection]]
     """Return the report for programs."""
     return {
         "file": source,
-        "what": sites.what,
+        "what": sites.description,
         "notes": list(sites.notes),
         "levels": [
             {

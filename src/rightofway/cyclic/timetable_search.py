@@ -57,7 +57,7 @@ class ChoiceParams:
     placing_share: float = 0.7  # The first timetable may take this to place all robots.
     first_period: float = 1.2  # The first timetable has this period [longest laps].
     longest_period: float = 5  # The others have periods of at most this [longest laps].
-    kept: int = 3  # This many first timetables are improved.
+    improved: int = 3  # This many first timetables are improved.
     trying_share: float = 0.5  # All of them are improved a little.
     continuing_share: float = 0.7  # The best of these is improved; in the rest, the best of all.
     most_visits: int = 20_000  # Up to this many visits, a fractional cycle time becomes whole.
@@ -376,7 +376,9 @@ def _built(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> 
             break
         if problem.value(built[-1]) == problem.bound:
             break
-    return sorted(filter(problem.accepts, built), key=problem.value, reverse=True)[: params.kept]
+    return sorted(filter(problem.accepts, built), key=problem.value, reverse=True)[
+        : params.improved
+    ]
 
 
 def _improved(

@@ -121,7 +121,7 @@ def simulate(
         return traces.get(run) or ExecutionMonitor(adg, policy, seed, run, Deadline()).trace()
 
     every = joined([part.batch for part in parts])
-    unchanged = [part.kept for part in parts if part.kept is not None]
+    unchanged = [part.unchanged for part in parts if part.unchanged is not None]
     cut_off = sum(part.cut_off for part in parts)
     is_broken, unfinished = every.is_broken.astype(bool), every.completion == NEVER
     stuck = np.isin(np.arange(len(plan.tracks)), adg.deadlocked())
@@ -214,7 +214,7 @@ class _Runs(NamedTuple):
     """Some runs, and what was changed in them during execution."""
 
     batch: RunBatch
-    kept: NDArray[np.int64] | None = None  # the completion times without changes
+    unchanged: NDArray[np.int64] | None = None  # the completion times without changes
     switches: int = 0
     replans: int = 0
     cut_off: int = 0
@@ -225,7 +225,7 @@ class _Runs(NamedTuple):
         """Return one run with changes; ``batch`` is the same run without."""
         return cls(
             batch=monitor.batch(batch),
-            kept=batch.completion,
+            unchanged=batch.completion,
             switches=monitor.switches,
             replans=monitor.replans,
             cut_off=len(monitor.cut_off - monitor.lost),

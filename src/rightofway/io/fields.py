@@ -162,10 +162,10 @@ Spacing = Annotated[
 Turning = Annotated[Fraction | Literal["cell"], _or_word(_not_negative, _NOT_NEGATIVE, "cell")]
 
 
-def _list_of(count: int, what: str, number: Callable[[object], Fraction]) -> Kind:
+def _list_of(count: int, numbers: str, number: Callable[[object], Fraction]) -> Kind:
     def read(value: object) -> tuple[Fraction, ...]:
         if not isinstance(value, list | tuple) or len(value) != count:
-            raise ValueError(f"{shown(value)} does not fit (give {what})")
+            raise ValueError(f"{shown(value)} does not fit (give {numbers})")
         return tuple(number(item) for item in value)
 
     return Kind(read, {"type": "array", "items": _ANY, "minItems": count, "maxItems": count})

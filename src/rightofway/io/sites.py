@@ -31,7 +31,7 @@ class Sites:
 
     Attributes
     ----------
-    what
+    description
         What the file is and how large, in words.
     notes
         What its reader mended or left out, a sentence each.
@@ -39,7 +39,7 @@ class Sites:
         The name of each level, empty where there is only one, and the site.
     """
 
-    what: str
+    description: str
     notes: tuple[str, ...]
     sites: tuple[tuple[str, Site], ...]
 
@@ -84,7 +84,7 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
             if choice.vehicle_type is None and (name := _usual_type(level)):
                 keys["vehicle_type"] = name
         loaded = _with_fleet({"layout": str(path.resolve()), **keys}, Path(), Path(robots))
-        return Sites(what=describe_layout(layout), notes=loaded.notes, sites=loaded.sites)
+        return Sites(description=describe_layout(layout), notes=loaded.notes, sites=loaded.sites)
     if isinstance(layout, Layout):
         return _of_layout(path, layout, choice)
     return _of_cells(path, layout, choice)
@@ -128,7 +128,7 @@ def _of_layout(path: Path, layout: Layout, choice: Choice) -> Sites:
             },
         )
         sites.append((level.name if len(levels) > 1 else "", site))
-    return Sites(what=describe_layout(layout), notes=tuple(notes), sites=tuple(sites))
+    return Sites(description=describe_layout(layout), notes=tuple(notes), sites=tuple(sites))
 
 
 def _usual_type(level: Level) -> str | None:
@@ -144,7 +144,7 @@ def _of_cells(path: Path, cells: Any, choice: Choice) -> Sites:
     loaded = map_of(document, Path(), Units())
     assert loaded, "only a floor needs speeds"
     site = Site(roadmap=loaded.roadmap, units=loaded.units)
-    return Sites(what=describe_layout(cells), notes=loaded.notes, sites=(("", site),))
+    return Sites(description=describe_layout(cells), notes=loaded.notes, sites=(("", site),))
 
 
 def _of_scenario(path: Path, robots: Path | str | None) -> Sites:
@@ -197,4 +197,4 @@ def sites_of(scenario: Scenario, notes: tuple[str, ...]) -> Sites:
     )
     count = len(scenario.robots)
     description = f"a scenario of {count} robot{'s' * (count != 1)} on {ground}"
-    return Sites(what=description, notes=notes, sites=(("", site),))
+    return Sites(description=description, notes=notes, sites=(("", site),))

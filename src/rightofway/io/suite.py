@@ -35,14 +35,16 @@ def _each_once(values: list[T]) -> list[T]:
     return values
 
 
-def _pair(least: int, most: int, what: str, *, in_order: bool = False) -> Kind:
+def _pair(least: int, most: int, numbers: str, *, in_order: bool = False) -> Kind:
     """Return the kind of two whole numbers within bounds."""
 
     def read(value: object) -> tuple[int, int]:
         items = value if isinstance(value, list | tuple) else ()
         fits = [type(item) is int and least <= item <= most for item in items]
         if len(fits) != 2 or not all(fits):  # noqa: PLR2004 (a pair)
-            raise ValueError(f"{shown(value)} does not fit (give {what}, from {least} to {most})")
+            raise ValueError(
+                f"{shown(value)} does not fit (give {numbers}, from {least} to {most})"
+            )
         if in_order and items[0] > items[1]:
             raise ValueError(f"{shown(value)} is empty (give the least first, then the most)")
         return (items[0], items[1])

@@ -108,7 +108,7 @@ def records_of(
     path: Steps,
     known: Iterable[str],
     *,
-    what: str,
+    noun: str,
     words: Collection[str] = WORD_KEYS,
     has_stops: bool = False,
 ) -> CellDocument:
@@ -133,7 +133,7 @@ def records_of(
             near, listed = nearest(key, known), ", ".join(known)
             more = ", stop 1, work 1, …" if has_stops else ""
             hint = f"did you mean {near}?" if near else f"known: {listed}{more}"
-            faults.note(place, f"{shown(heading)} is no key of {what} ({hint})")
+            faults.note(place, f"{shown(heading)} is no key of {noun} ({hint})")
             key = "note"
         columns[column] = key
     for number, values in rows:
@@ -155,7 +155,7 @@ def records_of(
 def robots_of_rows(rows: Iterable[Row], cell: CellOf, known: Iterable[str]) -> CellDocument:
     """Return the robots of a table; columns ``stop 1``, ``work 1``, … become stops."""
     keys = [key for key in known if key != "stops"]
-    table = records_of(rows, cell, ("robots",), keys, what="a robot", has_stops=True)
+    table = records_of(rows, cell, ("robots",), keys, noun="a robot", has_stops=True)
     if not table.part:
         fault = InputFault(cell(1, 1), "there is no robot (write headings, then one robot a row)")
         return replace(table, faults=(*table.faults, fault))

@@ -32,7 +32,7 @@ class Change:
 
     Attributes
     ----------
-    what
+    subject
         What has changed: a robot, several robots, ``map``, ``rules``, a place.
     robots
         The names of the robots that have changed in this way; empty where it is something else.
@@ -43,7 +43,7 @@ class Change:
         The values as people read them; empty where there is none.
     """
 
-    what: str
+    subject: str
     key: str
     before: str = ""
     after: str = ""
@@ -53,7 +53,7 @@ class Change:
     def text(self) -> str:
         """The change as a line: ``R2: speed 1 m/s → 2 m/s``."""
         values = f"{self.before} → {self.after}" if self.before or self.after else ""
-        return f"{self.what}: {' '.join(filter(None, (self.key, values)))}"
+        return f"{self.subject}: {' '.join(filter(None, (self.key, values)))}"
 
     def as_dict(self) -> dict[str, Any]:
         """Return the attributes and the text by name."""
@@ -89,7 +89,7 @@ def changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
     for name in was:
         robots_of_change.setdefault(("removed", "", ""), []).append(name)
     robots = [
-        Change(what=_named(names), robots=tuple(names), key=key, before=old, after=new)
+        Change(subject=_named(names), robots=tuple(names), key=key, before=old, after=new)
         for (key, old, new), names in robots_of_change.items()
     ]
     return (*robots, *_map(before, after), *_rules(before, after), *_closures(before, after))
@@ -170,7 +170,7 @@ def _attributes(
 
 def _rules(before: Scenario, after: Scenario) -> Iterator[Change]:
     for key, was, now in _attributes(RULE_ATTRIBUTES, before, before.rules, after, after.rules):
-        yield Change(what="rules", key=key, before=was, after=now)
+        yield Change(subject="rules", key=key, before=was, after=now)
 
 
 def _map(before: Scenario, after: Scenario) -> Iterator[Change]:
@@ -185,21 +185,21 @@ def _map(before: Scenario, after: Scenario) -> Iterator[Change]:
     if sizes[0] == sizes[1] and old_roadmap.grid is None:
         sizes = [f"{len(roadmap.heads)} edges" for roadmap in (old_roadmap, other)]
     if sizes[0] == sizes[1]:
-        yield Change(what="map", key="changed")
+        yield Change(subject="map", key="changed")
     else:
-        yield Change(what="map", key="", before=sizes[0], after=sizes[1])
+        yield Change(subject="map", key="", before=sizes[0], after=sizes[1])
 
 
 def _closures(before: Scenario, after: Scenario) -> Iterator[Change]:
     was, now = _closed(before), _closed(after)
     for place in now:
         if place not in was:
-            yield Change(what=place, key="closed")
+            yield Change(subject=place, key="closed")
         elif was[place] != now[place]:
-            yield Change(what=place, key="closed", before=was[place], after=now[place])
+            yield Change(subject=place, key="closed", before=was[place], after=now[place])
     for place in was:
         if place not in now:
-            yield Change(what=place, key="open")
+            yield Change(subject=place, key="open")
 
 
 def _closed(scenario: Scenario) -> dict[str, str]:

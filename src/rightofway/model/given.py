@@ -55,7 +55,7 @@ def checked_seed(seed: int) -> int:
     return checked_number("seed", seed, 0, LARGEST_SEED, "is no seed")
 
 
-def checked_number(place: Where, value: int, least: int, most: int, what: str = "") -> int:
+def checked_number(place: Where, value: int, least: int, most: int, fault: str = "") -> int:
     """Return what a caller gave as a whole number from ``least`` to ``most``.
 
     Raises
@@ -66,7 +66,7 @@ def checked_number(place: Where, value: int, least: int, most: int, what: str = 
     is_whole = isinstance(value, Integral) and not isinstance(value, bool)
     if not is_whole or not least <= value <= most:
         remedy = f"give a whole number from {least} to {most}"
-        raise InputError.at(place, f"{shown(value)} {what or 'is out of range'} ({remedy})")
+        raise InputError.at(place, f"{shown(value)} {fault or 'is out of range'} ({remedy})")
     return int(value)
 
 

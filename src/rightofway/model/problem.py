@@ -172,7 +172,7 @@ class Problem:
         )
 
 
-def refuse_closures(problem: Problem, what: str, remedy: str) -> None:
+def refuse_closures(problem: Problem, method: str, remedy: str) -> None:
     """Refuse a fleet for which something is closed for a while.
 
     Raises
@@ -181,10 +181,10 @@ def refuse_closures(problem: Problem, what: str, remedy: str) -> None:
         If there is a closure.
     """
     if problem.closures is not None:
-        raise InputError.at("", f"{what} does not know closures ({remedy})")
+        raise InputError.at("", f"{method} does not know closures ({remedy})")
 
 
-def refuse_turn_rates(problem: Problem, what: str, remedy: str) -> None:
+def refuse_turn_rates(problem: Problem, method: str, remedy: str) -> None:
     """Refuse a fleet in which a robot needs time to turn on the spot.
 
     Raises
@@ -193,7 +193,7 @@ def refuse_turn_rates(problem: Problem, what: str, remedy: str) -> None:
         If a robot has a turn rate.
     """
     if problem.turns:
-        message = f"{what} does not know robots with a turn_rate ({remedy}, or leave it out)"
+        message = f"{method} does not know robots with a turn_rate ({remedy}, or leave it out)"
         raise InputError.at("", message)
 
 

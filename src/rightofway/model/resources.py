@@ -59,7 +59,7 @@ Exact = NDArray[Any]
 """Integers of 64 bits where they fit, else Python integers of any size."""
 
 
-def refuse_sizes(resources: Resources, what: str, remedy: str) -> None:
+def refuse_sizes(resources: Resources, method: str, remedy: str) -> None:
     """Refuse a fleet in which a robot has a size, or whose roadmap has zones.
 
     Raises
@@ -68,7 +68,7 @@ def refuse_sizes(resources: Resources, what: str, remedy: str) -> None:
         If a robot has a size, or there is a zone.
     """
     if not resources.are_points:
-        message = f"{what} does not know robots with a size or zones ({remedy})"
+        message = f"{method} does not know robots with a size or zones ({remedy})"
         raise InputError.at("", message)
 
 

@@ -45,7 +45,7 @@ ANY_FLEET = frozenset({Feature.SIZES, Feature.CLOSURES, Feature.BARRED_EDGES, Fe
 def refuse_unknown(
     problem: Problem,
     features: Collection[Feature],
-    what: str,
+    method: str,
     remedy: Callable[[Feature], str],
 ) -> None:
     """Refuse a problem that needs a feature which is not there.
@@ -58,14 +58,14 @@ def refuse_unknown(
     if not problem.resources.are_points and Feature.SIZES not in features:
         if Feature.LEAVES_SWAPS in features:
             why = "it leaves swaps, and robots with a size collide in them"
-            raise InputError.at("", f"{what} is for points: {why} ({remedy(Feature.SIZES)})")
-        refuse_sizes(problem.resources, what, remedy(Feature.SIZES))
+            raise InputError.at("", f"{method} is for points: {why} ({remedy(Feature.SIZES)})")
+        refuse_sizes(problem.resources, method, remedy(Feature.SIZES))
     if Feature.TURN_RATES not in features:
-        refuse_turn_rates(problem, what, remedy(Feature.TURN_RATES))
+        refuse_turn_rates(problem, method, remedy(Feature.TURN_RATES))
     if Feature.CLOSURES not in features:
-        refuse_closures(problem, what, remedy(Feature.CLOSURES))
+        refuse_closures(problem, method, remedy(Feature.CLOSURES))
     if problem.is_barred and Feature.BARRED_EDGES not in features:
-        message = f"{what} does not know edges that are barred for some robots"
+        message = f"{method} does not know edges that are barred for some robots"
         raise InputError.at("", f"{message} ({remedy(Feature.BARRED_EDGES)})")
 
 

@@ -140,9 +140,9 @@ class LayoutDraft:
         self.levels.append(LevelDraft(name))
         return self.levels[-1]
 
-    def repair(self, what: str) -> None:
+    def repair(self, mending: str) -> None:
         """Note that something was mended or left out; equal notes are counted."""
-        self.repairs[what] += 1
+        self.repairs[mending] += 1
 
     def layout(self) -> Layout:
         """Return the layout.

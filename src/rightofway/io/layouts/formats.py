@@ -191,14 +191,14 @@ def refuse_layout(path: Path, text: str | None = None) -> None:
             return
         raise
     try:
-        what = describe_layout(read_layout(path))
+        description = describe_layout(read_layout(path))
     except InputError as error:
         first = error.faults[0].in_file("")
-        what = f"a layout with a fault: {first}; mend it first"
+        description = f"a layout with a fault: {first}; mend it first"
     name = path.name
     remedy = f"write a scenario with map: {{layout: {name}}}"
     example = f"`rightofway convert {path} -o scenario.yaml` writes one"
-    raise InputError.at("", f"this is {what} ({remedy}; {example})")
+    raise InputError.at("", f"this is {description} ({remedy}; {example})")
 
 
 def describe_layout(layout: Layout | Occupancy | CellMap) -> str:

@@ -166,7 +166,7 @@ def _map_of_cells(document: MapDocument, cells_of_map: CellMap, file: Path) -> L
     return LoadedMap(roadmap=roadmap, lines=cells_of_map.lines, file=file)
 
 
-def _refuse(document: MapDocument, what: str, *keys: str) -> None:
+def _refuse(document: MapDocument, description: str, *keys: str) -> None:
     for key in keys:
         if key in document.model_fields_set:
-            raise InputError.at(key, f"is given with {what}, which needs none (take it out)")
+            raise InputError.at(key, f"is given with {description}, which needs none (take it out)")

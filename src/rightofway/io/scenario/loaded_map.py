@@ -92,7 +92,7 @@ def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
     raise AssertionError("an obstacle blocked the cell")
 
 
-def note_on_squares(what: str, roadmap: Roadmap, cells: int, units: Units) -> str:
+def note_on_squares(noun: str, roadmap: Roadmap, cells: int, units: Units) -> str:
     """Return a sentence on the squares that the smallest cells of a map have been joined to."""
     assert roadmap.sides is not None, "the cells are squares"
     least, most = (
@@ -101,7 +101,7 @@ def note_on_squares(what: str, roadmap: Roadmap, cells: int, units: Units) -> st
     span = f"of {units.written_length(least)}"
     if most > least:
         span = f"of {decimal(least)} to {units.written_length(most)}"
-    return f"{what} cut into {len(roadmap.sides)} squares {span}, from {cells} free cells"
+    return f"{noun} cut into {len(roadmap.sides)} squares {span}, from {cells} free cells"
 
 
 def note_on_crossed(split: SplitLanes, units: Units) -> Iterator[str]:

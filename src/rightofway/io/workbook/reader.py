@@ -96,7 +96,7 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[str]) -> 
     if "closures" in sheets:
         sheet, known = sheets["closures"], keys_of(ClosureDocument)
         closures = records_of(
-            _rows(sheet, offset), sheet.cell, ("closures",), known, what="a closure"
+            _rows(sheet, offset), sheet.cell, ("closures",), known, noun="a closure"
         )
         document["closures"] = closures.part
         cells |= closures.cells
@@ -213,13 +213,13 @@ def _roadmap(vertices: Sheet, edges: Sheet) -> CellDocument:
     from rightofway.io.scenario.shape import EdgeDocument
 
     path, faults, first = ("map", "roadmap"), Faults(), dict[str, int]()
-    table = records_of(vertices.rows(), vertices.cell, (), VERTEX_KEYS, what="a vertex")
+    table = records_of(vertices.rows(), vertices.cell, (), VERTEX_KEYS, noun="a vertex")
     ways = records_of(
         edges.rows(),
         edges.cell,
         (*path, "edges"),
         keys_of(EdgeDocument),
-        what="an edge",
+        noun="an edge",
         words={*WORD_KEYS, "from", "to"},
     )
     faults.add((*table.faults, *ways.faults))

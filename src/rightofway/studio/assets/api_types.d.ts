@@ -265,7 +265,7 @@ export interface FlippedPlan {
 /** A document as a card shows it. */
 export interface Glance {
   kind: string;
-  what: string;
+  description: string;
   robots: number | null;
   extent: Array<string>;
   unit: string | null;
@@ -617,7 +617,7 @@ export interface Saved {
 
 /** Something in which a scenario differs from another one. */
 export interface ScenarioChange {
-  what: string;
+  subject: string;
   robots: Array<string>;
   key: string;
   before: string;

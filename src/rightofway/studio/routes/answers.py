@@ -174,7 +174,7 @@ class Glance(TypedDict):
     """A document as a card shows it."""
 
     kind: str
-    what: str
+    description: str
     robots: int | None
     extent: list[str]
     unit: str | None
@@ -466,7 +466,7 @@ class CommandLine(TypedDict):
 class ScenarioChange(TypedDict):
     """Something in which a scenario differs from another one."""
 
-    what: str
+    subject: str
     robots: list[str]
     key: str
     before: str

@@ -121,7 +121,7 @@ def inspected(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Resu
     (result,) = (inspected for _, inspected in results)
     return (
         {
-            "what": sites.what,
+            "what": sites.description,
             "notes": list(sites.notes),
             **{key: value for key, value in asdict(result).items() if key != "findings"},
             "findings": [

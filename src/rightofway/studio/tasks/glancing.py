@@ -31,7 +31,7 @@ def glanced(
     site = max((site for _, site in glance.sites), key=lambda candidate: candidate.roadmap.n_edges)
     about = {
         "kind": kind,
-        "what": glance.what,
+        "description": glance.description,
         "robots": len(site.robots) if kind != "layout" else None,
         "extent": [decimal(length) for length in extent(site.roadmap)],
         "unit": site.units.length,
@@ -63,7 +63,7 @@ def _document(document: dict[str, Any], folder: str) -> Sites:
     site = drawn_map(document, folder)
     if site is None:
         raise InputError(faults)
-    return Sites(what="", notes=(), sites=(("", site),))
+    return Sites(description="", notes=(), sites=(("", site),))
 
 
 def example(_emit: Emit, _blobs: Blobs, *, name: str) -> Result:

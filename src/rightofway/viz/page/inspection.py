@@ -26,7 +26,7 @@ def inspection_page(
     levels: Sequence[Inspected],
     *,
     title: str,
-    what: str = "",
+    description: str = "",
     notes: Sequence[str] = (),
     background: Background | None = None,
 ) -> str:
@@ -38,7 +38,7 @@ def inspection_page(
         The inspected sites.
     title
         What the page is about, usually the name of the file.
-    what
+    description
         What the file is and how large, in words.
     notes
         What its reader mended or left out, a sentence each.
@@ -58,16 +58,16 @@ def inspection_page(
     payload: InspectionPayload = {
         "title": title,
         "translations": {},
-        "what": parts_of(what),
+        "description": parts_of(description),
         "notes": [parts_of(note) for note in notes],
         "names": {severity: parts_of(name) for severity, name in SEVERITY_NAMES.items()},
         "headings": {severity: parts_of(heading) for severity, heading in HEADINGS.items()},
         "levels": [_level(*level, background) for level in levels],
     }
     said = [(level["sentences"], level["findings"]) for level in payload["levels"]]
-    others = payload["what"], payload["notes"], payload["names"], payload["headings"]
+    others = payload["description"], payload["notes"], payload["names"], payload["headings"]
     payload["translations"] = translations_for(said, others)
-    about = f"{title}: {what}" if what else title
+    about = f"{title}: {description}" if description else title
     return document_of(about, payload, "inspect_main")
 
 
@@ -77,7 +77,7 @@ def write_inspection(
     path: str | os.PathLike[str],
     *,
     title: str,
-    what: str = "",
+    description: str = "",
     notes: Sequence[str] = (),
     background: Background | None = None,
 ) -> None:
@@ -85,7 +85,7 @@ def write_inspection(
 
     Parameters
     ----------
-    levels, title, what, notes, background
+    levels, title, description, notes, background
         As for `inspection_page`.
     path
         Where, usually ``….html``.
@@ -95,7 +95,9 @@ def write_inspection(
     InputError
         As for `inspection_page`, or if the file cannot be written.
     """
-    page = inspection_page(levels, title=title, what=what, notes=notes, background=background)
+    page = inspection_page(
+        levels, title=title, description=description, notes=notes, background=background
+    )
     write_whole(path, page)
 
 

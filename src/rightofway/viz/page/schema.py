@@ -307,7 +307,7 @@ class FeedData(TypedDict):
 class ChangeData(TypedDict):
     """Something in which a scenario differs from another one; see `Change`."""
 
-    what: str
+    subject: str
     robots: list[str]
     key: str
     before: str
@@ -434,7 +434,7 @@ class InspectionPayload(TypedDict):
 
     title: str
     translations: dict[str, dict[str, str]]
-    what: PhraseData
+    description: PhraseData
     notes: list[PhraseData]
     names: dict[Literal["error", "warning", "note"], PhraseData]
     headings: dict[Literal["error", "warning", "note"], PhraseData]

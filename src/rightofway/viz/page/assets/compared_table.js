@@ -116,11 +116,11 @@ export class ComparedTable {
  *
  * @param {ChangeData} options
  */
-export function changeInWords({ what, robots, key, before, after }) {
+export function changeInWords({ subject, robots, key, before, after }) {
   /** @type {Record<"whats" | "keys", Partial<Record<string, string>>>} */
   const { whats, keys } = texts.compared;
   const named = robots.length > FEW_NAMES ? texts.robots(robots.length) : joined(robots).join("");
-  const whose = named || (whats[what] ?? what);
+  const whose = named || (whats[subject] ?? subject);
   const values = before || after ? `${before} → ${after}` : "";
   return `${whose}: ${[keys[key] ?? key, values].filter(Boolean).join(" ")}`;
 }

@@ -125,10 +125,13 @@ class InspectPage {
   }
 
   #showHead() {
-    const { title, what, notes, levels } = this.raw;
+    const { title, description, notes, levels } = this.raw;
     this.root
       .part("headline")
-      .replaceChildren(element("b", { className: "name" }, title), inLanguage("span", {}, what));
+      .replaceChildren(
+        element("b", { className: "name" }, title),
+        inLanguage("span", {}, description),
+      );
     this.root.part("level-choice").hidden = levels.length < 2;
     this.root
       .part("level", HTMLSelectElement)

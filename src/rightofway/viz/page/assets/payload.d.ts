@@ -23,7 +23,7 @@ export interface BestData {
 
 /** Something in which a scenario differs from another one; see `Change`. */
 export interface ChangeData {
-  what: string;
+  subject: string;
   robots: string[];
   key: string;
   before: string;
@@ -198,7 +198,7 @@ export type HoldRow = [number, number, "hold" | "off", boolean];
 export interface InspectionPayload {
   title: string;
   translations: Record<string, Record<string, string>>;
-  what: PhraseData;
+  description: PhraseData;
   notes: PhraseData[];
   names: Record<string, PhraseData>;
   headings: Record<string, PhraseData>;
