@@ -226,8 +226,8 @@ def test_faults_of_a_plan_are_left_to_the_judge(hall: Path) -> None:
         ("Agent 0: (0,0)->\nAgent 1: (0,0)->\n", "plan:2: A1.home: N0 is the home of"),
         ("Agent 0: (0,0)->(1,0)->\n", r"plan:1: A0 enters \[1, 0\] at step 1, which is blocked"),
         ("schedule:\n  a:\n  - {x: 0, y: 0, t: 1}\n", r"plan:3: schedule.a\[0\]: t 1 stands after"),
-        ("schedule:\n  a:\n  - {x: 0, y: 0}\n", r"plan:3: schedule.a\[0\]: .* is no state"),
-        ("schedule: 3\n", "plan:1: schedule: 3 is no schedule"),
+        ("schedule:\n  a:\n  - {x: 0, y: 0}\n", r"plan:3: schedule.a\[0\].t: is missing"),
+        ("schedule: 3\n", "plan:1: schedule: 3 is not a mapping"),
         (log(["F,X"]), r"plan:1: actualPaths\[0\].step\[1\]: 'X' is no action \(give one of F, R,"),
         (log(["F"], actionModel="CAR"), "actionModel: 'CAR' is not known"),
         (log(["F"], actionModel=[1]), r"actionModel: \[1\] is not known"),
@@ -235,7 +235,7 @@ def test_faults_of_a_plan_are_left_to_the_judge(hall: Path) -> None:
             '{"note": "no \\"actualPaths\\" here, but \\"actualPaths\\": 1", "actualPaths" : 3}',
             "3 is",
         ),
-        (log(["F"], start=[[0, 0, "Z"]]), r"start\[0\]: 'Z' is no heading"),
+        (log(["F"], start=[[0, 0, "Z"]]), r"start\[0\]\[2\]: 'Z' is no heading"),
         (log(["F"], start=[]), "start: does not have a start for each of 1 agents"),
         (
             log(["[(0,0,0,0,0):(F 3,R 2)]"], agentMaxCounter=10),
@@ -247,7 +247,7 @@ def test_faults_of_a_plan_are_left_to_the_judge(hall: Path) -> None:
         (log(["[(0,0,0,0):(F 1)]"]), "is no part"),
         (log(["F"], events=[[1, 0, 7, 1]]), r"events\[0\]: task 7 has no errand 1"),
         (log(["F"], tasks=[[1]]), r"tasks\[0\]: \[1\] is no task"),
-        (log(["F"], agentMaxCounter=0), "agentMaxCounter: 0 is no count of steps"),
+        (log(["F"], agentMaxCounter=0), "agentMaxCounter: 0 does not fit"),
     ],
 )
 def test_what_is_wrong_is_named_with_its_place(hall: Path, text: str, fault: str) -> None:

@@ -100,6 +100,13 @@ class Source:
         except ValueError as error:
             raise self.fault(str(error)) from None
 
+    def whole(self, least: int, most: int) -> int:
+        """Return the value as a whole number within bounds."""
+        if type(self.value) is not int or not least <= self.value <= most:
+            message = f"{shown(self.value)} does not fit"
+            raise self.fault(f"{message} (give a whole number from {least} to {most})")
+        return self.value
+
     def flag(self) -> bool:
         """Return the value as true or false; 0 and 1 count, too."""
         word = self.value.lower() if isinstance(self.value, str) else self.value

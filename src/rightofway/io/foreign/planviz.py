@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, Location, shown
+from rightofway.errors import InputError, shown
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     MAX_STEP,
@@ -34,6 +34,7 @@ from rightofway.io.foreign.trajectories import (
     Visits,
     cells_of_plan,
 )
+from rightofway.io.source import Source
 from rightofway.io.text import parse_json
 from rightofway.model import Plan
 from rightofway.model.route import drives_along, serving_visits, turns_along
@@ -84,22 +85,21 @@ def read(text: str) -> ForeignPlan:
     InputError
         For agents without a start, unknown actions, and tasks that do not exist.
     """
-    log = parse_json(text)
-    faults = Faults()
-    turns = faults.attempt("actionModel", _has_headings, log.get("actionModel", "MAPF_T"))
-    counter = faults.attempt("agentMaxCounter", _count, log.get("agentMaxCounter", 1)) or 1
+    log, faults = Source(parse_json(text)), Faults()
+    turns = faults.attempt("", _has_headings, log.get("actionModel"))
+    counter = faults.attempt("", _count, log.get("agentMaxCounter")) or 1
     faults.stop()
-    key = next((key for key in PATHS if key in log), PATHS[0])
-    paths, starts = log.get(key), log.get("start")
-    if not isinstance(paths, list) or not paths:
-        raise InputError.at(key, f"{shown(paths)} is no list of paths (give one for each agent)")
-    if not isinstance(starts, list) or len(starts) < len(paths):
-        raise InputError.at("start", f"does not have a start for each of {len(paths)} agents")
-    counts = any(isinstance(path, str) and path.lstrip().startswith("[") for path in paths)
+    paths = log.need(*PATHS)
+    if not paths.items():
+        raise paths.fault("has no path (give one for each agent)")
+    starts = log.need("start")
+    if len(starts.items()) < len(paths.items()):
+        raise starts.fault(f"does not have a start for each of {len(paths.items())} agents")
+    counts = any(isinstance(path, str) and path.lstrip().startswith("[") for path in paths.value)
     steps_per_move = counter if counts else 1
     errands = faults.attempt("", _errands, log) or {}
     ways = [HEADINGS] if turns else [MOVES, EARLIER_MOVES]
-    read = [_all_visits(log, key, changes, steps_per_move, faults) for changes in ways]
+    read = [_all_visits(paths, starts, changes, steps_per_move, faults) for changes in ways]
     faults.stop()
     visits = max(read, key=lambda visits: _hits(visits, errands))
     agents = []
@@ -108,7 +108,7 @@ def read(text: str) -> ForeignPlan:
         stops = [cell for _, cell in errands.get(index, [])]
         if stops[-1:] != [(row, column)]:
             stops.append((row, column))
-        where = Location(path=(key, index))
+        where = paths.child(index, None).location
         agents.append(
             Trajectory(name=f"A{index}", cells=cells, steps=steps, location=where, stops=stops)
         )
@@ -116,18 +116,18 @@ def read(text: str) -> ForeignPlan:
 
 
 def _all_visits(
-    log: dict[str, Any],
-    key: str,
+    paths: Source,
+    starts: Source,
     changes: Mapping[str, Cell],
     steps_per_move: int,
     faults: Faults,
 ) -> list[Visits]:
     """Return the visits of each agent, or fewer after noting faults."""
     all_visits, n_moves = list[Visits](), 0
-    for index, (path, start) in enumerate(zip(log[key], log["start"], strict=False)):
-        begin = faults.attempt(("start", index), _start, start, changes)
-        where = (key, index)
-        runs = faults.attempt(where, _runs, path, changes)
+    for path, start in zip(paths.items(), starts.items(), strict=False):
+        begin = faults.attempt("", _start, start, changes)
+        where = path.path
+        runs = faults.attempt(where, _runs, path.value, changes)
         if begin is None or runs is None:
             continue
         n_moves += int(runs[1].sum()) // steps_per_move
@@ -189,34 +189,29 @@ def _hits(visits: Sequence[Visits], errands: Errands) -> int:
     return hits
 
 
-def _has_headings(model: Any) -> bool:
-    if model not in ("MAPF", "MAPF_T"):
-        raise InputError.at("", f"{shown(model)} is not known (give MAPF or MAPF_T)")
-    return bool(model == "MAPF_T")
+def _has_headings(model: Source | None) -> bool:
+    if model is not None and model.value not in ("MAPF", "MAPF_T"):
+        raise model.fault(f"{shown(model.value)} is not known (give MAPF or MAPF_T)")
+    return model is None or bool(model.value == "MAPF_T")
 
 
-def _count(value: Any) -> int:
-    if type(value) is not int or not 1 <= value <= 1000:  # noqa: PLR2004 (our finest clock)
-        raise InputError.at("", f"{shown(value)} is no count of steps (give 1 to 1000)")
-    return value
+def _count(count: Source | None) -> int:
+    return 1 if count is None else count.whole(1, 1000)  # our finest clock
 
 
-def _start(start: Any, changes: Mapping[str, Cell]) -> tuple[Cell, int]:
+def _start(start: Source, changes: Mapping[str, Cell]) -> tuple[Cell, int]:
     """Return the first cell of an agent, and the number of its heading."""
-    if not isinstance(start, list) or len(start) not in {2, 3}:
-        raise InputError.at("", f"{shown(start)} is no start (give [row, column, heading])")
-    heading = start[2] if changes is HEADINGS and len(start) > 2 else "E"  # noqa: PLR2004
-    if not isinstance(heading, str) or heading not in HEADINGS:
-        raise InputError.at("", f"{shown(heading)} is no heading (give E, N, W or S)")
-    return _cell(start[0], start[1]), list(HEADINGS).index(heading)
+    parts = start.items()
+    if len(parts) not in {2, 3}:
+        raise start.fault(f"{shown(start.value)} is no start (give [row, column, heading])")
+    heading = parts[2] if changes is HEADINGS and len(parts) > 2 else start.child(2, "E")  # noqa: PLR2004
+    if not isinstance(heading.value, str) or heading.value not in HEADINGS:
+        raise heading.fault(f"{shown(heading.value)} is no heading (give E, N, W or S)")
+    return _cell(*parts[:2]), list(HEADINGS).index(heading.value)
 
 
-def _cell(row: Any, column: Any) -> Cell:
-    for number in (row, column):
-        if type(number) is not int or not 0 <= number < MAX_COORDINATE:
-            message = f"{shown(number)} is no row or column (give whole numbers from 0 on)"
-            raise InputError.at("", message)
-    return row, column
+def _cell(row: Source, column: Source) -> Cell:
+    return row.whole(0, MAX_COORDINATE - 1), column.whole(0, MAX_COORDINATE - 1)
 
 
 def _runs(path: Any, changes: Mapping[str, Cell]) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
@@ -262,24 +257,20 @@ def _counted(bare: str) -> tuple[list[str], list[int]]:
     return actions, lengths
 
 
-def _errands(log: dict[str, Any]) -> Errands:
+def _errands(log: Source) -> Errands:
     """Return the errands that each agent finishes, in order, with their steps."""
-    events, tasks = log.get("events", []), log.get("tasks", [])
-    for key, value in (("events", events), ("tasks", tasks)):
-        if not isinstance(value, list):
-            raise InputError.at(key, f"{shown(value)} is no list (leave it out, or give a list)")
     faults, places = Faults(), dict[tuple[int, int], Cell]()
-    for index, task in enumerate(tasks):
-        for number, cell in enumerate(faults.attempt(("tasks", index), _cells_of, task) or ()):
-            places[task[0], number] = cell
+    for task in log.items_under("tasks"):
+        for number, cell in enumerate(faults.attempt("", _cells_of, task) or ()):
+            places[task.value[0], number] = cell
     finished: list[tuple[int, int, tuple[int, int]]] = []  # step, agent, (task, number of errand)
-    for index, event in enumerate(events):
-        for row in faults.attempt(("events", index), _finished, event, index) or ():
+    for index, event in enumerate(log.items_under("events")):
+        for row in faults.attempt("", _finished, event, index) or ():
             if row[2] in places:
                 finished.append(row)
             else:
                 message = f"task {row[2][0]} has no errand {row[2][1] + 1} (give it in tasks)"
-                faults.note(("events", index), message)
+                faults.note(event.location, message)
     faults.stop()
     errands: Errands = {}
     for step, agent, errand in sorted(finished):
@@ -287,25 +278,27 @@ def _errands(log: dict[str, Any]) -> Errands:
     return errands
 
 
-def _cells_of(task: Any) -> list[Cell]:
+def _cells_of(task: Source) -> list[Cell]:
     """Return the places of a task: [id, row, column], or [id, released, [row, column, …]]."""
-    if isinstance(task, list) and len(task) == 3 and type(task[0]) is int:  # noqa: PLR2004
-        numbers = task[2] if isinstance(task[2], list) else task[1:]
+    parts = task.items()
+    if len(parts) == 3 and type(parts[0].value) is int:  # noqa: PLR2004
+        numbers = parts[2].items() if isinstance(parts[2].value, list) else parts[1:]
         if len(numbers) % 2 == 0:
             return [_cell(*pair) for pair in zip(numbers[::2], numbers[1::2], strict=True)]
-    raise InputError.at("", f"{shown(task)} is no task (give [id, step, [row, column, …]])")
+    raise task.fault(f"{shown(task.value)} is no task (give [id, step, [row, column, …]])")
 
 
-def _finished(event: Any, agent: int) -> Iterator[tuple[int, int, tuple[int, int]]]:
+def _finished(source: Source, agent: int) -> Iterator[tuple[int, int, tuple[int, int]]]:
     """Yield the errands that an event reports as finished.
 
     In 2023 there is a list of [task, step, "finished"] for each agent; later, events are
     [step, agent, task, errands finished], none of which are finished when the task is assigned.
     """
+    event = source.value
     if isinstance(event, list) and event and type(event[0]) is int:
         if len(event) != 4 or not all(type(number) is int for number in event):  # noqa: PLR2004
             message = f"{shown(event)} is no event (give [step, agent, task, errands finished])"
-            raise InputError.at("", message)
+            raise source.fault(message)
         step, agent, task, count = event
         if count > 0:
             yield step, agent, (task, count - 1)
@@ -313,8 +306,7 @@ def _finished(event: Any, agent: int) -> Iterator[tuple[int, int, tuple[int, int
     for row in event if isinstance(event, list) else [event]:
         is_event = isinstance(row, list) and len(row) == 3  # noqa: PLR2004
         if not (is_event and type(row[0]) is type(row[1]) is int):
-            message = f'{shown(row)} is no event (give [task, step, "finished"])'
-            raise InputError.at("", message)
+            raise source.fault(f'{shown(row)} is no event (give [task, step, "finished"])')
         if row[2] == "finished":
             yield row[1], agent, (row[0], 0)
 

@@ -13,11 +13,10 @@ x is the column and y the row. An agent stays where it is until its next time.
 from __future__ import annotations
 
 import re
-from typing import Any
 
 import numpy as np
 
-from rightofway.errors import InputError, Location, is_printable, shown
+from rightofway.errors import is_printable, shown
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     MAX_STEP,
@@ -28,6 +27,7 @@ from rightofway.io.foreign.trajectories import (
     cells_of_plan,
     visits_of,
 )
+from rightofway.io.source import Source
 from rightofway.io.text import json_line, parse_yaml
 from rightofway.model import Plan
 
@@ -45,45 +45,46 @@ def read(text: str) -> ForeignPlan:
     InputError
         For agents without a list of {x, y, t}, and times out of order.
     """
-    document = parse_yaml(text)
-    schedule = document.get("schedule") if isinstance(document, dict) else None
-    if not isinstance(schedule, dict) or not schedule:
-        message = f"{shown(schedule)} is no schedule (give each agent a list of {{x, y, t}})"
-        raise InputError.at("schedule", message)
+    schedule = Source(parse_yaml(text)).need("schedule")
+    if not schedule.mapping():
+        raise schedule.fault("has no agent (give each agent a list of {x, y, t})")
     faults, agents = Faults(), list[Trajectory]()
-    for key, states in schedule.items():
+    for key, states in schedule.entries():
         name = str(key)
-        visits = faults.attempt(("schedule", name), _visits, name, states)
+        visits = faults.attempt("", _visits, name, states)
         if visits:
             cells, steps = visits
-            where = Location(path=("schedule", name))
-            agents.append(Trajectory(name=name, cells=cells, steps=steps, location=where))
+            agents.append(Trajectory(name=name, cells=cells, steps=steps, location=states.location))
     faults.stop()
     return ForeignPlan(agents=agents)
 
 
-def _visits(name: str, states: Any) -> Visits:
+def _visits(name: str, states: Source) -> Visits:
     if not is_printable(name):
-        raise InputError.at("", f"{shown(name)} is no name (give characters that can be printed)")
-    if not isinstance(states, list) or not states:
-        raise InputError.at("", f"{shown(states)} is no path (give a list of {{x, y, t}})")
+        raise states.fault(f"{shown(name)} is no name (give characters that can be printed)")
     faults, cells, steps = Faults(), list[Cell](), list[int]()
     latest = -1
-    for index, state in enumerate(states):
-        numbers: list[Any] = [state.get(key) for key in "xyt"] if isinstance(state, dict) else [""]
-        if not all(type(number) is int and 0 <= number <= MAX_STEP for number in numbers):
-            faults.note(index, f"{shown(state)} is no state (give whole numbers x, y and t)")
+    for state in states.items():
+        numbers = faults.attempt("", _numbers, state)
+        if numbers is None:
             continue
         x, y, t = numbers
         if t <= latest or (latest < 0 < t):
             remedy = "begin with t 0, and let t grow"
-            faults.note(index, f"t {t} stands after {max(latest, 0)} ({remedy})")
+            faults.note(state.location, f"t {t} stands after {max(latest, 0)} ({remedy})")
         latest = t
         cells.append((y, x))
         steps.append(t)
     faults.stop()
+    if not cells:
+        raise states.fault("is empty (give a list of {x, y, t})")
     own, visits = visits_of(cells)
     return own, np.array(steps, np.int64)[visits]
+
+
+def _numbers(state: Source) -> list[int]:
+    """Return x, y and t of a state."""
+    return [state.need(key).whole(0, MAX_STEP) for key in "xyt"]
 
 
 def write(plan: Plan) -> str:
