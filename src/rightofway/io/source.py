@@ -100,7 +100,7 @@ class Source:
         except ValueError as error:
             raise self.fault(str(error)) from None
 
-    def whole(self, least: int, most: int) -> int:
+    def read_whole(self, least: int, most: int) -> int:
         """Return the value as a whole number within bounds."""
         if type(self.value) is not int or not least <= self.value <= most:
             message = f"{shown(self.value)} does not fit"

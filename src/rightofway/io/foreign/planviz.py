@@ -196,7 +196,7 @@ def _has_headings(model: Source | None) -> bool:
 
 
 def _count(count: Source | None) -> int:
-    return 1 if count is None else count.whole(1, 1000)  # our finest clock
+    return 1 if count is None else count.read_whole(1, 1000)  # our finest clock
 
 
 def _start(start: Source, changes: Mapping[str, Cell]) -> tuple[Cell, int]:
@@ -211,7 +211,7 @@ def _start(start: Source, changes: Mapping[str, Cell]) -> tuple[Cell, int]:
 
 
 def _cell(row: Source, column: Source) -> Cell:
-    return row.whole(0, MAX_COORDINATE - 1), column.whole(0, MAX_COORDINATE - 1)
+    return row.read_whole(0, MAX_COORDINATE - 1), column.read_whole(0, MAX_COORDINATE - 1)
 
 
 def _runs(path: Any, changes: Mapping[str, Cell]) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:

@@ -84,7 +84,7 @@ def _visits(name: str, states: Source) -> Visits:
 
 def _numbers(state: Source) -> list[int]:
     """Return x, y and t of a state."""
-    return [state.need(key).whole(0, MAX_STEP) for key in "xyt"]
+    return [state.need(key).read_whole(0, MAX_STEP) for key in "xyt"]
 
 
 def write(plan: Plan) -> str:
