@@ -18,11 +18,13 @@ from typing import Any
 
 import rightofway
 from rightofway.control import (
+    Condition,
     Entry,
     FleetControl,
     InstantAction,
     Message,
     Order,
+    RobotError,
     RobotLedger,
     RobotState,
     RouteToDrive,
@@ -87,6 +89,9 @@ class Chaos:
         opened, and the rest replanned.
     laps
         How many laps each robot makes after the faults; 0 where the plan is driven once.
+    people
+        Share of events at which a robot gets unfit or fit again, or a person holds it, decides on
+        failed work, or puts it elsewhere; eight times as often work fails. Others pass it.
     """
 
     events: int = 500
@@ -100,6 +105,7 @@ class Chaos:
     look_ahead: int = 4
     jobs: float = 0.0
     laps: int = 0
+    people: float = 0.0
 
 
 KINDS = {
@@ -125,6 +131,9 @@ KINDS = {
     "laps": Chaos(laps=2, splices=0.0),
     "laps, replanned": Chaos(laps=2, kills=0.02, splices=0.5),
     "laps, all": Chaos(laps=2, kills=0.03, resets=0.01, wrong=0.1, cancels=0.02),
+    "people": Chaos(people=0.04),
+    "people, all": Chaos(people=0.04, kills=0.03, resets=0.01, wrong=0.1, cancels=0.01, jobs=0.02),
+    "people in laps": Chaos(people=0.04, laps=2, jobs=0.01),
 }
 """Kinds of chaos by name."""
 
@@ -246,6 +255,7 @@ class _World:
         self.journal.kill = lambda: self._happens(self.chaos.kills / 4)
         self.laps = LapsToDrive(plan) if chaos.laps else None
         self.is_calm = False
+        self.conditions = [Condition() for _ in self.robots]
         self.observer = Observer(plan.scenario, self.robots)
         self._begin()
 
@@ -256,7 +266,12 @@ class _World:
             try:
                 control = self._new_control()
                 dispatcher = Dispatcher(
-                    control, self.plan, self.laps, planner="prioritized", time_limit=None
+                    control,
+                    self.plan,
+                    self.laps,
+                    planner="prioritized",
+                    time_limit=None,
+                    patience=2,
                 )
                 if not self.journal.written:
                     dispatcher.begin("run")
@@ -354,6 +369,8 @@ class _World:
             self.call(partial(self.control.cancel, robot))
         elif self._happens(chaos.jobs):
             self.call(self._change_work)
+        elif self._happens(chaos.people):
+            self._intervene(robot)
         kinds: list[Callable[[int], None]] = [
             self._step,
             self._take_order,
@@ -363,11 +380,16 @@ class _World:
         ]
         if self._chance(1 / 30):
             self.call(self.control.remind)
+            if chaos.people:
+                self.call(self.dispatcher.pass_stuck)
         else:
             self.draw.choices(kinds, (6, 6, 4, 10, 3))[0](robot)
 
     def _step(self, robot: int) -> None:
-        if self.robots[robot].step():
+        if self.robots[robot].next_step == "end work" and self._happens(self.chaos.people * 8):
+            self.counts["failed"] += self.robots[robot].fail_work()
+            self._tell(robot)
+        elif self.robots[robot].step():
             self._tell(robot)
 
     def _take_order(self, robot: int) -> None:
@@ -390,7 +412,7 @@ class _World:
 
     def _tell(self, robot: int) -> None:
         """Send the state of a robot."""
-        state = self.robots[robot].state()
+        state = self.robots[robot].state(self.conditions[robot])
         for _ in range(self._copies()):
             sent = state
             if self._happens(self.chaos.wrong):
@@ -457,6 +479,56 @@ class _World:
         self.counts[kind] += 1
         return messages
 
+    def _intervene(self, robot: int) -> None:
+        """Have trouble with a robot, or a person look after it."""
+        real, draw = self.robots[robot], self.draw
+        kind = draw.choice(["unfit", "held", "fit", "let go", "decided", "placed"])
+        if kind in {"unfit", "fit"}:
+            broken = RobotError(kind="laser", level="FATAL")
+            self.conditions[robot] = Condition(errors=(broken,) if kind == "unfit" else ())
+            self._tell(robot)
+        elif kind in {"held", "let go"}:
+            self.call(partial(self.control.hold, robot, on=kind == "held"))
+        elif kind == "decided":
+            self._decide(robot)
+        elif real.next_step in {None, "begin to drive", "begin work"}:
+            self.call(partial(self.control.take_off, robot))
+            if self.control.ledger.robots[robot].is_off:
+                self._put(robot)
+        else:
+            kind = "not placed"
+        self.counts[kind] += 1
+
+    def _decide(self, robot: int) -> None:
+        """Have failed work of a robot done again, or skip it."""
+        for job in sorted(self.control.ledger.robots[robot].failed):
+            name = f"{self.control.ledger.names[robot]}/{job}"
+            if self._chance(0.6):
+                self.call(partial(self.dispatcher.retry_job, name))
+            else:
+                self.observer.withdrawn.add((robot, job))
+                self.call(partial(self.dispatcher.skip_job, name))
+
+    def _put(self, robot: int) -> None:
+        """Put a robot that is off the floor at a vertex, where a plan from there is found.
+
+        It was switched off: it has no order, and none is under way to it.
+        """
+        real, roadmap = self.robots[robot], self.scenario.roadmap
+        self.orders[robot].clear()
+        real.forget()
+        for _ in range(5):
+            place = roadmap.name(self.draw.randrange(roadmap.n_vertices))
+            before, real.place = real.place, place
+            name = self.control.ledger.names[robot]
+            try:
+                self.call(partial(self.dispatcher.place_robot, name, place))
+            except (GaveUp, InputError):
+                self.counts["not placed"] += 1
+            if not self.control.ledger.robots[robot].is_off:
+                return
+            real.place = before
+
     def _any_place(self, at: str) -> tuple[str, ...]:
         """Return a vertex, or both ends of a lane that leaves it."""
         roadmap = self.scenario.roadmap
@@ -468,10 +540,16 @@ class _World:
         """Have a person look after faulty robots, and open what is closed."""
         for place in sorted(self.control.ledger.closed):
             self.call(partial(self.dispatcher.open, *place))
-        for robot, own in enumerate(self.control.ledger.robots):
-            if own.fault is not None:
+        for robot in range(len(self.robots)):
+            if self.control.ledger.robots[robot].fault is not None:
                 self.counts["cleared"] += 1
                 self.call(partial(self.control.clear, robot))
+            if self.chaos.people:
+                self.conditions[robot] = Condition()
+                self.call(partial(self.control.hold, robot, on=False))
+                self._decide(robot)
+                if self.control.ledger.robots[robot].is_off:
+                    self._put(robot)
 
     def _copies(self) -> int:
         if self._happens(self.chaos.lost):
@@ -517,6 +595,8 @@ class Observer:
             if not self._arrived[robot] <= own.arrived <= own.released:
                 raise Fault(f"robot {robot} has arrived at {own.arrived} of {own.released}")
             self._arrived[robot] = own.arrived
+            if own.is_off:
+                base, held = (), ()
             if not _is_within(base, held):
                 raise Fault(f"robot {robot} has base {base}, but the journal says {held}")
             bases.append(base)
@@ -585,7 +665,8 @@ class Observer:
                 raise Fault(f"robot {robot} has done {done.total()} jobs, not {own.jobs_done}")
             if is_endless:
                 continue
-            wanted = own.route.all_jobs()
+            skipped = {job for other, job in self.withdrawn if other == robot}
+            wanted = own.route.all_jobs() - skipped
             if not wanted <= done.keys():
                 raise Fault(f"robot {robot} has not done {sorted(wanted - done.keys())}")
             if real.place != own.route.places[-1]:

@@ -16,10 +16,12 @@ from rightofway.control import (
     RobotState,
     SimulatedRobot,
 )
+from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.routes import routes_to_drive
 from rightofway.errors import InputError
 from rightofway.precedence import Arrival, Part, ReleaseGraph
-from tests.builders.chaos import MemoryJournal
+from tests.builders.chaos import MemoryJournal, chaotic_plan
+from tests.builders.floors import Floor
 from tests.builders.plans import door
 
 
@@ -106,6 +108,22 @@ def test_a_robot_taken_off_the_floor_is_in_nobodys_way() -> None:
     control.receive(0, state("run-0-0", 0, "N0", 0, ()))
     sent = control.take_off(1)
     assert [order[:2] for order in orders(sent)] == [(0, 1)]
+
+
+def test_nobody_goes_by_because_of_a_robot_that_was_taken_off_in_between() -> None:
+    """At N13 the order is robot 2, robot 3, robot 0, and robot 0 waits for robot 3 only.
+
+    A run of chaos (people, seed 5) found that it went by robot 2 when robot 3 was off the floor.
+    """
+    dispatcher = Dispatcher(FleetControl(MemoryJournal()), chaotic_plan(5))
+    dispatcher.begin("run")
+    floor = Floor(dispatcher)
+    robots = dispatcher.ledger.robots
+    assert robots[2].held == ("N1", "N2", "N7", "N12", "N13")
+    floor.send(dispatcher.control.take_off(3))
+    assert robots[0].held == ("N18",)
+    floor.drive(80)
+    assert [own.is_done for own in robots] == [True, True, True, False]
 
 
 def test_where_the_journal_cannot_be_written_nothing_is_sent() -> None:

@@ -49,6 +49,8 @@ class Dispatcher:
         What robots repeat for ever; None where they drive the plan once.
     planner, time_limit
         The planner of the rest where jobs change, and its time for one plan [s].
+    patience
+        Calls of `pass_stuck` for which a robot does not go on before others are replanned round it.
 
     Attributes
     ----------
@@ -64,7 +66,9 @@ class Dispatcher:
         *,
         planner: str = "auto",
         time_limit: float | None = 2,
+        patience: int = PATIENCE,
     ) -> None:
+        self._patience = patience
         self.control, self.plan, self._laps = control, plan, laps
         self.command: int | None = None
         self._distances = Distances(plan.scenario.roadmap)
@@ -105,7 +109,9 @@ class Dispatcher:
         routes = self._laps.extended(self.ledger.robots) if self._laps else None
         if routes is None:
             return []
-        graph = graph_behind_released(self.plan.scenario, routes, self.control.committed())
+        absent = [robot for robot, own in enumerate(self.ledger.robots) if own.is_off]
+        committed = self.control.committed()
+        graph = graph_behind_released(self.plan.scenario, routes, committed, absent)
         messages = self.control.splice(routes, graph)
         closed = self.ledger.closed_edges
         if closed and any(not closed.isdisjoint(pairwise(route.places)) for route in routes):
@@ -454,7 +460,7 @@ class Dispatcher:
         """
         ledger, control = self.ledger, self.control
         self._stuck_for = {k: self._stuck_for.get(k, 0) + 1 for k in control.list_stuck()}
-        long = frozenset(k for k, times in self._stuck_for.items() if times >= PATIENCE)
+        long = frozenset(k for k, times in self._stuck_for.items() if times >= self._patience)
         awaited = {
             arrival.robot
             for robot, own in enumerate(ledger.robots)

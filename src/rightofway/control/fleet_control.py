@@ -544,7 +544,7 @@ class FleetControl:
         for part in parts:
             ids = list[str]()
             for job in own.route.jobs_at(part):
-                if job in own.finished:
+                if job in own.finished or job in own.failed:  # a person decides on failed ones
                     continue
                 last = own.attempts.get(job, 0)
                 attempt = max(last, 1)

@@ -12,7 +12,7 @@ the first visit of the plan, after all that is planned until then.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,7 +21,7 @@ from rightofway.control.ledger import RobotLedger, RouteToDrive
 from rightofway.control.routes import routes_to_drive
 from rightofway.errors import InputError
 from rightofway.model import Plan, Scenario, Track
-from rightofway.precedence import ReleaseGraph
+from rightofway.precedence import Arrival, Part, ReleaseGraph
 
 __all__ = ["LapsToDrive", "graph_behind_released"]
 
@@ -185,7 +185,10 @@ def _appended(
 
 
 def graph_behind_released(
-    scenario: Scenario, routes: Sequence[RouteToDrive], released: Sequence[int]
+    scenario: Scenario,
+    routes: Sequence[RouteToDrive],
+    released: Sequence[int],
+    absent: Collection[int] = (),
 ) -> ReleaseGraph:
     """Return who waits for whom: for all that is released, then in the order of planned times.
 
@@ -197,7 +200,30 @@ def graph_behind_released(
         Where robots go, from the visits on at which they have arrived.
     released
         The last released part of each robot; all up to it goes first.
+    absent
+        Robots that are off the floor: nobody waits for them, and they wait for nobody.
     """
+    present = [robot for robot in range(len(routes)) if robot not in absent]
+    ends = [route.end for route in routes]
+    if not present:
+        return ReleaseGraph(ends, {}, [route.first for route in routes])
+    if len(present) == len(routes):
+        return _graph_of_present(scenario, routes, released)
+    robots = tuple(scenario.robots[robot] for robot in present)
+    fleet = replace(scenario, robots=robots, clock=scenario.problem.clock)
+    graph = _graph_of_present(fleet, [routes[k] for k in present], [released[k] for k in present])
+    waits = {
+        Part(present[part.robot], part.number): [
+            Arrival(present[arrival.robot], arrival.visit) for arrival in graph.waits(part)
+        ]
+        for part in graph.waiting_parts()
+    }
+    return ReleaseGraph(ends, waits, [route.first for route in routes])
+
+
+def _graph_of_present(
+    scenario: Scenario, routes: Sequence[RouteToDrive], released: Sequence[int]
+) -> ReleaseGraph:
     roadmap = scenario.roadmap
     begins = min(route.enter[0] for route in routes)
     span = max(route.enter[-1] for route in routes) - begins + 1

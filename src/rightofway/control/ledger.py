@@ -292,8 +292,27 @@ class Ledger:
 
     @property
     def arrived(self) -> list[int]:
-        """The visit at whose vertex each robot has arrived; past the last one once it is off."""
-        return [own.route.end if own.is_off else own.arrived for own in self.robots]
+        """The visit at whose vertex each robot has arrived.
+
+        A robot that is off the floor goes on in thought, wherever it would have right of way:
+        a part that waits for it does not list who goes before both of them. In the end it is past
+        its last visit.
+        """
+        arrived = [own.arrived for own in self.robots]
+        absent = [robot for robot, own in enumerate(self.robots) if own.is_off]
+        for robot in absent:
+            arrived[robot] = self.robots[robot].released
+        goes_on = bool(absent)
+        while goes_on:
+            goes_on = False
+            for robot in absent:
+                end = self.robots[robot].route.end
+                while arrived[robot] < end and (
+                    arrived[robot] + 1 == end
+                    or self.graph.may_go(Part(robot, arrived[robot] + 1), arrived)
+                ):
+                    arrived[robot], goes_on = arrived[robot] + 1, True
+        return arrived
 
     @property
     def closed_edges(self) -> set[Edge]:

@@ -146,11 +146,8 @@ class RestPlanner:
             routes = [own.route.since(own.arrived) for own in robots]
             for robot, route in zip(moving, planned_routes, strict=True):
                 routes[robot] = route
-            ends = [
-                own.route.end if own.is_off else end
-                for own, end in zip(robots, released, strict=True)
-            ]
-            graph = graph_behind_released(self._scenario, routes, ends)
+            absent = [robot for robot, own in enumerate(robots) if own.is_off]
+            graph = graph_behind_released(self._scenario, routes, released, absent)
             if not graph.rotation():
                 return routes, graph
             reasons = "robots would move round a circle at one instant"
@@ -227,10 +224,8 @@ class RestPlanner:
         for robot, track in zip(moving, tracks, strict=True):
             enter = tuple(track.enter.tolist())
             routes[robot] = replace(routes[robot], enter=enter, in_step=False)
-        ends = [
-            own.route.end if own.is_off else end for own, end in zip(robots, released, strict=True)
-        ]
-        released_first = graph_behind_released(self._scenario, routes, ends)
+        absent = [robot for robot, own in enumerate(robots) if own.is_off]
+        released_first = graph_behind_released(self._scenario, routes, released, absent)
         return None if released_first.rotation() else (routes, released_first)
 
     def _commitment(self, robot: int, own: RobotLedger, released: int) -> _Commitment:

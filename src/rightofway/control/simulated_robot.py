@@ -189,6 +189,14 @@ class SimulatedRobot:
         self._actions = {key: value for key, value in self._actions.items() if value == "FINISHED"}
         return True
 
+    def fail_work(self) -> bool:
+        """Fail in the work that it is at; return whether there was any."""
+        if self.next_step not in {"begin work", "end work"}:
+            return False
+        self._actions[self._waiting.pop(0)] = "FAILED"
+        self._finish_cancel()
+        return True
+
     def _fail(self, actions: tuple[str, ...] | list[str]) -> None:
         for action in actions:
             if self._actions[action] == "WAITING":
