@@ -117,14 +117,14 @@ FIRST_WORDS = """
     chain change check checkpoint choose clear close cluster comes commit compare complain compute
     confine connect convert count create cut deal decide defer delay delete derive descend describe
     download draw drive dump empty end enter enters evict exclude execute explain export extract
-    fill find finish finishes flip flush follow forget free get give go goes handle hang happens has
-    have hold holds improve inline insert inspect is judge keep keeps kill limit list listen load
-    locate make may measure mix name need note obey open order owns parse pass pause perturb place
-    plan prepare prioritize prove put reaches read receive recognizes refuse release relocate remind
-    remove rename repair repeat replan replay report reroute reset resolve restore resume retime
-    retry reverse rollback run save say search send serve set sets settle share show simulate skip
-    solve speak splice split spread start stay step stop stream stretch submit survey switch take
-    tell to trace translate turn upload validate wait waits widen withdraw work write
+    fail fill find finish finishes flip flush follow forget free get give go goes handle hang
+    happens has have hold holds improve inline insert inspect is judge keep keeps kill limit list
+    listen load locate make may measure mix name need note obey open order owns parse pass pause
+    perturb place plan prepare prioritize prove put reaches read receive recognizes refuse release
+    relocate remind remove rename repair repeat replan replay report reroute reset resolve restore
+    resume retime retry reverse rollback run save say search send serve set sets settle share show
+    simulate skip solve speak splice split spread start stay step stop stream stretch submit survey
+    switch take tell to trace translate turn upload validate wait waits widen withdraw work write
 """
 VERBS = frozenset(FIRST_WORDS.split())
 """First words of functions: verbs, claims (``is_empty``), ``as_``, ``to_``; add what is missing."""

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from rightofway.control import Entry, FleetControl, RobotLedger, RobotState
 from rightofway.control.ledger import SentOrder
 
-__all__ = ["RARE", "WORDINGS"]
+__all__ = ["WORDINGS", "LastNodeIsEnough", "VertexTwiceInBase"]
 
 
 class LeftWhenItDrives(FleetControl):
@@ -119,6 +119,36 @@ class VertexTwiceInBase(FleetControl):
         return False
 
 
+class LastNodeIsEnough(VertexTwiceInBase):
+    """A vertex with the right name is reached, whatever the base of the update that a state names.
+
+    As long as no base comes to a vertex twice, one wrong field cannot make another vertex look
+    right: the two conditions are one behind the other, and only both are a fault together.
+    """
+
+    def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
+        sent = own.orders.get(state.order_id)
+        if sent is None:
+            return None
+        visit = sent.offset + state.last_sequence_id // 2
+        is_held = own.route.first <= visit <= own.released
+        return visit if is_held and own.route.place(visit) == state.last_place else None
+
+
+class OrderPerLeg(FleetControl):
+    """A robot that has come to the end of its base gets a new order, not an update.
+
+    An idle robot takes an old order that starts where it stands, if it comes late enough. Where
+    orders keep their order on a connection, as is assumed of the broker, none does.
+    """
+
+    def _update(self, robot: int, end: int) -> Entry:
+        own = self.ledger.robots[robot]
+        if own.arrived < own.released:
+            return super()._update(robot, end)
+        return self._new_order(robot, own.released, end)
+
+
 class WithdrawalOutlivesOrder(FleetControl):
     """A new order after a doubt does not drop the withdrawal that is under way."""
 
@@ -155,12 +185,9 @@ WORDINGS = {
     "splice behind where robots are": (SplicedBehindArrived, "killed often"),
     "next update before the acknowledgement": (NextBeforeAcknowledged, "plain"),
     "a withdrawal frees at once": (FreeWhenCancelled, "cancels"),
-    "a vertex twice in a base": (VertexTwiceInBase, "resets, far ahead"),
+    "an order for each leg": (OrderPerLeg, "orders out of order"),
     "a withdrawal outlives the next order": (WithdrawalOutlivesOrder, "cancels and resets"),
     "a doubt proves an arrival": (DoubtProvesArrival, "wrong fields and many resets"),
     "facts in memory": (FactsInMemory, "all"),
 }
 """Each wording with the chaos that finds it."""
-
-RARE = {"a vertex twice in a base": 185}
-"""The seed to begin with, for wordings that do harm in one of many runs only."""

@@ -31,6 +31,7 @@ from rightofway.control import (
     SimulatedRobot,
 )
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.fleet_control import LONG_ORDER
 from rightofway.control.laps import LapsToDrive
 from rightofway.cyclic import excerpt, plan_of_laps, run_laps
 from rightofway.cyclic.result import CyclicResult
@@ -47,6 +48,7 @@ __all__ = [
     "Chaos",
     "Fault",
     "MemoryJournal",
+    "Observer",
     "chaotic_plan",
     "knows",
     "laps_plan",
@@ -92,6 +94,8 @@ class Chaos:
     people
         Share of events at which a robot gets unfit or fit again, or a person holds it, decides on
         failed work, or puts it elsewhere; eight times as often work fails. Others pass it.
+    shuffles
+        Whether orders lose their order, too. No rule keeps robots safe where they are also reset.
     """
 
     events: int = 500
@@ -106,6 +110,7 @@ class Chaos:
     jobs: float = 0.0
     laps: int = 0
     people: float = 0.0
+    shuffles: bool = False
 
 
 KINDS = {
@@ -119,7 +124,7 @@ KINDS = {
     "cancels": Chaos(cancels=0.03),
     "cancels and resets": Chaos(cancels=0.02, resets=0.02),
     "resets, replanned": Chaos(resets=0.03, kills=0.03, splices=1.0, lost=0.5),
-    "resets, far ahead": Chaos(resets=0.06, kills=0.03, splices=1.0, lost=0.5, look_ahead=12),
+    "orders out of order": Chaos(shuffles=True, kills=0.02),
     "wrong fields": Chaos(wrong=0.2),
     "wrong fields and resets": Chaos(wrong=0.3, resets=0.04),
     "wrong fields and many resets": Chaos(wrong=0.5, resets=0.1, lost=0.1, doubled=0.5),
@@ -285,7 +290,13 @@ class _World:
                 return
 
     def _new_control(self) -> FleetControl:
-        return self.kind(self.journal, look_ahead=self.chaos.look_ahead, snapshot_every=200)
+        chaos = self.chaos
+        return self.kind(
+            self.journal,
+            look_ahead=chaos.look_ahead,
+            snapshot_every=200,
+            long_order=LONG_ORDER if chaos.shuffles else 2,
+        )
 
     def call(self, step: Callable[[], list[Message]]) -> None:
         """Have the control do something; where it is killed, it starts again."""
@@ -394,7 +405,8 @@ class _World:
 
     def _take_order(self, robot: int) -> None:
         if self.orders[robot]:
-            self.robots[robot].take_order(self.orders[robot].pop(0))
+            last = len(self.orders[robot]) - 1 if self.chaos.shuffles else 0
+            self.robots[robot].take_order(self.orders[robot].pop(self.draw.randint(0, last)))
             self._tell(robot)
 
     def _take_action(self, _: int) -> None:

@@ -21,6 +21,9 @@ __all__ = ["Answer", "Commands"]
 Answer = Mapping[str, Any]
 """What became of a command: ``done``, and ``text`` for people; more for programs."""
 
+KEPT = 1_000
+"""Commands that are kept with their answers."""
+
 PAUSE = 0.05
 """Seconds between two looks for an answer."""
 
@@ -80,6 +83,7 @@ class Commands:
         """
         query = "UPDATE commands SET answer = ? WHERE number = ?"
         self._database.execute(query, (json.dumps(answer), number))
+        self._database.execute("DELETE FROM commands WHERE number <= ?", (number - KEPT,))
 
     def wait_for(self, number: int, seconds: float) -> Answer | None:
         """Return the answer to a command, None if there is none after some time [s].

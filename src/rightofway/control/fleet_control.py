@@ -29,6 +29,9 @@ from rightofway.precedence import Arrival, Part, ReleaseGraph
 LOOK_AHEAD = 4
 """Released parts that a robot has not reached yet, at most: re-planning keeps the rest free."""
 
+LONG_ORDER = 50
+"""Jobs after which a robot gets a new order: its states list all that it has done in this one."""
+
 SNAPSHOT_EVERY = 5_000
 """Entries after which the journal gets a snapshot, so that a start need not read those before."""
 
@@ -44,6 +47,8 @@ class FleetControl:
         How many parts are released beyond the vertex last arrived at, at most.
     snapshot_every
         Entries after which the journal gets a snapshot, with the next splice.
+    long_order
+        Jobs after which a robot gets a new order where it stands at the end of its base.
     report
         Receives a robot and a sentence on its fault, or on a job that failed.
 
@@ -71,10 +76,11 @@ class FleetControl:
         *,
         look_ahead: int = LOOK_AHEAD,
         snapshot_every: int = SNAPSHOT_EVERY,
+        long_order: int = LONG_ORDER,
         report: Callable[[int, str], None] = lambda *_: None,
     ) -> None:
         self._journal, self._look_ahead, self._report = journal, look_ahead, report
-        self._snapshot_every = snapshot_every
+        self._snapshot_every, self._long_order = snapshot_every, long_order
         self.ledger = Ledger()
         self.conditions: dict[int, Condition] = {}
         self.places: dict[int, str] = {}
@@ -356,7 +362,11 @@ class FleetControl:
                 continue
             if status == "FINISHED":
                 yield {"kind": "finished", "robot": robot, "job": job}
-            elif status == "FAILED" and self._is_failure(own, action_id, job):
+            elif (
+                status == "FAILED"
+                and state.order_id == own.order_id
+                and self._is_failure(own, action_id, job)
+            ):
                 self._report(robot, Phrase("has failed in {job}: it goes no further", job=job))
                 yield {"kind": "failed", "robot": robot, "job": job}
         visit = self._proven(own, state)
@@ -575,14 +585,23 @@ class FleetControl:
         if not own.is_acknowledged:
             return None
         if own.cancel is None:
-            end = own.released
-            while self._may_release(robot, own, end + 1):
-                end += 1
-            return self._update(robot, end) if end > own.released else None
+            return self._next_release(robot, own)
         if own.cancel.action_id is None:
             action_id = f"{self.ledger.run}-{robot}-cancel{own.cancels}"
             return {"kind": "cancel asked", "robot": robot, "action": action_id}
         return None
+
+    def _next_release(self, robot: int, own: RobotLedger) -> Entry | None:
+        """Return an update with all that may be released now, if there is any."""
+        end = own.released
+        while self._may_release(robot, own, end + 1):
+            end += 1
+        if end == own.released:
+            return None
+        # All that was released to it is driven and acknowledged, so it stands without an order.
+        if own.order_jobs >= self._long_order and own.arrived == own.released:
+            return self._new_order(robot, own.released, end)
+        return self._update(robot, end)
 
     def _may_release(self, robot: int, own: RobotLedger, part: int) -> bool:
         """Return whether a part may be released after those before it (rule 4)."""

@@ -181,6 +181,7 @@ class RobotLedger:
     released: int = 0
     orders: dict[str, SentOrder] = field(default_factory=dict)  # without old ones
     order_count: int = 0  # of all
+    order_jobs: int = 0  # jobs of the current order
     first_order: int = 0  # since a person placed the robot
     message: Order | None = None  # the last order or update
     is_acknowledged: bool = False
@@ -443,7 +444,7 @@ def _order(own: RobotLedger, entry: Entry) -> None:
     order = Order.of_document(entry["order"])
     if order.update_id == 0:
         own.orders[order.order_id] = SentOrder(entry["offset"])
-        own.order_count += 1
+        own.order_count, own.order_jobs = own.order_count + 1, 0
         own.token = None
         stands_at = entry.get("stands_at")
         if own.cancel is not None:  # a new order drops a cancel under way: it is asked anew
@@ -453,6 +454,7 @@ def _order(own: RobotLedger, entry: Entry) -> None:
     sent.ends[order.update_id], sent.updates = end, sent.updates + 1
     own.message, own.is_acknowledged = order, False
     own.released = max(own.released, end)
+    own.order_jobs += len(entry["actions"])
     for action_id, job, attempt in entry["actions"]:
         own.jobs_of[action_id] = job
         own.attempts[job] = attempt

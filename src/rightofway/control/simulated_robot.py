@@ -117,6 +117,7 @@ class SimulatedRobot:
             self._order_id, self._is_cancelled = order.order_id, False
             self._sequence_id, self.ahead = first.sequence_id, list(order.nodes[1:])
             self._actions = {}
+            self.instant_actions.clear()
             self._waiting = [action for action in first.actions if action not in self.done]
         self._update_id = order.update_id
         for node in order.nodes:
