@@ -6,6 +6,9 @@ flowtime / every robot alone; discs that move in exact time lose something, too,
 space costs is at most the ratio less 1. *Rows* are the lists of excluded rows that were found, of
 all there are.
 
+``python -m benchmarks.sizes rules`` plans on such graphs with other rules for pieces, each by 1000
+neighbourhoods, without a clock: the figures of decision 41.
+
 ``python -m benchmarks.sizes FOLDER [SCENARIO ...]`` wants a folder of the MovingAI benchmark, with
 ``maps`` and ``scens`` in it. SCENARIO is a file with a real layout, as ``rightofway convert``
 writes it; its robots are replaced by a fleet of three sizes. Times are CPU seconds of one thread,
@@ -25,6 +28,7 @@ from math import nan
 from pathlib import Path
 from statistics import median
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
@@ -37,7 +41,8 @@ from rightofway.model.problem import problem_of
 from rightofway.native import bind_lists
 from rightofway.planners import planning_problem
 from rightofway.search import FleetSearch, plan_by_lacam
-from rightofway.site import VertexId
+from rightofway.site import VertexId, crossings
+from rightofway.site import spacing as spacings
 
 MAP, ROBOTS, RADIUS = "warehouse-10-20-10-2-1", 1000, Fraction("0.45")
 RUNS, NEIGHBOURHOODS, EFFORT = 3, 1000, 10**12
@@ -277,10 +282,53 @@ def _on_random_graph(document: dict[str, Any]) -> tuple[float, ...]:
     )
 
 
+RULES: dict[str, tuple[str, int, int]] = {
+    "whole": ("whole", 3, 8),
+    "auto: 3 D, at most 8": ("auto", 3, 8),
+    "2 D": ("auto", 2, 8),
+    "4 D": ("auto", 4, 8),
+    "at most 4": ("auto", 3, 4),
+    "every lane above 3 D": ("3", 3, 8),
+}
+"""Spacing, length of pieces in least distances of two robots, and pieces of a lane at most."""
+
+RULE_GRAPHS = (GRAPHS[0], *GRAPHS[2:5])
+RULE_SEEDS = (1, 2, 3)
+
+
+def by_rules() -> str:
+    """Return the table of other rules for pieces: the median flowtime / that of robots alone."""
+    lines = []
+    for graph in RULE_GRAPHS:
+        ratios, lanes = list[str](), 0
+        for spacing, distances, most in RULES.values():
+            with (
+                patch.object(crossings, "PIECE_IN_DISTANCES", distances),
+                patch.object(crossings, "MOST_PIECES", most),
+                patch.object(spacings, "MOST_PIECES", most),
+            ):
+                documents = [document_of(graph, seed, spacing) for seed in RULE_SEEDS]
+                lanes = int(median(2 * len(one["map"]["roadmap"]["edges"]) for one in documents))
+                ratios.append(f"{median(map(_ratio, documents)):.4f}")
+        lines.append((str(lanes), f"{graph.lane:g}", str(graph.robots), *ratios))
+    return table(("lanes", "long [D]", "robots", *RULES), lines)
+
+
+def _ratio(document: dict[str, Any]) -> float:
+    plan = rightofway.solve(
+        scenario_of(document), "lns", time_limit=None, iterations=NEIGHBOURHOODS
+    )
+    metrics = measure(plan)
+    return metrics.flowtime / metrics.lower_bound
+
+
 def main() -> None:
     """Print the tables."""
     if len(sys.argv) == 1:
         print(on_random_graphs())  # noqa: T201
+        return
+    if sys.argv[1:] == ["rules"]:
+        print(by_rules())  # noqa: T201
         return
     print(cost_of_sizes(Path(sys.argv[1])))  # noqa: T201
     for path in sys.argv[2:]:

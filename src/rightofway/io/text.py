@@ -28,6 +28,12 @@ from rightofway.errors import InputError, InputFault, Location, in_file, shown
 MAX_BYTES = 2**29
 """Largest file that is read [bytes]."""
 
+LIMIT = "RIGHTOFWAY_MOST_CHARACTERS"
+"""The variable of the environment that raises the limit on layouts."""
+
+MAX_CHARACTERS = 50_000_000
+"""The longest layout that is read without it: a file takes twenty times its size of memory."""
+
 PIECE = 2**20
 """What is read from a file at once [bytes]."""
 
@@ -176,6 +182,30 @@ def _content(file: BinaryIO, most: int) -> bytearray:
 
 def _too_long(most: int) -> InputError:
     return InputError.at("", f"the file is longer than {most} bytes (is it the right one?)")
+
+
+def choose_limit() -> int:
+    """Return how long a layout may be: a limit on the memory that reading it takes."""
+    given = os.environ.get(LIMIT)
+    if given is None:
+        return MAX_CHARACTERS
+    if not given.isascii() or not given.isdecimal() or len(given) > LONGEST_TOKEN:
+        raise InputError.at("", f"{LIMIT} is {shown(given)} (give a number of characters)")
+    return int(given)
+
+
+def refuse_long(text: str) -> None:
+    """Refuse a layout whose reading would take gigabytes.
+
+    Raises
+    ------
+    InputError
+        If it is longer than `choose_limit`.
+    """
+    if len(text) > choose_limit():
+        message = f"the file has {len(text)} characters, more than {choose_limit()}, and takes"
+        message += f" about {20 * len(text) // 10**6} MB to read"
+        raise InputError.at("", f"{message} (set {LIMIT}={len(text)} if you have them)")
 
 
 def is_regular(path: Path) -> bool:

@@ -171,9 +171,10 @@ class LayoutDraft:
             _square(micro[lane.tail], micro[lane.head])
             if lane.tail in vertices and lane.head in vertices
             else 0
-            for lane in level.lanes
+            for lane in limit_loop(level.lanes, READING)
         ]
-        straight = _Straight(rounding_step({Fraction(square, MICRO**2) for square in set(squares)}))
+        nearest_ends = min((square for square in squares if square), default=0)
+        straight = _Straight(rounding_step([Fraction(nearest_ends, MICRO**2)]))
         no_lengths = self._no_lengths(level.lanes, squares)
         for lane, square in limit_loop(zip(level.lanes, squares, strict=True), READING):
             if lane.attribute in no_lengths:

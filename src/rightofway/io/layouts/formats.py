@@ -16,12 +16,9 @@ from rightofway.io.layouts import csv_pair, graphml, lif, nav2, open_rmf, opentc
 from rightofway.io.layouts.xml_tree import Element, parse_xml
 from rightofway.io.locations import lines_of
 from rightofway.io.movingai import load_map
-from rightofway.io.text import is_regular, parse_json, parse_yaml, read_text
+from rightofway.io.text import is_regular, parse_json, parse_yaml, read_text, refuse_long
 from rightofway.site.layout import Layout
 from rightofway.site.occupancy import CellMap, Occupancy
-
-MAX_CHARACTERS = 50_000_000
-"""A longer layout is refused: reading it would take half a gigabyte and more."""
 
 GROUP = "rightofway.layouts"
 """Entry points of this group are further formats."""
@@ -231,9 +228,7 @@ def describe_layout(layout: Layout | Occupancy | CellMap) -> str:
 
 def _open(text: str) -> tuple[LayoutFormat, Any] | None:
     """Return the format of a text and its content, or None for a text in no format."""
-    if len(text) > MAX_CHARACTERS:
-        message = f"the file is longer than {MAX_CHARACTERS} characters (give a part of it)"
-        raise InputError.at("", message)
+    refuse_long(text)
     formats = layout_formats().values()
     start = text.lstrip()[:1]
     texts = (

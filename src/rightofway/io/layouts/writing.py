@@ -5,15 +5,16 @@ Reading what was written gives the same layout, but for what `losses_of` names.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import dist
 from typing import Any
 
 from rightofway.arguments import checks_arguments, value_of
 from rightofway.errors import InputError, listed
 from rightofway.io.text import json_line
-from rightofway.site.geometry import squared_distance
+from rightofway.site.geometry import Point, squared_distance
 from rightofway.site.layout import Layout, LayoutEdge, LayoutVertex, Level
 
 LISTS = {"layouts", "nodes", "edges", "stations", "features"}
@@ -108,30 +109,20 @@ def _curved(level: Level) -> int:
     Lanes along a known curve do not count.
     """
     at = {vertex.name: vertex.at for vertex in level.vertices}
+    near = {name: (float(x), float(y)) for name, (x, y) in at.items()}
     step = Fraction(1, 1000)
     return sum(
         edge.chord_error is None
         and edge.length > step
+        # Lengths and distances of floats are off by far less than half a step.
+        and float(edge.length) > dist(near[edge.tail], near[edge.head]) + float(step) / 2
         and (edge.length - step) ** 2 > squared_distance(at[edge.tail], at[edge.head])
         for edge in level.edges
     )
 
 
 def _lif(layout: Layout) -> str:
-    layouts = [
-        {
-            "layoutId": level.name or "0",
-            "layoutVersion": "1",
-            "layoutLevelId": level.name or "0",
-            "nodes": [_lif_node(vertex, level) for vertex in level.vertices],
-            "edges": [_lif_edge(edge, number, level) for number, edge in enumerate(level.edges)],
-            "stations": [
-                {"stationId": station.name, "interactionNodeIds": list(station.vertices)}
-                for station in level.stations
-            ],
-        }
-        for level in layout.levels
-    ]
+    layouts = [_lif_level(level) for level in layout.levels]
     about = {
         "projectIdentification": "layout",
         "creator": "rightofway",
@@ -141,6 +132,25 @@ def _lif(layout: Layout) -> str:
     return _json({"metaInformation": about, "layouts": layouts}) + "\n"
 
 
+def _lif_level(level: Level) -> dict[str, Any]:
+    everybody = level.vehicle_types or (FREE_FOR_ALL,)
+    at = {vertex.name: vertex.at for vertex in level.vertices}
+    return {
+        "layoutId": level.name or "0",
+        "layoutVersion": "1",
+        "layoutLevelId": level.name or "0",
+        "nodes": [_lif_node(vertex, everybody) for vertex in level.vertices],
+        "edges": [
+            _lif_edge(edge, number, sorted(edge.types or everybody), at)
+            for number, edge in enumerate(level.edges)
+        ],
+        "stations": [
+            {"stationId": station.name, "interactionNodeIds": list(station.vertices)}
+            for station in level.stations
+        ],
+    }
+
+
 def _json(value: dict[str, Any], margin: str = "\n") -> str:
     """Return JSON with one node, edge, station or feature on a line."""
     if LISTS.isdisjoint(value):
@@ -148,20 +158,16 @@ def _json(value: dict[str, Any], margin: str = "\n") -> str:
     inner = margin + "  "
     parts = []
     for key, child in value.items():
-        text = json_line(child)
         if key in LISTS and child:
             rows = f",{inner}  ".join(_json(item, f"{inner}  ") for item in child)
             text = f"[{inner}  {rows}{inner}]"
+        else:
+            text = json_line(child)
         parts.append(f"{json_line(key)}: {text}")
     return f"{{{inner}{f',{inner}'.join(parts)}{margin}}}"
 
 
-def _types(edge: LayoutEdge | None, level: Level) -> list[str]:
-    types = None if edge is None else edge.types
-    return sorted(types or level.vehicle_types or [FREE_FOR_ALL])
-
-
-def _lif_node(vertex: LayoutVertex, level: Level) -> dict[str, Any]:
+def _lif_node(vertex: LayoutVertex, types: Sequence[str]) -> dict[str, Any]:
     actions = [
         {"actionType": name, "requirementType": "CONDITIONAL", "blockingType": "HARD"}
         for name in ("startCharging", "stopCharging")
@@ -171,33 +177,31 @@ def _lif_node(vertex: LayoutVertex, level: Level) -> dict[str, Any]:
         "nodeId": vertex.name,
         "nodePosition": {"x": float(vertex.at[0]), "y": float(vertex.at[1])},
         "vehicleTypeNodeProperties": [
-            {"vehicleTypeId": name, **({"actions": actions} if actions else {})}
-            for name in _types(None, level)
+            {"vehicleTypeId": name, **({"actions": actions} if actions else {})} for name in types
         ],
     }
 
 
-def _lif_edge(edge: LayoutEdge, number: int, level: Level) -> dict[str, Any]:
+def _lif_edge(
+    edge: LayoutEdge, number: int, types: Sequence[str], at: Mapping[str, Point]
+) -> dict[str, Any]:
     more: dict[str, Any] = {}
     if edge.max_speed is not None:
         more["maxSpeed"] = float(edge.max_speed)
     if edge.chord_error is not None:
-        more["trajectory"] = _trajectory(edge, level)
+        more["trajectory"] = _trajectory(edge, at)
     return {
         "edgeId": f"{edge.tail}-{edge.head} {number}",
         "startNodeId": edge.tail,
         "endNodeId": edge.head,
         "vehicleTypeEdgeProperties": [
-            {"vehicleTypeId": name, "rotationAllowed": True, **more} for name in _types(edge, level)
+            {"vehicleTypeId": name, "rotationAllowed": True, **more} for name in types
         ],
     }
 
 
-def _trajectory(edge: LayoutEdge, level: Level) -> dict[str, Any]:
+def _trajectory(edge: LayoutEdge, at: Mapping[str, Point]) -> dict[str, Any]:
     """Return the curve of an edge as straight lines between its points: a NURBS of degree 1."""
-    at = {
-        vertex.name: vertex.at for vertex in level.vertices if vertex.name in {edge.tail, edge.head}
-    }
     points = [at[edge.tail], *edge.shape, at[edge.head]]
     last = len(points) - 1
     return {

@@ -13,12 +13,13 @@ from xml.parsers import expat
 from rightofway.deadline import READING, STEPS_BETWEEN_LOOKS, check_work
 from rightofway.errors import InputError, Location, shown
 from rightofway.io.source import Source
+from rightofway.io.text import LIMIT, choose_limit
 
 MAX_DEPTH = 64
 """Elements inside each other, at most."""
 
-MAX_ELEMENTS = 1_000_000
-"""The most elements of a file."""
+CHARACTERS_PER_ELEMENT = 40
+"""One element is allowed for this part of the characters that a layout may have."""
 
 
 @dataclass(slots=True)
@@ -53,28 +54,34 @@ def parse_xml(text: str) -> Element:
     parser.buffer_text = True
     parser.SetParamEntityParsing(expat.XML_PARAM_ENTITY_PARSING_NEVER)
     document = Element({})
-    opened, count = [document], 0
+    opened, texts, count = [document], [list[str]()], 0
+    most = choose_limit() // CHARACTERS_PER_ELEMENT
 
     def start(name: str, attributes: dict[str, str]) -> None:
         nonlocal count
         line, count = parser.CurrentLineNumber, count + 1
         if count % STEPS_BETWEEN_LOOKS == 0:
             check_work(READING)
-        if len(opened) > MAX_DEPTH or count > MAX_ELEMENTS:
-            excess = f"more than {MAX_DEPTH} deep" if count <= MAX_ELEMENTS else "too many"
-            message = f"its elements are {excess} (is it the right file?)"
+        if len(opened) > MAX_DEPTH:
+            message = f"its elements are more than {MAX_DEPTH} deep (is it the right file?)"
+            raise InputError.at(Location(line=line), message)
+        if count > most:
+            remedy = f"set {LIMIT}={2 * CHARACTERS_PER_ELEMENT * most} for twice as many"
+            message = f"the file has more than {most} elements ({remedy})"
             raise InputError.at(Location(line=line), message)
         plain = {key.rpartition(" ")[2]: value for key, value in attributes.items()}
         bare = name.rpartition(" ")[2]
         element = Element(plain, line=line, name=bare)
         opened[-1].children.append(element)
         opened.append(element)
+        texts.append([])
 
     def end(_name: str) -> None:
-        opened.pop()
+        opened.pop().content = "".join(texts.pop())
 
     def characters(data: str) -> None:
-        opened[-1].content += data
+        if not data.isspace():  # between a million elements there are as many line ends
+            texts[-1].append(data)
 
     def entity(name: str, *_: object) -> None:
         message = f"the entity {shown(name)} is not allowed (write out what is meant)"
