@@ -100,6 +100,10 @@ chaos count *args:
 chaos-broker count *args:
     python -m tests.campaigns.broker {{ count }} {{ args }}
 
+# Have robots of vda-5050-lib make laps for MINUTES of robot time, ten times as fast; `--kills 20`
+foreign-laps minutes *args:
+    python -m tests.campaigns.foreign {{ minutes }} {{ args }}
+
 # Send COUNT broken states to a control whose robots drive: a hundred thousand take some minutes
 fuzz-states count *args:
     python -m tests.campaigns.states {{ count }} {{ args }}

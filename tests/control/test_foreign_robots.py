@@ -5,84 +5,24 @@ It is an independent reading of the norm (2.0): it refuses orders that are not a
 
 from __future__ import annotations
 
-import json
-import shutil
-import subprocess
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from rightofway.control.identities import IDENTITIES_FORMAT, load_identities
-from rightofway.control.order_map import OrderMap
 from rightofway.io import write_plan
 from rightofway.model import Plan
-from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, wait_for
+from tests.builders.brokers import MOSQUITTO, Command, Mosquitto
+from tests.builders.foreign import NODE, NOOP, PACKAGE, PICK, drive_laps, virtual_agvs
 from tests.builders.observers import Observer
-from tests.builders.pages import ROOT
 from tests.builders.plans import door
 from tests.builders.warehouses import warehouse
-
-NODE = shutil.which("node")
-PACKAGE = ROOT / "node_modules/vda-5050-lib"
 
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(MOSQUITTO is None, reason="mosquitto is not installed"),
     pytest.mark.skipif(NODE is None or not PACKAGE.exists(), reason="Node or vda-5050-lib missing"),
 ]
-
-PICK = {"action": "pick", "parameters": {"stationType": "floor", "loadType": "EPAL", "duration": 1}}
-NOOP = {"action": "noop", "parameters": {"duration": 1}}
-
-
-@contextmanager
-def virtual_agvs(plan: Plan, url: str, folder: Path, work: dict[str, Any]) -> Iterator[None]:
-    """Run the robots of a plan, ten times as fast as real ones, with a file of identities."""
-    assert NODE is not None
-    names = [robot.name for robot in plan.scenario.robots]
-    document = {
-        "format": IDENTITIES_FORMAT,
-        "manufacturer": "ACME",
-        "version": "2.0.0",
-        "work": work,
-        "repeats_work": False,
-        "robots": {name: {"serial": f"agv{number}"} for number, name in enumerate(names)},
-    }
-    identities = folder / "robots.json"
-    identities.write_text(json.dumps(document), encoding="utf-8")
-    robots = []
-    for number, identity in enumerate(load_identities(identities, names)):
-        home = plan.scenario.roadmap.name(plan.scenario.robots[number].home)
-        place = OrderMap(plan.scenario, number, identity).place(home)
-        assert place is not None
-        x, y = place.point
-        robots.append(
-            {
-                "manufacturer": identity.manufacturer,
-                "serialNumber": identity.serial_number,
-                "place": home,
-                "x": x,
-                "y": y,
-            }
-        )
-    fleet = {"broker": url, "timeLapse": 10, "robots": robots}
-    log = folder / "agvs.log"
-    with log.open("wb") as said:
-        process = subprocess.Popen(
-            [NODE, str(ROOT / "tests/js/virtual_agvs.js"), json.dumps(fleet)],
-            cwd=ROOT,
-            stdout=said,
-            stderr=said,
-        )
-    try:
-        wait_for(lambda: "up" in log.read_text(encoding="utf-8"), 60, "virtual AGVs")
-        yield
-    finally:
-        process.kill()
-        process.wait()
 
 
 @pytest.mark.parametrize(
@@ -104,3 +44,14 @@ def test_robots_of_others_drive_a_plan(plan: Plan, work: dict[str, Any], tmp_pat
         observer.close()
     finally:
         broker.kill()
+
+
+@pytest.mark.parametrize("kills", [0, 4])
+def test_robots_of_others_make_laps(kills: int, tmp_path: Path) -> None:
+    """Some minutes of robot time; `just foreign-laps 30` makes half an hour of it.
+
+    Who is not there when something is finished does not see it: an observer of which the broker
+    was killed.
+    """
+    finished = drive_laps(door(), 12, tmp_path, kills=kills)
+    assert len(finished) >= 2 * 12 * (0.5 if kills else 1)
