@@ -199,8 +199,12 @@ def test_a_bound_with_time_has_what_robots_lose_to_each_other(cli: Cli, door: Pa
     """Both robots need the door, so one of them is a tick later than alone: 9 + 10."""
     lines = cli("bound", door, "--time-limit", "10").out.splitlines()
     assert lines[2] == "flowtime, proven  at least 19 time units, and a plan reaches it"
+    assert " ".join(lines[-2:]).startswith("In every plan, R1 and R2 lose at least 1 time unit to")
     data = json.loads(cli("bound", door, "--time-limit", "10", "--json").out)
     assert data["lower_bound"] == {"flowtime": 19, "makespan": 9}
+    assert [(pair["robots"], pair["ticks"]) for pair in data["forced_losses"]] == [
+        (["R1", "R2"], 1)
+    ]
 
 
 def test_help_groups_every_command_once_and_cuts_no_sentence(cli: Cli) -> None:

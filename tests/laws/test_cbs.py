@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from rightofway import OutcomeKind, check, solve
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Objective, Plan, PlannerRun, Scenario, cost_of
+from rightofway.metrics import alone_completions, find_forced_losses
+from rightofway.model import Objective, Plan, PlannerRun, Scenario, completions_of, cost_of
 from rightofway.model.outcome import minimized
 from rightofway.planners.bounds import prove_bound
 from rightofway.search import ConflictBasedSearch, least_completions
@@ -192,6 +193,14 @@ def test_the_least_makespan_is_proven(kind: str, seed: int) -> None:
     assert outcome.bound <= least <= answer.makespan
     if outcome.kind is OutcomeKind.OPTIMAL:
         assert answer.makespan == least
+
+
+@law(any_fleet())
+def test_two_robots_lose_what_is_forced_in_any_plan(scenario: Scenario) -> None:
+    completions = completions_of(scenario, planned(scenario, "lns").tracks)
+    alone = alone_completions(scenario)
+    for loss in find_forced_losses(scenario):
+        assert sum(completions[robot] - alone[robot] for robot in loss.robots) >= loss.ticks > 0
 
 
 @law(any_fleet(), st.integers(1, 30))

@@ -37,12 +37,16 @@ from rightofway.phrases import Phrase
 from rightofway.planners import DEFAULT_PLANNER, IMPROVER, Feature, PlannerSpec, find, registered
 
 if TYPE_CHECKING:
+    from rightofway.metrics import ForcedLoss
     from rightofway.model import Plan
     from rightofway.quantities import Quantities
 
 SECONDS_PER_VISIT = 2.2e-6
 """The time to judge a plan, to write it and to report on it, for each visit that it has at least.
 Planning ends so much earlier, so that the time limit holds for the whole command."""
+
+SHARE_OF_PAIRS = 0.2
+"""The part of the time of `bound` for what pairs of robots lose to each other."""
 
 PLAN_EXAMPLES = """\b
 Examples:
@@ -171,10 +175,12 @@ def bound(
     """Print the flowtime and the makespan that no plan of a SCENARIO can be below.
 
     Both follow from the times at which the robots would be done if each drove alone. With a time
-    limit, conflict-based search and prices of places then raise the bound of the flowtime. A
-    SCENARIO of - is standard input.
+    limit, conflict-based search and prices of places then raise the bound of the flowtime, and
+    pairs of robots are listed that lose time to each other in every plan. A SCENARIO of - is
+    standard input.
     """
-    from rightofway.metrics import alone_completions
+    from rightofway.deadline import Deadline
+    from rightofway.metrics import alone_completions, find_forced_losses
     from rightofway.planners.bounds import prove_bound
     from rightofway.report.plan import report_bounds
     from rightofway.report.plan_data import measures
@@ -182,17 +188,30 @@ def bound(
     problem = read_scenario(scenario, count)
     alone, names = alone_completions(problem), [robot.name for robot in problem.robots]
     proof, is_reached = None, False
+    losses: tuple[ForcedLoss, ...] = ()
     if time_limit is not None:
-        proof, is_reached = prove_bound(problem, time_limit=time_limit)
+        deadline = Deadline.after(time_limit)
+        share = deadline.sooner(SHARE_OF_PAIRS).seconds_left()
+        losses = find_forced_losses(problem, time_limit=share)
+        proof, is_reached = prove_bound(problem, time_limit=deadline.seconds_left())
     if as_json:
         robots = [{"name": name, "alone": ticks} for name, ticks in zip(names, alone, strict=True)]
         bounds = {"flowtime": sum(alone), "makespan": max(alone)}
         if proof is not None:
             bounds[proof.objective.value] = proof.bound
-        put_json({**measures(problem), "lower_bound": bounds, "robots": robots})
+        pairs = [
+            {
+                "robots": [names[robot] for robot in loss.robots],
+                "ticks": loss.ticks,
+                "vertex": problem.roadmap.name(loss.vertex),
+            }
+            for loss in losses
+        ]
+        forced = {} if time_limit is None else {"forced_losses": pairs}
+        put_json({**measures(problem), "lower_bound": bounds, "robots": robots, **forced})
         return
     quantities = quantities_of(problem, in_ticks=in_ticks)
-    put_report(report_bounds(problem, quantities, proof, is_reached=is_reached))
+    put_report(report_bounds(problem, quantities, proof, is_reached=is_reached, losses=losses))
 
 
 def _run(

@@ -15,6 +15,7 @@ from rightofway.metrics.collisions import (
 )
 from rightofway.metrics.comparison import MAX_COMPARED, Comparison, compare
 from rightofway.metrics.events import Event, event_columns, events
+from rightofway.metrics.forced_losses import ForcedLoss, find_forced_losses
 from rightofway.metrics.inspection import inspect
 from rightofway.metrics.lost_time import joined_waits, lost_time
 from rightofway.metrics.measure import Metrics, measure
@@ -30,6 +31,7 @@ __all__ = [
     "Comparison",
     "Event",
     "Finding",
+    "ForcedLoss",
     "Inspection",
     "Metrics",
     "NamedCollision",
@@ -42,6 +44,7 @@ __all__ = [
     "compare",
     "event_columns",
     "events",
+    "find_forced_losses",
     "free_running",
     "inspect",
     "joined_waits",

@@ -9,6 +9,7 @@ from itertools import chain
 from rightofway.check import Report
 from rightofway.languages import ENGLISH
 from rightofway.metrics import (
+    ForcedLoss,
     Metrics,
     alone_completions,
     collisions,
@@ -19,6 +20,7 @@ from rightofway.metrics import (
     swaps,
 )
 from rightofway.model import Loss, LostTime, Objective, Plan, Proof, Scenario
+from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, counted, joined
 from rightofway.quantities import Quantities, decimal
 from rightofway.report.lines import Facts, Line, Paragraph, Part, Table, further, lay_out
@@ -276,11 +278,16 @@ def _decisions(words: Words) -> Iterator[Part]:
 
 
 def report_bounds(
-    scenario: Scenario, quantities: Quantities, proof: Proof | None, *, is_reached: bool
+    scenario: Scenario,
+    quantities: Quantities,
+    proof: Proof | None,
+    *,
+    is_reached: bool,
+    losses: Sequence[ForcedLoss] = (),
 ) -> list[Part]:
     """Return what no plan can be below, and when each robot would be done alone.
 
-    ``proof`` is of a higher bound, which a plan may have reached.
+    ``proof`` is of a higher bound, which a plan may have reached; ``losses`` say why it is higher.
     """
     alone = alone_completions(scenario)
 
@@ -307,6 +314,19 @@ def report_bounds(
     if len(alone) > MAX_LINES:
         more = counted(len(alone) - MAX_LINES, "more robot", "more robots")
         parts.append(Phrase("… and {robots} (--json lists all)", robots=more))
+    if losses:
+        parts.append("")
+    parts += [
+        Phrase(
+            "In every plan, {one} and {other} lose at least {time} to each other: alone they would"
+            " meet in {place}.",
+            one=scenario.robots[loss.robots[0]].name,
+            other=scenario.robots[loss.robots[1]].name,
+            time=quantities.duration(loss.ticks),
+            place=PlaceNames(scenario)(loss.vertex),
+        )
+        for loss in losses[:MAX_LINES]
+    ]
     return parts
 
 
