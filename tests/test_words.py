@@ -118,13 +118,14 @@ FIRST_WORDS = """
     confine connect convert count create cut deal decide defer delay delete derive descend describe
     download draw drive dump empty end enter enters evict exclude execute explain export extract
     fail fill find finish finishes flip flush follow forget free get give go goes handle hang
-    happens has have hold holds improve inline insert inspect is judge keep keeps kill limit list
-    listen load locate make may measure mix name need note obey open order owns parse pass pause
-    perturb place plan prepare prioritize prove put reaches read receive recognizes refuse release
-    relocate remind remove rename repair repeat replan replay report reroute reset resolve restore
-    resume retime retry reverse rollback run save say search send serve set sets settle share show
-    simulate skip solve speak splice split spread start stay step stop stream stretch submit survey
-    switch take tell to trace translate turn upload validate wait waits widen withdraw work write
+    happens has have hold holds improve inline insert inspect is judge keep keeps kill lay limit
+    list listen load locate make may measure mix name need note obey open order owns parse pass
+    pause perturb place plan prepare prioritize prove put reaches read receive recognizes refuse
+    release relocate remind remove rename repair repeat replan replay report reroute reset resolve
+    restore resume retime retry reverse rollback run save say search send serve set sets settle
+    share show simulate skip solve speak splice split spread start stay step stop stream stretch
+    submit summarize survey switch take tell to trace translate turn upload validate wait waits
+    widen withdraw work write
 """
 VERBS = frozenset(FIRST_WORDS.split())
 """First words of functions: verbs, claims (``is_empty``), ``as_``, ``to_``; add what is missing."""
@@ -140,7 +141,7 @@ NOUNS = {
     "arguments": 6,
     "bench": 13,
     "check": 12,
-    "cli": 35,
+    "cli": 33,
     "control": 46,
     "cyclic": 60,
     "deadline": 3,
@@ -158,7 +159,7 @@ NOUNS = {
     "planners": 42,
     "precedence": 50,
     "quantities": 9,
-    "report": 39,
+    "report": 16,
     "search": 19,
     "site": 35,
     "studio": 79,

@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 
 from rightofway.io import load_with_notes
-from rightofway.report.examples import example_names
+from rightofway.report.examples import list_example_names
 from tests.cli.conftest import EXAMPLES, Cli
 
 
 def test_examples_are_listed_each_with_the_first_sentence_of_its_comment(cli: Cli) -> None:
     words = " ".join(cli("examples").out.split())
     assert "door Two robots share a door (the first case of the paper): one of them" in words
-    assert all(name in words for name in example_names())
+    assert all(name in words for name in list_example_names())
 
 
 def test_an_example_is_printed_as_it_is(cli: Cli, door: Path) -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from rightofway import load
 from rightofway.cyclic import best_timetable
-from rightofway.report.laps import comparison_lines
+from rightofway.report.laps import report_comparison
 from tests.cli.conftest import EXAMPLES, Cli
 
 SLOWER = """
@@ -168,7 +168,7 @@ def test_a_timetable_below_its_baseline_says_so(slower: Path) -> None:
     assert group.comparison is not None
     found = group.comparison
     worse = replace(found, baseline_ends="open", baseline=found.throughput * 2)
-    said = " ".join(" ".join(comparison_lines(worse)).split())
+    said = " ".join(" ".join(report_comparison(worse)).split())
     assert "throughput: 50.00% below first come first served as measured within its time" in said
 
 

@@ -53,7 +53,7 @@ def test_a_row_that_differs_ends_with_1(
     found = json.loads(tables.read_text(encoding="utf-8"))
     found["tables"][3]["final"]["R1"][2] = 4
     tables.write_text(json.dumps(found), encoding="utf-8")
-    monkeypatch.setattr(paper, "examples_folder", lambda: tmp_path / "examples")
+    monkeypatch.setattr(paper, "find_examples_folder", lambda: tmp_path / "examples")
 
     ended = cli("paper", "4", "--json")
 

@@ -16,7 +16,7 @@ from rightofway.cyclic.route import CyclicRoute, GroupContext, cyclic_routes, in
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import BookingRules, Lap, Robot, Rules, Scenario, Stop, Tick
 from rightofway.precedence import CyclicSchedule
-from rightofway.report.circuits import circuit_in_words
+from rightofway.report.circuits import describe_circuit
 from rightofway.search import PeriodicBookings, RowsOfLaps
 from rightofway.site import Edge, roadmap_of_edges
 from tests.builders.laws import law
@@ -150,7 +150,7 @@ def test_waits_and_the_bottleneck_name_both_places() -> None:
     assert all({one, other} & set("AB") and {one, other} & set("CD") for one, other in beside)
     bottleneck = group.bottleneck()
     assert bottleneck is not None
-    text = circuit_in_words(bottleneck.pieces, scenario)
+    text = describe_circuit(bottleneck.pieces, scenario)
     assert re.search(r"enters (\w) once R\d has left (?!\1)", text)
 
 

@@ -19,7 +19,7 @@ from rightofway.model import Objective, Proof, Scenario, Tick
 from rightofway.model.outcome import outcome_of_cost
 from rightofway.phrases import parts_of
 from rightofway.report.plan import planning
-from rightofway.report.sentences import proof_in_words
+from rightofway.report.sentences import describe_proof
 from rightofway.viz.page.payload import payload_of
 from tests.builders.fleets import grid_fleet
 
@@ -98,7 +98,7 @@ def test_a_factor_holds_only_where_the_bound_proves_it(factor: str, kind: Outcom
     is_said = "at most 5/4 times the least flowtime" in planning(plan, plan.scenario.quantities)
     assert is_said == (kind is OutcomeKind.BOUNDED)
     page = payload_of(plan)["planner"].get("proven", "")
-    assert page == parts_of(proof_in_words(plan))
+    assert page == parts_of(describe_proof(plan))
 
 
 def test_a_bound_above_the_own_plan_is_a_fault_of_the_planner() -> None:

@@ -15,7 +15,7 @@ import pytest
 from rightofway.cyclic import Piece, excerpt, pieces_of_plan, run_laps
 from rightofway.io import load
 from rightofway.model import Rules, Scenario, Tick
-from rightofway.report.circuits import circuit_in_short, circuit_in_words, circuit_steps
+from rightofway.report.circuits import describe_circuit, list_circuit_steps, summarize_circuit
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import counter
 from tests.builders.sizes import crossing
@@ -49,7 +49,7 @@ BACK = (("right of way", 0, "N4"),)
 
 def words(*steps: tuple[str, int, str], most: int = 12) -> str:
     scenario = door()
-    return circuit_in_words(pieces(scenario, *steps), scenario, most=most)
+    return describe_circuit(pieces(scenario, *steps), scenario, most=most)
 
 
 def test_a_bottleneck_reads_as_ways_work_and_rights_of_way() -> None:
@@ -82,7 +82,7 @@ def test_laps_that_a_robot_makes_without_waiting_are_counted() -> None:
         " drives home"
     )
     scenario = door()
-    steps = circuit_steps(pieces(scenario, *FIRST[:3], *lap, *lap, *SECOND, *BACK), scenario)
+    steps = list_circuit_steps(pieces(scenario, *FIRST[:3], *lap, *lap, *SECOND, *BACK), scenario)
     laps = next(step for step in steps if step.kind == "laps")
     assert laps.ticks == 8
     assert [scenario.roadmap.name(at) for at in laps.places] == ["N3", "N4", "N1"]
@@ -91,7 +91,7 @@ def test_laps_that_a_robot_makes_without_waiting_are_counted() -> None:
 def test_a_robot_that_waits_for_nobody_is_its_own_bottleneck() -> None:
     assert words(*FIRST) == "R1's own lap: it waits for no robot"
     scenario = door()
-    assert circuit_in_short(pieces(scenario, *FIRST), scenario, Tick(44)) == (
+    assert summarize_circuit(pieces(scenario, *FIRST), scenario, Tick(44)) == (
         "Bottleneck: R1 alone, which waits for no robot, 44 time units a period"
     )
 
@@ -99,14 +99,15 @@ def test_a_robot_that_waits_for_nobody_is_its_own_bottleneck() -> None:
 def test_robots_beyond_the_first_three_are_counted() -> None:
     scenario = grid_fleet(["....."], [(f"N{k}", f"N{k}") for k in range(5)], rules=Rules())
     steps = [("way", robot, f"N{robot} N{robot}") for robot in range(5)]
-    assert circuit_in_short(pieces(scenario, *steps), scenario, Tick(9)) == (
+    assert summarize_circuit(pieces(scenario, *steps), scenario, Tick(9)) == (
         "Bottleneck: R1, R2, R3 and 2 more, 9 time units a period"
     )
 
 
 def texts(pieces: Sequence[Piece], scenario: Scenario) -> list[tuple[int, str, str, int]]:
     return [
-        (step.robot, step.kind, step.text, step.ticks) for step in circuit_steps(pieces, scenario)
+        (step.robot, step.kind, step.text, step.ticks)
+        for step in list_circuit_steps(pieces, scenario)
     ]
 
 

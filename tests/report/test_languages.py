@@ -8,7 +8,7 @@ from rightofway import load, solve
 from rightofway.languages import ENGLISH, find_languages, translate
 from rightofway.phrases import Phrase, counted
 from rightofway.report.lines import COLUMNS, Facts, Table, lay_out
-from rightofway.report.plan import decision_log, summary
+from rightofway.report.plan import report_decisions, summary
 from tests.cli.conftest import EXAMPLES
 
 
@@ -25,7 +25,7 @@ def test_no_line_of_a_report_is_longer_than_80_columns(language: str) -> None:
     plan = solve(load(EXAMPLES / "warehouse.yaml"), "two-level")
     for text in (
         summary(plan, plan.scenario.quantities, language),
-        decision_log(plan, plan.scenario.quantities, language),
+        report_decisions(plan, plan.scenario.quantities, language),
     ):
         assert max(map(len, text.splitlines())) <= COLUMNS
 

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from rightofway.model import Improvement, Plan, PlannerRun, Reroute, Rules, Tick, Track
 from rightofway.quantities import Units
-from rightofway.report.plan import decision_log, planning, summary
+from rightofway.report.plan import planning, report_decisions, summary
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import counter, door
 
@@ -128,7 +128,7 @@ def test_a_robot_that_waits_far_from_its_home_because_that_is_on_the_way_of_anot
 
 
 def test_a_tie_is_called_a_tie() -> None:
-    words = " ".join(decision_log(door(), door().scenario.quantities).split())
+    words = " ".join(report_decisions(door(), door().scenario.quantities).split())
     assert "the completion times add up to the same. Then R1 waits by rule." in words
     figures = "19 time units if R1 waits, 19 time units if R2 waits."
     assert f"Sum of completion times: {figures}" in words
@@ -137,14 +137,14 @@ def test_a_tie_is_called_a_tie() -> None:
 def test_a_log_tells_no_decisions_from_no_meetings() -> None:
     plan = door()
     searched = replace(plan, run=replace(plan.run, decisions=()))
-    words = " ".join(decision_log(searched, plan.scenario.quantities).split())
+    words = " ".join(report_decisions(searched, plan.scenario.quantities).split())
     assert words == (
         "The search that found this plan records no decisions, so no wait has a reason here"
         " (`--planner two-level` plans with a reason for each decision;"
         " `rightofway table PLAN --events` lists each wait and the robot waited for)."
     )
     apart = plan_of(["...", "..."], ([0, 1], [0, 1]), ([3, 4], [0, 1]))
-    assert decision_log(apart, apart.scenario.quantities).startswith("No decision was needed")
+    assert report_decisions(apart, apart.scenario.quantities).startswith("No decision was needed")
 
 
 def test_what_a_planner_did_needs_no_knowledge_of_its_method() -> None:

@@ -11,10 +11,10 @@ from rightofway.phrases import PhraseBook
 from rightofway.quantities import Units
 from rightofway.report.sentences import (
     Words,
-    decision_in_short,
-    decision_in_words,
-    explanation_of,
-    reason_in_words,
+    describe_decision,
+    describe_reason,
+    explain_decision,
+    summarize_decision,
 )
 from rightofway.site import VertexId
 from tests.builders.plans import door
@@ -42,8 +42,8 @@ def words() -> Words:
 
 
 def test_a_decision_is_explained_with_the_figures_of_both_choices(words: Words) -> None:
-    assert "R2 waits 6 s in N4 and lets R1 go first." in decision_in_words(words, DECISION)
-    assert explanation_of(words, DECISION) == (
+    assert "R2 waits 6 s in N4 and lets R1 go first." in describe_decision(words, DECISION)
+    assert explain_decision(words, DECISION) == (
         "Robot level: either choice leaves as many conflicts in the whole system, so the smaller"
         " sum of completion times decides. Conflicts left: 4 if R1 waits, 4 if R2 waits. Sum of"
         " completion times: 50 s if R1 waits, 47 s if R2 waits."
@@ -51,7 +51,7 @@ def test_a_decision_is_explained_with_the_figures_of_both_choices(words: Words) 
 
 
 def test_a_line_on_a_decision_has_the_loss_and_the_reason(words: Words) -> None:
-    assert decision_in_short(words, DECISION) == (
+    assert summarize_decision(words, DECISION) == (
         "R2 waits for R1, N4",
         "at 1 s \u00b7 loses 6 s \u00b7 both done sooner in all",
     )
@@ -59,23 +59,23 @@ def test_a_line_on_a_decision_has_the_loss_and_the_reason(words: Words) -> None:
 
 def test_of_an_only_choice_it_is_said_what_the_other_one_leads_to(words: Words) -> None:
     decision = replace(DECISION, level="only", waits=0, completion_sums=None)
-    assert reason_in_words(words, decision) == (
+    assert describe_reason(words, decision) == (
         "R2 cannot wait here: with the decisions taken before, no plan is possible then."
     )
 
 
 def test_where_one_order_leads_to_no_plan_that_is_said(words: Words) -> None:
     decision = replace(DECISION, completion_sums=(None, Tick(47)))
-    text = explanation_of(words, decision)
+    text = explain_decision(words, decision)
     assert "and only with R2 waiting do both get through." in text
     assert "Sum of completion times: no way if R1 waits, 47 s if R2 waits." in text
 
 
 def test_a_book_of_phrases_has_each_text_once(words: Words) -> None:
     book = PhraseBook()
-    first = book.add(decision_in_words(words, DECISION))
+    first = book.add(describe_decision(words, DECISION))
     size = len(book.entries)
-    assert book.add(decision_in_words(words, DECISION)) == first
+    assert book.add(describe_decision(words, DECISION)) == first
     assert len(book.entries) == size
     texts = [entry for entry in book.entries if isinstance(entry, str)]
     assert len(texts) == len(set(texts))

@@ -13,7 +13,12 @@ from rightofway.cli.terminal import say, say_written
 from rightofway.errors import InputError, nearest
 from rightofway.files import write_whole
 from rightofway.phrases import Phrase
-from rightofway.report.examples import SUFFIXES, example_names, examples_folder, first_sentence
+from rightofway.report.examples import (
+    SUFFIXES,
+    find_examples_folder,
+    list_example_names,
+    read_first_sentence,
+)
 
 NEW_EXAMPLES = """\b
 Examples:
@@ -62,7 +67,7 @@ def new(file: str) -> None:
 
 
 @click.command(epilog=EXAMPLES_EXAMPLES, short_help="List, print or copy the example files.")
-@click.argument("name", required=False, shell_complete=words(example_names))
+@click.argument("name", required=False, shell_complete=words(list_example_names))
 @click.option("-o", "--output", metavar="FILE", callback=writable(),
               help="Write the example NAME to this file, and the maps that it needs beside it.",
               )  # fmt: skip
@@ -88,7 +93,7 @@ def examples(name: str | None, output: str | None, parent: str | None) -> None:
 
 def _example(name: str) -> Path:
     stem = name.removesuffix(".yaml").removesuffix(".toml").removeprefix("examples/")
-    known = example_names()
+    known = list_example_names()
     within = [candidate for candidate in known if candidate.endswith(f"/{stem}")]
     if stem not in known and len(within) == 1:
         stem = within[0]
@@ -96,12 +101,12 @@ def _example(name: str) -> Path:
         meant = nearest(stem, known)
         remedy = f"did you mean {meant}?" if meant else f"give one of: {', '.join(known)}"
         raise click.BadParameter(f"{name!r} is not an example ({remedy})", param_hint="NAME")
-    beside = examples_folder() / stem
+    beside = find_examples_folder() / stem
     return next(path for path in map(beside.with_suffix, SUFFIXES) if path.is_file())
 
 
 def _list() -> None:
-    rows = [(name, first_sentence(_example(name))) for name in example_names()]
+    rows = [(name, read_first_sentence(_example(name))) for name in list_example_names()]
     formatter = click.HelpFormatter(width=80)
     formatter.write_dl(rows)
     click.echo(formatter.getvalue(), nl=False)
@@ -130,7 +135,7 @@ def _write(example: Path, target: Path) -> None:
 def _copy_all(target: Path) -> None:
     if target.exists():
         raise InputError.at("", "exists (give another folder, or remove it)", str(target))
-    folder = examples_folder()
+    folder = find_examples_folder()
     for path in sorted(folder.rglob("*")):
         if path.is_file():
             copy = target / path.relative_to(folder)

@@ -34,11 +34,11 @@ def read_scenario(path: str, count: int | None = None) -> Scenario:
     """
     from rightofway.io import load_with_notes
 
-    point_to_examples(path)
+    refuse_missing_example(path)
     return _noted(load_with_notes(path, count=count), path)
 
 
-def point_to_examples(path: str) -> None:
+def refuse_missing_example(path: str) -> None:
     """Refuse an example of help or documentation that is not in the user's folder yet."""
     if path.startswith("examples/") and not Path(path).exists():
         message = "there is no such file (rightofway examples --copy . writes the examples)"
@@ -89,7 +89,7 @@ def read_either(path: str, count: int | None = None, own: Collection[str] = ()) 
     """Read a plan or a scenario; ``-`` is standard input."""
     from rightofway.io import Loaded, load_either
 
-    point_to_examples(path)
+    refuse_missing_example(path)
     opened = load_either(path, count=count, **({} if path in own else _files()))
     return _noted(opened, path) if isinstance(opened, Loaded) else opened
 

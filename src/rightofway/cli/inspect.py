@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.completion import SCENARIOS, files
-from rightofway.cli.inputs import point_to_examples
+from rightofway.cli.inputs import refuse_missing_example
 from rightofway.cli.options import as_json_option, writable
 from rightofway.cli.outputs import PAGE_SUFFIXES, put_text, refuse_outputs
 from rightofway.cli.terminal import (
@@ -94,7 +94,7 @@ def inspect(
     from rightofway.metrics import inspect as inspected
     from rightofway.report.inspection import report_inspection
 
-    point_to_examples(source)
+    refuse_missing_example(source)
     refuse_outputs(source, output, as_json=as_json)
     choice = Choice(level=level, vehicle_type=vehicle_type, cell_size=cell_size)
     sites = read_sites(source, choice, fleet)

@@ -107,7 +107,7 @@ def laps(
     from rightofway.cyclic import RULES, TIMETABLE, best_timetable, excerpt, plan_of_laps, run_laps
     from rightofway.deadline import limit_work
     from rightofway.model.steady_state import within
-    from rightofway.report.laps import laps_report
+    from rightofway.report.laps import report_laps
     from rightofway.report.laps_data import laps_data
 
     refuse_outputs(scenario, output, as_json=as_json)
@@ -136,7 +136,7 @@ def laps(
         put_json(laps_data(run))
     elif output != "-":
         quantities = quantities_of(problem, in_ticks=in_ticks)
-        put_report(laps_report(run, quantities, language()))
+        put_report(report_laps(run, quantities, language()))
     if page:
         from rightofway.viz import write_page
 

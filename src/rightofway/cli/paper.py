@@ -12,7 +12,7 @@ import click
 from rightofway.cli.options import as_json_option, quantities_of
 from rightofway.cli.terminal import language, put_json, put_report
 from rightofway.phrases import Phrase
-from rightofway.report.examples import examples_folder, first_sentence
+from rightofway.report.examples import find_examples_folder, read_first_sentence
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -66,7 +66,7 @@ def paper(tables: tuple[int, ...], *, log: bool, as_json: bool) -> int:
     Each scenario is planned with the planner paper. NUMBERS choose tables from 1 to 11. Of Tables 1
     to 3 the published rows are not recorded, so only ours are printed.
     """
-    path = examples_folder() / "paper" / "tables.json"
+    path = find_examples_folder() / "paper" / "tables.json"
     entries = json.loads(path.read_text(encoding="utf-8"))["tables"]
     compared = [_table(entry) for entry in entries if not tables or entry["table"] in tables]
     verdicts = [row.verdict for table in compared for row in table.rows if row.verdict]
@@ -97,7 +97,7 @@ def _table(entry: dict[str, Any]) -> _Table:
     from rightofway.solve import solve
     from rightofway.viz.table import table_of
 
-    plan = solve(load(examples_folder() / "paper" / f"{entry['name']}.yaml"), "paper")
+    plan = solve(load(find_examples_folder() / "paper" / f"{entry['name']}.yaml"), "paper")
     first, table = entry.get("first_tick", 0), table_of(plan)
     rows = []
     for row in table.rows:
@@ -116,9 +116,9 @@ def _table(entry: dict[str, Any]) -> _Table:
 
 def _print(table: _Table, *, log: bool) -> None:
     from rightofway.check import check
-    from rightofway.report.plan import decision_log
+    from rightofway.report.plan import report_decisions
 
-    title = first_sentence(examples_folder() / f"{table.scenario}.yaml")
+    title = read_first_sentence(find_examples_folder() / f"{table.scenario}.yaml")
     ticks = range(table.first_tick, table.first_tick + max(len(row.ours) for row in table.rows))
     cells = [str(cell) for row in table.rows for cell in row.ours]
     width = 1 + max(len(cell) for cell in [*cells, str(ticks[-1])])
@@ -136,7 +136,7 @@ def _print(table: _Table, *, log: bool) -> None:
     if log:
         put_report(
             "\n"
-            + decision_log(
+            + report_decisions(
                 table.plan, quantities_of(table.plan.scenario, in_ticks=True), language()
             )
         )

@@ -248,7 +248,7 @@ def _run(
         problem = read(source)
         if start is not None:
             search = partial(search, start=read_plan(start))
-    blocked = no_plan_shown(problem, page, file_title(source), as_json=as_json)
+    blocked = write_no_plan(problem, page, file_title(source), as_json=as_json)
     with blocked, progress(time_limit, began) as report:
         plan = search(
             problem,
@@ -287,7 +287,7 @@ def _run(
 
 
 @contextmanager
-def no_plan_shown(problem: Any, page: str | None, title: str, *, as_json: bool) -> Iterator[None]:
+def write_no_plan(problem: Any, page: str | None, title: str, *, as_json: bool) -> Iterator[None]:
     """Write why there is no plan as JSON and as a page of the blocked map, where asked for."""
     try:
         yield
@@ -306,7 +306,7 @@ def no_plan_shown(problem: Any, page: str | None, title: str, *, as_json: bool) 
 
 
 def _report(plan: Plan, quantities: Quantities, *, log: bool, table: bool, as_json: bool) -> None:
-    from rightofway.report.plan import decision_log, summary
+    from rightofway.report.plan import report_decisions, summary
     from rightofway.report.plan_data import summary_data
 
     if as_json:
@@ -314,7 +314,7 @@ def _report(plan: Plan, quantities: Quantities, *, log: bool, table: bool, as_js
         return
     put_report(summary(plan, quantities, language()))
     if log:
-        put_report("\n" + decision_log(plan, quantities, language()))
+        put_report("\n" + report_decisions(plan, quantities, language()))
     if table:
         from rightofway.viz.table import as_text, table_of
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from rightofway.cli.completion import SCENARIOS, files
-from rightofway.cli.inputs import point_to_examples
+from rightofway.cli.inputs import refuse_missing_example
 from rightofway.cli.terminal import complain
 from rightofway.errors import InputError
 
@@ -61,7 +61,7 @@ def studio(
     from rightofway.studio.serve import folder_and_file, serve
     from rightofway.studio.session import Studio
 
-    point_to_examples(path)
+    refuse_missing_example(path)
     folder, file = folder_and_file(Path(path))
     serve(
         Studio(folder, file=file, planners=planners, keeps=not no_history),

@@ -45,7 +45,7 @@ class CircuitStep:
     text: Phrase
 
 
-def circuit_steps(pieces: Sequence[Piece], scenario: Scenario) -> list[CircuitStep]:
+def list_circuit_steps(pieces: Sequence[Piece], scenario: Scenario) -> list[CircuitStep]:
     """Return a critical circuit in steps, the first of a robot at the start; laps are one step."""
     # The right of way by which the first robot comes to its first piece may stand at the end.
     turn = next((k for k, piece in enumerate(reversed(pieces)) if piece.kind != "right of way"), 0)
@@ -108,13 +108,13 @@ def _step(piece: Piece, awaited: int, scenario: Scenario, place: PlaceNames) -> 
     )
 
 
-def circuit_in_words(pieces: Sequence[Piece], scenario: Scenario, *, most: int = MAX_STEPS) -> str:
+def describe_circuit(pieces: Sequence[Piece], scenario: Scenario, *, most: int = MAX_STEPS) -> str:
     """Return what the robots of a critical circuit do, in one sentence.
 
     That is ``R2 enters N4 once R1 has left N4, drives to N8, works at N8, drives home; …``.
     """
     names = [robot.name for robot in scenario.robots]
-    steps = circuit_steps(pieces, scenario)
+    steps = list_circuit_steps(pieces, scenario)
     if len({step.robot for step in steps}) == 1:
         return Phrase("{robot}'s own lap: it waits for no robot", robot=names[steps[0].robot])
     parts = []
@@ -127,7 +127,7 @@ def circuit_in_words(pieces: Sequence[Piece], scenario: Scenario, *, most: int =
     return chain_items(parts, "{first}; {second}")
 
 
-def circuit_in_short(pieces: Sequence[Piece], scenario: Scenario, period: Tick) -> Phrase:
+def summarize_circuit(pieces: Sequence[Piece], scenario: Scenario, period: Tick) -> Phrase:
     """Return which robots set the pace, and the period."""
     robots = list(dict.fromkeys(piece.robot for piece in pieces))
     names = [scenario.robots[robot].name for robot in robots]

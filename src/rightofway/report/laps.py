@@ -23,7 +23,7 @@ from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, counted
 from rightofway.quantities import Quantities, decimal
-from rightofway.report.circuits import circuit_in_words
+from rightofway.report.circuits import describe_circuit
 from rightofway.report.laps_data import (
     HOUR,
     MAX_VISITS,
@@ -50,7 +50,7 @@ Sites = dict[tuple[int, int | None, int, int], list[Tick]]
 """Waits by vertex, the other robot's vertex, waiting and awaited robot: their times [ticks]."""
 
 
-def laps_report(run: CyclicResult, quantities: Quantities, language: str = ENGLISH) -> str:
+def report_laps(run: CyclicResult, quantities: Quantities, language: str = ENGLISH) -> str:
     """Return a result for people."""
     return lay_out(_report(run, quantities), language)
 
@@ -76,7 +76,7 @@ def _report(run: CyclicResult, quantities: Quantities) -> Iterator[Part]:
         yield ""
         yield from _group_lines(run.scenario, quantities, group)
         if group.comparison is not None:
-            yield from comparison_lines(group.comparison)
+            yield from report_comparison(group.comparison)
     if len(largest) > MAX_GROUPS:
         more = counted(len(largest) - MAX_GROUPS, "more group", "more groups")
         yield ""
@@ -136,7 +136,7 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
     yield from _wait_lines(scenario, quantities, group)
     bottleneck = group.bottleneck()
     if bottleneck:
-        circuit = circuit_in_words(bottleneck.pieces, scenario)
+        circuit = describe_circuit(bottleneck.pieces, scenario)
         yield Phrase("bottleneck: {circuit}", circuit=circuit)
         yield from _sensitivity_lines(scenario, group)
 
@@ -294,7 +294,7 @@ BASELINES = {
 """What a timetable is compared with, by how that ends."""
 
 
-def comparison_lines(comparison: BaselineComparison) -> Iterator[Phrase]:
+def report_comparison(comparison: BaselineComparison) -> Iterator[Phrase]:
     """Yield how a timetable compares with its baseline, and how fair it is."""
     if not comparison.baseline:
         yield Phrase("throughput: first come first served ends in a deadlock")

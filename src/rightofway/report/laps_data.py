@@ -19,7 +19,7 @@ from rightofway.cyclic import (
 from rightofway.errors import GaveUp
 from rightofway.model import Scenario
 from rightofway.phrases import Phrase
-from rightofway.report.circuits import circuit_steps
+from rightofway.report.circuits import list_circuit_steps
 from rightofway.report.plan_data import measures
 from rightofway.values import written
 
@@ -156,7 +156,7 @@ def _steps_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[
                 "{robot} {steps}", robot=scenario.robots[step.robot].name, steps=step.text
             ),
         }
-        for step in circuit_steps(bottleneck.pieces if bottleneck else (), scenario)
+        for step in list_circuit_steps(bottleneck.pieces if bottleneck else (), scenario)
     ]
 
 

@@ -27,11 +27,11 @@ from rightofway.report.lines import Facts, Line, Paragraph, Part, Table, further
 from rightofway.report.sentences import (
     OBJECTIVES,
     Words,
-    decision_in_words,
-    explanation_of,
-    improvement_in_words,
-    proof_in_words,
-    sentence_on,
+    describe_decision,
+    describe_improvement,
+    describe_losses,
+    describe_proof,
+    explain_decision,
 )
 
 MAX_LINES = 10
@@ -77,13 +77,13 @@ def planning(plan: Plan, quantities: Quantities) -> str:
         parts = [
             Phrase("{planner}, planned in {time} s", planner=run.name, time=decimal(run.seconds))
         ]
-    proven = proof_in_words(plan)
+    proven = describe_proof(plan)
     if proven:
         parts.append(proven)
     if metrics.flowtime == metrics.lower_bound:
         pass  # nothing was to be improved
     elif run.improvement is not None:
-        parts.append(improvement_in_words(run.improvement, quantities))
+        parts.append(describe_improvement(run.improvement, quantities))
     if run.start is not None:
         parts.append(
             Phrase(
@@ -170,7 +170,7 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     if largest:
         yield ""
     for group in largest[:MAX_LINES]:
-        yield sentence_on(words, group)
+        yield describe_losses(words, group)
     if len(largest) > MAX_LINES:
         yield Phrase("… and {number} more (--json lists all)", number=str(len(largest) - MAX_LINES))
     yield from _detours(words, lost)
@@ -247,7 +247,7 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
             )
 
 
-def decision_log(plan: Plan, quantities: Quantities, language: str = ENGLISH) -> str:
+def report_decisions(plan: Plan, quantities: Quantities, language: str = ENGLISH) -> str:
     """Return every decision of the planner with its reason, in the order they were taken."""
     return lay_out(_decisions(Words(plan=plan, quantities=quantities)), language)
 
@@ -258,9 +258,9 @@ def _decisions(words: Words) -> Iterator[Part]:
         yield Phrase(
             "At {moment}: {decision}",
             moment=words.moment(decision.tick),
-            decision=decision_in_words(words, decision),
+            decision=describe_decision(words, decision),
         )
-        yield Paragraph(explanation_of(words, decision), "    ")
+        yield Paragraph(explain_decision(words, decision), "    ")
     for reroute in plan.run.reroutes:
         robot = words.robot(reroute.robot)
         yield Phrase("{robot} is rerouted: {why}.", robot=robot, why=reroute.because)

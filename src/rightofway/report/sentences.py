@@ -71,9 +71,9 @@ class Words:
     def closed(self) -> Sequence[tuple[tuple[int, ...], int]]:
         """What is closed for a while: its vertices, and until when."""
         scenario = self.plan.scenario
-        times = ((closure, closed_ticks(closure, scenario)) for closure in scenario.closures)
+        times = ((closure, read_closed_ticks(closure, scenario)) for closure in scenario.closures)
         return [
-            (closed_vertices(closure, scenario), end)
+            (list_closed_vertices(closure, scenario), end)
             for closure, (_, end) in times
             if end is not None
         ]
@@ -89,7 +89,7 @@ class Words:
         return cache(self.quantities.moment)
 
 
-def proof_in_words(plan: Plan) -> str:
+def describe_proof(plan: Plan) -> str:
     """Return what is proven of a plan, beside its lower bound; empty if that is nothing."""
     outcome, metrics = outcome_of(plan), measure(plan)
     if outcome.kind is OutcomeKind.OPTIMAL:
@@ -113,7 +113,7 @@ def proof_in_words(plan: Plan) -> str:
     return ""
 
 
-def improvement_in_words(improvement: Improvement, quantities: Quantities) -> Phrase:
+def describe_improvement(improvement: Improvement, quantities: Quantities) -> Phrase:
     """Return what a search gained over its first plan, and in how many attempts."""
     gain = Phrase("found no better plan")
     if improvement.saved > 0:
@@ -126,7 +126,7 @@ def improvement_in_words(improvement: Improvement, quantities: Quantities) -> Ph
     return Phrase("{attempts} to improve the first plan {gain}", attempts=attempts, gain=gain)
 
 
-def loss_in_words(words: Words, loss: Loss) -> Phrase:
+def describe_loss(words: Words, loss: Loss) -> Phrase:
     """Return how a robot loses time; the sentence goes on from its name."""
     names = {
         "other": words.robot(loss.for_robot),
@@ -151,9 +151,9 @@ def loss_in_words(words: Words, loss: Loss) -> Phrase:
             )
 
 
-def executed_loss_in_words(words: Words, loss: Loss, unplanned: int) -> Phrase:
+def describe_executed_loss(words: Words, loss: Loss, unplanned: int) -> Phrase:
     """Return how a robot loses time on the floor, and how much longer that was than planned."""
-    text = loss_in_words(words, loss)
+    text = describe_loss(words, loss)
     if unplanned <= 0:
         return text
     return Phrase("{loss}, {time} more than planned", loss=text, time=words.time(unplanned))
@@ -188,14 +188,14 @@ def _wait_in_words(words: Words, loss: Loss, names: Mapping[str, str]) -> Phrase
     )
 
 
-def sentence_on(words: Words, group: Sequence[Loss]) -> Phrase:
+def describe_losses(words: Words, group: Sequence[Loss]) -> Phrase:
     """Return where and why a robot loses time to another one; all losses are of that pair."""
     first, number = group[0], len(group)
     names = {
         "robot": words.robot(first.robot),
         "other": words.robot(first.for_robot),
         "moment": words.moment(first.tick),
-        "loss": loss_in_words(words, first),
+        "loss": describe_loss(words, first),
         "time": words.time(sum(loss.ticks for loss in group)),
         "number": str(number),
     }
@@ -210,7 +210,7 @@ def sentence_on(words: Words, group: Sequence[Loss]) -> Phrase:
     )
 
 
-def decision_in_short(words: Words, decision: Decision) -> tuple[Phrase, Phrase]:
+def summarize_decision(words: Words, decision: Decision) -> tuple[Phrase, Phrase]:
     """Return who waits for whom, and when, at what loss and why, each in a line."""
     names = {"waits": words.robot(decision.waits), "first": words.robot(goes_first(decision))}
     names["place"] = words.way(decision.vertices)
@@ -244,7 +244,7 @@ def _why(decision: Decision) -> Phrase:
     return Phrase("both done sooner in all")
 
 
-def decision_in_words(words: Words, decision: Decision) -> Phrase:
+def describe_decision(words: Words, decision: Decision) -> Phrase:
     """Return how two robots would have met, and which of them waits where."""
     first_name, other = map(words.robot, decision.robots)
     names = {
@@ -291,7 +291,7 @@ def _is_tie(decision: Decision) -> bool:
     return decision.level == "robot" and sums is not None and sums[0] == sums[1]
 
 
-def reason_in_words(words: Words, decision: Decision) -> Phrase:
+def describe_reason(words: Words, decision: Decision) -> Phrase:
     """Return why the planner decided so."""
     names = {
         "waits": words.robot(decision.waits),
@@ -338,7 +338,7 @@ def _sums_in_words(decision: Decision, waits: str) -> Phrase:
     return Phrase(", so the smaller sum of completion times decides.")
 
 
-def figures_in_words(words: Words, decision: Decision) -> list[Phrase]:
+def describe_figures(words: Words, decision: Decision) -> list[Phrase]:
     """Return what both choices lead to, in a sentence for each figure that was compared."""
     first_name, other = map(words.robot, decision.robots)
     names, sentences = {"one": first_name, "other": other}, list[Phrase]()
@@ -362,16 +362,19 @@ def figures_in_words(words: Words, decision: Decision) -> list[Phrase]:
     return sentences
 
 
-def explanation_of(words: Words, decision: Decision) -> str:
+def explain_decision(words: Words, decision: Decision) -> str:
     """Return why the planner decided so, with the figures that it compared."""
-    sentences = [reason_in_words(words, decision), *figures_in_words(words, decision)]
+    sentences = [describe_reason(words, decision), *describe_figures(words, decision)]
     return chain_items(sentences, "{first} {second}")
 
 
-def closure_in_words(closure: Closure, scenario: Scenario) -> Phrase:
+def describe_closure(closure: Closure, scenario: Scenario) -> Phrase:
     """Return what is closed, and when."""
     moment, place = scenario.quantities.moment, PlaceNames(scenario, numbered=True)
-    vertices, (begin, end) = closed_vertices(closure, scenario), closed_ticks(closure, scenario)
+    vertices, (begin, end) = (
+        list_closed_vertices(closure, scenario),
+        read_closed_ticks(closure, scenario),
+    )
     values = {"begin": moment(begin)}
     if len(vertices) > 1:
         first, last = place(vertices[0]), place(vertices[-1])
@@ -384,14 +387,14 @@ def closure_in_words(closure: Closure, scenario: Scenario) -> Phrase:
     return Phrase("closed from {begin} until {end}", **values, end=moment(end))
 
 
-def closed_vertices(closure: Closure, scenario: Scenario) -> tuple[int, ...]:
+def list_closed_vertices(closure: Closure, scenario: Scenario) -> tuple[int, ...]:
     """Return the vertices of a closure, along a lane in order."""
     if closure.edge is None:
         return () if closure.at is None else (int(closure.at),)
     return tuple(map(int, scenario.roadmap.ways_along(closure.edge)[0]))
 
 
-def closed_ticks(closure: Closure, scenario: Scenario) -> tuple[int, int | None]:
+def read_closed_ticks(closure: Closure, scenario: Scenario) -> tuple[int, int | None]:
     """Return the ticks from which and until which a place is closed; None for ever."""
     tick, until = scenario.problem.clock.tick, closure.until
     return floor(closure.from_ / tick), None if until is None else ceil(until / tick)

@@ -16,7 +16,7 @@ import threading
 from pathlib import Path
 from typing import IO, Any
 
-from rightofway.report.examples import examples_folder
+from rightofway.report.examples import find_examples_folder
 from rightofway.studio.messages import LENGTH, Blobs, as_error, packed
 
 SHARE_OF_MEMORY = 0.5
@@ -109,7 +109,7 @@ def confine(*folders: str) -> None:
     """
     package = Path(__file__).parents[2]
     own = {sys.prefix, sys.base_prefix, str(package), "/dev/null", "/proc", "/sys", *sys.path}
-    own.add(str(examples_folder()))
+    own.add(str(find_examples_folder()))
     known = {os.path.realpath(path) for path in own if path}
     roots = tuple(f"{root.rstrip(os.sep)}{os.sep}" for root in {*known, *folders})
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Path, Query, Response
 
-from rightofway.report.examples import example_names, examples_folder, first_sentence
+from rightofway.report.examples import find_examples_folder, list_example_names, read_first_sentence
 from rightofway.studio.errors import Refused, TaskFailed
 from rightofway.studio.routes.models import InStudio
 from rightofway.studio.session import Studio
@@ -21,9 +21,9 @@ Named = Annotated[str, Path(description="path of a file, name of a draft or of a
 
 def scenario_examples() -> dict[str, str]:
     """Return the examples to begin with: their names, and what they show, in a sentence."""
-    names = [name for name in example_names() if "/" not in name]
-    files = {name: examples_folder() / f"{name}.yaml" for name in names}
-    return {name: first_sentence(file) for name, file in files.items() if file.is_file()}
+    names = [name for name in list_example_names() if "/" not in name]
+    files = {name: find_examples_folder() / f"{name}.yaml" for name in names}
+    return {name: read_first_sentence(file) for name, file in files.items() if file.is_file()}
 
 
 @router.get("/examples", tags=["files"])
@@ -79,7 +79,7 @@ def _asked(studio: Studio, source: Source, name: str) -> tuple[dict[str, Any], o
         if draft is None:
             raise Refused(f"there is no draft {name!r} (see the list of drafts)", 404)
         return {"document": draft["document"]}, draft["saved"]
-    return {"path": str(examples_folder() / f"{_known(name)}.yaml")}, None
+    return {"path": str(find_examples_folder() / f"{_known(name)}.yaml")}, None
 
 
 def _known(name: str) -> str:

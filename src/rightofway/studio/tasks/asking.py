@@ -12,7 +12,7 @@ from rightofway.metrics import lost_time
 from rightofway.model import Loss, Plan, Tick
 from rightofway.phrases import Phrase, parts_of
 from rightofway.planners.flip import flipped
-from rightofway.report.sentences import Words, decision_in_words, explanation_of, sentence_on
+from rightofway.report.sentences import Words, describe_decision, describe_losses, explain_decision
 from rightofway.studio.messages import Blobs, Emit, zipped
 from rightofway.studio.tasks.documents import figures
 from rightofway.studio.tasks.views import read
@@ -40,8 +40,8 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
     because = [
         {
             "index": index,
-            "decision": (story := decision_in_words(words, words.plan.run.decisions[index])),
-            "reason": (reason := explanation_of(words, words.plan.run.decisions[index])),
+            "decision": (story := describe_decision(words, words.plan.run.decisions[index])),
+            "reason": (reason := explain_decision(words, words.plan.run.decisions[index])),
             "phrase": parts_of(Phrase("{first} {second}", first=story, second=reason)),
         }
         for index in _decisions_behind(words.plan, loss)
@@ -56,7 +56,7 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
         "tick": loss.tick,
         "end": loss.end,
         "ticks": loss.ticks,
-        "sentence": (sentence := sentence_on(words, [loss])),
+        "sentence": (sentence := describe_losses(words, [loss])),
         "phrase": parts_of(sentence),
         "because": because,
     }

@@ -12,7 +12,7 @@ from rightofway.io.sites import Choice, Sites, read_sites, sites_of
 from rightofway.metrics.site import extent
 from rightofway.model import Plan
 from rightofway.quantities import decimal
-from rightofway.report.examples import examples_folder
+from rightofway.report.examples import find_examples_folder
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import Result, plain, raw_document
 from rightofway.studio.tasks.editing import drawn_map, readable
@@ -68,7 +68,7 @@ def _document(document: dict[str, Any], folder: str) -> Sites:
 
 def example(_emit: Emit, _blobs: Blobs, *, name: str) -> Result:
     """Return an example of the package as a document that names no other file."""
-    file = examples_folder() / f"{name}.yaml"
+    file = find_examples_folder() / f"{name}.yaml"
     document = raw_document(file)
     try:
         read_scenario(document, None)

@@ -15,7 +15,7 @@ from rightofway.io.text import parse_json
 from rightofway.model import Scenario
 from rightofway.phrases import parts_of
 from rightofway.report.execution import report as simulation_report
-from rightofway.report.laps import laps_report
+from rightofway.report.laps import report_laps
 from rightofway.report.laps_data import laps_data
 from rightofway.report.plan_data import measures
 from rightofway.studio.messages import Blobs, Emit
@@ -76,7 +76,7 @@ def laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: A
     run = _repeated(scenario, emit, **settings)
     shown, steady = excerpt(run)
     payload = compact_json(payload_of(shown, steady=steady)).encode()
-    text = laps_report(run, scenario.quantities)
+    text = report_laps(run, scenario.quantities)
     report = parts_of({**laps_data(run), "text": text})
     result: dict[str, Any] = {"report": report, "has_payload": True}
     try:

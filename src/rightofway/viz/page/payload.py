@@ -36,19 +36,19 @@ from rightofway.model.closures import Closure
 from rightofway.model.given import checked_plan
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.phrases import Phrase, PhraseBook, parts_of
-from rightofway.report.circuits import circuit_in_short, circuit_in_words
+from rightofway.report.circuits import describe_circuit, summarize_circuit
 from rightofway.report.sentences import (
     Words,
-    closed_ticks,
-    closed_vertices,
-    closure_in_words,
-    decision_in_short,
-    decision_in_words,
-    executed_loss_in_words,
-    improvement_in_words,
-    loss_in_words,
-    proof_in_words,
-    reason_in_words,
+    describe_closure,
+    describe_decision,
+    describe_executed_loss,
+    describe_improvement,
+    describe_loss,
+    describe_proof,
+    describe_reason,
+    list_closed_vertices,
+    read_closed_ticks,
+    summarize_decision,
 )
 from rightofway.values import at, list_of, one_of, optional, text
 from rightofway.viz.motion import Trip, end_of, trips_of
@@ -126,7 +126,7 @@ def payload_of(
         "line": _line(plan, [other for other, _ in others]),
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [
-            _loss(loss, book.add(loss_in_words(words, loss)))
+            _loss(loss, book.add(describe_loss(words, loss)))
             for robot_losses in lost
             for loss in robot_losses.losses
         ],
@@ -236,13 +236,13 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> F
 
 def closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
     """Return the vertices of a closure, along a lane in order, and when it is."""
-    begin, end = closed_ticks(closure, scenario)
+    begin, end = read_closed_ticks(closure, scenario)
     return {
-        "vertices": list(closed_vertices(closure, scenario)),
+        "vertices": list(list_closed_vertices(closure, scenario)),
         "from": begin,
         "until": end,
         "radius": None if closure.radius is None else float(closure.radius),
-        "text": parts_of(closure_in_words(closure, scenario)),
+        "text": parts_of(describe_closure(closure, scenario)),
     }
 
 
@@ -250,9 +250,9 @@ def _planner(plan: Plan) -> PlannerData:
     run = plan.run
     method = run.status
     if run.improvement is not None:
-        method = improvement_in_words(run.improvement, plan.scenario.quantities)
+        method = describe_improvement(run.improvement, plan.scenario.quantities)
     data: PlannerData = {"name": run.name, "method": parts_of(method)}
-    if proven := proof_in_words(plan):
+    if proven := describe_proof(plan):
         data["proven"] = parts_of(proven)
     return data
 
@@ -307,12 +307,12 @@ def _robots(
 
 
 def _decision(decision: Decision, words: Words, book: PhraseBook) -> DecisionData:
-    head, detail = decision_in_short(words, decision)
+    head, detail = summarize_decision(words, decision)
     return {
         "head": book.add(head),
         "detail": book.add(detail),
-        "story": book.add(decision_in_words(words, decision)),
-        "reason": book.add(reason_in_words(words, decision)),
+        "story": book.add(describe_decision(words, decision)),
+        "reason": book.add(describe_reason(words, decision)),
         "tick": decision.tick,
         "kind": decision.kind,
         "vertices": list(decision.vertices),
@@ -338,10 +338,10 @@ def _steady(plan: Plan, steady: Sequence[SteadyState], book: PhraseBook) -> list
             "critical": list(group.critical),
         }
         if pieces := pieces_of_plan(plan, group):
-            short = circuit_in_short(pieces, plan.scenario, group.period)
+            short = summarize_circuit(pieces, plan.scenario, group.period)
             data["bottleneck"] = (
                 book.add(short),
-                book.add(circuit_in_words(pieces, plan.scenario)),
+                book.add(describe_circuit(pieces, plan.scenario)),
             )
         groups.append(data)
     return groups
@@ -413,7 +413,7 @@ def _execution(
         "end": max(1, *(stay.completion for stay in stays), *filter(None, actual.completion)),
         "robots": robots,
         "losses": [
-            _loss(loss, book.add(executed_loss_in_words(words, loss, unplanned(loss))))
+            _loss(loss, book.add(describe_executed_loss(words, loss, unplanned(loss))))
             for loss in joined_waits(plan.scenario, actual.tracks, stays)
         ],
     }
