@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
-from contextlib import ExitStack
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import ExitStack, closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from urllib.request import Request, urlopen
 
 import pytest
 
+from rightofway.control.commands import Commands
 from rightofway.control.demo import drive_demo
 from tests.builders.accessibility import serious
 from tests.builders.browsers import expect
@@ -65,6 +69,27 @@ def disc_at(viewer: Player, place: tuple[float, float], colour: str) -> bool:
         for disc in viewer.discs()
         if disc.colour == colour and not disc.is_dashed
     )
+
+
+def give(address: str, **order: str) -> Future[Any]:
+    """Give an order, as a program does; the answer comes when time goes on."""
+    request = Request(  # noqa: S310 (this machine)
+        f"{address}drives/0/orders",
+        json.dumps(order).encode(),
+        {"content-type": "application/json"},
+    )
+
+    def send() -> Any:
+        with urlopen(request, timeout=30) as answer:  # noqa: S310 (this machine)
+            return json.load(answer)
+
+    return ThreadPoolExecutor().submit(send)
+
+
+def is_asked(viewer: Player, journal: Path) -> None:
+    """Wait until an order has come that has no answer."""
+    with closing(Commands(journal)) as commands:
+        viewer.poll(commands.unanswered, "the order")
 
 
 def colours(viewer: Player) -> list[str]:
@@ -215,6 +240,7 @@ def test_a_person_holds_robots_and_lets_them_go(
     expect(dialog).to_be_hidden()
     page.get_by_role("button", name="Hold all robots").click()
     page.get_by_role("dialog").get_by_role("button", name="Yes").click()
+    is_asked(viewer, journal)
     drive.let(10**9)
     expect(row_of(viewer, "R2")).to_contain_text("held by a person")
     expect(page.get_by_text("carried out")).to_be_visible()
@@ -225,6 +251,32 @@ def test_a_person_holds_robots_and_lets_them_go(
     page.get_by_role("button", name="Let R1 go").click()
     expect(page.get_by_text("the control has ended")).to_be_visible()
     expect(page.get_by_role("toolbar", name="Orders to the robots")).to_be_hidden()
+    assert viewer.complaints == []
+
+
+def test_a_robot_that_was_taken_off_the_floor_is_placed_by_a_person(
+    browser: Browser, stack: ExitStack, tmp_path: Path
+) -> None:
+    """R1 is taken off at home; R2, which need not wait for it any more, comes home."""
+    journal = tmp_path / "demo.journal"
+    drive = stack.enter_context(driven(door(), journal))
+    address = stack.enter_context(watched(door(), journal))
+    viewer = opened(browser, stack, address)
+    answer = give(address, kind="remove", name="R1")
+    is_asked(viewer, journal)
+    drive.let(5)
+    assert answer.result()["done"]
+    expect(row_of(viewer, "R1")).to_contain_text("off the floor")
+    shows(viewer, 5)
+    row_of(viewer, "R1").click()
+    viewer.page.get_by_role("button", name="R1 is on the floor again").click()
+    dialog = viewer.page.get_by_role("dialog")
+    expect(dialog).to_contain_text("Where is R1 on the floor again?")
+    dialog.get_by_label("Place").fill("N99")
+    dialog.get_by_role("button", name="Yes").click()
+    is_asked(viewer, journal)
+    drive.let(6)
+    expect(viewer.page.get_by_text("no vertex is named 'N99'")).to_be_visible()
     assert viewer.complaints == []
 
 

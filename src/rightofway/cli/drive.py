@@ -90,7 +90,7 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
               " a topic and a message a line.")  # fmt: skip
 @click.option("--replay", is_flag=True,
               help="Drive nothing: serve the page of what the journal of the plan has, also while"
-              " a control writes it.")  # fmt: skip
+              " a control writes it; with --page, write it as a file.")  # fmt: skip
 @click.option("--live", is_flag=True,
               help="Serve a page on which to watch the robots and to hold them; it stays when they"
               " have ended, until Ctrl-C.")  # fmt: skip
@@ -111,7 +111,7 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @click.option("--switch", is_flag=True,
               help="Switch rights of way where robots have come so far that another order is"
               " better.")  # fmt: skip
-@page_option("what robots of a demo did beside the plan")
+@page_option("what robots of a demo did beside the plan, or with --replay what a journal has")
 @ticks_option
 @as_json_option("outcome")
 def drive(
@@ -164,6 +164,10 @@ def drive(
     journal_file = Path(journal) if journal else Path(plan).with_suffix(".journal")
 
     shown = WatchPage(plan=opened, title=file_title(plan), host=host, port=port)
+    if replay and page:
+        shown.write(journal_file, page)
+        say_written(page)
+        return 0
     if replay:
         with shown.serve(journal_file, takes_orders=False):
             shown.wait_for_interrupt()

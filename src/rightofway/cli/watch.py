@@ -14,6 +14,7 @@ import click
 
 from rightofway.cli.terminal import complain
 from rightofway.errors import InputError
+from rightofway.files import write_whole
 from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
@@ -57,9 +58,7 @@ class WatchPage:
     @contextmanager
     def serve(self, journal: Path, *, takes_orders: bool) -> Iterator[None]:
         """Serve the page of a journal as long as the context lasts."""
-        if not (find_spec("fastapi") and find_spec("uvicorn")):
-            message = "needs packages that are not installed (pip install 'rightofway[studio]')"
-            raise InputError.at("--live" if takes_orders else "--replay", message)
+        self._need_packages("--live" if takes_orders else "--replay")
         from rightofway.studio.serve import serve_watch
         from rightofway.studio.watching import Watched
 
@@ -68,6 +67,20 @@ class WatchPage:
         )
         with serve_watch(watched, host=self.host, port=self.port, say=complain):
             yield
+
+    def write(self, journal: Path, path: str) -> None:
+        """Write the page of all that a journal has, as one file."""
+        self._need_packages("--replay")
+        from rightofway.studio.watching import Watched
+
+        watched = Watched(self.plan, journal, title=self.title, takes_orders=False)
+        write_whole(path, watched.make_page(is_whole=True))
+
+    @staticmethod
+    def _need_packages(option: str) -> None:
+        if not (find_spec("fastapi") and find_spec("uvicorn")):
+            message = "needs packages that are not installed (pip install 'rightofway[studio]')"
+            raise InputError.at(option, message)
 
     def wait_for_interrupt(self) -> None:
         """Go on until Ctrl-C."""

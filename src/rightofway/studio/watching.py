@@ -23,6 +23,7 @@ from rightofway.studio.errors import Busy, Refused
 from rightofway.viz.page.document import compact_json, document_of
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.page.schema import FeedData
+from rightofway.viz.page.translations import translations_for
 
 __all__ = ["ORDERS", "Watched"]
 
@@ -38,7 +39,7 @@ MAX_PAGES = 64
 PATIENCE = 10.0
 """How long a page waits for the answer to an order [s]."""
 
-ORDERS = ("hold", "go", "clear", "remove", "close", "open")
+ORDERS = ("hold", "go", "clear", "remove", "place", "close", "open")
 """What pages may ask a control for."""
 
 
@@ -90,7 +91,9 @@ class Watched:
                 feed["orders"] = f"{self._address}orders"
         payload = payload_of(self._plan, title=self._title)
         payload["driven"] = feed
-        payload["translations"] = {language: dict(own) for language, own in read_tables().items()}
+        said = translations_for(feed["frame"]["rows"]) if is_whole else read_tables()
+        for language, own in said.items():
+            payload["translations"][language] |= own
         about = f"{self._title}: {len(self._plan.scenario.robots)} robots"
         return document_of(about, payload, "watch_main", connects=not is_whole)
 
@@ -132,7 +135,7 @@ class Watched:
         Parameters
         ----------
         order
-            Its ``kind``, and the ``name`` of a robot or place.
+            Its ``kind``, the ``name`` of a robot or place, ``at`` or ``to`` another place.
 
         Raises
         ------
@@ -143,17 +146,22 @@ class Watched:
         """
         if not self._takes_orders:
             raise Refused("this page only watches (open that of the control)", 403)
-        kind, name = order.get("kind"), order.get("name")
+        kind = order.get("kind")
         if kind not in ORDERS:
             message = (
                 f"{json.dumps(kind)[:40]} is no order of a page (give one of {', '.join(ORDERS)})"
             )
             raise InputError.at("kind", message)
-        if name is not None and not isinstance(name, str):
-            raise InputError.at("name", f"{json.dumps(name)[:40]} is no name (give text)")
+        command: dict[str, Any] = {"kind": kind}
+        for key in ("name", "at", "to"):
+            given = order.get(key)
+            if given is not None and not isinstance(given, str):
+                raise InputError.at(key, f"{json.dumps(given)[:40]} is no name (give text)")
+            if given is not None:
+                command[key] = given
         commands = Commands(self._journal)
         try:
-            number = commands.ask({"kind": kind, "name": name})
+            number = commands.ask(command)
             answer = commands.wait_for(number, PATIENCE)
         finally:
             commands.close()

@@ -205,6 +205,7 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
     <button type="button" id="hold-one" class="quiet" data-text="holdOne" hidden></button>
     <button type="button" id="clear-one" class="quiet" data-text="clearOne" hidden></button>
     <button type="button" id="remove-one" class="quiet" data-text="removeOne" hidden></button>
+    <button type="button" id="place-one" class="quiet" data-text="placeOne" hidden></button>
     <output id="order-answer"></output>
   </div>
   ${CARD}
@@ -255,6 +256,7 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
 
 <dialog id="order-confirm" class="about" aria-labelledby="order-question">
   <p id="order-question"></p>
+  <label id="order-place" class="order-place" hidden><span data-text="orderAt"></span> <input type="text" id="order-at" autocomplete="off" spellcheck="false"></label>
   <form method="dialog">
     <button type="submit" id="order-yes" data-text="yes"></button>
     <button type="submit" data-text="cancel"></button>

@@ -5,7 +5,7 @@ import { texts } from "./language.js";
 /** @import { Driven } from "./driven.js" */
 /** @import { Root } from "./root.js" */
 
-/** What a person asks the control for: hold one robot or all, let them go, confirm where a faulty one is. */
+/** What a person asks the control for: hold one robot or all, let them go, say where one is that was in trouble. */
 export class Orders {
   /**
    * @param {Root} root
@@ -24,6 +24,8 @@ export class Orders {
     this.one = root.part("hold-one", HTMLButtonElement);
     this.clear = root.part("clear-one", HTMLButtonElement);
     this.remove = root.part("remove-one", HTMLButtonElement);
+    this.place = root.part("place-one", HTMLButtonElement);
+    this.at = root.part("order-at", HTMLInputElement);
     const { driven: own } = texts;
     root.part("hold-all").addEventListener("click", () => this.#confirm(own.holdAllAsked, "hold"));
     root.part("go-all").addEventListener("click", () => this.#confirm(own.goAllAsked, "go"));
@@ -33,6 +35,9 @@ export class Orders {
     );
     this.remove.addEventListener("click", () =>
       this.#confirm(own.removeAsked(this.#name), "remove", this.#name),
+    );
+    this.place.addEventListener("click", () =>
+      this.#confirm(own.placeAsked(this.#name), "place", this.#name),
     );
     root.part("order-yes").addEventListener("click", () => this.#asked());
   }
@@ -64,11 +69,13 @@ export class Orders {
         .alarmsAt(Infinity)
         .some((alarm) => alarm.robot === robot.index && alarm.kind === "fault");
     this.clear.hidden = this.remove.hidden = !isFaulty;
+    this.place.hidden = robot === null || !this.driven.isOff(robot.index, Infinity);
     if (!robot) return;
     const { driven: own } = texts;
     this.#write(this.one, this.#isHeld ? own.goOne(robot.name) : own.holdOne(robot.name));
     this.#write(this.clear, own.clearOne(robot.name));
     this.#write(this.remove, own.removeOne(robot.name));
+    this.#write(this.place, own.placeOne(robot.name));
   }
 
   /**
@@ -88,17 +95,20 @@ export class Orders {
    */
   #confirm(question, kind, name) {
     this.root.part("order-question").textContent = question;
-    this.#asked = () => this.#send(kind, name);
+    this.at.value = "";
+    this.root.part("order-place").hidden = kind !== "place";
+    this.#asked = () => this.#send(kind, name, this.at.value.trim() || undefined);
     this.dialog.showModal();
   }
 
   /**
    * @param {string} kind
    * @param {string} [name]
+   * @param {string} [at]
    */
-  async #send(kind, name) {
+  async #send(kind, name, at) {
     this.answer.textContent = texts.driven.asked;
-    const { done, text } = await sendOrder(this.address, { kind, name });
+    const { done, text } = await sendOrder(this.address, { kind, name, at });
     const { driven: own } = texts;
     this.answer.textContent = done ? own.carriedOut : own.refused(text || own.disconnected);
   }

@@ -77,6 +77,8 @@ export const GERMAN = {
     holdOne: "Den Roboter halten",
     clearOne: "Der Roboter ist, wo er gezeigt wird",
     removeOne: "Der Roboter ist nicht auf der Fläche",
+    placeOne: "Der Roboter ist wieder auf der Fläche",
+    orderAt: "Knoten",
     log: "Verlauf",
     findTold: "Im Verlauf suchen",
     yes: "Ja",
@@ -253,6 +255,9 @@ export const GERMAN = {
       `Ist ${name} dort, wo er gezeigt wird? Er fährt von dort weiter, und andere verlassen sich darauf.`,
     removeAsked: (name) =>
       `Ist ${name} nicht mehr auf der Fläche? Andere fahren durch die Knoten, die er belegt hat.`,
+    placeOne: (name) => `${name} ist wieder auf der Fläche`,
+    placeAsked: (name) =>
+      `Wo ist ${name} wieder auf der Fläche? Ohne Namen eines Knotens dort, wo er selbst sagt.`,
     asked: "angefragt …",
     carriedOut: "ausgeführt",
     refused: (reason) => `abgelehnt: ${reason}`,

@@ -76,6 +76,8 @@ export const ENGLISH = {
     holdOne: "Hold the robot",
     clearOne: "The robot is where it is shown",
     removeOne: "The robot is off the floor",
+    placeOne: "The robot is on the floor again",
+    orderAt: "Place",
     log: "Log",
     findTold: "Find in the log",
     yes: "Yes",
@@ -306,6 +308,11 @@ export const ENGLISH = {
     /** @param {string} name */
     removeAsked: (name) =>
       `Is ${name} off the floor? Others drive through the places that it held.`,
+    /** @param {string} name */
+    placeOne: (name) => `${name} is on the floor again`,
+    /** @param {string} name */
+    placeAsked: (name) =>
+      `Where is ${name} on the floor again? Without a name of a place, where it says that it is.`,
     asked: "asked…",
     carriedOut: "carried out",
     /** @param {string} reason */
