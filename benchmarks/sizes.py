@@ -9,6 +9,9 @@ all there are.
 ``python -m benchmarks.sizes rules`` plans on such graphs with other rules for pieces, each by 1000
 neighbourhoods, without a clock: the figures of decision 41.
 
+``python -m benchmarks.sizes ccbs FOLDER`` plans tasks of Continuous-CBS (Andreychuk et al., 2019),
+whose roadmaps are at github.com/PathPlanning/Continuous-CBS: a folder with map.xml and 1_task.xml.
+
 ``python -m benchmarks.sizes FOLDER [SCENARIO ...]`` wants a folder of the MovingAI benchmark, with
 ``maps`` and ``scens`` in it. SCENARIO is a file with a real layout, as ``rightofway convert``
 writes it; its robots are replaced by a fleet of three sizes. Times are CPU seconds of one thread,
@@ -35,6 +38,7 @@ import numpy as np
 import rightofway
 from benchmarks.common import SEEDS, movingai_fleet, table
 from rightofway.io import scenario_of
+from rightofway.io.layouts.xml_tree import parse_xml
 from rightofway.metrics import measure
 from rightofway.model import Robot, Scenario, Stop
 from rightofway.model.problem import problem_of
@@ -322,6 +326,35 @@ def _ratio(document: dict[str, Any]) -> float:
     return metrics.flowtime / metrics.lower_bound
 
 
+CCBS_ROBOTS, CCBS_TASKS, CCBS_RADIUS = (20, 40), (1, 2), 0.354
+
+
+def on_a_public_roadmap(folder: Path) -> str:
+    """Return the table of tasks of Continuous-CBS, its discs at speed 1, by the default planner."""
+    lines = []
+    for robots in CCBS_ROBOTS:
+        for task in CCBS_TASKS:
+            text = (folder / f"{task}_task.xml").read_text(encoding="utf-8")
+            agents = [agent.value for agent in parse_xml(text).descendants("agent")]
+            scenario = scenario_of(
+                {
+                    "format": "rightofway-scenario/1",
+                    "map": {"layout": "map.xml"},
+                    "robots": [
+                        {"name": f"R{k}", "radius": CCBS_RADIUS,
+                         "home": f"n{agent['start_id']}", "target": f"n{agent['goal_id']}"}
+                        for k, agent in enumerate(agents[:robots])
+                    ],
+                    "rules": {"return": "none"},
+                },
+                folder,
+            )  # fmt: skip
+            metrics = measure(rightofway.solve(scenario, time_limit=SECONDS))
+            ratio = metrics.flowtime / metrics.lower_bound
+            lines.append((str(robots), str(task), str(scenario.roadmap.n_edges), f"{ratio:.4f}"))
+    return table(("robots", "task", "edges", f"ratio after {SECONDS} s"), lines)
+
+
 def main() -> None:
     """Print the tables."""
     if len(sys.argv) == 1:
@@ -329,6 +362,9 @@ def main() -> None:
         return
     if sys.argv[1:] == ["rules"]:
         print(by_rules())  # noqa: T201
+        return
+    if sys.argv[1] == "ccbs":
+        print(on_a_public_roadmap(Path(sys.argv[2])))  # noqa: T201
         return
     print(cost_of_sizes(Path(sys.argv[1])))  # noqa: T201
     for path in sys.argv[2:]:

@@ -13,6 +13,7 @@ from rightofway.metrics import Finding, Site, inspect
 from rightofway.model import Robot, Stop
 from rightofway.quantities import Units
 from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
+from rightofway.site.spacing import split_lanes
 
 METRES = Units(length="m", time="s")
 
@@ -108,6 +109,21 @@ def test_vertices_nearer_than_the_robots_are_wide_are_found_exactly() -> None:
         " (move one, or use smaller robots)"
     )
     assert finding.severity == "warning"
+
+
+def test_pieces_of_lanes_that_cross_are_in_nobodys_wrong_place() -> None:
+    """Each lane of 8 m is two pieces, which meet in its middle, where the other one is, too."""
+    at = {"A": (0, 0), "B": (8, 0), "C": (4, -4), "D": (4, 4)}
+    positions = {name: (Fraction(x), Fraction(y)) for name, (x, y) in at.items()}
+    edges = [Edge(tail=tail, head=head, length=Fraction(8)) for tail, head in ("AB", "CD")]
+    split = split_lanes(positions, edges, None, distance=Fraction(2))
+    floats = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
+    roadmap = roadmap_of_edges(floats, split.edges, pieces=split.pieces)
+    robots = (robot("R1", 0, 1, "1"), robot("R2", 2, 3, "1"))
+    findings = found(Site(roadmap=roadmap, units=METRES, robots=robots), "too near")
+    assert {finding.severity for finding in findings} == {"note"}
+    assert "A-B/1 and C-D/1 are 0 m apart" in findings[0].fact
+    assert all("wait for each other" in str(finding) for finding in findings)
 
 
 def test_homes_that_are_too_near_are_an_error() -> None:

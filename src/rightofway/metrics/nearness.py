@@ -21,6 +21,9 @@ TOUCHING = Fraction(1, 10**6)
 ROUNDED = 10**6
 """Distances in sentences are rounded to this part of a length unit."""
 
+TAKE_TURNS = Phrase("robots wait for each other there; a vertex lets them wait nearer")
+"""What to do where lanes cross, or their pieces are too near: nothing is drawn in a wrong place."""
+
 MOST_NAMED = 200
 """The most vertices that a finding names."""
 
@@ -90,7 +93,8 @@ def _near(site: Site) -> Iterator[Finding]:
             )
         return
     pairs = close_pairs(roadmap, room or TOUCHING)
-    yield from _near_vertices(site, pairs, need)
+    joints = {int(joint) for lane in roadmap.lanes for joint in lane.joints} - {*site.places}
+    yield from _near_vertices(site, pairs, need, joints)
     for vertex, (tail, head) in pairs.beside:
         if roadmap.is_along_one_lane((vertex, tail, head)):
             continue
@@ -109,11 +113,13 @@ def _near(site: Site) -> Iterator[Finding]:
         )
         yield Finding(
             kind="too near",
-            severity="warning",
+            severity="note" if need and vertex in joints else "warning",
             fact=beside,
-            remedy=Phrase("a robot on one blocks the other; move one")
-            if need
-            else Phrase("split the lane there"),
+            remedy=Phrase("split the lane there")
+            if not need
+            else TAKE_TURNS
+            if vertex in joints
+            else Phrase("a robot on one blocks the other; move one"),
             vertices=site.names((vertex, tail, head)),
         )
     for lanes in pairs.crossings:
@@ -127,7 +133,7 @@ def _near(site: Site) -> Iterator[Finding]:
             fact=Phrase(
                 "The lanes {one} and {other} cross without a vertex", one=first, other=other
             ),
-            remedy=Phrase("robots wait for each other there; a vertex lets them wait nearer")
+            remedy=TAKE_TURNS
             if need
             else Phrase(
                 "draw a vertex there, or give robots a radius: without one they do not give way"
@@ -143,7 +149,9 @@ def smallest_cell(roadmap: Roadmap) -> Fraction | None:
     return None if roadmap.sides is None else Fraction(repr(float(roadmap.sides.min())))
 
 
-def _near_vertices(site: Site, pairs: ClosePairs, need: Phrase | None) -> Iterator[Finding]:
+def _near_vertices(
+    site: Site, pairs: ClosePairs, need: Phrase | None, joints: set[int]
+) -> Iterator[Finding]:
     roadmap = site.roadmap
     for first, other in pairs.vertices:
         if roadmap.is_along_one_lane((first, other)):
@@ -152,6 +160,7 @@ def _near_vertices(site: Site, pairs: ClosePairs, need: Phrase | None) -> Iterat
         both_homes = _homes_clash(site, first, other)
         is_joined = roadmap.edge(first, other) is not None or roadmap.edge(other, first) is not None
         are_places = first in site.places and other in site.places
+        are_drawn = joints.isdisjoint((first, other))
         names = {"one": site.name(first), "other": site.name(other)}
         if need:
             fact = Phrase(
@@ -167,12 +176,14 @@ def _near_vertices(site: Site, pairs: ClosePairs, need: Phrase | None) -> Iterat
             severity="error"
             if both_homes
             else "note"
-            if is_joined and not are_places
+            if (is_joined and not are_places) or (need and not are_drawn)
             else "warning",
             fact=fact,
-            remedy=Phrase("move one, or use smaller robots")
-            if need
-            else Phrase("make them one vertex"),
+            remedy=Phrase("make them one vertex")
+            if not need
+            else Phrase("move one, or use smaller robots")
+            if are_drawn
+            else TAKE_TURNS,
             vertices=site.names((first, other)),
         )
 
