@@ -15,7 +15,7 @@ their ends do, and edges that cross.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
 from math import isqrt, lcm, sqrt
@@ -167,32 +167,29 @@ class Resources:
         Least distance between two robots of which one has a size [length unit].
     size_of
         Size class of each robot; int32, shape (R,).
+    n_vertices, n_edges
+        Vertices and edges of the roadmap.
+    are_points
+        Whether no robot has a size and there is no zone: a vertex excludes itself.
     """
 
     roadmap: Roadmap
     sizes: tuple[Fraction, ...]
     clearance: Fraction
     size_of: NDArray[np.int32]
+    n_vertices: int = field(init=False)  # these are read for each booking
+    n_edges: int = field(init=False)
+    are_points: bool = field(init=False)
 
-    @property
-    def n_vertices(self) -> int:
-        """Vertices of the roadmap."""
-        return self.roadmap.n_vertices
-
-    @property
-    def n_edges(self) -> int:
-        """Edges of the roadmap."""
-        return self.roadmap.n_edges
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "n_vertices", self.roadmap.n_vertices)
+        object.__setattr__(self, "n_edges", self.roadmap.n_edges)
+        object.__setattr__(self, "are_points", not any(self.sizes) and not self.roadmap.zones)
 
     @property
     def n_rows(self) -> int:
         """Rows of all size classes."""
         return len(self.sizes) * (self.n_vertices + self.n_edges)
-
-    @property
-    def are_points(self) -> bool:
-        """Whether no robot has a size and there is no zone: a vertex excludes itself."""
-        return not any(self.sizes) and not self.roadmap.zones
 
     def vertex_row(self, robot: int, vertex: int) -> int:
         """Return the row that a robot books at a vertex."""

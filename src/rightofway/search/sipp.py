@@ -11,6 +11,8 @@ from collections import defaultdict
 from collections.abc import Iterator
 from typing import NamedTuple
 
+import numpy as np
+
 from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp, InputError
@@ -90,18 +92,19 @@ class Bookings:
 
     def of_track(self, robot: int, track: Track) -> Iterator[tuple[int, Booking]]:
         """Yield what a track would book, visit by visit."""
-        problem, vertices, enter = self.problem, track.vertices.tolist(), track.enter.tolist()
+        problem, rules, enter = self.problem, self.problem.booking_rules, track.enter
+        vertices, first_row = track.vertices.tolist(), self.vertex_row(robot, 0)
         drives = drives_along(problem.roadmap, problem.itineraries[robot], vertices)
-        rules, first_row = problem.booking_rules, self.vertex_row(robot, 0)
-        ends = [*(Tick(rules.end(tick)) for tick in enter[1:]), NEVER]
-        for vertex, tick, drive, end in zip(vertices, enter, [0, *drives], ends, strict=True):
-            yield first_row + vertex, Booking(Tick(rules.start(tick, drive)), end, robot)
+        drives_in = np.array([0, *drives], np.int64)
+        starts, ends = rules.start(enter, drives_in).tolist(), rules.end(enter[1:]).tolist()
+        for vertex, start, end in zip(vertices, starts, [*ends, NEVER], strict=True):
+            yield first_row + vertex, Booking(start, end, robot)
         if not self._books_edges:
             return
         edges = problem.roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
-        for edge, tick, drive, end in zip(edges, enter[1:], drives, ends[:-1], strict=True):
-            row = first_row + self._n_vertices + edge
-            yield row, Booking(Tick(tick - drive), end, robot)
+        begins = (enter - drives_in)[1:].tolist()
+        for edge, start, end in zip(edges, begins, ends, strict=True):
+            yield first_row + self._n_vertices + edge, Booking(start, end, robot)
 
     def in_the_way(self, robot: int, track: Track) -> set[int]:
         """Return the other robots whose bookings a track would overlap."""
