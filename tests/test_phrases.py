@@ -38,21 +38,19 @@ def _templates() -> Iterator[str]:
                 yield from (f"{{number}} {text}" for text in texts)
 
 
-def german() -> dict[str, str]:
-    """Return the German of each template."""
-    return dict(read_tables()["de"])
+@pytest.mark.parametrize("language", read_tables())
+def test_every_phrase_of_the_library_has_its_translation(language: str) -> None:
+    assert templates() - set(read_tables()[language]) == set()
 
 
-def test_every_phrase_of_the_library_has_its_german() -> None:
-    assert templates() - set(german()) == set()
+@pytest.mark.parametrize("language", read_tables())
+def test_no_translation_is_left_of_a_phrase_that_is_gone(language: str) -> None:
+    assert set(read_tables()[language]) - templates() == set()
 
 
-def test_no_translation_is_left_of_a_phrase_that_is_gone() -> None:
-    assert set(german()) - templates() == set()
-
-
-def test_a_translation_has_the_values_of_its_template() -> None:
-    for template, text in german().items():
+@pytest.mark.parametrize("language", read_tables())
+def test_a_translation_has_the_values_of_its_template(language: str) -> None:
+    for template, text in read_tables()[language].items():
         assert sorted(VALUE.findall(template)) == sorted(VALUE.findall(text)), template
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from rightofway.languages import find_languages
 from tests.cli.conftest import EXAMPLES, Cli
 
 
@@ -21,4 +22,4 @@ def test_the_option_or_the_environment_names_the_language(
 def test_a_language_that_is_not_known_is_refused_with_those_that_are(cli: Cli) -> None:
     ended = cli("--language", "xx", "examples")
     assert ended.code == 2
-    assert "'xx' is not a known language (give en or de)" in ended.err
+    assert f"'xx' is not a known language (give en or {' or '.join(find_languages())})" in ended.err
