@@ -400,6 +400,18 @@ def _earliest_track(rng: random.Random) -> Arguments:
     }
 
 
+def _conflict_based(rng: random.Random, problem: Part) -> Arguments:
+    """Return arguments of a search; costs with surcharges are not those of a latest completion."""
+    limits = (_core.NEVER,) if "surcharges" in problem.arguments else (_core.NEVER, 40)
+    return {
+        "problem": problem, "cardinal": rng.random() < 1 / 2, "bypass": rng.random() < 1 / 2,
+        "clear": rng.random() < 1 / 2, "targets": rng.random() < 1 / 2,
+        "pairs": rng.random() < 1 / 2, "pair_nodes": rng.randrange(9),
+        "joint_states": rng.choice((0, 9, 1000)),
+        "factor": rng.choice((10**6, 11 * 10**5)), "latest": rng.choice(limits),
+    }  # fmt: skip
+
+
 def _timed(**arguments: Any) -> Callable[[random.Random], Arguments]:
     return lambda rng: {**arguments, "time_limit": rng.choice((0.0, 0.05, 0.2))}
 
@@ -467,13 +479,7 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
         "spreads": rng.random() < 1 / 2, "seed": rng.randrange(99),
         "most_effort": rng.choice((None, 10, 1000, 10**5)), "time_limit": 0.2,
     },
-    "ConflictBasedSearch": lambda rng: {
-        "problem": _problem(rng), "cardinal": rng.random() < 1 / 2, "bypass": rng.random() < 1 / 2,
-        "clear": rng.random() < 1 / 2, "targets": rng.random() < 1 / 2,
-        "pairs": rng.random() < 1 / 2, "pair_nodes": rng.randrange(9),
-        "joint_states": rng.choice((0, 9, 1000)),
-        "factor": rng.choice((10**6, 11 * 10**5)), "latest": rng.choice((_core.NEVER, 40)),
-    },
+    "ConflictBasedSearch": lambda rng: _conflict_based(rng, _problem(rng)),
     "ConflictBasedSearch.run": _timed(
         upper=_core.NEVER, enough=_core.NEVER, most_nodes=50, most_bytes=2**24
     ),
