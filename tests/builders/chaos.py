@@ -546,7 +546,7 @@ class _World:
         roadmap = self.scenario.roadmap
         vertex = roadmap.vertex(at)
         heads = roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist()
-        return (at, roadmap.name(self.draw.choice(heads))) if self._chance(0.5) else (at,)
+        return (at, roadmap.name(self.draw.choice(heads))) if self._chance(0.5) and heads else (at,)
 
     def _ask_a_person(self) -> None:
         """Have a person look after faulty robots, and open what is closed."""
