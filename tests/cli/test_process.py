@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -56,7 +57,7 @@ def test_a_defect_ends_with_70_and_one_line_unless_asked_for_more(
     def fail(*_: object, **__: object) -> None:
         raise ValueError("two\nlines")
 
-    monkeypatch.setattr(sys.modules["rightofway.solve"], "solve", fail)
+    monkeypatch.setattr(import_module("rightofway.solve"), "solve", fail)
     ended = cli(*["--debug"] * debug, "plan", door, "-o", "plan.json")
     *trace, line = ended.err.splitlines()
     assert ended.code == 70
@@ -111,6 +112,13 @@ def interrupted(where: Path, scenario: str, *more: str, after: float) -> tuple[i
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)
     return process.returncode, out, err
+
+
+def test_a_time_limit_begins_with_the_command_and_not_with_its_shell(door: Path) -> None:
+    """A shell becomes its last command, and the process is as old as what the shell waited for."""
+    line = f"sleep 9 && exec '{sys.executable}' -m rightofway plan '{door}' --time-limit 8"
+    done = subprocess.run(["sh", "-c", line], capture_output=True, text=True, check=False)
+    assert (done.returncode, "planner" in done.stdout) == (0, True), done.stderr
 
 
 def test_help_imports_nothing_heavy() -> None:

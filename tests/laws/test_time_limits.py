@@ -163,6 +163,11 @@ def least_plan(scenario: Scenario, limit: float) -> None:
     ConflictBasedSearch(scenario.problem).run(time_limit=limit)
 
 
+def least_sum(scenario: Scenario, limit: float) -> None:
+    search = ConflictBasedSearch(scenario.problem)
+    search.search_together(range(len(scenario.robots)), states=10**9, time_limit=limit)
+
+
 def raise_prices(scenario: Scenario, limit: float) -> None:
     with suppress(NoPlanExists):
         PriceAscent(scenario.problem).run(time_limit=limit)
@@ -171,6 +176,7 @@ def raise_prices(scenario: Scenario, limit: float) -> None:
 CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "ActionDependencyGraph.runs": runs,
     "ConflictBasedSearch.run": least_plan,
+    "ConflictBasedSearch.search_together": least_sum,
     "CyclicSimulator.advance": lambda one, limit: rightofway.run_laps(one, time_limit=limit),
     "FleetSearch.alone": lambda one, limit: least_completions(one, time_limit=limit),
     "FleetSearch.resume": resume,

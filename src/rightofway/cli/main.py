@@ -27,7 +27,7 @@ from typing import NoReturn, cast
 import click
 
 from rightofway import __version__
-from rightofway.cli.terminal import add_shared_options, complain, measure_age, speak_utf8
+from rightofway.cli.terminal import add_shared_options, complain, speak_utf8
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 
 MANY = 1000
@@ -145,7 +145,9 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
     _start_quickly()
     try:
         is_process = args is None  # else a program calls, and may be old
-        code = run(args, began=time.monotonic() - measure_age() if is_process else None)
+        # CPU time instead of the age of the process: a shell may have become this command by `exec`
+        # after it had waited for another one, as `sh -c "pip install . && rightofway plan"` does.
+        code = run(args, began=time.monotonic() - time.process_time() if is_process else None)
     except BrokenPipeError:  # no program reads the messages
         code = UNREAD
     if code == UNREAD:

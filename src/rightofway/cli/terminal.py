@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import shutil
 import sys
 import threading
@@ -42,16 +41,6 @@ def speak_utf8() -> None:
         if isinstance(stream, io.TextIOWrapper):
             encoding = None if stream.isatty() else "utf-8"
             stream.reconfigure(encoding=encoding, errors="backslashreplace")
-
-
-def measure_age() -> float:
-    """Return how long ago this process began [s]; where the system does not say, its CPU time."""
-    try:
-        _, _, fields = Path("/proc/self/stat").read_text(encoding="ascii").rpartition(")")
-        began = int(fields.split()[19]) / os.sysconf("SC_CLK_TCK")
-        return max(time.clock_gettime(time.CLOCK_BOOTTIME) - began, 0.0)
-    except (OSError, ValueError, IndexError, AttributeError):
-        return time.process_time()
 
 
 def choose_deadline(seconds: float | None) -> Deadline:
