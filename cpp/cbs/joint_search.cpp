@@ -36,7 +36,8 @@ bool exclude(const Problem& problem, std::span<const std::int32_t> left,
 
 SearchEnd JointSearch::run(std::span<const GroupMember> members, std::int64_t most_nodes,
                            const StopCondition& is_over) {
-    constexpr std::int64_t nodes_between_questions = 256;
+    is_over_ = &is_over;
+    n_steps_ = 0;
     prepare(members);
     start();
     std::int64_t n_expanded = 0;
@@ -58,12 +59,17 @@ SearchEnd JointSearch::run(std::span<const GroupMember> members, std::int64_t mo
         if (n_expanded++ >= most_nodes) {
             return SearchEnd::stopped;
         }
-        if (n_expanded % nodes_between_questions == 0 && is_over()) {
-            throw Stopped{};
-        }
         expand(node);
     }
     return SearchEnd::proven_none;
+}
+
+// Asked in each step of the product of choices: one state of many robots has very many successors.
+void JointSearch::stop_if_over() {
+    constexpr std::int64_t steps_between_questions = 1024;
+    if (n_steps_++ % steps_between_questions == 0 && (*is_over_)()) {
+        throw Stopped{};
+    }
 }
 
 void JointSearch::prepare(std::span<const GroupMember> members) {
@@ -145,6 +151,7 @@ void JointSearch::start() {
     node_ = none;
     std::vector<std::size_t> taken(size_, 0);
     for (bool is_more = true; is_more;) {
+        stop_if_over();
         chosen_.clear();
         Tick cost = 0;
         bool is_valid = true;
@@ -240,6 +247,7 @@ void JointSearch::drive(std::size_t k, const State& state, EdgeId edge, Tick now
 }
 
 void JointSearch::choose(std::size_t k) {
+    stop_if_over();
     if (k == size_) {
         step();
         return;

@@ -129,6 +129,7 @@ class JointSearch {
     void list_choices(std::size_t k, std::int32_t state, Tick now);
     void drive(std::size_t k, const State& state, EdgeId edge, Tick now);
     void choose(std::size_t k);
+    void stop_if_over();
     bool is_allowed(std::size_t k, const Choice& choice) const;
     bool rotate() const;
     void step();
@@ -167,6 +168,8 @@ class JointSearch {
     Tick first_ = 0;
     Tick bound_ = 0;
     std::int32_t goal_ = none;
+    const StopCondition* is_over_ = nullptr;
+    std::int64_t n_steps_ = 0;
     // Of the node at hand.
     std::int32_t node_ = none;
     std::vector<std::vector<Choice>> choices_;
