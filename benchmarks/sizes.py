@@ -41,7 +41,7 @@ from rightofway.io import scenario_of
 from rightofway.io.layouts.xml_tree import parse_xml
 from rightofway.metrics import measure
 from rightofway.model import Robot, Scenario, Stop
-from rightofway.model.problem import problem_of
+from rightofway.model.problem import bind_problem
 from rightofway.native import bind_lists
 from rightofway.planners import planning_problem
 from rightofway.search import FleetSearch, plan_by_lacam
@@ -82,7 +82,7 @@ def times_of(scenario: Scenario) -> Times:
     """Return how long each part of planning takes [s]."""
     roadmap, robots, rules = scenario.roadmap, scenario.robots, scenario.rules
     found: Times = {}
-    found["problem in ticks"], _ = seconds(lambda: problem_of(roadmap, robots, rules))
+    found["problem in ticks"], _ = seconds(lambda: bind_problem(roadmap, robots, rules))
     found["LaCAM"], _ = seconds(lambda: by_lacam(scenario))
     found["one after another"], search = seconds(lambda: in_turn(scenario))
     found[f"{NEIGHBOURHOODS} neighbourhoods of LNS"], _ = seconds(

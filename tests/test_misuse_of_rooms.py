@@ -62,14 +62,14 @@ STEPS = {
         "tracks_of",
     },
     "precedence": {
-        "critical_circuit_without",
+        "find_critical_circuit_without",
         "crossing",
         "order_of",
-        "shared_segment",
-        "tight_arcs",
+        "find_shared_segment",
+        "find_tight_arcs",
     },
     "quantities": {"decimal"},
-    "site": {"squared_distance", "straight_length"},
+    "site": {"squared_distance", "measure_straight_length"},
 }
 """Steps of planners and of messages, taken for each robot or visit with what the package has made:
 they check nothing. This list may only grow shorter."""

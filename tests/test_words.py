@@ -113,19 +113,19 @@ def test_variables_say_what_they_hold(room: str) -> None:
 
 
 FIRST_WORDS = """
-    accepts add advance allow answer apply as ask attempt avoid begin bind book build bundle cancel
-    chain change check checkpoint choose clear close cluster comes commit compare complain compute
-    confine connect convert count create cut deal decide defer delay delete derive descend describe
-    download draw drive dump empty end enter enters evict exclude execute explain export extract
-    fail fill find finish finishes flip flush follow forget free get give go goes handle hang
-    happens has have hold holds improve inline insert inspect is judge keep keeps kill lay limit
-    list listen load locate make may measure mix name need note obey open order owns parse pass
-    pause perturb place plan prepare prioritize prove put reaches read receive recognizes refuse
-    release relocate remind remove rename repair repeat replan replay report reroute reset resolve
-    restore resume retime retry reverse rollback run save say search send serve set sets settle
-    share show simulate skip solve speak splice split spread start stay step stop stream stretch
-    submit summarize survey switch take tell to trace translate turn upload validate wait waits
-    widen withdraw work write
+    accepts add advance allow answer apply are as ask attempt avoid begin bind book build bundle
+    cancel chain change check checkpoint choose circumscribe classify clear close cluster comes
+    commit compare complain compute confine connect convert count create cut deal decide defer delay
+    delete derive descend describe download draw drive dump empty end enter enters evict exclude
+    execute explain export extract fail fill find finish finishes flip flush follow forget free get
+    give go goes handle hang happens has have hold holds improve inline insert inspect is join judge
+    keep keeps kill lay limit link list listen load locate make map may measure mix name need note
+    obey open order owns parse pass pause perturb place plan prepare prioritize prove put reach
+    reaches read receive recognizes refuse release relocate remind remove rename repair repeat
+    replan replay report require reroute reset resolve restore resume retime retry reverse rollback
+    round run save say scale search send serve set sets settle share show simulate skip solve speak
+    splice split spread start stay step stop stream stretch submit summarize survey switch take tell
+    to trace translate turn unroll upload validate wait waits widen withdraw work write
 """
 VERBS = frozenset(FIRST_WORDS.split())
 """First words of functions: verbs, claims (``is_empty``), ``as_``, ``to_``; add what is missing."""
@@ -142,29 +142,29 @@ NOUNS = {
     "bench": 13,
     "check": 12,
     "cli": 33,
-    "control": 46,
-    "cyclic": 60,
+    "control": 45,
+    "cyclic": 48,
     "deadline": 3,
     "errors": 14,
-    "execution": 12,
+    "execution": 10,
     "extras": 1,
     "figures": 4,
     "files": 2,
     "fleet_builder": 12,
-    "io": 75,
-    "metrics": 30,
-    "model": 74,
+    "io": 73,
+    "metrics": 18,
+    "model": 45,
     "native": 5,
     "phrases": 5,
-    "planners": 42,
-    "precedence": 50,
+    "planners": 28,
+    "precedence": 45,
     "quantities": 9,
     "report": 16,
-    "search": 19,
-    "site": 35,
+    "search": 17,
+    "site": 25,
     "studio": 79,
     "values": 18,
-    "viz": 72,
+    "viz": 71,
 }
 """How many public functions and methods begin with another word; the numbers may only fall."""
 

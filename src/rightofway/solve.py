@@ -25,13 +25,13 @@ from rightofway.model import (
     checked_time_limit,
 )
 from rightofway.model.given import (
-    checked_functions,
     checked_plan,
     checked_scenario,
-    checked_seed,
-    checked_truths,
+    require_functions,
+    require_seed,
+    require_truths,
 )
-from rightofway.model.outcome import outcome_of_cost
+from rightofway.model.outcome import classify_cost
 from rightofway.phrases import Phrase
 from rightofway.planners import (
     DEFAULT_PLANNER,
@@ -122,8 +122,8 @@ def solve(
     if start is not None:
         _refuse_start(spec, start, "start")
     settled = _settled(spec, options, named, seed)
-    checked_functions(report=report, on_plan=on_plan)
-    checked_truths(keep_best=keep_best)
+    require_functions(report=report, on_plan=on_plan)
+    require_truths(keep_best=keep_best)
     task = Task(scenario=scenario, **settled, report=report or _silent, keep_best=keep_best)
     return _run(spec, task, limit, seconds_per_visit, on_plan, old=start)
 
@@ -171,8 +171,8 @@ def improve(
         message = f"the plan has {judged.summary}; improving starts from a plan without faults"
         raise InputError.at("", f"{message} ({remedy})")
     settled = _settled(spec, options, named, seed)
-    checked_functions(report=report, on_plan=on_plan)
-    checked_truths(keep_best=keep_best)
+    require_functions(report=report, on_plan=on_plan)
+    require_truths(keep_best=keep_best)
     task = Task(scenario=plan.scenario, **settled, report=report or _silent, keep_best=keep_best)
     return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit, on_plan)
 
@@ -200,7 +200,7 @@ def _settled(
         message = f"are given twice, with {', '.join(named)} beside (give one of both)"
         raise InputError.at("options", message)
     settled = spec.settle(named if options is None else options)
-    return {"options": settled, "seed": checked_seed(seed)}
+    return {"options": settled, "seed": require_seed(seed)}
 
 
 def _run(
@@ -215,7 +215,7 @@ def _run(
     """Plan and judge; ``old`` is a plan of the scenario before it was changed."""
     # These load the native core: not for help.
     from rightofway.planners.impossible import refuse_closed_ways, refuse_stranded
-    from rightofway.planners.warm_start import kept_of
+    from rightofway.planners.warm_start import compare_with_start
     from rightofway.search import least_completions
 
     seconds_per_visit = at("seconds_per_visit", between(0, 3600), seconds_per_visit)
@@ -263,7 +263,7 @@ def _run(
         decisions=draft.decisions,
         reroutes=draft.reroutes,
         improvement=draft.improvement,
-        start=None if old is None else kept_of(old, task.scenario, draft.tracks),
+        start=None if old is None else compare_with_start(old, task.scenario, draft.tracks),
         alone=tuple(alone.tolist()),
     )
     plan = Plan(scenario=task.scenario, tracks=draft.tracks, run=run)
@@ -286,7 +286,7 @@ def _outcome(spec: PlannerSpec, draft: Draft, plan: Plan, *, keeps_rules: bool) 
     if cost < proof.bound:
         claimed = f"claims that no {proof.objective} is below {proof.bound} ticks"
         raise InvalidPlan(f"{spec.name} {claimed}, but its plan has {cost}")
-    return outcome_of_cost(cost, proof)
+    return classify_cost(cost, proof)
 
 
 def _written_options(task: Task) -> dict[str, Any]:

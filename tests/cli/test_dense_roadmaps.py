@@ -17,7 +17,7 @@ from rightofway.cli.main import run
 from rightofway.deadline import Deadline, check_work, limit_loop, limit_work
 from rightofway.errors import GaveUp
 from rightofway.io import load
-from rightofway.model.resources import resources_of
+from rightofway.model.resources import bind_resources
 from rightofway.native import bind_lists
 from rightofway.site import Edge, roadmap_of_edges
 
@@ -142,7 +142,7 @@ def test_a_place_more_costs_no_look_at_all_others() -> None:
         Edge(tail=f"v{k}", head=f"v{k + 1}", length=Fraction(1)) for k in range(len(positions) - 1)
     ]
     roadmap = roadmap_of_edges(positions, lanes)
-    resources = resources_of(roadmap, [Fraction("0.3")], Fraction(0))
+    resources = bind_resources(roadmap, [Fraction("0.3")], Fraction(0))
     began = time.process_time()
     assert bind_lists(resources) is not None
     assert time.process_time() - began < 3

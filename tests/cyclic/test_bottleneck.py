@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from rightofway.cyclic.bottleneck import bottleneck_of
 from rightofway.cyclic.route import cyclic_routes
-from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects, stages_at
+from rightofway.cyclic.sensitivity import ParameterEffect, find_stages_at, parameter_effects
 from rightofway.model import BookingRules, Lap, Rules, Scenario, Tick
 from rightofway.precedence import TimedEventGraph
 from rightofway.site import VertexId
@@ -129,7 +129,7 @@ def test_stages_are_found_in_the_visits_that_serve_them() -> None:
     scenario = crossing(rules=Rules(turn=Fraction(5)))
     lap, itinerary = laps_of(scenario)[0], scenario.problem.itineraries[0]
     stop, home = itinerary.stages
-    assert stages_at(scenario.roadmap, itinerary, lap) == [[(1, home)], [], [(0, stop)], []]
+    assert find_stages_at(scenario.roadmap, itinerary, lap) == [[(1, home)], [], [(0, stop)], []]
     assert lap.vertices[2] == VertexId(scenario.roadmap.vertex("N1"))
 
 
@@ -147,7 +147,7 @@ def test_a_first_stop_at_home_and_the_end_of_a_lap_are_served_in_one_visit() -> 
     lap = next(route.lap for route in cyclic_routes(scenario) if route.robot == 0)
     tick = scenario.problem.clock.tick
     assert lap.dwell[0] * tick == 3 + 5  # it turns once, after its work at home
-    assert stages_at(scenario.roadmap, itinerary, lap) == [
+    assert find_stages_at(scenario.roadmap, itinerary, lap) == [
         [(0, first), (2, end)],
         [],
         [(1, north)],

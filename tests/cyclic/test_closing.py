@@ -12,11 +12,11 @@ from hypothesis import reject
 from hypothesis import strategies as st
 
 from rightofway.cyclic import run_laps
-from rightofway.cyclic.closing import Stretch, close_stretch, closed_windows, stretches
+from rightofway.cyclic.closing import Stretch, close_stretch, close_windows, stretches
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.problem import CyclicProblem
 from rightofway.cyclic.result import GroupResult
-from rightofway.cyclic.route import GroupContext, cyclic_routes, independent_groups
+from rightofway.cyclic.route import GroupContext, cyclic_routes, split_groups
 from rightofway.cyclic.run import advance
 from rightofway.cyclic.simulator import CyclicSimulator
 from rightofway.errors import InputError, NoPlanExists
@@ -36,7 +36,7 @@ LAPS = 20
 """How many of the longest laps the history of a long run holds at least."""
 
 
-def problem_of(run: GroupResult) -> CyclicProblem:
+def bind_problem(run: GroupResult) -> CyclicProblem:
     """Return the problem of a group without other laps, other groups and weights."""
     return CyclicProblem(
         context=run.context,
@@ -82,9 +82,9 @@ def open_run(scenario: Scenario) -> tuple[GroupResult, Pattern]:
 @law(fleets())
 def test_closed_windows_keep_every_rule_across_the_seam(scenario: Scenario) -> None:
     run, _ = open_run(scenario)
-    problem, context = problem_of(run), run.context
+    problem, context = bind_problem(run), run.context
     # the oracle compares every two visits
-    short = (window for window in closed_windows(problem, run) if window.n_visits <= 150)
+    short = (window for window in close_windows(problem, run) if window.n_visits <= 150)
     for window in islice(short, 4):
         timetable = problem.timetable(problem.booked(window)[1], window.period)
         ahead = context.booking_rules.books_ahead
@@ -96,8 +96,8 @@ def test_closed_windows_keep_every_rule_across_the_seam(scenario: Scenario) -> N
 @law(fleets())
 def test_the_best_window_is_not_below_the_run_in_the_long_run(scenario: Scenario) -> None:
     run, pattern = open_run(scenario)
-    problem = problem_of(run)
-    best = max(map(problem.value, closed_windows(problem, run)), default=Fraction(0))
+    problem = bind_problem(run)
+    best = max(map(problem.value, close_windows(problem, run)), default=Fraction(0))
     assert best >= Fraction(sum(pattern.counts), pattern.period)
 
 
@@ -109,7 +109,7 @@ def long_run_of(
         routes = cyclic_routes(scenario, connections)
     except (InputError, NoPlanExists):
         return None
-    group = max(independent_groups(scenario, routes), key=len)
+    group = max(split_groups(scenario, routes), key=len)
     context = GroupContext(scenario=scenario, routes=tuple(group))
     simulation = CyclicSimulator(context, rule)
     run = advance(simulation, Deadline())
@@ -137,7 +137,7 @@ def laps_of(run: GroupResult | None) -> GroupResult:
 def test_a_closed_stretch_keeps_every_rule_across_the_seam(
     run: GroupResult, laps: int, begins: int
 ) -> None:
-    problem, context = problem_of(run), run.context
+    problem, context = bind_problem(run), run.context
     stretch = Stretch(begins=begins * context.longest, period=laps * context.longest)
     if stretch.begins + stretch.period > max(past[-1] for past in run.history):
         leave("a stretch beyond the run")
@@ -158,7 +158,7 @@ def test_a_closed_stretch_keeps_every_rule_across_the_seam(
 
 @law(long_runs())
 def test_the_value_of_a_stretch_is_a_bound(run: GroupResult) -> None:
-    problem = problem_of(run)
+    problem = bind_problem(run)
     for value, stretch in stretches(problem, run)[:2]:
         closed = close_stretch(problem, run, stretch)
         if closed is not None:
@@ -174,8 +174,8 @@ any_fleets = any_fleet(robots=(2, 3), without=LAPS_REFUSE, always={"sizes", "bot
 def test_closings_of_any_fleet_keep_every_rule_across_the_seam(run: GroupResult) -> None:
     """Windows closed by their orders, and stretches closed at a seam."""
     context = run.context
-    problem = problem_of(run)
-    short = (window for window in closed_windows(problem, run) if window.n_visits <= 150)
+    problem = bind_problem(run)
+    short = (window for window in close_windows(problem, run) if window.n_visits <= 150)
     closed = [
         problem.timetable(problem.booked(window)[1], window.period) for window in islice(short, 3)
     ]

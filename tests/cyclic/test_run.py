@@ -11,7 +11,7 @@ from rightofway import GaveUp, InputError, check, plan_of_laps, run_laps
 from rightofway.cyclic import cyclic_routes
 from rightofway.cyclic.pattern import pattern_of
 from rightofway.cyclic.result import GroupResult
-from rightofway.cyclic.route import GroupContext, independent_groups
+from rightofway.cyclic.route import GroupContext, split_groups
 from rightofway.cyclic.run import share_time
 from rightofway.cyclic.simulator import CyclicSimulator
 from rightofway.model import Robot, Rules, Scenario, Stop
@@ -91,7 +91,7 @@ def test_robots_that_share_no_place_have_no_common_period() -> None:
 
 def test_a_robot_between_two_others_joins_them_in_one_group() -> None:
     scenario = grid_fleet(["...."], [("N0", "N1"), ("N3", "N2"), ("N1", "N2")])
-    groups = independent_groups(scenario, cyclic_routes(scenario, "shortest"))
+    groups = split_groups(scenario, cyclic_routes(scenario, "shortest"))
     assert [[endless.robot for endless in group] for group in groups] == [[0, 1, 2]]
 
 

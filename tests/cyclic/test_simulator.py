@@ -6,7 +6,7 @@ import pytest
 from hypothesis import strategies as st
 
 from rightofway.cyclic.pattern import pattern_of
-from rightofway.cyclic.route import ROUTES, GroupContext, cyclic_routes, independent_groups
+from rightofway.cyclic.route import ROUTES, GroupContext, cyclic_routes, split_groups
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.run import Simulation, simulation_of
 from rightofway.cyclic.simulator import Deadlock
@@ -40,7 +40,7 @@ def groups_of(
         scenario: Scenario = fleet_on(
             grid, draw, robots=min(robots, most), rules=rules, apart=most > 1
         )
-        groups = independent_groups(scenario, cyclic_routes(scenario, draw.choice(ROUTES)))
+        groups = split_groups(scenario, cyclic_routes(scenario, draw.choice(ROUTES)))
     except (InputError, NoPlanExists, ValueError):
         leave("a robot has nowhere to go")
     return [GroupContext(scenario=scenario, routes=tuple(group)) for group in groups]
@@ -96,7 +96,7 @@ def test_the_kernel_decides_as_windows_do_for_any_fleet(
         routes = cyclic_routes(scenario, routed)
     except NoPlanExists:
         leave("no laps exist")
-    for group in independent_groups(scenario, routes):
+    for group in split_groups(scenario, routes):
         check_decisions(GroupContext(scenario=scenario, routes=tuple(group)), rule)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from rightofway.cyclic import CyclicResult, GroupContext, GroupResult, cyclic_routes
 from rightofway.cyclic.pattern import VisitTimes
-from rightofway.cyclic.warmup import measure, warm_up_of
+from rightofway.cyclic.warmup import find_warm_up, measure
 from tests.builders.fleets import grid_fleet
 
 # Four cells there and back and two turns: laps of 8 visits and 10 ticks, the first one of 9.
@@ -27,13 +27,13 @@ def test_laps_of_the_warm_up_are_left_out() -> None:
 
 
 def test_where_all_is_even_nothing_is_left_out() -> None:
-    assert warm_up_of([np.array([0, *range(5, 195, 10)])], 10, 190) == 0
+    assert find_warm_up([np.array([0, *range(5, 195, 10)])], 10, 190) == 0
 
 
 def test_never_more_than_half_is_warm_up() -> None:
     """Laps get shorter and shorter; the latest are the most even ones."""
     homes = np.cumsum([0, 60, 50, 40, 30, 20, 10, 10])
-    assert warm_up_of([homes], 10, 220) <= 110
+    assert find_warm_up([homes], 10, 220) <= 110
 
 
 def test_a_robot_that_stands_is_told_by_how_long_it_has_stood() -> None:

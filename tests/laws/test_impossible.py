@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from rightofway.deadline import Deadline
 from rightofway.errors import NoPlanExists
 from rightofway.model import Rules, Scenario
-from rightofway.planners.impossible import blocking_set
+from rightofway.planners.impossible import find_blocking_set
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
 from tests.oracles.all_steps import can_get_through
@@ -51,7 +51,7 @@ def test_a_blocking_set_is_blocked_and_minimal(scenario: Scenario) -> None:
     everybody = tuple(robot.name for robot in scenario.robots)
     if has_plan(scenario, everybody):
         leave("a plan exists")
-    blockage = blocking_set(scenario, range(len(everybody)), seed=0, deadline=Deadline())
+    blockage = find_blocking_set(scenario, range(len(everybody)), seed=0, deadline=Deadline())
     assert not has_plan(scenario, blockage.robots)
     for name in blockage.robots:
         fewer = tuple(other for other in blockage.robots if other != name)

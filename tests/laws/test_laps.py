@@ -13,7 +13,7 @@ import rightofway
 from rightofway.check import check
 from rightofway.cyclic import RULES, CyclicResult, best_timetable, plan_of_laps, run_laps
 from rightofway.cyclic.sensitivity import parameter_effects
-from rightofway.cyclic.to_plan import whole_laps
+from rightofway.cyclic.to_plan import unroll_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Closure, Plan, Scenario, Tick
 from rightofway.planners import planning_problem
@@ -96,9 +96,9 @@ def test_laps_by_every_rule_have_no_fault(scenario: Scenario, rule: str) -> None
     check_periods(run)
     if stands_still(run):
         with pytest.raises(GaveUp):
-            whole_laps(run)
+            unroll_laps(run)
     else:
-        check_plan(whole_laps(run))
+        check_plan(unroll_laps(run))
 
 
 @law(POINTS, st.sampled_from(sorted(RULES)))
@@ -173,7 +173,7 @@ def test_a_chosen_timetable_has_no_fault_and_is_not_below_first_come_first_serve
         leave(without_values(refused))
     check_periods(run)
     starts = max((group.pattern.transient for group in run.groups if group.pattern), default=0)
-    check_plan(whole_laps(run, 5), since=starts)
+    check_plan(unroll_laps(run, 5), since=starts)
     for group in run.groups:
         if group.comparison is not None and group.comparison.baseline_ends == "repeats":
             assert group.comparison.throughput >= group.comparison.baseline

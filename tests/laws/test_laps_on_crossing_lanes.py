@@ -12,7 +12,7 @@ import pytest
 from hypothesis import strategies as st
 
 from rightofway.cyclic import CyclicResult, best_timetable, run_laps
-from rightofway.cyclic.route import CyclicRoute, GroupContext, cyclic_routes, independent_groups
+from rightofway.cyclic.route import CyclicRoute, GroupContext, cyclic_routes, split_groups
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import BookingRules, Lap, Robot, Rules, Scenario, Stop, Tick
 from rightofway.precedence import CyclicSchedule
@@ -173,7 +173,7 @@ def test_groups_are_connected_by_what_excludes_each_other() -> None:
             for name, home, target in [("R1", "A", "B"), ("R2", "D", "C")]
         )
         scenario = Scenario(roadmap=roadmap, robots=robots)
-        return independent_groups(scenario, cyclic_routes(scenario))
+        return split_groups(scenario, cyclic_routes(scenario))
 
     assert [len(groups(radius)) for radius in ("0.9", "1.1")] == [2, 1]
 

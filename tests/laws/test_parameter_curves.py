@@ -13,11 +13,11 @@ from fractions import Fraction
 import pytest
 
 from rightofway.cyclic import GroupResult, ParameterCurve, parameter_curves, run_laps
-from rightofway.cyclic.sensitivity import stages_at
+from rightofway.cyclic.sensitivity import find_stages_at
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
 from rightofway.model import Lap, Rules, Scenario, Tick
-from rightofway.model.lap import turns_of_lap
+from rightofway.model.lap import compute_turns_of_lap
 from rightofway.model.route import drives_along
 from rightofway.native import BookedRows
 from rightofway.planners import planning_problem
@@ -54,8 +54,8 @@ def period_by_hand(group: GroupResult, scenario: Scenario) -> Fraction | None:
     laps = []
     for number, lap in zip(timetable.robots, timetable.laps, strict=True):
         itinerary = scenario.problem.itineraries[number]
-        at = stages_at(old.roadmap, old.problem.itineraries[number], lap)
-        turns = turns_of_lap(scenario.roadmap, itinerary, lap.vertices).tolist()
+        at = find_stages_at(old.roadmap, old.problem.itineraries[number], lap)
+        turns = compute_turns_of_lap(scenario.roadmap, itinerary, lap.vertices).tolist()
         dwell = [
             sum((itinerary.stages[k].work + itinerary.stages[k].turn for k, _ in stages), turn)
             for stages, turn in zip(at, turns, strict=True)

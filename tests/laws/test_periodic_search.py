@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from rightofway.cyclic.route import cyclic_routes
 from rightofway.model import BookingRules, Itinerary, Lap, Rules, Scenario, Tick, drives_along
-from rightofway.model.lap import turns_of_lap
+from rightofway.model.lap import compute_turns_of_lap
 from rightofway.planners import planning_problem
 from rightofway.precedence import CyclicSchedule
 from rightofway.search import Distances, PeriodicBookings, RoundTrip
@@ -57,7 +57,7 @@ def does_its_work(scenario: Scenario, itinerary: Itinerary, lap: Lap) -> bool:
     """Tell whether a lap of one stop is on the roadmap and serves what is to be done."""
     stop, home = itinerary.stages
     drives = drives_along(scenario.roadmap, itinerary, [lap.vertices[-1], *lap.vertices])
-    dwells = (lap.dwell - turns_of_lap(scenario.roadmap, itinerary, lap.vertices)).tolist()
+    dwells = (lap.dwell - compute_turns_of_lap(scenario.roadmap, itinerary, lap.vertices)).tolist()
     served = [(v, dwell) for v, dwell in zip(lap.vertices, dwells, strict=True) if dwell]
     due = [(one.vertex, one.work + one.turn) for one in (home, stop)]
     return (
@@ -126,7 +126,7 @@ def test_a_robot_that_turns_slowly_drives_round_the_border() -> None:
     found = circle.find_route(RoundTrip.of(itinerary, distances), 0)
     assert found is not None
     lap, enter = found
-    turns = turns_of_lap(scenario.roadmap, itinerary, lap.vertices).tolist()
+    turns = compute_turns_of_lap(scenario.roadmap, itinerary, lap.vertices).tolist()
     assert sorted(turns) == [0, 0, 0, 0, 3, 3, 3, 3]
     assert lap.duration == 8 + 4 * 3
     assert enter[0] % 40 == enter[0]

@@ -14,7 +14,7 @@ from rightofway.check import check
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.progress import simulated_progress
-from rightofway.execution.replan import commitment_of, held_by_broken, replan
+from rightofway.execution.replan import find_commitment, find_held_by_broken, replan
 from rightofway.model import NEVER, Plan, Scenario, Stage, Tick
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
@@ -47,7 +47,7 @@ def with_breakdowns(draw: random.Random, plan: Plan, most: int) -> ActionDepende
 
 
 def most_by_brute_force(forecast: Forecast, stages: Sequence[tuple[Stage, ...]]) -> int:
-    kept = [commitment_of(forecast, robot, own) for robot, own in enumerate(stages)]
+    kept = [find_commitment(forecast, robot, own) for robot, own in enumerate(stages)]
     goals = [
         [
             *([] if one.drives_to is None else [int(one.drives_to)]),
@@ -63,7 +63,7 @@ def most_by_brute_force(forecast: Forecast, stages: Sequence[tuple[Stage, ...]])
         [one.vertex for one in kept],
         goals,
         forecast.broken,
-        held_by_broken(forecast).vertices,
+        find_held_by_broken(forecast).vertices,
         may_rotate=may_rotate,
     )
 

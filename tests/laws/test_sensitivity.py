@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 from hypothesis import strategies as st
 
-from rightofway.precedence import TimedEventGraph, critical_circuit_without, sensitivity
+from rightofway.precedence import TimedEventGraph, find_critical_circuit_without, sensitivity
 from tests.builders.laws import law
 from tests.builders.periodic import patterns
 
@@ -24,7 +24,7 @@ def test_gain_loss_and_reach_are_those_of_the_cycle_time_itself(
     effect = sensitivity(graph, share)
 
     def at(part: Fraction) -> Fraction:
-        return critical_circuit_without(graph, share, part).cycle_time
+        return find_critical_circuit_without(graph, share, part).cycle_time
 
     now = effect.cycle_time
     assert at(Fraction(0)) == now == graph.critical_circuit().cycle_time

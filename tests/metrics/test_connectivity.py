@@ -14,12 +14,12 @@ from hypothesis import strategies as st
 from rightofway.metrics.connectivity import (
     Ways,
     corridors,
-    distances_from,
-    immediate_dominators,
-    route_load,
-    separations,
-    strong_parts,
-    ways_of,
+    find_immediate_dominators,
+    find_separations,
+    find_strong_parts,
+    list_ways,
+    measure_distances_from,
+    measure_route_load,
 )
 from rightofway.site import Edge, roadmap_of_edges, roadmap_of_grid
 
@@ -36,12 +36,12 @@ DIGRAPHS = st.integers(1, 9).flatmap(
 
 
 def ways(lines: list[str]) -> Ways:
-    return ways_of(roadmap_of_grid(lines))
+    return list_ways(roadmap_of_grid(lines))
 
 
 def drawn(count: int, ends: set[tuple[int, int]]) -> Ways:
     edges = [Edge(tail=str(a), head=str(b), length=Fraction(1)) for a, b in sorted(ends)]
-    return ways_of(roadmap_of_edges({str(k): (float(k), 0.0) for k in range(count)}, edges))
+    return list_ways(roadmap_of_edges({str(k): (float(k), 0.0) for k in range(count)}, edges))
 
 
 def graph(count: int, ends: set[tuple[int, int]]) -> Any:
@@ -54,7 +54,7 @@ def graph(count: int, ends: set[tuple[int, int]]) -> Any:
 @given(DIGRAPHS)
 def test_strong_parts_are_those_of_another_library(given: tuple[int, set[tuple[int, int]]]) -> None:
     expected = {frozenset(part) for part in nx.strongly_connected_components(graph(*given))}
-    found = strong_parts(drawn(*given))
+    found = find_strong_parts(drawn(*given))
     assert {frozenset(part) for part in found} == expected
     assert [len(part) for part in found] == sorted(map(len, found), reverse=True)
 
@@ -64,15 +64,15 @@ def test_dominators_are_those_of_another_library(given: tuple[int, set[tuple[int
     made = drawn(*given)
     expected = dict(nx.immediate_dominators(graph(*given), 0))
     expected.pop(0, None)
-    assert immediate_dominators(made.along, made.against, 0) == expected
+    assert find_immediate_dominators(made.along, made.against, 0) == expected
 
 
 @given(DIGRAPHS)
 def test_a_vertex_separates_places_if_and_only_if_closing_it_does(
     given: tuple[int, set[tuple[int, int]]],
 ) -> None:
-    places = strong_parts(drawn(*given))[0][:4]
-    found = separations(drawn(*given), places)
+    places = find_strong_parts(drawn(*given))[0][:4]
+    found = find_separations(drawn(*given), places)
     for vertex in range(given[0]):
         left = graph(*given)
         left.remove_node(vertex)
@@ -100,8 +100,8 @@ def test_rings_and_one_way_lanes_are_no_corridors() -> None:
 
 def test_distances_are_whole_multiples_of_one_length() -> None:
     edges = [Edge(tail="A", head="B", length=Fraction(1, 2)), Edge(tail="B", head="C", length=1)]  # type: ignore[arg-type]
-    made = ways_of(roadmap_of_edges({"A": (0, 0), "B": (0.5, 0), "C": (1.5, 0)}, edges))
-    assert distances_from(made, 0) == ([0, 1, 2], {0: 0, 1: 1, 2: 3})
+    made = list_ways(roadmap_of_edges({"A": (0, 0), "B": (0.5, 0), "C": (1.5, 0)}, edges))
+    assert measure_distances_from(made, 0) == ([0, 1, 2], {0: 0, 1: 1, 2: 3})
 
 
 @given(DIGRAPHS)
@@ -110,14 +110,14 @@ def test_levels_give_the_order_and_the_load_that_a_queue_gives(
 ) -> None:
     made = drawn(*given)
     queued = replace(made, even=0)
-    assert distances_from(made, 0) == distances_from(queued, 0)
-    trips = {0: {goal: 1.0 for goal in distances_from(made, 0)[1] if goal}}
-    assert route_load(made, trips) == route_load(queued, trips)
+    assert measure_distances_from(made, 0) == measure_distances_from(queued, 0)
+    trips = {0: {goal: 1.0 for goal in measure_distances_from(made, 0)[1] if goal}}
+    assert measure_route_load(made, trips) == measure_route_load(queued, trips)
 
 
 def test_equally_short_routes_share_the_load() -> None:
     """From corner to corner of 2 x 2 cells, half of the route passes each of the others."""
-    load = route_load(ways(["..", ".."]), {0: {3: 1.0}})
+    load = measure_route_load(ways(["..", ".."]), {0: {3: 1.0}})
     assert {vertex: passing for vertex, passing in load.items() if passing} == pytest.approx(
         {1: 0.5, 2: 0.5}
     )
@@ -126,6 +126,6 @@ def test_equally_short_routes_share_the_load() -> None:
 @given(DIGRAPHS)
 def test_load_counts_the_inner_vertices_of_routes(given: tuple[int, set[tuple[int, int]]]) -> None:
     made = drawn(*given)
-    _, distance = distances_from(made, 0)
-    load = route_load(made, {0: {goal: 1.0 for goal in distance if goal}})
+    _, distance = measure_distances_from(made, 0)
+    load = measure_route_load(made, {0: {goal: 1.0 for goal in distance if goal}})
     assert sum(load.values()) == pytest.approx(sum(gone - 1 for gone in distance.values() if gone))

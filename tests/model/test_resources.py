@@ -12,7 +12,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.model import Resources, Rules, Scenario
-from rightofway.model.resources import circle_around, close_pairs, resources_of
+from rightofway.model.resources import bind_resources, circumscribe, close_pairs
 from rightofway.native import bind_lists, clashes, excluded_by, find_vertices_near
 from rightofway.site import Edge, Roadmap, roadmap_of_edges, roadmap_of_grid
 from rightofway.site.zones import NamedZone
@@ -59,7 +59,7 @@ def test_crossing_lanes_exclude_each_other_in_both_directions() -> None:
 def test_on_a_grid_discs_that_touch_are_apart(radius: str, near: int) -> None:
     """The centre of a 5 x 5 grid has itself, 4 cells at distance 1, 4 at 1.414…, 4 at 2."""
     roadmap = roadmap_of_grid(["....."] * 5)
-    resources = resources_of(roadmap, [Fraction(radius)], Fraction(0))
+    resources = bind_resources(roadmap, [Fraction(radius)], Fraction(0))
     assert len(excluded_by(resources, 12)) == near
     assert not any(len(excluded_by(resources, row)) for row in range(25, 25 + roadmap.n_edges))
 
@@ -76,7 +76,9 @@ def test_moving_a_layout_changes_nothing(shift: tuple[float, float]) -> None:
         return roadmap_of_edges(at, edges)
 
     here, there = (
-        resources_of(row_of_vertices(*map(Fraction, map(str, by))), [Fraction("0.15")], Fraction(0))
+        bind_resources(
+            row_of_vertices(*map(Fraction, map(str, by))), [Fraction("0.15")], Fraction(0)
+        )
         for by in ((0, 0), shift)
     )
     assert lists(here) == lists(there)
@@ -118,8 +120,8 @@ def _incompatible(
 
 
 def test_the_circle_around_a_robot_is_rounded_up() -> None:
-    assert circle_around(Fraction("0.6"), Fraction("0.8")) == Fraction(1, 2)
-    radius = circle_around(Fraction(1), Fraction(1))
+    assert circumscribe(Fraction("0.6"), Fraction("0.8")) == Fraction(1, 2)
+    radius = circumscribe(Fraction(1), Fraction(1))
     assert radius == Fraction("0.707107")
     assert (radius - Fraction(1, 10**6)) ** 2 < Fraction(1, 2) < radius**2
 
@@ -179,4 +181,4 @@ def test_a_zone_of_too_many_lanes_is_refused_by_name() -> None:
     with pytest.raises(
         InputError, match=r"^map\.zones: zone 'hall' holds 2001 vertices and lanes, "
     ):
-        resources_of(roadmap, [Fraction(0)], Fraction(0))
+        bind_resources(roadmap, [Fraction(0)], Fraction(0))

@@ -12,7 +12,7 @@ from rightofway import solve
 from rightofway.errors import InputError
 from rightofway.fleet_builder import FleetBuilder
 from rightofway.model import Clock, Robot, Rules, Scenario, Stop, Track, route_through
-from rightofway.model.turning import angles_of, turnings_of
+from rightofway.model.turning import compute_turnings, measure_angles
 from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
 from tests.builders.fleets import grid_fleet
 
@@ -24,12 +24,12 @@ def lanes(positions: dict[str, tuple[float, float]], *pairs: str) -> Roadmap:
 
 
 def angle(roadmap: Roadmap, before: int, after: int) -> int:
-    angles = angles_of(roadmap)
+    angles = measure_angles(roadmap)
     return angles.angles[int(angles.kind[angles.offset[before] + after])]
 
 
 def test_a_grid_has_three_kinds_of_angles() -> None:
-    assert angles_of(roadmap_of_grid(["...", "..."])).angles == (0, 90_000_000, 180_000_000)
+    assert measure_angles(roadmap_of_grid(["...", "..."])).angles == (0, 90_000_000, 180_000_000)
 
 
 @pytest.mark.parametrize(
@@ -61,13 +61,13 @@ def test_pieces_of_a_straight_lane_make_no_angle() -> None:
     third, twice = 1 / 3, 2 / 3
     at = {"A": (0.0, 0.0), "B": (third, third / 7), "C": (twice, twice / 7), "D": (1.0, 1 / 7)}
     roadmap = lanes(at, "AB", "BC", "CD")
-    assert angles_of(roadmap).angles == (0,)
+    assert measure_angles(roadmap).angles == (0,)
 
 
 def test_an_edge_without_a_length_in_the_plane_has_no_heading() -> None:
     """A lift from B to C: no turn into it, and none out of it."""
     at = {"A": (0.0, 0.0), "B": (1.0, 0.0), "C": (1.0, 0.0), "D": (1.0, 1.0)}
-    assert angles_of(lanes(at, "AB", "BC", "CD")).angles == (0,)
+    assert measure_angles(lanes(at, "AB", "BC", "CD")).angles == (0,)
 
 
 def test_moving_a_roadmap_changes_no_angle() -> None:
@@ -75,19 +75,19 @@ def test_moving_a_roadmap_changes_no_angle() -> None:
     moved = {name: (x + 1234.5, y - 0.3) for name, (x, y) in at.items()}
     pairs = ("AB", "BC", "CD", "DB", "BA")
     rounded = {name: (round(x, 6), round(y, 6)) for name, (x, y) in moved.items()}
-    assert angles_of(lanes(at, *pairs)).angles == angles_of(lanes(rounded, *pairs)).angles
+    assert measure_angles(lanes(at, *pairs)).angles == measure_angles(lanes(rounded, *pairs)).angles
 
 
 def test_a_turn_is_rounded_up_to_ticks() -> None:
     """At 40 degrees per time unit: 90 degrees take 2.25, 180 take 4.5; ticks last 1/2."""
     roadmap = roadmap_of_grid(["...", "..."])
-    (turning,) = turnings_of(roadmap, [Fraction(40)], Clock(tick=Fraction(1, 2)))
+    (turning,) = compute_turnings(roadmap, [Fraction(40)], Clock(tick=Fraction(1, 2)))
     assert turning is not None
     assert turning.ticks.tolist() == [0, 5, 9]
 
 
 def test_robots_of_one_rate_share_their_turns() -> None:
-    one, none, other = turnings_of(
+    one, none, other = compute_turnings(
         roadmap_of_grid(["...", "..."]), [Fraction(45), None, Fraction(45)], Clock(tick=Fraction(1))
     )
     assert one is other

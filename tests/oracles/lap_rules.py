@@ -8,7 +8,7 @@ from rightofway.cyclic.rolling_horizon import RollingHorizon
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.simulator import HorizonParams, choose_pacemaker
 from rightofway.cyclic.window import Window, WindowRule
-from rightofway.planners.conflict_resolution import rights_if_waits
+from rightofway.planners.conflict_resolution import list_rights_if_waits
 from rightofway.precedence import Meeting, Segment
 
 __all__ = ["rolling"]
@@ -41,7 +41,7 @@ def _loss(window: Window, meeting: Meeting, segment: Segment, waits: int) -> int
     """Return the part of a lap that a robot loses by waiting: how late it is in the segment."""
     graph, context = window.graph, window.context
     later = 0
-    for first, second in rights_if_waits(graph, meeting, segment, waits):
+    for first, second in list_rights_if_waits(graph, meeting, segment, waits):
         robot, number = window.number(second)
         approach = context.routes[robot].drive(number) if context.booking_rules.books_ahead else 0
         due = graph.enter(first + 1) + context.booking_rules.headway + approach

@@ -8,7 +8,7 @@ from rightofway.model import Rules
 from rightofway.planners import Task
 from rightofway.planners.conflict_resolution import PartialPlan
 from rightofway.planners.routing import shortest_routes
-from rightofway.planners.two_level import by_two_levels
+from rightofway.planners.two_level import plan_by_two_levels
 from rightofway.search import Distances
 from tests.builders.fleets import grid_fleet
 
@@ -20,7 +20,7 @@ def test_a_deadlock_is_explained_by_its_circle() -> None:
     scenario = grid_fleet(["..", ".."], trips, rules=rules)
     routes = shortest_routes(scenario, Distances(scenario.roadmap))
     plan = PartialPlan(Task(scenario=scenario), routes)
-    plan.resolve_all(by_two_levels)
+    plan.resolve_all(plan_by_two_levels)
     [why] = plan.deferred.values()
     apart, _, circle = why.partition(": in a circle, ")
     assert apart.startswith("waiting cannot keep ")

@@ -16,7 +16,7 @@ from rightofway.io.plan.reader import plan_of
 from rightofway.io.plan.writer import dump_plan
 from rightofway.metrics import outcome_of
 from rightofway.model import Objective, Proof, Scenario, Tick
-from rightofway.model.outcome import outcome_of_cost
+from rightofway.model.outcome import classify_cost
 from rightofway.phrases import parts_of
 from rightofway.report.plan import planning
 from rightofway.report.sentences import describe_proof
@@ -141,7 +141,7 @@ def test_objectives_are_measured_by_one_method() -> None:
     plan = solve(crossing(), "fixed-priority")
     values = [objective.of(plan.scenario, plan.tracks) for objective in Objective]
     assert values == [5, 5, 5, 3]
-    assert outcome_of_cost(Tick(5), Proof(bound=Tick(5))).kind is OutcomeKind.OPTIMAL
+    assert classify_cost(Tick(5), Proof(bound=Tick(5))).kind is OutcomeKind.OPTIMAL
 
 
 def code(args: list[str]) -> int:

@@ -149,7 +149,7 @@ Pretend = Callable[[Sequence[int]], Costs]
 def pretend(monkeypatch: pytest.MonkeyPatch) -> Pretend:
     def make(costs: Sequence[int]) -> Costs:
         stand_in = Costs(costs)
-        monkeypatch.setattr("rightofway.planners.priorities.by_priority", stand_in.rule_of)
+        monkeypatch.setattr("rightofway.planners.priorities.plan_by_priority", stand_in.rule_of)
         monkeypatch.setattr("rightofway.planners.priorities.plan_by_rule", stand_in.plan)
         return stand_in
 

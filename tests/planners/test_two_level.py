@@ -11,7 +11,7 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Rules, Scenario
 from rightofway.planners.routing import chosen_routes
 from rightofway.planners.task import Task
-from rightofway.planners.two_level import movement_groups
+from rightofway.planners.two_level import replay_movement_groups
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario, random_fleet
 
 CASES = {case["name"]: case for case in PAPER}
@@ -73,7 +73,7 @@ def test_robot_level_decides_by_the_work_achieved_sooner() -> None:
 def test_both_movement_groups_of_a_decision_can_be_followed_again() -> None:
     """door-2, node 7: R1 waiting gives 19 + 28, R2 waiting 18 + 32; group one is the plan."""
     plan = published("door-2")
-    one, two = movement_groups(plan, plan.run.decisions[1])
+    one, two = replay_movement_groups(plan, plan.run.decisions[1])
     assert one is not None
     assert two is not None
     assert (one.completions, two.completions) == ((19, 28), (18, 32))
@@ -84,7 +84,7 @@ def test_both_movement_groups_of_a_decision_can_be_followed_again() -> None:
 def test_a_plan_of_another_planner_has_no_movement_groups() -> None:
     plan = rightofway.solve(paper_scenario(CASES["door-2"]), "fixed-priority")
     with pytest.raises(InputError, match="fixed-priority has no movement groups"):
-        movement_groups(plan, plan.run.decisions[0])
+        replay_movement_groups(plan, plan.run.decisions[0])
 
 
 def test_the_published_method_leaves_the_swap_of_door_5_and_the_judge_sees_it() -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from rightofway.cyclic import Piece, excerpt, pieces_of_plan, run_laps
+from rightofway.cyclic import Piece, excerpt, list_pieces_of_plan, run_laps
 from rightofway.io import load
 from rightofway.model import Rules, Scenario, Tick
 from rightofway.report.circuits import describe_circuit, list_circuit_steps, summarize_circuit
@@ -138,6 +138,6 @@ def test_a_plan_of_laps_has_the_sentence_of_its_report(scenario: Scenario) -> No
         if bottleneck is None or not state.critical:
             continue
         compared += 1
-        found = pieces_of_plan(plan, state)
+        found = list_pieces_of_plan(plan, state)
         assert texts(found, scenario) == texts(bottleneck.pieces, scenario)
     assert compared

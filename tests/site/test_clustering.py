@@ -5,15 +5,15 @@ from fractions import Fraction
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.site import Floor, Obstacle, cluster, node_length, steps_per_unit
+from rightofway.site import Floor, Obstacle, cluster, compute_node_length, compute_steps_per_unit
 
 
 def test_node_clustering_gives_the_numbers_of_the_paper() -> None:
     """Speeds 1 and 2: nodes of half a unit, two and four of them in a unit of time."""
     speeds = [Fraction(1), Fraction(2)]
-    length = node_length(speeds)
+    length = compute_node_length(speeds)
     assert length == Fraction(1, 2)
-    assert [steps_per_unit(speed, length) for speed in speeds] == [2, 4]
+    assert [compute_steps_per_unit(speed, length) for speed in speeds] == [2, 4]
 
 
 def obstacle(x: str, y: str, width: str, height: str) -> Obstacle:

@@ -8,11 +8,11 @@ from rightofway import InputError
 from rightofway.site import (
     Frame,
     Point,
+    choose_rounding_step,
+    measure_straight_length,
     roadmap_of_edges,
     roadmap_of_grid,
-    rounding_step,
     squared_distance,
-    straight_length,
 )
 from rightofway.site.geometry import COARSE, FINE
 
@@ -56,24 +56,27 @@ def test_a_vertex_keeps_its_point_where_y_grows_upwards() -> None:
 
 
 def test_a_distance_that_is_a_fraction_is_exact() -> None:
-    assert straight_length(squared_distance(ZERO, at(Fraction(3, 10), Fraction(4, 10)))) == HALF
+    assert (
+        measure_straight_length(squared_distance(ZERO, at(Fraction(3, 10), Fraction(4, 10))))
+        == HALF
+    )
 
 
 def test_other_distances_are_rounded_up_to_the_step() -> None:
     # the root of 2 is 1.41421356..., and its least multiple of 1/1000 above is 1.415
-    assert straight_length(Fraction(2)) == Fraction("1.415")
-    assert straight_length(Fraction(2), FINE) == Fraction("1.414214")
+    assert measure_straight_length(Fraction(2)) == Fraction("1.415")
+    assert measure_straight_length(Fraction(2), FINE) == Fraction("1.414214")
 
 
 def test_the_step_is_finer_where_a_distance_is_below_1() -> None:
-    assert rounding_step([Fraction(2)]) == COARSE
-    assert rounding_step([Fraction(2), Fraction(1, 2)]) == FINE
+    assert choose_rounding_step([Fraction(2)]) == COARSE
+    assert choose_rounding_step([Fraction(2), Fraction(1, 2)]) == FINE
 
 
 def test_a_rounded_length_is_never_short_and_less_than_a_step_too_long() -> None:
     for x in range(1, 40):
         square = squared_distance(ZERO, at(x, Fraction(1, 7)))
-        length = straight_length(square)
+        length = measure_straight_length(square)
         assert (length - COARSE) ** 2 < square <= length**2
 
 
@@ -83,4 +86,4 @@ def test_a_rounded_length_is_never_short_and_less_than_a_step_too_long() -> None
 )
 def test_a_distance_that_cannot_be_kept_is_refused(head: Point, message: str) -> None:
     with pytest.raises(InputError, match=message):
-        straight_length(squared_distance(ZERO, head))
+        measure_straight_length(squared_distance(ZERO, head))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError
 from rightofway.site import Roadmap
-from rightofway.site.quadtree import OBLIQUE, Squares, roadmap_of_squares, squares_of
+from rightofway.site.quadtree import OBLIQUE, Squares, build_roadmap_of_squares, join_squares
 
 RANDOM = [(seed, share) for seed in range(2) for share in (0.02, 0.1, 0.3)]
 
@@ -43,7 +43,7 @@ def cells_of(squares: Squares, square: int) -> set[tuple[int, int]]:
 @pytest.mark.parametrize(("seed", "share"), RANDOM)
 def test_squares_cover_the_free_cells_once(seed: int, share: float) -> None:
     free = random_floor(seed, share)
-    squares = squares_of(free, largest=8, near=True)
+    squares = join_squares(free, largest=8, near=True)
     covered = [cell for square in range(len(squares.side)) for cell in cells_of(squares, square)]
     assert sorted(covered) == sorted(map(tuple, np.argwhere(free).tolist()))
     for square in range(len(squares.side)):
@@ -57,7 +57,7 @@ def test_squares_that_share_a_part_of_a_side_are_joined_and_no_others(
 ) -> None:
     """Every two free cells beside each other that lie in two squares give an edge each way."""
     free = random_floor(seed, share)
-    squares = squares_of(free, largest=8, near=near)
+    squares = join_squares(free, largest=8, near=near)
     beside = set()
     for row, column in np.argwhere(free).tolist():
         for down, right in ((0, 1), (1, 0)):
@@ -69,7 +69,7 @@ def test_squares_that_share_a_part_of_a_side_are_joined_and_no_others(
                 if other >= 0 and one != other:
                     beside |= {(one, other), (other, one)}
     radius = Fraction(0) if near else Fraction(1, 2)
-    roadmap = roadmap_of_squares(free, Fraction(1), radius=radius)
+    roadmap = build_roadmap_of_squares(free, Fraction(1), radius=radius)
     assert {(tail, head) for tail, head, _ in edges_of(roadmap)} == beside
     sides = squares.side
     assert all(
@@ -87,7 +87,7 @@ def test_no_drive_between_two_middles_comes_nearer_than_the_radius_or_half_a_sma
     The ends of a drive are half a cell from everything that is blocked, as middles of squares.
     """
     free = random_floor(seed, share)
-    roadmap = roadmap_of_squares(free, Fraction(1), radius=radius)
+    roadmap = build_roadmap_of_squares(free, Fraction(1), radius=radius)
     framed = np.pad(free, 1, constant_values=False)
     blocked = [(row - 1, column - 1) for row, column in np.argwhere(~framed).tolist()]
     least = min(radius, Fraction(1, 2)) ** 2
@@ -116,7 +116,7 @@ def squared_gap(
 
 def test_an_edge_is_as_long_as_the_straight_line_or_a_little_longer() -> None:
     free = random_floor(3, 0.1)
-    for tail, head, length in edges_of(roadmap := roadmap_of_squares(free, Fraction(1, 2))):
+    for tail, head, length in edges_of(roadmap := build_roadmap_of_squares(free, Fraction(1, 2))):
         (x, y), (to_x, to_y) = roadmap.point(tail), roadmap.point(head)
         square = (x - to_x) ** 2 + (y - to_y) ** 2
         assert square <= length**2 <= square * OBLIQUE**2 / Fraction(5, 2)
@@ -125,11 +125,11 @@ def test_an_edge_is_as_long_as_the_straight_line_or_a_little_longer() -> None:
 def test_an_edge_past_a_corner_that_is_too_near_splits_the_square() -> None:
     """Beside the lower half of the square is a free cell, beside its upper half a blocked one."""
     free = np.array([[True, True, True], [True, True, False]])
-    assert roadmap_of_squares(free, Fraction(1), radius=Fraction(3, 10)).labels == (
+    assert build_roadmap_of_squares(free, Fraction(1), radius=Fraction(3, 10)).labels == (
         "Q0-0x2",
         "Q2-0",
     )
-    wide = roadmap_of_squares(free, Fraction(1), radius=Fraction(1, 3))
+    wide = build_roadmap_of_squares(free, Fraction(1), radius=Fraction(1, 3))
     assert wide.labels == ("Q0-0", "Q1-0", "Q2-0", "Q0-1", "Q1-1")
 
 
@@ -137,13 +137,13 @@ def test_squares_lie_where_the_frame_says() -> None:
     free = np.ones((2, 2), np.bool_)
     free[0, 0] = False
     corner = (Fraction(10), Fraction(-4))
-    up = roadmap_of_squares(free, Fraction(1, 2), y_up=True, corner=corner, origin=corner)
+    up = build_roadmap_of_squares(free, Fraction(1, 2), y_up=True, corner=corner, origin=corner)
     assert up.labels == ("Q1-0", "Q0-1", "Q1-1")
     assert up.point(0) == (Fraction("10.75"), Fraction("-3.75"))
-    down = roadmap_of_squares(free, Fraction(1, 2), corner=corner, origin=corner)
+    down = build_roadmap_of_squares(free, Fraction(1, 2), corner=corner, origin=corner)
     assert down.point(0) == (Fraction("10.75"), Fraction("-3.75"))
     yaw = Fraction("1.5707963267949")  # a quarter turn: x to y
-    turned = roadmap_of_squares(
+    turned = build_roadmap_of_squares(
         free, Fraction(1, 2), y_up=True, corner=corner, origin=corner, yaw=yaw
     )
     x, y = turned.point(0)
@@ -153,8 +153,8 @@ def test_squares_lie_where_the_frame_says() -> None:
 def test_limits_are_said() -> None:
     free = np.ones((4, 4), np.bool_)
     with pytest.raises(InputError, match="largest: 1/2 is below the smallest cell, 1"):
-        roadmap_of_squares(free, Fraction(1), largest=Fraction(1, 2))
+        build_roadmap_of_squares(free, Fraction(1), largest=Fraction(1, 2))
     with pytest.raises(InputError, match="smallest: 4 squares, more than 3"):
-        roadmap_of_squares(free, Fraction(1), largest=Fraction(2), max_squares=3)
+        build_roadmap_of_squares(free, Fraction(1), largest=Fraction(2), max_squares=3)
     with pytest.raises(InputError, match="no free cell in 16"):
-        roadmap_of_squares(~free, Fraction(1))
+        build_roadmap_of_squares(~free, Fraction(1))

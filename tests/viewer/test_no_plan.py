@@ -4,7 +4,7 @@ import pytest
 
 import rightofway
 from rightofway.errors import NoPlanExists
-from rightofway.planners.impossible import fleet_at_home
+from rightofway.planners.impossible import put_fleet_at_home
 from rightofway.viz.palette import LIGHT
 from tests.builders.fleets import grid_fleet
 from tests.viewer.conftest import Opener
@@ -15,7 +15,7 @@ def test_the_page_of_a_blocked_fleet_marks_robots_and_places_and_says_why(show: 
     scenario = grid_fleet(["...", "@@@", "..."], [("N0", "N2"), ("N2", "N0"), ("N6", "N8")])
     with pytest.raises(NoPlanExists) as caught:
         rightofway.solve(scenario)
-    viewer = show(fleet_at_home(scenario), no_plan=caught.value)
+    viewer = show(put_fleet_at_home(scenario), no_plan=caught.value)
     assert "no plan exists" in viewer.text("#headline")
     ringed = [disc for disc in viewer.discs() if disc.colour == LIGHT.held and not disc.is_filled]
     homes = viewer.all_on_map([(0.5, 0.5), (2.5, 0.5)])  # N0 and N2; R3 stands in N6

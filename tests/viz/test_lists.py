@@ -11,7 +11,7 @@ import pytest
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.metrics import NamedCollision, free_running, named_collisions
+from rightofway.metrics import NamedCollision, free_running, name_collisions
 from rightofway.model import Plan, Tick, completions_of
 from rightofway.planners.routing import free_running_tracks
 from rightofway.quantities import Units
@@ -70,7 +70,7 @@ def test_a_window_keeps_the_visits_that_have_a_part_in_it() -> None:
 
 def test_collisions_of_free_running_robots_are_the_marked_cells_of_table_4() -> None:
     scenario = paper_scenario(CASES["door-1"])
-    found = named_collisions(scenario, free_running_tracks(scenario))
+    found = name_collisions(scenario, free_running_tracks(scenario))
     assert [(each.start, each.places) for each in found] == [
         (1, ("N1",)), (2, ("N4",)), (3, ("N7",)), (6, ("N7",)), (7, ("N4",)), (8, ("N1",)),
     ]  # fmt: skip
@@ -96,7 +96,7 @@ def test_the_paper_lists_a_collision_for_each_tick() -> None:
 
 def test_the_swap_that_the_published_method_leaves_is_listed() -> None:
     plan = published("door-5")
-    assert named_collisions(plan.scenario, plan.tracks) == (
+    assert name_collisions(plan.scenario, plan.tracks) == (
         NamedCollision("R1", "R2", Tick(7), Tick(7), ("N7", "N4"), "swap"),
     )
 
@@ -106,13 +106,13 @@ def test_conflicts_before_the_first_decision_are_counted_tick_by_tick(case: dict
     plan = published(case["name"])
     scenario, tracks = plan.scenario, free_running_tracks(plan.scenario)
     end = max(completions_of(scenario, tracks))
-    listed = collision_ticks(named_collisions(scenario, tracks), scenario.quantities, end)
+    listed = collision_ticks(name_collisions(scenario, tracks), scenario.quantities, end)
     assert conflicts_before(plan)[0] == [row[4] for row in listed.rows()].count("collision")
 
 
 def test_the_published_method_does_not_count_the_swaps_that_it_does_not_see() -> None:
     plan = rightofway.solve(random_fleet(7, robots=10), "paper")
-    found = named_collisions(plan.scenario, free_running(plan))
+    found = name_collisions(plan.scenario, free_running(plan))
     assert "swap" in [each.kind for each in found]
     ticks = [each.until - each.start for each in found if each.until is not None]
     assert conflicts_before(plan)[0] == sum(ticks)

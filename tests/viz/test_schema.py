@@ -14,7 +14,7 @@ from rightofway import load, solve
 from rightofway.errors import NoPlanExists
 from rightofway.io.sites import Choice, read_sites
 from rightofway.metrics import inspect
-from rightofway.planners.impossible import fleet_at_home
+from rightofway.planners.impossible import put_fleet_at_home
 from rightofway.viz import Background, inspection_page, payload_of
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.schema import InspectionPayload, Payload
@@ -78,7 +78,7 @@ def test_the_payload_of_a_fleet_without_a_plan_has_the_declared_types() -> None:
     scenario = grid_fleet(["...", "@@@", "..."], [("N0", "N2"), ("N2", "N0"), ("N6", "N8")])
     with pytest.raises(NoPlanExists) as caught:
         solve(scenario)
-    validate(payload_of(fleet_at_home(scenario), no_plan=caught.value))
+    validate(payload_of(put_fleet_at_home(scenario), no_plan=caught.value))
 
 
 @pytest.mark.parametrize("name", ["edges.csv", "hall.building.yaml", "two-rooms.map"])

@@ -10,7 +10,7 @@ import pytest
 import rightofway
 from rightofway.model import Plan, Robot, Rules, Scenario, Stop
 from rightofway.site import VertexId
-from rightofway.site.quadtree import roadmap_of_squares
+from rightofway.site.quadtree import build_roadmap_of_squares
 from rightofway.viz import payload_of
 from rightofway.viz.placement import plane_of
 
@@ -19,7 +19,7 @@ from rightofway.viz.placement import plane_of
 def _plan() -> Plan:
     """A square of 1 m at the left, two cells of 0.5 m right of it, a blocked one beside them."""
     free = np.array([[True, True, True, True], [True, True, True, False]])
-    roadmap = roadmap_of_squares(free, Fraction(1, 2))
+    roadmap = build_roadmap_of_squares(free, Fraction(1, 2))
     home, target = VertexId(0), VertexId(2)
     robot = Robot(name="R1", home=home, stops=(Stop(at=target, work=Fraction(0)),))
     scenario = Scenario(roadmap=roadmap, robots=(robot,), rules=Rules(turn=Fraction(0)))

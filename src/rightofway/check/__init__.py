@@ -13,7 +13,7 @@ from rightofway.check.tracks import judge_drives, judge_trips, judge_turns
 from rightofway.check.visits import visits_of
 from rightofway.check.zones import judge_zones
 from rightofway.model import Plan
-from rightofway.model.given import checked_number, checked_plan
+from rightofway.model.given import checked_plan, require_number
 from rightofway.quantities import Quantities
 from rightofway.values import at, one_of
 
@@ -56,7 +56,7 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
     A closure is a booking of nobody without headway; a robot's booking has its own.
     """
     visits = visits_of(checked_plan(plan))
-    limit = checked_number("limit", limit, 0, 2**31 - 1)
+    limit = require_number("limit", limit, 0, 2**31 - 1)
     if quantities is not None:
         read = one_of(Quantities, "no quantities", "give Quantities, or None")
         at("quantities", read, quantities)

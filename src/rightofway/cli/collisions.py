@@ -66,7 +66,7 @@ def collisions(
     shortest routes. Those of a plan drive the routes of the plan; the decisions of its planner
     follow, with the conflicts before and after each. A file of - is standard input.
     """
-    from rightofway.metrics import free_running, named_collisions
+    from rightofway.metrics import free_running, name_collisions
     from rightofway.model import Scenario, completions_of
     from rightofway.planners.routing import free_running_tracks
     from rightofway.solve import solve
@@ -80,7 +80,7 @@ def collisions(
     scenario = opened if isinstance(opened, Scenario) else opened.scenario
     tracks = free_running_tracks(scenario) if plan is None else free_running(plan)
     quantities = quantities_of(scenario, in_ticks=in_ticks)
-    listed = named_collisions(scenario, tracks)
+    listed = name_collisions(scenario, tracks)
     if each_tick:
         end = max(completions_of(scenario, tracks))
         lists = [collision_ticks(listed, quantities, end)]
@@ -98,7 +98,7 @@ def collisions(
         if len(lists) > 1:
             parts.append(LEGEND)
         if plan is not None:
-            left = named_collisions(scenario, plan.tracks)
+            left = name_collisions(scenario, plan.tracks)
             parts.append(Phrase("Left in the plan: {collisions}.", collisions=_counted(left)))
             parts += _texts([collision_list(left, quantities)])
         click.echo("\n\n".join(translate(part, language()) for part in parts))
@@ -131,7 +131,7 @@ def _collision_data(
     listed: Sequence[NamedCollision], plan: Plan | None, quantities: Quantities
 ) -> dict[str, Any]:
     """Return collisions and decisions for programs; times in ticks."""
-    from rightofway.metrics import named_collisions
+    from rightofway.metrics import name_collisions
     from rightofway.viz.table import conflicts_before
 
     data = {**clock_data(quantities), "collisions": [_pair_data(collision) for collision in listed]}
@@ -151,7 +151,7 @@ def _collision_data(
             }
             for collision, before in zip(plan.run.decisions, conflicts_before(plan), strict=True)
         ]
-        left = named_collisions(plan.scenario, plan.tracks)
+        left = name_collisions(plan.scenario, plan.tracks)
         data["left"] = [_pair_data(collision) for collision in left]
     return data
 

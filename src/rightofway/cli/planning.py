@@ -297,10 +297,10 @@ def write_no_plan(problem: Any, page: str | None, title: str, *, as_json: bool) 
 
             put_json({"no_plan": error.as_dict(), "outcome": no_plan_data(error)})
         if page:
-            from rightofway.planners.impossible import fleet_at_home
+            from rightofway.planners.impossible import put_fleet_at_home
             from rightofway.viz import write_page
 
-            write_page(fleet_at_home(problem), page, no_plan=error, title=title)
+            write_page(put_fleet_at_home(problem), page, no_plan=error, title=title)
             say(Phrase("wrote {file} (it shows where robots are blocked)", file=page))
         raise
 

@@ -284,7 +284,7 @@ def _groups(
     plan: Plan, number: int, given: dict[str, Any]
 ) -> tuple[TimeSpaceTable, list[str], Sequence[tuple[int, int] | None]]:
     """Return the table of both movement groups of a decision, words, and their W(i) and W(j)."""
-    from rightofway.planners.two_level import movement_groups
+    from rightofway.planners.two_level import replay_movement_groups
     from rightofway.viz.table import chosen_robots, table_of_groups
 
     decisions = plan.run.decisions
@@ -293,7 +293,7 @@ def _groups(
         remedy = "rightofway collisions PLAN lists them"
         raise InputError.at("--decision", f"{number} is not there, {last} ({remedy})")
     decision = decisions[number - 1]
-    groups = movement_groups(plan, decision)
+    groups = replay_movement_groups(plan, decision)
     shown = _shown(plan, **given)
     names = shown.robots
     group_table = table_of_groups(

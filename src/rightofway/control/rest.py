@@ -20,7 +20,7 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.execution.replan import list_held
 from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, route_of
 from rightofway.model.route import drives_along, route_through
-from rightofway.planners.lacam import timetable_if_possible
+from rightofway.planners.lacam import build_timetable_if_possible
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.task import Task, planning_problem
 from rightofway.precedence import ReleaseGraph, graph_on
@@ -314,7 +314,7 @@ class RestPlanner:
             visited[robot] = [*map(VertexId, before), *visited[robot]]
             arrivals[robot] = [*range(-len(before), 0), *arrivals[robot]]
         order = [arrivals[robot] for robot in moving]
-        tracks = timetable_if_possible(whole, [visited[robot] for robot in moving], order)
+        tracks = build_timetable_if_possible(whole, [visited[robot] for robot in moving], order)
         if tracks is None:
             raise GaveUp("its order cannot be kept behind what is released")
         judged = check(Plan(scenario=whole, tracks=tuple(tracks), run=PlannerRun()))

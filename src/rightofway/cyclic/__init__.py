@@ -3,9 +3,9 @@
 from rightofway.cyclic.bottleneck import (
     Bottleneck,
     Piece,
-    bottleneck_along,
     bottleneck_of,
-    pieces_of_plan,
+    list_pieces_of_plan,
+    trace_bottleneck,
 )
 from rightofway.cyclic.parameter_curves import CurvePiece, ParameterCurve, parameter_curves
 from rightofway.cyclic.pattern import Pattern
@@ -15,7 +15,7 @@ from rightofway.cyclic.rules import RULES, TIMETABLE
 from rightofway.cyclic.run import run_laps
 from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects
 from rightofway.cyclic.timetable_search import best_timetable
-from rightofway.cyclic.to_plan import excerpt, plan_of_laps, visits_along
+from rightofway.cyclic.to_plan import excerpt, list_visits_along, plan_of_laps
 
 __all__ = [
     "ROUTES",
@@ -34,14 +34,14 @@ __all__ = [
     "Pattern",
     "Piece",
     "best_timetable",
-    "bottleneck_along",
     "bottleneck_of",
     "cyclic_routes",
     "excerpt",
+    "list_pieces_of_plan",
+    "list_visits_along",
     "parameter_curves",
     "parameter_effects",
-    "pieces_of_plan",
     "plan_of_laps",
     "run_laps",
-    "visits_along",
+    "trace_bottleneck",
 ]

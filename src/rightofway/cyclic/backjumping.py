@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from rightofway.cyclic.simulator import Deadlock
 from rightofway.cyclic.window import NumberedRight, Window, WindowRule
 from rightofway.model import Tick
-from rightofway.planners.conflict_resolution import Right, rights_if_waits
+from rightofway.planners.conflict_resolution import Right, list_rights_if_waits
 from rightofway.precedence import Meeting
 
 
@@ -87,7 +87,7 @@ class RightOfWaySearch:
         rights, others = (
             tuple(
                 (number(first), number(second))
-                for first, second in rights_if_waits(window.graph, meeting, segment, robot)
+                for first, second in list_rights_if_waits(window.graph, meeting, segment, robot)
             )
             for robot in (waits, 1 - waits)
         )

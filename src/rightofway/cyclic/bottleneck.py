@@ -82,11 +82,11 @@ def bottleneck_of(graph: TimedEventGraph, *, time_limit: float | None = None) ->
     GaveUp
         If time ran out.
     """
-    return bottleneck_along(graph, graph.critical_circuit(time_limit=time_limit).arcs.tolist())
+    return trace_bottleneck(graph, graph.critical_circuit(time_limit=time_limit).arcs.tolist())
 
 
 @checks_arguments
-def bottleneck_along(graph: TimedEventGraph, circuit: Sequence[int]) -> Bottleneck:
+def trace_bottleneck(graph: TimedEventGraph, circuit: Sequence[int]) -> Bottleneck:
     """Return a circuit in pieces; its cycle time is less than that of the graph if not critical.
 
     Parameters
@@ -161,7 +161,7 @@ def _joined(pieces: Iterable[Piece], homes: Mapping[int, VertexId]) -> Iterator[
 
 
 @checks_arguments
-def pieces_of_plan(plan: Plan, steady: SteadyState) -> tuple[Piece, ...]:
+def list_pieces_of_plan(plan: Plan, steady: SteadyState) -> tuple[Piece, ...]:
     """Return the critical circuit of a steady state in pieces; empty if it is unknown.
 
     Parameters

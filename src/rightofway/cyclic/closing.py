@@ -3,7 +3,7 @@
 Two methods, for simulations in which no state recurs in reasonable time. The *seam* is the instant
 at which the end of the stretch meets its beginning.
 
-- By orders (`closed_windows`), for groups small enough to try many windows. Laps that begin from a
+- By orders (`close_windows`), for groups small enough to try many windows. Laps that begin from a
   tick on and end within a period keep their order at each vertex, also across the seam; the cycle
   time of this order is exact. If the order causes a deadlock at the seam, visits keep their times
   instead, and robots with overlapping bookings leave out laps.
@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from rightofway.cyclic.pattern import Enters, VisitTimes
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.cyclic.result import GroupResult
-from rightofway.cyclic.warmup import homes_of
+from rightofway.cyclic.warmup import find_homes
 from rightofway.model import Lap
 from rightofway.search import PeriodicBookings
 
@@ -72,7 +72,7 @@ def _first_lap(home: Enters, begins: int) -> int:
     return max(int(np.searchsorted(home, begins)), 1)
 
 
-def closed_windows(
+def close_windows(
     problem: CyclicProblem, run: GroupResult, params: ClosingParams = DEFAULT
 ) -> Iterator[Candidate]:
     """Yield timetables of windows of a simulation, until all are tried or time is over."""
@@ -90,7 +90,7 @@ class _WindowClosing:
 
     def __init__(self, problem: CyclicProblem, run: GroupResult, params: ClosingParams) -> None:
         self.problem, self.run, self.params = problem, run, params
-        self.homes = homes_of(run.context.routes, run.history)
+        self.homes = find_homes(run.context.routes, run.history)
         self.known = min(int(home[-1]) for home in self.homes)
 
     def promising(self) -> list[Stretch]:
@@ -192,7 +192,7 @@ def stretches(
     """Return long stretches of a simulation with upper bounds on their values, best first."""
     known, longest = max(past[-1] for past in run.history), run.context.longest
     visits_per_tick = sum(map(len, run.history)) / max(known, 1)
-    homes = homes_of(run.context.routes, run.history)
+    homes = find_homes(run.context.routes, run.history)
     candidates = []
     latest = max(params.latest_begin * known, longest)
     ticks = np.linspace(longest, latest, params.stretch_begins).astype(np.int64)
@@ -296,7 +296,7 @@ class _SeamClosing:
         self._from, self._to = seam - around, seam + around
         self._seam, self._searches = problem.empty_bookings(None), 0
         self._kept: list[_Kept] = []
-        homes, laps = homes_of(run.context.routes, run.history), run.context.laps
+        homes, laps = find_homes(run.context.routes, run.history), run.context.laps
         for robot, (lap, past, home) in enumerate(zip(laps, run.history, homes, strict=True)):
             assert isinstance(past, VisitTimes), "native rules have these"
             first = _first_lap(home, stretch.begins)

@@ -18,7 +18,7 @@ from rightofway.planners.lacam import lacam
 from rightofway.planners.prioritized import prioritized
 
 
-def repeated_plan(problem: CyclicProblem) -> Candidate | None:
+def repeat_plan(problem: CyclicProblem) -> Candidate | None:
     """Return the timetable of a plan of one lap each; None if no plan was found in time.
 
     Raises
@@ -51,7 +51,7 @@ def repeated_plan(problem: CyclicProblem) -> Candidate | None:
         return None
     laps, cycles = [], []
     for robot, track in zip(context.robots, tracks, strict=True):
-        once, enter = one_lap(scenario, robot), track.enter * factor.numerator
+        once, enter = take_one_lap(scenario, robot), track.enter * factor.numerator
         route = route_of(scenario.roadmap, once, Track(vertices=track.vertices, enter=enter))
         laps.append((lap_of(scenario.roadmap, once, route), enter))
         if not problem.forbidden.isdisjoint(rows_of(scenario, robot, laps[-1][0]).booked):
@@ -66,7 +66,7 @@ def repeated_plan(problem: CyclicProblem) -> Candidate | None:
     return problem.candidate(timetable) if problem.graph(timetable).slack().min() >= 0 else None
 
 
-def one_lap(scenario: Scenario, robot: int) -> Itinerary:
+def take_one_lap(scenario: Scenario, robot: int) -> Itinerary:
     """Return the stages of a robot's first lap."""
     itinerary = scenario.problem.itineraries[robot]
     return replace(itinerary, stages=itinerary.stages[: len(scenario.robots[robot].stops) + 1])

@@ -21,9 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
-from rightofway.cyclic.sensitivity import stages_at
+from rightofway.cyclic.sensitivity import find_stages_at
 from rightofway.model import Robot, Scenario
-from rightofway.model.problem import turning_time
+from rightofway.model.problem import compute_turning_time
 from rightofway.precedence import Growth, TimedEventGraph, period_curve
 
 MOST_VISITS = 100_000
@@ -147,7 +147,7 @@ def _of_robot(
     number = graph.timetable.robots[place]
     robot, arcs = scenario.robots[number], graph.arcs
     itinerary = scenario.problem.itineraries[number]
-    at = stages_at(scenario.roadmap, itinerary, graph.timetable.laps[place])
+    at = find_stages_at(scenario.roadmap, itinerary, graph.timetable.laps[place])
     growth, tick = _of_speed(scenario, graph, place, robot), scenario.problem.clock.tick
     ends = Fraction(1, RANGE), Fraction(RANGE)
     yield ParameterCurve(
@@ -249,10 +249,12 @@ def _turns_by_speed(
     """Return the turning in each arc that a faster robot makes faster: by the cell [ticks]."""
     arcs, rules = graph.arcs, (scenario.roadmap, scenario.rules)
     faster = replace(robot, speed=2 * robot.speed)
-    if turning_time(rules[0], robot, rules[1]) == turning_time(rules[0], faster, rules[1]):
+    if compute_turning_time(rules[0], robot, rules[1]) == compute_turning_time(
+        rules[0], faster, rules[1]
+    ):
         return np.zeros(len(arcs), np.int64)
     itinerary = scenario.problem.itineraries[graph.timetable.robots[place]]
-    at = stages_at(scenario.roadmap, itinerary, graph.timetable.laps[place])
+    at = find_stages_at(scenario.roadmap, itinerary, graph.timetable.laps[place])
     turn = np.array([sum(stage.turn for _, stage in stages) for stages in at], np.int64)
     dwells = (arcs.first < 0) & (graph.robot[arcs.tail] == place)
     return np.where(dwells, turn[np.where(dwells, graph.index[arcs.tail], 0)], 0)

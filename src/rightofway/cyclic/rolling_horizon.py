@@ -23,7 +23,7 @@ from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.simulator import DEFAULT, Deadlock, HorizonParams, choose_pacemaker
 from rightofway.cyclic.window import FrozenPrefix, TooShort, Window, WindowRule
 from rightofway.planners import Deadline
-from rightofway.planners.two_level import by_two_levels
+from rightofway.planners.two_level import plan_by_two_levels
 from rightofway.precedence import Meeting, Segment
 
 
@@ -32,7 +32,7 @@ def two_level(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 
 
     On a tie, the robot that would enter the segment later waits.
     """
-    settlement = by_two_levels(window.fleet, meeting)
+    settlement = plan_by_two_levels(window.fleet, meeting)
     if settlement is not None and settlement.decisions:
         return 0 if settlement.decisions[0].waits == meeting.robots[0] else 1
     (i, j), graph = meeting.robots, window.graph

@@ -215,7 +215,7 @@ def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[Cyclic
 
 def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     """Return the scenario with one lap for each robot, and its distance tables."""
-    scenario = without_closed_places(scenario)
+    scenario = take_out_closed_places(scenario)
     if scenario.rules.ends == "none" and all(robot.ends != "home" for robot in scenario.robots):
         raise InputError.at(("rules", "return"), NOTHING_REPEATS)
     faults = [
@@ -236,7 +236,7 @@ def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     return once, distances
 
 
-def without_closed_places(scenario: Scenario) -> Scenario:
+def take_out_closed_places(scenario: Scenario) -> Scenario:
     """Return the scenario without the places of its roadmap that are closed for ever, and closures.
 
     Raises
@@ -344,7 +344,7 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     return avoiding
 
 
-def independent_groups(scenario: Scenario, fleet: Sequence[CyclicRoute]) -> list[list[CyclicRoute]]:
+def split_groups(scenario: Scenario, fleet: Sequence[CyclicRoute]) -> list[list[CyclicRoute]]:
     """Partition a fleet into groups with laps that share no vertex (union-find).
 
     Robots with a size: that book nothing incompatible.

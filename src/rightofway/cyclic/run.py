@@ -11,18 +11,18 @@ from rightofway.cyclic.route import (
     ROUTES,
     GroupContext,
     cyclic_routes,
-    independent_groups,
-    without_closed_places,
+    split_groups,
+    take_out_closed_places,
 )
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
 from rightofway.errors import GaveUp, kernel_limits
 from rightofway.model import Scenario, checked_time_limit
-from rightofway.model.given import checked_functions, checked_scenario
+from rightofway.model.given import checked_scenario, require_functions
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
-from rightofway.planners.conflict_resolution import deadlock_in_words
+from rightofway.planners.conflict_resolution import describe_deadlock
 from rightofway.values import at, word_of
 
 Simulation = CyclicSimulator | RollingHorizon
@@ -77,12 +77,12 @@ def run_laps(
     group without a recurrence within the limit is open. Deterministic below the limit.
     """
     checked_scenario(scenario)
-    checked_functions(report=report)
+    require_functions(report=report)
     at("rule", word_of(tuple(RULES)), rule)
     at("routes", word_of(ROUTES), routes)
     deadline = Deadline.after(checked_time_limit(time_limit))
-    scenario = without_closed_places(scenario)
-    groups = independent_groups(scenario, cyclic_routes(scenario, routes))
+    scenario = take_out_closed_places(scenario)
+    groups = split_groups(scenario, cyclic_routes(scenario, routes))
     simulations = [
         simulation_of(GroupContext(scenario=scenario, routes=tuple(group)), rule)
         for group in groups
@@ -159,4 +159,4 @@ def _explain(deadlock: Deadlock, context: GroupContext) -> str:
     i, j = (names[robot] for robot in deadlock.robots)
     moment = context.scenario.quantities.moment(deadlock.tick)
     where = Phrase("{name} ({what})", name=place(deadlock.vertex), what=moment)
-    return deadlock_in_words((i, j), where, [names[robot] for robot in deadlock.circle])
+    return describe_deadlock((i, j), where, [names[robot] for robot in deadlock.circle])

@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.model import Itinerary, Lap, Scenario, Stage, serving_visits
-from rightofway.model.lap import dwell_between_laps, turns_of_lap
+from rightofway.model.lap import compute_dwell_between_laps, compute_turns_of_lap
 from rightofway.precedence import (
     Sensitivity,
     TimedEventGraph,
-    critical_circuit_without,
+    find_critical_circuit_without,
+    find_tight_arcs,
     sensitivity,
-    tight_arcs,
 )
 from rightofway.site import Roadmap
 
@@ -89,7 +89,7 @@ def parameter_effects(
         If time ran out.
     """
     circuit = graph.critical_circuit(time_limit=time_limit).arcs
-    tight = tight_arcs(graph, time_limit=time_limit)
+    tight = find_tight_arcs(graph, time_limit=time_limit)
     shares = dict(_shares(scenario, graph, circuit))
     weights = {key: int(share[circuit].sum()) for key, share in shares.items()}
     chosen = sorted((key for key in shares if weights[key]), key=lambda key: -weights[key])[:most]
@@ -100,7 +100,7 @@ def parameter_effects(
         if part <= effect.until:
             then = effect.cycle_time - effect.gain * part
         else:
-            saved = critical_circuit_without(graph, shares[key], part, time_limit=time_limit)
+            saved = find_critical_circuit_without(graph, shares[key], part, time_limit=time_limit)
             then = saved.cycle_time
         kind, robot, stop = key
         parameter_effect = ParameterEffect(
@@ -121,10 +121,10 @@ def _shares(
         robot, own = graph.timetable.robots[place], robot_of == place
         yield ("speed", robot, None), np.where(own, graph.drives, 0)
         lap, itinerary = graph.timetable.laps[place], scenario.problem.itineraries[robot]
-        at = stages_at(scenario.roadmap, itinerary, lap)
+        at = find_stages_at(scenario.roadmap, itinerary, lap)
         dwelling = own & ~is_right
         turn = np.array([sum(stage.turn for _, stage in stages) for stages in at], np.int64)
-        turn += turns_of_lap(scenario.roadmap, itinerary, lap.vertices)
+        turn += compute_turns_of_lap(scenario.roadmap, itinerary, lap.vertices)
         at_visit = graph.index[arcs.tail]
         yield ("turn", robot, None), np.where(dwelling, turn[np.where(dwelling, at_visit, 0)], 0)
         for visit, stages in enumerate(at):
@@ -134,7 +134,9 @@ def _shares(
     yield ("headway", None, None), graph.headways
 
 
-def stages_at(roadmap: Roadmap, itinerary: Itinerary, lap: Lap) -> list[list[tuple[int, Stage]]]:
+def find_stages_at(
+    roadmap: Roadmap, itinerary: Itinerary, lap: Lap
+) -> list[list[tuple[int, Stage]]]:
     """Return for each visit of a lap the stages served, with their numbers.
 
     Notes
@@ -145,9 +147,9 @@ def stages_at(roadmap: Roadmap, itinerary: Itinerary, lap: Lap) -> list[list[tup
     stages = itinerary.stages
     n = len(stages)  # the stages of one lap; further laps repeat them
     n = next(k for k in range(1, n + 1) if n % k == 0 and stages[:k] * (n // k) == stages)
-    turns = turns_of_lap(roadmap, itinerary, lap.vertices)
+    turns = compute_turns_of_lap(roadmap, itinerary, lap.vertices)
     # The visit at home ends a lap and begins the next one: each end serves stages of its own.
-    ends = dwell_between_laps(roadmap, itinerary, lap.vertices) - turns[0]
+    ends = compute_dwell_between_laps(roadmap, itinerary, lap.vertices) - turns[0]
     spare = np.append(np.array(lap.dwell, np.int64) - turns, ends)
     spare[0] -= ends
     vertices = np.array((*lap.vertices, lap.vertices[0]), np.int32)

@@ -16,7 +16,7 @@ from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import BaselineComparison, GroupResult
 from rightofway.cyclic.route import CyclicRoute, GroupContext
 from rightofway.model import Scenario, Tick
-from rightofway.model.lap import dwell_between_laps
+from rightofway.model.lap import compute_dwell_between_laps
 from rightofway.native import excluded_by
 from rightofway.precedence import CyclicSchedule
 
@@ -66,7 +66,7 @@ def start(
     )
     itineraries, routes = scenario.problem.itineraries, []
     for robot, lap in zip(timetable.robots, timetable.laps, strict=True):
-        between = dwell_between_laps(scenario.roadmap, itineraries[robot], lap.vertices)
+        between = compute_dwell_between_laps(scenario.roadmap, itineraries[robot], lap.vertices)
         first_dwell = Tick(lap.dwell[0] - between)
         routes.append(CyclicRoute(robot=robot, lap=lap, first_dwell=first_dwell))
     return GroupResult(

@@ -11,8 +11,8 @@ from itertools import chain, count, islice
 
 import numpy as np
 
-from rightofway.cyclic.closing import closed_windows
-from rightofway.cyclic.from_plan import one_lap, repeated_plan
+from rightofway.cyclic.closing import close_windows
+from rightofway.cyclic.from_plan import repeat_plan, take_one_lap
 from rightofway.cyclic.from_run import SimulatedRun, choose_runs, extract_cycle
 from rightofway.cyclic.lns import fill, improve, insert_all
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
@@ -22,16 +22,16 @@ from rightofway.cyclic.route import (
     GroupContext,
     clear_and_direct,
     cyclic_routes,
-    independent_groups,
     rows_of,
-    without_closed_places,
+    split_groups,
+    take_out_closed_places,
 )
 from rightofway.cyclic.rules import TIMETABLE
 from rightofway.cyclic.run import advance, simulation_of
 from rightofway.cyclic.startup import start
 from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, Tick, checked_time_limit
-from rightofway.model.given import checked_functions, checked_number, checked_scenario, checked_seed
+from rightofway.model.given import checked_scenario, require_functions, require_number, require_seed
 from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
 from rightofway.precedence import unrolled
@@ -114,16 +114,16 @@ def best_timetable(
     Never below the pattern of first come first served, if this pattern is fair and found in its
     share of the time. Deterministic for a seed if the rounds end before the limit. Not optimal.
     """
-    n_robots, seed = len(checked_scenario(scenario).robots), checked_seed(seed)
-    checked_functions(report=report)
+    n_robots, seed = len(checked_scenario(scenario).robots), require_seed(seed)
+    require_functions(report=report)
     weights = _checked_weights(weights, n_robots)
     least_fairness = at("least_fairness", number, least_fairness)
     if not 0 <= least_fairness <= 1:
         raise InputError.at("least_fairness", f"{least_fairness} is not from 0 to 1")
     if rounds is not None:
-        rounds = checked_number("rounds", rounds, 0, 2**31 - 1)
+        rounds = require_number("rounds", rounds, 0, 2**31 - 1)
     time_limit = checked_time_limit(time_limit)
-    scenario = without_closed_places(scenario)
+    scenario = take_out_closed_places(scenario)
     if time_limit is None and rounds is None:
         raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
     deadline, params = Deadline.after(time_limit), ChoiceParams()
@@ -142,7 +142,7 @@ def best_timetable(
         draw=random.Random(),  # noqa: S311 (each group has its own)
     )
     results: list[GroupResult] = []
-    groups = independent_groups(scenario, usual)
+    groups = split_groups(scenario, usual)
     for partition in (groups, [usual]):  # at last with the vertices of other groups
         try:
             results = _by_groups(fleet, partition, params, rounds=rounds, seed=seed, report=report)
@@ -249,7 +249,7 @@ def _round_trip(
     A robot with a size does not visit an end of an edge that it must not drive along. None if it
     works at both ends of such an edge.
     """
-    resources, once = scenario.problem.resources, one_lap(scenario, robot)
+    resources, once = scenario.problem.resources, take_one_lap(scenario, robot)
     places, roadmap = {stage.vertex for stage in once.stages}, scenario.roadmap
     forbidden = {
         vertex
@@ -287,7 +287,7 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
     ]
     if pattern is not None:
         starts.append(problem.candidate(pattern.timetable))
-    if not starts and (together := repeated_plan(problem)):
+    if not starts and (together := repeat_plan(problem)):
         problem = problem.with_ways(together.timetable.laps)
         starts = [together]
     if not starts or not problem.accepts(starts[0]):
@@ -353,7 +353,7 @@ def _cut_out(problem: CyclicProblem, run: GroupResult, params: ChoiceParams) -> 
     if not all(run.mean_laps()):
         return []
     cutting = problem.sooner(params.cutting_share)
-    windows = closed_windows(cutting.sooner(params.closing_share), run)
+    windows = close_windows(cutting.sooner(params.closing_share), run)
     best = sorted(filter(problem.accepts, windows), key=problem.value, reverse=True)
     short = [candidate for candidate in best if candidate.n_visits <= params.short]
     cuts = dict.fromkeys((*best[:1], *short[: params.cuts_kept]))

@@ -16,7 +16,7 @@ from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.errors import GaveUp, InputError, shown
 from rightofway.model import Plan, PlannerRun, SteadyState, Track
-from rightofway.model.given import checked_number
+from rightofway.model.given import require_number
 from rightofway.phrases import Phrase
 from rightofway.precedence import TimedEventGraph
 
@@ -49,7 +49,7 @@ def plan_of_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     if not isinstance(result, CyclicResult):
         remedy = "simulate laps with rightofway.run_laps"
         raise InputError.at("result", f"{shown(result)} is no result of laps ({remedy})")
-    plan = whole_laps(result, None if laps is None else checked_number("laps", laps, 1, MOST_LAPS))
+    plan = unroll_laps(result, None if laps is None else require_number("laps", laps, 1, MOST_LAPS))
     report = check(plan)
     if not report.ok:
         raise GaveUp(
@@ -59,7 +59,7 @@ def plan_of_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     return plan
 
 
-def whole_laps(result: CyclicResult, laps: int | None = None) -> Plan:
+def unroll_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     """Return the plan that `plan_of_laps` judges; robots at home may block other robots.
 
     Raises
@@ -203,11 +203,11 @@ def _critical_visits(group: GroupResult, pattern: Pattern) -> tuple[tuple[int, i
     circuit = graph.critical_circuit()
     if circuit.cycle_time != pattern.period:
         return ()
-    return visits_along(group, pattern, graph, circuit.arcs.tolist())
+    return list_visits_along(group, pattern, graph, circuit.arcs.tolist())
 
 
 @checks_arguments
-def visits_along(
+def list_visits_along(
     group: GroupResult, pattern: Pattern, graph: TimedEventGraph, circuit: Sequence[int]
 ) -> tuple[tuple[int, int], ...]:
     """Return the visits of a circuit: robot, and index of the visit in each plan of the result.

@@ -34,7 +34,7 @@ class MeasuredLaps:
     means: tuple[Fraction | None, ...]  # the mean lap time of each robot [ticks]; None without laps
 
 
-def homes_of(routes: Sequence[CyclicRoute], history: History) -> list[NDArray[np.int64]]:
+def find_homes(routes: Sequence[CyclicRoute], history: History) -> list[NDArray[np.int64]]:
     """Return for each robot the enters of its visits home, from visit 0 on [ticks]."""
     rows = zip(routes, history, strict=True)
     return [np.asarray(past[:: len(route)], np.int64) for route, past in rows]
@@ -47,9 +47,9 @@ def measure(routes: Sequence[CyclicRoute], history: History) -> MeasuredLaps:
     counts, too, once it is longer than the mean of the finished laps: a robot may stand still for
     ever, which finished laps do not show.
     """
-    homes = homes_of(routes, history)
+    homes = find_homes(routes, history)
     slot, until = max(route.lap.duration for route in routes), max(past[-1] for past in history)
-    warm_up = warm_up_of(homes, slot, until)
+    warm_up = find_warm_up(homes, slot, until)
     laps, means = [], []
     for home in homes:
         first = min(int(np.searchsorted(home, warm_up)), max(len(home) - 2, 0))
@@ -60,7 +60,7 @@ def measure(routes: Sequence[CyclicRoute], history: History) -> MeasuredLaps:
     return MeasuredLaps(warm_up=Tick(warm_up), laps=tuple(laps), means=tuple(means))
 
 
-def warm_up_of(homes: Sequence[NDArray[np.int64]], slot: int, until: int) -> int:
+def find_warm_up(homes: Sequence[NDArray[np.int64]], slot: int, until: int) -> int:
     """Return the tick at the end of the warm-up; laps that end by a given tick are known."""
     n_slots = until // slot
     if not n_slots:

@@ -48,7 +48,7 @@ from rightofway.model import (
 )
 from rightofway.native import clashes, excluded_by
 from rightofway.planners import Deadline, Task
-from rightofway.planners.lacam import timetable_if_possible
+from rightofway.planners.lacam import build_timetable_if_possible
 from rightofway.planners.moves import tracks_by_moves
 from rightofway.planners.prioritized import fleet_search
 from rightofway.precedence import ActionDependencyGraph
@@ -91,7 +91,7 @@ class Commitment:
         return self.vertex if self.drives_to is None else self.drives_to
 
 
-def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Commitment:
+def find_commitment(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Commitment:
     """Return what a robot, whose route serves all these stages, has begun at a forecast's instant.
 
     A broken one keeps its bookings and has nothing left.
@@ -139,7 +139,7 @@ class Held:
     edges: frozenset[tuple[int, int]] = frozenset()
 
 
-def held_by_broken(forecast: Forecast) -> Held:
+def find_held_by_broken(forecast: Forecast) -> Held:
     """Return what broken robots book for ever: for robots with a size, the edge driven on, too."""
     adg, booked, paths = forecast.adg, forecast.booked, dict[int, list[int]]()
     for robot in forecast.broken:
@@ -192,8 +192,8 @@ def replan(
     keeps robots off, the second plan may be the better one. A forecast knows.
     """
     scenario, cut_off = forecast.adg.scenario, frozenset[int]()
-    commitments = [commitment_of(forecast, robot, own) for robot, own in enumerate(stages)]
-    closed = held_by_broken(forecast)
+    commitments = [find_commitment(forecast, robot, own) for robot, own in enumerate(stages)]
+    closed = find_held_by_broken(forecast)
     roadmap = scenario.roadmap
     if closed.vertices:
         roadmap = roadmap.without(closed.vertices, closed.edges)
@@ -249,7 +249,7 @@ def _going_on(
         drives = pairwise(visited[-1])
         if not closed.vertices.isdisjoint(visited[-1][1:]) or not closed.edges.isdisjoint(drives):
             return None
-    return timetable_if_possible(rest, visited, arrivals)
+    return build_timetable_if_possible(rest, visited, arrivals)
 
 
 def _another_way(
@@ -279,7 +279,7 @@ def _another_way(
         ]
         visited = [own.vertices.tolist() for own in other_routes]
         arrivals = [own.enter.tolist() for own in other_routes]
-        tracks = timetable_if_possible(_rest(rest, rest.roadmap, ended), visited, arrivals)
+        tracks = build_timetable_if_possible(_rest(rest, rest.roadmap, ended), visited, arrivals)
         if tracks is not None:
             return ended, cut_off, tracks
     return None

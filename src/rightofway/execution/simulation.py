@@ -22,7 +22,7 @@ from rightofway.execution.statistics import (
     joined,
 )
 from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
-from rightofway.model.given import checked_number, checked_seed, checked_truths
+from rightofway.model.given import require_number, require_seed, require_truths
 from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
@@ -96,13 +96,13 @@ def simulate(
     """
     time_limit = checked_time_limit(time_limit)
     at("report", function, report)
-    checked_truths(switch=switch, replan=replan, keep_runs=keep_runs)
+    require_truths(switch=switch, replan=replan, keep_runs=keep_runs)
     judged = check(plan)
     if not judged.ok:
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be run)")
     if isinstance(runs, Integral) and runs < 1:
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
-    runs, seed = checked_number("runs", runs, 1, MOST_RUNS), checked_seed(seed)
+    runs, seed = require_number("runs", runs, 1, MOST_RUNS), require_seed(seed)
     deadline = Deadline.after(time_limit)
     causes, adg = _delayed(plan, delays)
     policy = ExecutionPolicy(switch=switch, replan=replan)

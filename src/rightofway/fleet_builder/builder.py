@@ -23,11 +23,11 @@ from rightofway.fleet_builder.values import (
     units_of,
 )
 from rightofway.model import Robot, Scenario, Stop, TripEnd
-from rightofway.model.closures import Closure, closure_faults
-from rightofway.model.given import checked_truths
+from rightofway.model.closures import Closure, find_closure_faults
+from rightofway.model.given import require_truths
 from rightofway.quantities import Units
 from rightofway.site import Roadmap, VertexId, roadmap_of_grid
-from rightofway.site.layout import Layout, LevelRoadmap, roadmap_of_level
+from rightofway.site.layout import Layout, LevelRoadmap, build_roadmap_of_level
 from rightofway.site.places import as_place, vertex_at
 from rightofway.site.zones import NamedZone
 from rightofway.values import Number, at, list_of, optional, text, word_of
@@ -224,7 +224,7 @@ class FleetBuilder:
             vertices are at one position, or ``both_ways`` that is neither true nor false.
         """
         self._refuse_fixed_map(f"edge {shown(tail)} to {shown(head)}")
-        checked_truths(both_ways=both_ways)
+        require_truths(both_ways=both_ways)
         self._drawn.add_edge(
             tail,
             head,
@@ -399,7 +399,7 @@ class FleetBuilder:
             )
         except InputError as error:
             raise InputError(fault.in_file(source) for fault in error.faults) from None
-        if faults := list(closure_faults(closure, self.roadmap())):
+        if faults := list(find_closure_faults(closure, self.roadmap())):
             raise InputError(faults, source)
         self._closures.append(closure)
         return self
@@ -488,7 +488,7 @@ class FleetBuilder:
         assert metres, "a unit of length has a length"
         assert seconds, "a unit of time has a length"
         self._level = partial(
-            roadmap_of_level,
+            build_roadmap_of_level,
             layout.level(level),
             vehicle_type=vehicle_type,
             metre=1 / metres,

@@ -13,10 +13,10 @@ from rightofway.site import (
     Edge,
     Point,
     Roadmap,
+    choose_rounding_step,
+    measure_straight_length,
     roadmap_of_edges,
-    rounding_step,
     squared_distance,
-    straight_length,
 )
 from rightofway.site.spacing import SplitLanes, split_lanes
 from rightofway.site.zones import NamedZone
@@ -85,7 +85,7 @@ class DrawnLanes:
         given = None if length is None else exact_length(length, (place, "length"))
         if given is None:
             with under(place):
-                straight_length(self._square(tail, head))
+                measure_straight_length(self._square(tail, head))
         limit = None if max_speed is None else exact_length(max_speed, (place, "max_speed"))
         more = {
             "max_speed": limit,
@@ -105,12 +105,12 @@ class DrawnLanes:
         above 0. The vertices that were added come first, whatever is split.
         """
         squares = [self._square(tail, head) for tail, head, given, _ in self.edges if given is None]
-        step = rounding_step(squares)
+        step = choose_rounding_step(squares)
         edges = [
             Edge(
                 tail=tail,
                 head=head,
-                length=given or straight_length(self._square(tail, head), step),
+                length=given or measure_straight_length(self._square(tail, head), step),
                 **more,
             )
             for tail, head, given, more in self.edges

@@ -9,7 +9,7 @@ from typing import Any
 
 from rightofway.errors import InputError, Where, shown
 from rightofway.model import Rules
-from rightofway.model.resources import circle_around
+from rightofway.model.resources import circumscribe
 from rightofway.quantities import Units
 from rightofway.site import Point
 from rightofway.site.places import is_cell
@@ -85,7 +85,7 @@ def radius_of(radius: Number | None, size: tuple[Number, Number] | None) -> Frac
     if size is None:
         return Fraction(0) if radius is None else radius  # type: ignore[return-value]
     long, wide = (length(side, ("size", k)) for k, side in enumerate(size))
-    return circle_around(long, wide)
+    return circumscribe(long, wide)
 
 
 def place_and_work(stop: Any) -> tuple[Any, Number]:

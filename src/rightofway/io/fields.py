@@ -25,7 +25,7 @@ from pydantic import (
 from pydantic_core import CoreSchema, core_schema
 
 from rightofway.errors import is_printable, shown
-from rightofway.model.attributes import attributes_of
+from rightofway.model.attributes import list_attributes
 from rightofway.phrases import phrase_of
 from rightofway.site import VertexId
 from rightofway.values import COORDINATE_DIGITS, PATTERN, coordinate, exact
@@ -81,7 +81,7 @@ class Document(BaseModel):
 
     def own(self, owner: type) -> dict[str, Any]:
         """Return those of the attributes of robots or rules that were written."""
-        return self.given(*(attribute.name for attribute in attributes_of(owner)))
+        return self.given(*(attribute.name for attribute in list_attributes(owner)))
 
 
 def optional(description: str, **limits: Any) -> Any:
@@ -258,7 +258,7 @@ def with_attributes(owner: type, but: str = "") -> Callable[[D], D]:
                     **({} if attribute.key == attribute.name else {"alias": attribute.key}),
                 ),
             )
-            for attribute in attributes_of(owner)
+            for attribute in list_attributes(owner)
             if attribute.name != but
         }
         return create_model(  # type: ignore[return-value]

@@ -20,7 +20,7 @@ from rightofway.io.text import read_text
 from rightofway.metrics import Site
 from rightofway.model import Scenario
 from rightofway.quantities import Units
-from rightofway.site.layout import Layout, Level, roadmap_of_level
+from rightofway.site.layout import Layout, Level, build_roadmap_of_level
 
 METRES = Units(length="m", time="s")
 
@@ -110,7 +110,7 @@ def _of_layout(path: Path, layout: Layout, choice: Choice) -> Sites:
             notes.append(f"level {level.name} is empty")
             continue
         name = choice.vehicle_type or _usual_type(level)
-        level_map = roadmap_of_level(level, vehicle_type=name)
+        level_map = build_roadmap_of_level(level, vehicle_type=name)
         roadmap, lacks = level_map.roadmap, level_map.notes
         if name and choice.vehicle_type is None:
             others = len(level.vehicle_types) - 1

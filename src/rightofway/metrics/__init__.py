@@ -9,7 +9,7 @@ from rightofway.metrics.collisions import (
     Swap,
     collisions,
     free_running,
-    named_collisions,
+    name_collisions,
     near_misses,
     swaps,
 )
@@ -17,7 +17,7 @@ from rightofway.metrics.comparison import MAX_COMPARED, Comparison, compare
 from rightofway.metrics.events import Event, event_columns, events
 from rightofway.metrics.forced_losses import ForcedLoss, find_forced_losses
 from rightofway.metrics.inspection import inspect
-from rightofway.metrics.lost_time import joined_waits, lost_time
+from rightofway.metrics.lost_time import join_waits, lost_time
 from rightofway.metrics.measure import Metrics, measure
 from rightofway.metrics.outcome import outcome_of
 from rightofway.metrics.site import HEADINGS, Finding, Inspection, Site, sentences
@@ -47,10 +47,10 @@ __all__ = [
     "find_forced_losses",
     "free_running",
     "inspect",
-    "joined_waits",
+    "join_waits",
     "lost_time",
     "measure",
-    "named_collisions",
+    "name_collisions",
     "near_misses",
     "outcome_of",
     "sentences",

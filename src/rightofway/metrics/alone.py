@@ -10,7 +10,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
 from rightofway.model import Scenario, Tick
 from rightofway.search import least_completions
-from rightofway.search.missing_ways import missing_ways
+from rightofway.search.missing_ways import find_missing_ways
 
 
 @checks_arguments
@@ -42,5 +42,5 @@ def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
     assert ticks is not None, "no time limit was given"
     stranded = np.flatnonzero(ticks < 0).tolist()
     if stranded:
-        raise NoPlanExists(missing_ways(scenario, stranded))
+        raise NoPlanExists(find_missing_ways(scenario, stranded))
     return tuple(map(Tick, ticks.tolist()))

@@ -256,7 +256,7 @@ class NamedCollision(NamedTuple):
 
 
 @checks_arguments
-def named_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NamedCollision, ...]:
+def name_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NamedCollision, ...]:
     """Return the collisions, swaps and near misses of any tracks, by time, with names of places.
 
     Parameters

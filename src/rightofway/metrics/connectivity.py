@@ -45,7 +45,7 @@ class Ways:
         return {*self.along[vertex], *self.against[vertex]}
 
 
-def ways_of(roadmap: Roadmap) -> Ways:
+def list_ways(roadmap: Roadmap) -> Ways:
     """Return the edges of a roadmap as lists."""
     scale = lcm(*(length.denominator for length in roadmap.lengths))
     steps = [int(length * scale) for length in roadmap.lengths]
@@ -64,7 +64,7 @@ def ways_of(roadmap: Roadmap) -> Ways:
     )
 
 
-def strong_parts(ways: Ways) -> list[list[int]]:
+def find_strong_parts(ways: Ways) -> list[list[int]]:
     """Return the largest sets of vertices that all reach each other, the largest set first.
 
     References
@@ -89,14 +89,14 @@ def strong_parts(ways: Ways) -> list[list[int]]:
     parts, is_found = list[list[int]](), [False] * count
     for root in reversed(order):
         if not is_found[root]:
-            part = grown_from([root], ways.against, lambda tail: not is_found[tail])
+            part = reach_from([root], ways.against, lambda tail: not is_found[tail])
             for vertex in part:
                 is_found[vertex] = True
             parts.append(sorted(part))
     return sorted(parts, key=lambda part: (-len(part), part[0]))
 
 
-def grown_from(
+def reach_from(
     roots: Collection[int], neighbours: Neighbours, may_enter: Callable[[int], bool]
 ) -> list[int]:
     """Return the vertices that can be reached from roots, in order of a breadth-first search."""
@@ -109,7 +109,7 @@ def grown_from(
     return reached
 
 
-def immediate_dominators(along: Neighbours, against: Neighbours, root: int) -> dict[int, int]:
+def find_immediate_dominators(along: Neighbours, against: Neighbours, root: int) -> dict[int, int]:
     """Return, for each vertex that the root reaches, the last vertex that no way to it avoids.
 
     References
@@ -164,7 +164,7 @@ def _depth_first(along: Neighbours, root: int) -> tuple[list[int], list[int]]:
     return order, parent
 
 
-def separations(ways: Ways, places: Sequence[int]) -> dict[int, set[int]]:
+def find_separations(ways: Ways, places: Sequence[int]) -> dict[int, set[int]]:
     """Return what each vertex separates: the places that robots cannot drive to, or back, past it.
 
     Returns
@@ -177,7 +177,7 @@ def separations(ways: Ways, places: Sequence[int]) -> dict[int, set[int]]:
     cut_off: dict[int, set[int]] = defaultdict(set)
     for root, judged in zip(places[:2], (None, places[0] if places else None), strict=False):
         for along, against in ((ways.along, ways.against), (ways.against, ways.along)):
-            above = immediate_dominators(along, against, root)
+            above = find_immediate_dominators(along, against, root)
             for place in places:
                 vertex = above.get(place, root)
                 while vertex != root:
@@ -238,7 +238,7 @@ def corridors(ways: Ways) -> list[Corridor]:
     return sorted(corridors_found, key=lambda corridor: (-corridor.steps, corridor.inside))
 
 
-def distances_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
+def measure_distances_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
     """Return the vertices that a source reaches, by distance, and their distances [steps]."""
     if ways.even:
         return _levels_from(ways, source)
@@ -259,7 +259,7 @@ def distances_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
 
 
 def _levels_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
-    """Return what `distances_from` does, where all edges have one length: level after level."""
+    """Do what `measure_distances_from` does where all edges have one length: level after level."""
     distance, order, level, gone = {source: 0}, list[int](), [source], 0
     while level:
         order += level
@@ -283,7 +283,7 @@ def _before(ways: Ways, vertex: int, distance: Mapping[int, int]) -> list[int]:
     ]
 
 
-def route_load(ways: Ways, trips: Mapping[int, Mapping[int, float]]) -> dict[int, float]:
+def measure_route_load(ways: Ways, trips: Mapping[int, Mapping[int, float]]) -> dict[int, float]:
     """Return how many shortest routes pass each vertex; their own ends do not count.
 
     Notes
@@ -298,7 +298,7 @@ def route_load(ways: Ways, trips: Mapping[int, Mapping[int, float]]) -> dict[int
     """
     load: dict[int, float] = defaultdict(float)
     for source, targets in trips.items():
-        order, distance = distances_from(ways, source)
+        order, distance = measure_distances_from(ways, source)
         own: dict[int, float] = defaultdict(float)
         for vertex in reversed(order[1:]):
             passing, ending = own[vertex], targets.get(vertex, 0)

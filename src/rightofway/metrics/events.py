@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
-from rightofway.metrics.lost_time import joined_waits, lost_time
+from rightofway.metrics.lost_time import join_waits, lost_time
 from rightofway.model import Loss, Plan, Scenario, Stays, Tick
 from rightofway.site import VertexId
 
@@ -69,7 +69,7 @@ def events(plan: Plan) -> tuple[Event, ...]:
     try:
         losses = [loss for lost in lost_time(plan) for loss in lost.losses]
     except NoPlanExists:  # a robot has no way, so nothing is known but its waits
-        losses = list(joined_waits(plan.scenario, plan.tracks, stays))
+        losses = list(join_waits(plan.scenario, plan.tracks, stays))
     of_robot: list[list[Loss]] = [[] for _ in stays]
     for loss in losses:
         of_robot[loss.robot].append(loss)

@@ -19,15 +19,15 @@ from rightofway.metrics.connectivity import (
     Corridor,
     Ways,
     corridors,
-    distances_from,
-    grown_from,
-    route_load,
-    separations,
-    strong_parts,
-    ways_of,
+    find_separations,
+    find_strong_parts,
+    list_ways,
+    measure_distances_from,
+    measure_route_load,
+    reach_from,
 )
-from rightofway.metrics.nearness import nearness, rounded_distance
-from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, trip_of
+from rightofway.metrics.nearness import nearness, round_distance
+from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, list_trip
 from rightofway.phrases import Phrase, counted
 from rightofway.quantities import decimal
 from rightofway.site import Roadmap
@@ -78,12 +78,12 @@ def inspect(site: Site) -> Inspection:
     site
         The site.
     """
-    roadmap, ways = site.roadmap, ways_of(site.roadmap)
-    parts = strong_parts(ways)
+    roadmap, ways = site.roadmap, list_ways(site.roadmap)
+    parts = find_strong_parts(ways)
     main = set(parts[0])
     places = [vertex for vertex in sorted(site.places) if vertex in main]
     step = max(1, -(-len(places) // MOST_PLACES))
-    apart = separations(ways, places[::step])
+    apart = find_separations(ways, places[::step])
     load, total, sampled = _load(site, ways, parts[0], places)
     findings = [
         *_impossible_trips(site, ways, parts),
@@ -125,7 +125,7 @@ def _load(
     total = sum(sum(goals.values()) for goals in taken.values())
     sources = len(trips) if site.robots or len(places) > 1 else len(part)
     is_sampled = len(chosen) < sources
-    return route_load(ways, taken), total, (len(chosen), sources) if is_sampled else None
+    return measure_route_load(ways, taken), total, (len(chosen), sources) if is_sampled else None
 
 
 def _spread(vertices: Sequence[int], most: int) -> list[int]:
@@ -149,10 +149,10 @@ def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) ->
     """Yield the drives that no way leads along."""
     part_of = {vertex: number for number, part in enumerate(parts) for vertex in part}
     for robot in site.robots:
-        for start, goal in pairwise(trip_of(robot, site.rules)):
+        for start, goal in pairwise(list_trip(robot, site.rules)):
             if part_of[start] == part_of[goal]:
                 continue
-            if goal not in grown_from([start], ways.along, lambda _: True):
+            if goal not in reach_from([start], ways.along, lambda _: True):
                 yield Finding(
                     kind="trip",
                     severity="error",
@@ -171,8 +171,8 @@ def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) ->
 def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator[Finding]:
     """Yield what cannot be reached or left from the largest part, in connected pieces."""
     main = parts[0]
-    ahead = set(grown_from(main, ways.along, lambda _: True))
-    behind = set(grown_from(main, ways.against, lambda _: True))
+    ahead = set(reach_from(main, ways.along, lambda _: True))
+    behind = set(reach_from(main, ways.against, lambda _: True))
     rest = {vertex for part in parts[1:] for vertex in part}
     kinds: tuple[tuple[Kind, set[int]], ...] = (
         ("trap", ahead & rest),
@@ -245,13 +245,13 @@ def _on_the_way(
     def remedy(vertex: int) -> str:
         if vertex not in site.homes:
             return Phrase("move it into a bay, or add a way round")
-        spot = next(filter(is_aside, distances_from(ways, vertex)[0]), None)
+        spot = next(filter(is_aside, measure_distances_from(ways, vertex)[0]), None)
         if spot is None:
             return Phrase(
                 "let no other robot need the way while one stands there, or add a way round"
             )
         taken.add(spot)
-        away = site.units.written_length(rounded_distance(site.roadmap, vertex, spot))
+        away = site.units.written_length(round_distance(site.roadmap, vertex, spot))
         return Phrase(
             "park at {place}, {distance} away, which no route needs, or add a way round",
             place=site.name(spot),
@@ -315,7 +315,7 @@ def _corridors(
     busiest = sorted(long_ones, key=lambda corridor: (-use(corridor), -corridor.steps))
     for corridor in busiest[:LISTED_CORRIDORS]:
         ends, inside = corridor.ends, set(corridor.inside)
-        first = set(grown_from(ends[:1], ways.along, _outside_of(inside)))
+        first = set(reach_from(ends[:1], ways.along, _outside_of(inside)))
         names = site.name(corridor.inside[0]), site.name(corridor.inside[-1])
         using = _using(site, first, inside)
         is_only = ends[1] not in first
@@ -360,7 +360,7 @@ def _using(site: Site, side: set[int], inside: set[int]) -> list[str]:
     """Return the robots that have places in a corridor, or on both sides of it."""
     findings = []
     for robot in site.robots:
-        trip = set(trip_of(robot, site.rules))
+        trip = set(list_trip(robot, site.rules))
         if trip & inside or len({place in side for place in trip}) > 1:
             findings.append(robot.name)
     return findings

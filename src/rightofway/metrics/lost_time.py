@@ -72,7 +72,7 @@ def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
     stays = plan.stays
     bookings = bookings_of(scenario, tracks, stays)
     losses: defaultdict[int, list[Loss]] = defaultdict(list)
-    for loss in joined_waits(scenario, tracks, stays):
+    for loss in join_waits(scenario, tracks, stays):
         losses[loss.robot].append(loss)
     fleet = []
     for robot, (track, stay) in enumerate(zip(tracks, stays, strict=True)):
@@ -99,7 +99,7 @@ def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
 
 
 @checks_arguments
-def joined_waits(
+def join_waits(
     scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> tuple[Loss, ...]:
     """Return all waits of tracks, those behind one robot joined, by robot, then by tick.

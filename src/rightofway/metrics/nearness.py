@@ -76,7 +76,7 @@ def _near(site: Site) -> Iterator[Finding]:
                 clearance=length(site.rules.clearance),
                 room=length(room),
             )
-    size = smallest_cell(roadmap)
+    size = find_smallest_cell(roadmap)
     if size is not None:
         if need and size < room:
             is_even = roadmap.sides is None
@@ -142,7 +142,7 @@ def _near(site: Site) -> Iterator[Finding]:
         )
 
 
-def smallest_cell(roadmap: Roadmap) -> Fraction | None:
+def find_smallest_cell(roadmap: Roadmap) -> Fraction | None:
     """Return the side of the smallest cells, None where vertices are no cells."""
     if roadmap.grid is not None:
         return roadmap.grid.cell_size
@@ -156,7 +156,7 @@ def _near_vertices(
     for first, other in pairs.vertices:
         if roadmap.is_along_one_lane((first, other)):
             continue
-        apart = site.units.written_length(rounded_distance(roadmap, first, other))
+        apart = site.units.written_length(round_distance(roadmap, first, other))
         both_homes = _homes_clash(site, first, other)
         is_joined = roadmap.edge(first, other) is not None or roadmap.edge(other, first) is not None
         are_places = first in site.places and other in site.places
@@ -197,7 +197,7 @@ def _homes_clash(site: Site, first: int, other: int) -> bool:
     return squared_distance(*at) < (radius[first] + radius[other] + site.rules.clearance) ** 2
 
 
-def rounded_distance(roadmap: Roadmap, first: int, other: int) -> Fraction:
+def round_distance(roadmap: Roadmap, first: int, other: int) -> Fraction:
     """Return the distance of two vertices, rounded for people [length unit]."""
     away = dist(roadmap.positions[first].tolist(), roadmap.positions[other].tolist())
     return Fraction(round(away * ROUNDED), ROUNDED)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rightofway.arguments import checks_arguments
 from rightofway.metrics.measure import measure
 from rightofway.model import Outcome, OutcomeKind, Plan, Proof
-from rightofway.model.outcome import outcome_of_cost
+from rightofway.model.outcome import classify_cost
 
 
 @checks_arguments
@@ -34,7 +34,7 @@ def outcome_of(plan: Plan) -> Outcome:
         cost = said.objective.of(plan.scenario, plan.tracks)
         proof = Proof(bound=said.bound, objective=said.objective, factor=said.factor)
         is_careful = said.kind is OutcomeKind.BEST_FOUND  # a plan with swaps proves nothing
-        if cost >= said.bound and (is_careful or outcome_of_cost(cost, proof) == said):
+        if cost >= said.bound and (is_careful or classify_cost(cost, proof) == said):
             return said
     metrics = measure(plan)
-    return outcome_of_cost(metrics.flowtime, Proof(bound=metrics.lower_bound))
+    return classify_cost(metrics.flowtime, Proof(bound=metrics.lower_bound))

@@ -172,13 +172,15 @@ class Site:
         """How many drives of the fleet lead from a place to another."""
         counts = Counter[tuple[int, int]]()
         for robot in self.robots:
-            counts.update(pairwise(trip_of(robot, self.rules)))
+            counts.update(pairwise(list_trip(robot, self.rules)))
         return Counter({ends: count for ends, count in counts.items() if ends[0] != ends[1]})
 
     @property
     def gist(self) -> Hashable:
         """All that findings depend on: two sites with the same gist have the same findings."""
-        robots = [(robot.name, robot.radius, *trip_of(robot, self.rules)) for robot in self.robots]
+        robots = [
+            (robot.name, robot.radius, *list_trip(robot, self.rules)) for robot in self.robots
+        ]
         named = (*self.stations.items(), None, *self.parking.items())
         rules = self.rules.walls, self.rules.clearance
         return (self.roadmap, self.units, named, tuple(robots), rules)
@@ -272,7 +274,7 @@ def extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:
     return width, height
 
 
-def trip_of(robot: Robot, rules: Rules) -> list[int]:
+def list_trip(robot: Robot, rules: Rules) -> list[int]:
     """Return home, stops and, if it returns, home of a robot."""
     stops = [int(stop.at) for stop in robot.stops]
     returns = (robot.ends or rules.ends) == "home"

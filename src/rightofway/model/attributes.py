@@ -100,7 +100,7 @@ def attribute(
 
 
 @cache
-def attributes_of(owner: Any) -> tuple[Attribute, ...]:
+def list_attributes(owner: Any) -> tuple[Attribute, ...]:
     """Return the attributes of a dataclass in the order of files."""
     return tuple(
         Attribute(
@@ -114,10 +114,10 @@ def attributes_of(owner: Any) -> tuple[Attribute, ...]:
 
 
 @cache
-def readers_of(owner: Any) -> dict[str, Callable[[object], object]]:
+def list_readers(owner: Any) -> dict[str, Callable[[object], object]]:
     """Return for each attribute of a dataclass how its value is checked, for `coerced`."""
     readers = {}
-    for attribute_of_owner in attributes_of(owner):
+    for attribute_of_owner in list_attributes(owner):
         read = (
             word_of(words)
             if (words := get_args(attribute_of_owner.kind))
@@ -129,12 +129,12 @@ def readers_of(owner: Any) -> dict[str, Callable[[object], object]]:
     return readers
 
 
-def plain_attributes(value: Any) -> dict[str, Any]:
+def list_plain_attributes(value: Any) -> dict[str, Any]:
     """Return the attributes of a robot or of rules by their keys in files, as plain data."""
     owner: Any = type(value)
     return {
         own_attribute.key: written(own) if isinstance(own, Fraction) else own
-        for own_attribute in attributes_of(owner)
+        for own_attribute in list_attributes(owner)
         if (own := getattr(value, own_attribute.name)) is not None
         and (own_attribute.is_always_written or own != own_attribute.default)
     }

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from rightofway.deadline import check_work
 from rightofway.errors import InputFault
-from rightofway.model.resources import exact_positions
+from rightofway.model.resources import read_exact_positions
 from rightofway.model.units import NEVER, Clock, Tick
 from rightofway.site import Point, Roadmap, VertexId, squared_distance
 from rightofway.values import coerced, number, optional, vertex
@@ -82,7 +82,7 @@ def _ends(value: object) -> Ends:
     raise ValueError(f"{value!r} is no edge (give the vertices at both ends)")
 
 
-def closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFault]:
+def find_closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFault]:
     """Yield what is wrong with a closure."""
     if (closure.at is None) == (closure.edge is None):
         yield InputFault("", "closes not exactly one of a vertex and an edge (give at, or edge)")
@@ -162,7 +162,7 @@ class _Closed(NamedTuple):
     end: Tick
 
 
-def closures_of(
+def book_closures(
     closures: Sequence[Closure],
     roadmap: Roadmap,
     radii: Sequence[Fraction],
@@ -209,7 +209,7 @@ class _Plane:
     @cached_property
     def exact(self) -> list[Point]:
         """The exact position of each vertex."""
-        return exact_positions(self.roadmap)
+        return read_exact_positions(self.roadmap)
 
     @cached_property
     def drawn(self) -> NDArray[np.float64]:

@@ -32,19 +32,19 @@ def checked_plan(plan: Plan, place: Where = "plan") -> Plan:
     return at(place, one_of(Plan, "no plan", "load a file with rightofway.load_plan"), plan)
 
 
-def checked_functions(**functions: Callable[..., Any] | None) -> None:
+def require_functions(**functions: Callable[..., Any] | None) -> None:
     """Refuse what callers gave as functions by the names of the arguments; None is no fault."""
     for place, given in functions.items():
         at(place, optional(function), given)
 
 
-def checked_truths(**truths: bool) -> None:
+def require_truths(**truths: bool) -> None:
     """Refuse what callers gave as true or false by the names of the arguments."""
     for place, given in truths.items():
         at(place, truth, given)
 
 
-def checked_seed(seed: int) -> int:
+def require_seed(seed: int) -> int:
     """Return what a caller gave as a seed.
 
     Raises
@@ -52,10 +52,10 @@ def checked_seed(seed: int) -> int:
     InputError
         If it is not a whole number, or out of range.
     """
-    return checked_number("seed", seed, 0, LARGEST_SEED, "is no seed")
+    return require_number("seed", seed, 0, LARGEST_SEED, "is no seed")
 
 
-def checked_number(place: Where, value: int, least: int, most: int, fault: str = "") -> int:
+def require_number(place: Where, value: int, least: int, most: int, fault: str = "") -> int:
     """Return what a caller gave as a whole number from ``least`` to ``most``.
 
     Raises
@@ -70,7 +70,7 @@ def checked_number(place: Where, value: int, least: int, most: int, fault: str =
     return int(value)
 
 
-def checked_index(place: Where, index: int, count: int) -> int:
+def require_index(place: Where, index: int, count: int) -> int:
     """Return what a caller gave as the number of a robot, or of another one of ``count``."""
     if not isinstance(index, Integral) or not 0 <= index < count:
         known = f"give 0 to {count - 1}" if count else "there are none"

@@ -79,7 +79,7 @@ def lap_of(roadmap: Roadmap, itinerary: Itinerary, route: Route) -> Lap:
         Where it goes for that; the last visit serves all stages at home at the end.
     """
     vertices = route.vertices[:-1]
-    between = route.dwell[0] + dwell_between_laps(roadmap, itinerary, vertices)
+    between = route.dwell[0] + compute_dwell_between_laps(roadmap, itinerary, vertices)
     return Lap(
         vertices=vertices,
         dwell=(Tick(between), *route.dwell[1:-1]),
@@ -87,18 +87,18 @@ def lap_of(roadmap: Roadmap, itinerary: Itinerary, route: Route) -> Lap:
     )
 
 
-def dwell_between_laps(
+def compute_dwell_between_laps(
     roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]
 ) -> Tick:
     """Return how much longer a robot stays at home between two laps than before its first [ticks].
 
     It serves the stages with which a lap ends, and turns from the last edge to the first one.
     """
-    turn = int(turns_of_lap(roadmap, itinerary, vertices)[0])
+    turn = int(compute_turns_of_lap(roadmap, itinerary, vertices)[0])
     return Tick(least_dwell(_stages_at_home(itinerary), leaves=True) + turn)
 
 
-def turns_of_lap(
+def compute_turns_of_lap(
     roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]
 ) -> NDArray[np.int64]:
     """Return how long a robot turns between two edges in each visit of a lap [ticks]; int64."""

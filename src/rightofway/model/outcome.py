@@ -11,7 +11,7 @@ from rightofway.arguments import checks_arguments, one_for_each
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
-from rightofway.model.stays import completions_of, cost_of, costs_of
+from rightofway.model.stays import completions_of, compute_costs, cost_of
 from rightofway.model.units import Tick
 
 
@@ -51,7 +51,7 @@ class Objective(StrEnum):
         if self is Objective.WEIGHTED:
             return cost_of(scenario, tracks)
         if self is Objective.COST:
-            return Tick(sum(costs_of(scenario, tracks)))
+            return Tick(sum(compute_costs(scenario, tracks)))
         completions = completions_of(scenario, tracks)
         return Tick(sum(completions)) if self is Objective.FLOWTIME else max(completions)
 
@@ -130,7 +130,7 @@ class Outcome:
     factor: Fraction | None = None
 
 
-def outcome_of_cost(cost: Tick, proof: Proof) -> Outcome:
+def classify_cost(cost: Tick, proof: Proof) -> Outcome:
     """Return the outcome of a search that found a plan.
 
     Notes
@@ -146,7 +146,7 @@ def outcome_of_cost(cost: Tick, proof: Proof) -> Outcome:
     return Outcome(kind=kind, objective=proof.objective, bound=proof.bound, factor=factor)
 
 
-def outcome_of_error(error: NoPlanExists | GaveUp) -> Outcome:
+def classify_error(error: NoPlanExists | GaveUp) -> Outcome:
     """Return the outcome of a search that found no plan."""
     if isinstance(error, NoPlanExists):
         return Outcome(kind=OutcomeKind.NO_PLAN_EXISTS)

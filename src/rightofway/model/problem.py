@@ -12,10 +12,10 @@ from typing import Any
 from rightofway.deadline import DERIVING, limit_loop
 from rightofway.errors import InputError
 from rightofway.model.booking_rules import BookingRules
-from rightofway.model.closures import Closure, Closures, closures_of
-from rightofway.model.resources import Resources, points_on, resources_of
+from rightofway.model.closures import Closure, Closures, book_closures
+from rightofway.model.resources import Resources, bind_resources, make_points
 from rightofway.model.robot import Robot, Rules
-from rightofway.model.turning import Turning, turnings_of
+from rightofway.model.turning import Turning, compute_turnings
 from rightofway.model.units import Clock, Tick, choose_clock
 from rightofway.site import Roadmap, VertexId
 
@@ -167,7 +167,7 @@ class Problem:
             self,
             booking_rules=BookingRules(rotations=self.booking_rules.may_rotate),
             itineraries=tuple(itinerary.in_steps() for itinerary in self.itineraries),
-            resources=points_on(self.roadmap, len(self.itineraries)),
+            resources=make_points(self.roadmap, len(self.itineraries)),
             closures=None,
         )
 
@@ -212,7 +212,7 @@ def least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:
     return Tick(sum(stage.work + (stage.turn if leaves else 0) for stage in stages))
 
 
-def problem_of(
+def bind_problem(
     roadmap: Roadmap,
     robots: Sequence[Robot],
     rules: Rules,
@@ -250,15 +250,15 @@ def problem_of(
                 weight=weight,
             )
             for robot, turning, weight in zip(
-                robots, turnings_of(roadmap, rates, clock), whole_weights(robots), strict=True
+                robots, compute_turnings(roadmap, rates, clock), scale_weights(robots), strict=True
             )
         ),
-        resources=resources_of(roadmap, radii, rules.clearance),
-        closures=closures_of(closures, roadmap, radii, rules.clearance, clock),
+        resources=bind_resources(roadmap, radii, rules.clearance),
+        closures=book_closures(closures, roadmap, radii, rules.clearance, clock),
     )
 
 
-def turning_time(roadmap: Roadmap, robot: Robot, rules: Rules) -> Fraction:
+def compute_turning_time(roadmap: Roadmap, robot: Robot, rules: Rules) -> Fraction:
     """Return how long a robot turns at a stop [time unit]."""
     turn = robot.turn if robot.turn is not None else rules.turn
     if turn is None:
@@ -287,7 +287,7 @@ def _drive_times(roadmap: Roadmap, robot: Robot) -> Iterator[Fraction]:
 
 
 def _stop_times(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
-    yield turning_time(roadmap, robot, rules)
+    yield compute_turning_time(roadmap, robot, rules)
     yield from (stop.work for stop in robot.stops)
 
 
@@ -301,7 +301,7 @@ def _edge_ticks(roadmap: Roadmap, robot: Robot, clock: Clock) -> tuple[Tick, ...
     )
 
 
-def whole_weights(robots: Sequence[Robot]) -> list[int]:
+def scale_weights(robots: Sequence[Robot]) -> list[int]:
     """Return the least whole numbers in the ratio of the weights of robots."""
     common = lcm(*(robot.weight.denominator for robot in robots))
     whole = [int(robot.weight * common) for robot in robots]
@@ -318,7 +318,7 @@ def _itinerary(
     turning: Turning | None,
     weight: int,
 ) -> Itinerary:
-    turn = clock.ticks(turning_time(roadmap, robot, rules))
+    turn = clock.ticks(compute_turning_time(roadmap, robot, rules))
     visits = [(stop.at, clock.ticks(stop.work)) for stop in robot.stops]
     after: list[VertexId | None] = [stop.at for stop in robot.stops[1:]]
     if (robot.ends or rules.ends) == "home":

@@ -72,12 +72,12 @@ def refuse_sizes(resources: Resources, method: str, remedy: str) -> None:
         raise InputError.at("", message)
 
 
-def circle_around(length: Fraction, width: Fraction) -> Fraction:
+def circumscribe(length: Fraction, width: Fraction) -> Fraction:
     """Return the radius of the circle around a rectangle, rounded up to `RADIUS_STEP`.
 
     Examples
     --------
-    >>> circle_around(Fraction(3), Fraction(4)), circle_around(Fraction(1), Fraction(1))
+    >>> circumscribe(Fraction(3), Fraction(4)), circumscribe(Fraction(1), Fraction(1))
     (Fraction(5, 2), Fraction(707107, 1000000))
     """
     square = (length**2 + width**2) / (2 * RADIUS_STEP) ** 2
@@ -85,7 +85,7 @@ def circle_around(length: Fraction, width: Fraction) -> Fraction:
     return (below + (below**2 < square)) * RADIUS_STEP
 
 
-def exact_positions(roadmap: Roadmap) -> list[Point]:
+def read_exact_positions(roadmap: Roadmap) -> list[Point]:
     """Return the position of each vertex; a coordinate is its shortest decimal."""
     if roadmap.grid is not None:
         grid = roadmap.grid
@@ -98,17 +98,17 @@ def exact_positions(roadmap: Roadmap) -> list[Point]:
 
 def are_nearer(roadmap: Roadmap, first: int, other: int, distance: Fraction) -> bool:
     """Return whether two vertices are nearer than a distance; exact."""
-    at = exact_positions(roadmap)
+    at = read_exact_positions(roadmap)
     return squared_distance(at[first], at[other]) < distance**2
 
 
 def distance(roadmap: Roadmap, first: int, other: int) -> float:
     """Return the distance of two vertices [length unit]."""
-    at = exact_positions(roadmap)
+    at = read_exact_positions(roadmap)
     return sqrt(squared_distance(at[first], at[other]))
 
 
-def too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, float]]:
+def find_too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, float]]:
     """Yield tail, head, length and straight distance of edges that are shorter than straight.
 
     A part in 10**9 is rounding: positions are decimals, and pieces of lanes are not.
@@ -218,7 +218,7 @@ class Resources:
         return visited + self.vertex_row(robot, 0), edges + self.edge_row(robot, 0)
 
 
-def resources_of(roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fraction) -> Resources:
+def bind_resources(roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fraction) -> Resources:
     """Return the resources of a fleet.
 
     Raises
@@ -236,7 +236,7 @@ def resources_of(roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fractio
     )
 
 
-def points_on(roadmap: Roadmap, n_robots: int) -> Resources:
+def make_points(roadmap: Roadmap, n_robots: int) -> Resources:
     """Return the resources of a fleet of points."""
     return Resources(
         roadmap=replace(roadmap, zones=()) if roadmap.zones else roadmap,
@@ -246,7 +246,7 @@ def points_on(roadmap: Roadmap, n_robots: int) -> Resources:
     )
 
 
-def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
+def list_members(roadmap: Roadmap, zone: Zone) -> list[int]:
     """Return the resources of a zone.
 
     An edge that ends at a vertex of the zone is left out, because the vertex is booked as long.
@@ -259,7 +259,7 @@ def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
 def _refuse_large_zones(roadmap: Roadmap) -> None:
     n_pairs = 0
     for zone in roadmap.zones:
-        n_members = len(members_of(roadmap, zone))
+        n_members = len(list_members(roadmap, zone))
         n_pairs += n_members * (n_members - 1) // 2
         if n_pairs > MOST_PAIRS_IN_ZONES:
             message = f"zone {shown(zone.name)} holds {n_members} vertices and lanes, and zones"
@@ -267,7 +267,7 @@ def _refuse_large_zones(roadmap: Roadmap) -> None:
             raise InputError.at(("map", "zones"), f"{message} (draw smaller zones)")
 
 
-def whole_positions(roadmap: Roadmap, lengths: Sequence[Fraction]) -> tuple[list[int], int]:
+def scale_positions(roadmap: Roadmap, lengths: Sequence[Fraction]) -> tuple[list[int], int]:
     """Return x and y of each vertex in turn, in whole multiples of 1 / scale, and the scale.
 
     A coordinate is the shortest decimal that stands for it; the lengths are whole multiples, too.
@@ -293,7 +293,7 @@ class _Drawing:
     """
 
     def __init__(self, roadmap: Roadmap, lengths: Sequence[Fraction]) -> None:
-        whole, self.scale = whole_positions(roadmap, lengths)
+        whole, self.scale = scale_positions(roadmap, lengths)
         self.x, self.y = (self._from_least(whole[axis::2]) for axis in (0, 1))
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         heads = roadmap.heads.astype(np.int64)

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Literal
 
 from rightofway.errors import shown
-from rightofway.model.attributes import attribute, attributes_of, readers_of
+from rightofway.model.attributes import attribute, list_attributes, list_readers
 from rightofway.phrases import Phrase
 from rightofway.site import VertexId
 from rightofway.values import coerced, number, text, vertex
@@ -179,7 +179,7 @@ class Robot:
             name=text,
             home=vertex,
             stops=_stops,
-            **readers_of(Robot),
+            **list_readers(Robot),
         )
 
     def __repr__(self) -> str:
@@ -287,11 +287,11 @@ class Rules:
     )
 
     def __post_init__(self) -> None:
-        coerced(self, "rules", **readers_of(Rules))
+        coerced(self, "rules", **list_readers(Rules))
 
 
-ROBOT_ATTRIBUTES = attributes_of(Robot)
+ROBOT_ATTRIBUTES = list_attributes(Robot)
 """What a robot has beside its name and its trip."""
 
-RULE_ATTRIBUTES = attributes_of(Rules)
+RULE_ATTRIBUTES = list_attributes(Rules)
 """What holds for the whole fleet."""

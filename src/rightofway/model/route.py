@@ -191,7 +191,7 @@ def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
 def _route(
     roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId], serves: Sequence[int]
 ) -> Route:
-    dwell = least_dwells(itinerary.stages, serves, len(vertices))
+    dwell = compute_least_dwells(itinerary.stages, serves, len(vertices))
     dwell += turns_along(roadmap, itinerary, np.array(vertices, np.int32))
     drive = map(Tick, drives_along(roadmap, itinerary, vertices))
     return Route(
@@ -287,7 +287,7 @@ def serving_visits(
     return serves
 
 
-def least_dwells(
+def compute_least_dwells(
     stages: Sequence[Stage], serves: Sequence[int], n_visits: int
 ) -> NDArray[np.int64]:
     """Return the least ticks of each visit, without its drive; int64, shape (n,)."""

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from rightofway.errors import InputError, InputFault, Where, shown
-from rightofway.model.closures import Closure, closure_faults
+from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.figures import provided
-from rightofway.model.problem import HEAVIEST, Problem, problem_of, whole_weights
-from rightofway.model.resources import too_short_edges
+from rightofway.model.problem import HEAVIEST, Problem, bind_problem, scale_weights
+from rightofway.model.resources import find_too_short_edges
 from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
 from rightofway.quantities import Quantities, Units, decimal
@@ -64,14 +64,14 @@ class Scenario:
                 object.__setattr__(self, "roadmap", clear_of_walls(self.roadmap, radii))
             faults = [*_rule_faults(self), *_fleet_faults(self), *_space_faults(self)]
             for index, closure in enumerate(self.closures):
-                of_closure = closure_faults(closure, self.roadmap)
+                of_closure = find_closure_faults(closure, self.roadmap)
                 faults += [fault.within(("closures", index)) for fault in of_closure]
         if faults:
             raise InputError(faults)
         object.__setattr__(
             self,
             "problem",
-            problem_of(self.roadmap, self.robots, self.rules, self.clock, self.closures),
+            bind_problem(self.roadmap, self.robots, self.rules, self.clock, self.closures),
         )
 
     def __repr__(self) -> str:
@@ -177,7 +177,7 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
         remedy = "give both, or leave it out"
         message = f"'one' is for robots without a size, and a robot has a radius ({remedy})"
         yield InputFault(("rules", "occupancy"), message)
-    for tail, head, length, about in too_short_edges(scenario.roadmap):
+    for tail, head, length, about in find_too_short_edges(scenario.roadmap):
         name = scenario.roadmap.name
         yield InputFault(
             "roadmap",
@@ -213,7 +213,7 @@ def _twice(key: str, values: list[str], owners: list[str], remedy: str) -> Itera
 
 def _weight_faults(robots: Sequence[Robot]) -> Iterator[InputFault]:
     if all(robot.weight > 0 for robot in robots):
-        weights = whole_weights(robots)
+        weights = scale_weights(robots)
         heaviest = max(weights, default=1)
         if heaviest > HEAVIEST:
             message = f"{robots[weights.index(heaviest)].weight} makes weights too far apart or too"

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model.route import Track, least_dwells, serving_visits
+from rightofway.model.route import Track, compute_least_dwells, serving_visits
 from rightofway.model.scenario import Scenario
 from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap
@@ -74,7 +74,7 @@ def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
     all_serves = []
     for own, track, itinerary in zip(owns, tracks, scenario.problem.itineraries, strict=True):
         serves = serving_visits(itinerary.stages, track.vertices, spare[own])
-        dwell[own] = least_dwells(itinerary.stages, serves, len(track))
+        dwell[own] = compute_least_dwells(itinerary.stages, serves, len(track))
         all_serves.append(tuple(serves))
     dwell += turns
     completion = (enter + dwell)[ends - 1].tolist()
@@ -129,11 +129,11 @@ def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
     tracks
         One track for each robot.
     """
-    costs = zip(scenario.problem.itineraries, costs_of(scenario, tracks), strict=True)
+    costs = zip(scenario.problem.itineraries, compute_costs(scenario, tracks), strict=True)
     return Tick(sum(itinerary.weight * cost for itinerary, cost in costs))
 
 
-def costs_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
+def compute_costs(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
     """Return the completion time of each robot and the surcharges of its edges [ticks]."""
     costs, roadmap = completions_of(scenario, tracks), scenario.roadmap
     if not roadmap.has_surcharges:

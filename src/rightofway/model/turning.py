@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
-from rightofway.model.resources import exact_positions
+from rightofway.model.resources import read_exact_positions
 from rightofway.model.units import Clock, Tick
 from rightofway.site import Roadmap
 
@@ -79,7 +79,7 @@ class Turning:
         return turns
 
 
-def turnings_of(
+def compute_turnings(
     roadmap: Roadmap, rates: Sequence[Fraction | None], clock: Clock
 ) -> list[Turning | None]:
     """Return how long each robot turns; None for a robot without a rate.
@@ -92,7 +92,7 @@ def turnings_of(
     turnings: dict[Fraction | None, Turning | None] = {None: None}
     for robot, rate in enumerate(rates):
         if rate is not None and rate not in turnings:
-            angles = angles_of(roadmap)
+            angles = measure_angles(roadmap)
             ticks = [clock.ticks(angle * ANGLE_STEP / rate) for angle in angles.angles]
             if ticks and ticks[-1] > LONGEST_TURN:
                 longest = f"a turn takes {shown(ticks[-1])} ticks of {shown(clock.tick)}"
@@ -103,7 +103,7 @@ def turnings_of(
 
 
 @lru_cache(maxsize=4)
-def angles_of(roadmap: Roadmap) -> Angles:
+def measure_angles(roadmap: Roadmap) -> Angles:
     """Return the angles between the edges of a roadmap."""
     heading, has_heading = _headings(roadmap)
     first, degree = roadmap.indptr[roadmap.heads].astype(np.int64), np.diff(roadmap.indptr)
@@ -128,7 +128,7 @@ def _headings(roadmap: Roadmap) -> tuple[NDArray[np.float64], NDArray[np.bool_]]
         y, x = np.divmod(roadmap.grid.cells.astype(np.int64), roadmap.grid.columns)
         dx, dy = (at[roadmap.heads] - at[tails] for at in (x, y))
     else:
-        positions = exact_positions(roadmap)
+        positions = read_exact_positions(roadmap)
         ends = list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
         dx, dy = (
             np.array([float(positions[b][k] - positions[a][k]) for a, b in ends], np.float64)

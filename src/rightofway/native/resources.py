@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.arguments import checks_arguments
-from rightofway.model.resources import Resources, members_of, whole_positions
+from rightofway.model.resources import Resources, list_members, scale_positions
 from rightofway.site import Roadmap
 
 _KNOWN: WeakKeyDictionary[Resources, _core.ExcludedRows] = WeakKeyDictionary()
@@ -62,12 +62,12 @@ def _lists_of(
         for radius in sizes
         for other_radius in sizes
     ]
-    whole, scale = whole_positions(roadmap, distances)
+    whole, scale = scale_positions(roadmap, distances)
     x, y = map(_from_the_least, (whole[::2], whole[1::2]))
     needed = [int(distance * scale) for distance in distances]
     n_bits = max(*x, *y, *needed).bit_length()
     n_limbs = max(1, -(-n_bits // LIMB))
-    members = [members_of(roadmap, zone) for zone in roadmap.zones]
+    members = [list_members(roadmap, zone) for zone in roadmap.zones]
     return _core.ExcludedRows(
         _core.Roads(
             roadmap.indptr,

@@ -21,7 +21,7 @@ from rightofway.phrases import Phrase, counted
 from rightofway.planners.bounds import SHARE as SHARE_OF_NODES
 from rightofway.planners.bounds import bound_by_prices
 from rightofway.planners.features import refuse_with_swaps_left
-from rightofway.planners.impossible import blocking_set
+from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Draft, Task
@@ -170,7 +170,7 @@ class _Prover:
             return Draft(tracks=search.tracks, status=status, proof=proof)
         if search.is_proven:
             everybody = range(len(task.scenario.robots))
-            blockage = blocking_set(
+            blockage = find_blocking_set(
                 task.scenario, everybody, seed=task.seed, deadline=task.deadline
             )
             raise NoPlanExists([blockage])

@@ -35,7 +35,7 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Proof, Tick, completions_of, cost_of
 from rightofway.model.outcome import Objective, minimized
 from rightofway.phrases import Phrase, counted
-from rightofway.planners.impossible import blocking_set
+from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improved
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Draft, Task
@@ -127,7 +127,9 @@ def _of_least_flowtime(task: Task, first: Draft | None) -> Draft:
             )
     elif search.is_proven:
         robots = range(len(scenario.robots))
-        raise NoPlanExists([blocking_set(scenario, robots, seed=task.seed, deadline=task.deadline)])
+        raise NoPlanExists(
+            [find_blocking_set(scenario, robots, seed=task.seed, deadline=task.deadline)]
+        )
     else:
         remedy = "give a longer time limit, or take another planner"
         error = GaveUp(f"{ended} in the search for an optimal plan, after {done} ({remedy})")

@@ -132,13 +132,15 @@ class PartialPlan:
         place = scenario.roadmap.name(self.graph.vertex(meeting.visits[0]))
         mark = self.graph.checkpoint()
         for waits in (0, 1):
-            possible = self.graph.give_all(rights_if_waits(self.graph, meeting, segment, waits))
+            possible = self.graph.give_all(
+                list_rights_if_waits(self.graph, meeting, segment, waits)
+            )
             self.graph.rollback(mark)
             cycle = [] if possible else self.graph.deadlocked()
             if cycle:
                 circle = [scenario.robots[robot].name for robot in cycle]
-                return deadlock_in_words(names, place, circle)
-        return deadlock_in_words(names, place)
+                return describe_deadlock(names, place, circle)
+        return describe_deadlock(names, place)
 
     def decide(self, meeting: Meeting, segment: Segment, waits: int, delay: Tick) -> Decision:
         """Record that one of two robots (0: i, 1: j) waits; rules add their reasons."""
@@ -160,7 +162,7 @@ Rule = Callable[[PartialPlan, Meeting], Resolution | None]
 """Decides which of two robots waits; None if no waiting keeps them apart."""
 
 
-def rights_if_waits(
+def list_rights_if_waits(
     graph: PrecedenceGraph, meeting: Meeting, segment: Segment, waits: int
 ) -> tuple[Right, ...]:
     """Return the rights of way in a segment if one of two robots (0: i, 1: j) waits."""
@@ -214,7 +216,7 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
     )
 
 
-def deadlock_in_words(names: Sequence[str], place: str, circle: Sequence[str] = ()) -> Phrase:
+def describe_deadlock(names: Sequence[str], place: str, circle: Sequence[str] = ()) -> Phrase:
     """Return which two robots no waiting keeps apart, and the circle that a wait would close."""
     pair = Phrase(
         "waiting cannot keep {one} and {other} apart at {place}",

@@ -36,8 +36,8 @@ from rightofway.search import (
 )
 from rightofway.search.missing_ways import (
     RoadmapParts,
-    missing_ways,
-    reached_vertices,
+    find_missing_ways,
+    find_reached_vertices,
     reaches_its_places,
 )
 from rightofway.site import VertexId
@@ -70,7 +70,11 @@ def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
 
 def refuse_stranded(scenario: Scenario, stranded: Iterable[int]) -> None:
     """Raise `NoPlanExists` if some robots have no way to a place, or robots share an end."""
-    blockages = [*missing_ways(scenario, stranded), *_shared_ends(scenario), *_clashes(scenario)]
+    blockages = [
+        *find_missing_ways(scenario, stranded),
+        *_shared_ends(scenario),
+        *_clashes(scenario),
+    ]
     if blockages:
         raise NoPlanExists(blockages)
 
@@ -244,10 +248,10 @@ def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -
     for robots in sorted(groups.values(), key=len) if len(groups) > 1 else ():
         effort = EFFORT // len(groups)
         if _is_blocked(scenario, robots, seed=seed, effort=effort, deadline=deadline):
-            raise NoPlanExists([blocking_set(scenario, robots, seed=seed, deadline=deadline)])
+            raise NoPlanExists([find_blocking_set(scenario, robots, seed=seed, deadline=deadline)])
 
 
-def blocking_set(
+def find_blocking_set(
     scenario: Scenario, robots: Iterable[int], *, seed: int, deadline: Deadline
 ) -> Blockage:
     """Return a small set of robots that have no plan, given that some robots have none.
@@ -263,10 +267,10 @@ def blocking_set(
     def is_blocked(fewer: Sequence[int]) -> bool:
         return _is_blocked(scenario, fewer, seed=seed, effort=effort, deadline=deadline)
 
-    return _described(scenario, smallest_set(everybody, is_blocked))
+    return _described(scenario, find_smallest_set(everybody, is_blocked))
 
 
-def smallest_set(
+def find_smallest_set(
     robots: Sequence[int], is_blocked: Callable[[Sequence[int]], bool]
 ) -> Sequence[int]:
     """Return a small set of robots that have no plan, given that some robots have none.
@@ -300,7 +304,7 @@ def fleet_of(scenario: Scenario, robots: Iterable[int]) -> Scenario:
     return replace(scenario, robots=fleet, rules=rules, clock=scenario.problem.clock)
 
 
-def no_room(scenario: Scenario, robots: Sequence[int]) -> Blockage:
+def explain_no_room(scenario: Scenario, robots: Sequence[int]) -> Blockage:
     """Return why robots that are proven to have no plan together have none."""
     names = tuple(scenario.robots[robot].name for robot in robots)
     blocked_robots = listed(names)
@@ -319,7 +323,7 @@ def no_room(scenario: Scenario, robots: Sequence[int]) -> Blockage:
     return Blockage(reason, names, (), Phrase("give more room, or other places"))
 
 
-def fleet_at_home(scenario: Scenario) -> Plan:
+def put_fleet_at_home(scenario: Scenario) -> Plan:
     """Return a fleet that stays at home, to draw where robots block each other."""
     alone = least_completions(scenario)
     assert alone is not None, "no time limit was given"
@@ -388,7 +392,7 @@ def _narrow_places(scenario: Scenario, robots: Sequence[int]) -> list[VertexId]:
         passed = dict.fromkeys(places)
         for tail, head in dict.fromkeys(pairwise(places)):
             for vertex in distances.path(tail, head, itinerary.edge_ticks):
-                if vertex not in passed and head not in reached_vertices(tail, ends, {vertex}):
+                if vertex not in passed and head not in find_reached_vertices(tail, ends, {vertex}):
                     passed[vertex] = None
         common = passed if common is None else dict.fromkeys(v for v in common if v in passed)
     return sorted(common or ())

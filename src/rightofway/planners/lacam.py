@@ -26,7 +26,7 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Track, route_through
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import (
-    blocking_set,
+    find_blocking_set,
     refuse_blocked_parts,
     refuse_stranded,
     refuse_the_impossible,
@@ -95,7 +95,7 @@ def _refuse_blocked(task: Task) -> NoReturn:
     """Raise for a fleet that is proven to have no plan: which robots block each other."""
     task.report(Phrase("no plan exists: looking for the robots that block each other"))
     everybody = range(len(task.scenario.robots))
-    blockages = blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
+    blockages = find_blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
     raise NoPlanExists([blockages]) from None
 
 
@@ -127,19 +127,19 @@ def plan_by_instants(
 def timetable_of(scenario: Scenario, tracks: Sequence[Track]) -> list[Track]:
     """Return the earliest tracks that keep the routes and the order of visits of other tracks."""
     visited = [track.vertices.tolist() for track in tracks]
-    return timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
+    return build_timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
 
 
-def timetable_in_order(
+def build_timetable_in_order(
     scenario: Scenario, visited: Sequence[list[VertexId]], arrivals: Sequence[list[int]]
 ) -> list[Track]:
     """Return the earliest tracks along some routes that keep an order of arrivals."""
-    tracks = timetable_if_possible(scenario, visited, arrivals)
+    tracks = build_timetable_if_possible(scenario, visited, arrivals)
     assert tracks is not None, "what took place in some order can take place in it again"
     return tracks
 
 
-def timetable_if_possible(
+def build_timetable_if_possible(
     scenario: Scenario, visited: Sequence[list[VertexId]], arrivals: Sequence[list[int]]
 ) -> list[Track] | None:
     """Return the earliest tracks along some routes that keep an order of arrivals and closures.

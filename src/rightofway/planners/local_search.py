@@ -28,7 +28,7 @@ from typing import NamedTuple
 from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick
 from rightofway.phrases import Phrase, chain_items
-from rightofway.planners.conflict_resolution import rights_if_waits
+from rightofway.planners.conflict_resolution import list_rights_if_waits
 from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.planners.two_level import two_level
 from rightofway.precedence import Meeting, PrecedenceGraph, graph_of
@@ -191,7 +191,7 @@ class LocalSearch:
             if preference is not None and against:
                 is_waiting = meeting.robots[waits] == preference.robot
                 against = is_waiting == preference.goes_first
-            rights = rights_if_waits(graph, meeting, segment, waits)
+            rights = list_rights_if_waits(graph, meeting, segment, waits)
             if self.give_all(rights):
                 cost = (against, graph.flowtime(), graph.conflicts_left(), waits)
                 choices.append((cost, rights))

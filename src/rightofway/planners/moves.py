@@ -34,7 +34,7 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Tick, Track, least_dwell
 from rightofway.native import excluded_by
 from rightofway.phrases import Phrase
-from rightofway.planners.impossible import fleet_of, no_room, smallest_set
+from rightofway.planners.impossible import explain_no_room, find_smallest_set, fleet_of
 from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.search import Distances, FleetSearch
 from rightofway.site import VertexId
@@ -112,8 +112,8 @@ def _moves(task: Task, floor: SingleMoves, most_states: int) -> list[Move]:
         return _search(SingleMoves(fleet), MOST_STATES_OF_FEWER, task.deadline) is None
 
     everybody = range(len(task.scenario.robots))
-    blocked = everybody if floor.ends_anywhere else smallest_set(everybody, is_blocked)
-    raise NoPlanExists([no_room(task.scenario, blocked)])
+    blocked = everybody if floor.ends_anywhere else find_smallest_set(everybody, is_blocked)
+    raise NoPlanExists([explain_no_room(task.scenario, blocked)])
 
 
 def _search(floor: SingleMoves, most_states: int, deadline: Deadline) -> list[Move] | None:

@@ -42,8 +42,8 @@ from rightofway.planners.conflict_resolution import (
     PartialPlan,
     Resolution,
     Rule,
+    list_rights_if_waits,
     plan_by_rule,
-    rights_if_waits,
 )
 from rightofway.planners.routing import chosen_routes
 from rightofway.planners.task import Draft, Task
@@ -56,7 +56,7 @@ Order = Sequence[int]
 def fixed_priority(task: Task) -> Draft:
     """Plan with the robots' numbers as priorities, the first robot's the highest."""
     distances, routes = chosen_routes(task)
-    return plan_by_rule(task, distances, routes, by_priority(range(len(routes))))
+    return plan_by_rule(task, distances, routes, plan_by_priority(range(len(routes))))
 
 
 def random_priority(task: Task) -> Draft:
@@ -92,7 +92,7 @@ def priority_search(task: Task) -> Draft:
     return _best_of(task, search)
 
 
-def by_priority(order: Order) -> Rule:
+def plan_by_priority(order: Order) -> Rule:
     """Return the rule that the robot of higher priority goes first, wherever it can."""
     place = {robot: index for index, robot in enumerate(order)}
 
@@ -110,7 +110,7 @@ def _if_waits(
 ) -> Resolution | None:
     """Let one of the two robots (0: i, 1: j) wait; None if impossible."""
     graph, segment = plan.graph, plan.segment_of(meeting)
-    rights = rights_if_waits(graph, meeting, segment, waits)
+    rights = list_rights_if_waits(graph, meeting, segment, waits)
     enters = rights[0][1]
     mark, planned = graph.checkpoint(), graph.enter(enters)
     if not graph.give_all(rights):
@@ -135,7 +135,7 @@ def _best_of(
     def flowtime(order: Order) -> int:
         nonlocal tried, best, least
         task.deadline.check("trying orders of the robots")
-        draft = plan_by_rule(task, distances, routes, by_priority(order))
+        draft = plan_by_rule(task, distances, routes, plan_by_priority(order))
         reached = flowtime_of(task.scenario, draft.tracks)
         tried += 1
         if best is None or reached < least:

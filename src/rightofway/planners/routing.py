@@ -19,12 +19,12 @@ def chosen_routes(task: Task) -> tuple[Distances, list[Route]]:
     checkpoint = partial(task.deadline.check, "choosing routes")
     distances = Distances(task.scenario.roadmap, checkpoint=checkpoint)
     if task.scenario.problem.closures is not None:
-        return distances, routes_among_closures(task, distances)
+        return distances, choose_routes_among_closures(task, distances)
     choose = clear_routes if task.options["routes"] == "clear" else shortest_routes
     return distances, choose(task.scenario, distances)
 
 
-def routes_among_closures(task: Task, distances: Distances) -> list[Route]:
+def choose_routes_among_closures(task: Task, distances: Distances) -> list[Route]:
     """Return the best route of each robot as if it were alone, but for closures.
 
     A route that closures cut off for a while may have no times at all; these have some. Raises

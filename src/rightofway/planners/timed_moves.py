@@ -23,7 +23,7 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import NEVER, Scenario, Tick, Track, least_dwell
 from rightofway.native import excluded_by
 from rightofway.phrases import Phrase
-from rightofway.planners.impossible import fleet_of, no_room, smallest_set
+from rightofway.planners.impossible import explain_no_room, find_smallest_set, fleet_of
 from rightofway.planners.moves import Move, SingleMoves, State
 from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.site import VertexId
@@ -60,7 +60,7 @@ def plan_by_timed_moves(task: Task) -> Draft | None:
     except GaveUp:
         return None
     if last is None:
-        raise NoPlanExists([no_room(scenario, smallest_set(everybody, is_blocked))])
+        raise NoPlanExists([explain_no_room(scenario, find_smallest_set(everybody, is_blocked))])
     if planning_problem(scenario) is not scenario.problem:
         return None  # its robots might rotate
     task.has_plan()

@@ -35,9 +35,9 @@ from rightofway.planners.conflict_resolution import (
     PartialPlan,
     Resolution,
     Right,
+    list_rights_if_waits,
     plan_by_rule,
     plan_on_routes,
-    rights_if_waits,
 )
 from rightofway.planners.features import refuse_with_swaps_left
 from rightofway.planners.routing import chosen_routes
@@ -72,13 +72,13 @@ def two_level(task: Task) -> Draft:
         refuse_with_swaps_left(task.scenario.problem)
         return paper(task)
     distances, routes = chosen_routes(task)
-    return plan_by_rule(task, distances, routes, by_two_levels)
+    return plan_by_rule(task, distances, routes, plan_by_two_levels)
 
 
 def paper(task: Task) -> Draft:
     """Plan a fleet by the method as published; the plan may hold swaps. It has no options."""
     distances, plan = _as_published(task)
-    return plan_on_routes(task, distances, plan, by_two_levels)
+    return plan_on_routes(task, distances, plan, plan_by_two_levels)
 
 
 def _as_published(task: Task) -> tuple[Distances, PartialPlan]:
@@ -87,7 +87,7 @@ def _as_published(task: Task) -> tuple[Distances, PartialPlan]:
     return distances, PartialPlan(task, routes, sees_swaps=False)
 
 
-def by_two_levels(plan: PartialPlan, meeting: Meeting) -> Resolution | None:
+def plan_by_two_levels(plan: PartialPlan, meeting: Meeting) -> Resolution | None:
     """Follow both movement groups of a pair; the one sooner done wins, group one on a tie."""
     i, j = meeting.robots
     first = _follow(plan, i, j, on_tie=0)
@@ -126,7 +126,7 @@ class MovementGroup:
     completions: tuple[Tick, Tick]
 
 
-def movement_groups(
+def replay_movement_groups(
     plan: Plan, decision: Decision, time_limit: float | None = None
 ) -> tuple[MovementGroup | None, MovementGroup | None]:
     """Return both movement groups of a decision; the planner is run again to find them.
@@ -149,7 +149,7 @@ def movement_groups(
     groups: list[MovementGroup | None] = []
 
     def by_two_levels_again(partial: PartialPlan, meeting: Meeting) -> Resolution | None:
-        resolution = by_two_levels(partial, meeting)
+        resolution = plan_by_two_levels(partial, meeting)
         if resolution is not None and decision in resolution.decisions:
             groups.extend(_temporary_group(partial, meeting, on_tie) for on_tie in (0, 1))
         return resolution
@@ -211,7 +211,7 @@ def _attempt(plan: PartialPlan, meeting: Meeting, segment: Segment, waits: int) 
     graph, robot = plan.graph, meeting.robots[waits]
     others = plan.settled.copy()
     others[list(meeting.robots)] = 0
-    rights = rights_if_waits(graph, meeting, segment, waits)
+    rights = list_rights_if_waits(graph, meeting, segment, waits)
     enters = rights[0][1]
     mark, planned, met = graph.checkpoint(), graph.enter(enters), graph.conflicts_of(robot, others)
     if not graph.give_all(rights):

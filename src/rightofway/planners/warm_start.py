@@ -100,9 +100,9 @@ def first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
     return min(valid, key=lambda tracks: cost_of(task.scenario, tracks), default=None)
 
 
-def kept_of(old: Plan, scenario: Scenario, tracks: Sequence[Track]) -> StartPlan:
+def compare_with_start(old: Plan, scenario: Scenario, tracks: Sequence[Track]) -> StartPlan:
     """Return how much of an old plan the plan that was made from it has kept."""
-    vertex = vertex_map(old.scenario.roadmap, scenario.roadmap)
+    vertex = map_vertices(old.scenario.roadmap, scenario.roadmap)
     old_tick, tick = old.scenario.problem.clock.tick, scenario.problem.clock.tick
     routes = times = 0
     for track, partner in zip(tracks, _partners(old, scenario, vertex), strict=True):
@@ -115,7 +115,7 @@ def kept_of(old: Plan, scenario: Scenario, tracks: Sequence[Track]) -> StartPlan
     return StartPlan(routes=routes, tracks=times)
 
 
-def vertex_map(old: Roadmap, new: Roadmap) -> NDArray[np.int32]:
+def map_vertices(old: Roadmap, new: Roadmap) -> NDArray[np.int32]:
     """Return for each vertex of an old map the same vertex of a new one, -1 where there is none.
 
     Vertices with names are the same if their names are; others, as those of grids, if they lie at
@@ -155,7 +155,7 @@ def _partners(old: Plan, scenario: Scenario, vertex: NDArray[np.int32]) -> list[
 
 def _kept_routes(scenario: Scenario, old: Plan) -> Iterator[tuple[int, _Kept]]:
     """Yield the robots that can still drive their routes of the old plan, and these."""
-    vertex = vertex_map(old.scenario.roadmap, scenario.roadmap)
+    vertex = map_vertices(old.scenario.roadmap, scenario.roadmap)
     is_closed = _closed_ways(scenario)
     ticks = old.scenario.problem.clock.tick / scenario.problem.clock.tick
     for robot, partner in enumerate(_partners(old, scenario, vertex)):

@@ -17,12 +17,12 @@ from rightofway.precedence.graph import (
 )
 from rightofway.precedence.period_curve import Growth, PeriodPiece, period_curve
 from rightofway.precedence.release_graph import Arrival, Part, ReleaseGraph
-from rightofway.precedence.segments import Segment, crossing, shared_segment
+from rightofway.precedence.segments import Segment, crossing, find_shared_segment
 from rightofway.precedence.sensitivity import (
     Sensitivity,
-    critical_circuit_without,
+    find_critical_circuit_without,
+    find_tight_arcs,
     sensitivity,
-    tight_arcs,
 )
 from rightofway.precedence.timed_event_graph import (
     Arcs,
@@ -52,14 +52,14 @@ __all__ = [
     "Sensitivity",
     "Stoppage",
     "TimedEventGraph",
-    "critical_circuit_without",
     "crossing",
+    "find_critical_circuit_without",
+    "find_shared_segment",
+    "find_tight_arcs",
     "graph_of",
     "graph_on",
     "order_of",
     "period_curve",
     "sensitivity",
-    "shared_segment",
-    "tight_arcs",
     "unrolled",
 ]

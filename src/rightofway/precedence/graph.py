@@ -28,8 +28,8 @@ from rightofway.native import BookedRows, ClosedPlaces, bind_closures, bind_rows
 from rightofway.precedence.segments import (
     IncompatiblePair,
     Segment,
-    linked_segments,
-    shared_segment,
+    find_shared_segment,
+    link_segments,
 )
 from rightofway.site import VertexId
 
@@ -222,7 +222,7 @@ class PrecedenceGraph:
         (i, index_i), (j, index_j) = self.place(visit), self.place(other)
         if self._has_sizes:
             return self._segments_of(i, j)[index_i, index_j]
-        return shared_segment(self.routes[i], index_i, self.routes[j], index_j)
+        return find_shared_segment(self.routes[i], index_i, self.routes[j], index_j)
 
     def segment_of_right(self, first: Visit, second: Visit) -> Segment:
         """Return the segment for which a right of way holds."""
@@ -243,7 +243,7 @@ class PrecedenceGraph:
             begin_i, begin_j = self.visit(i, 0), self.visit(j, 0)
             indices = self._kernel.incompatible(i, j) - [begin_i, begin_j, begin_i, begin_j]
             pairs = [IncompatiblePair(*pair) for pair in indices.tolist()]
-            self._segments[i, j] = linked_segments(self.routes[i], self.routes[j], pairs)
+            self._segments[i, j] = link_segments(self.routes[i], self.routes[j], pairs)
         return self._segments[i, j]
 
     def checkpoint(self) -> int:

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
-from rightofway.precedence.timed_event_graph import Arcs, TimedEventGraph, circuit_of
+from rightofway.precedence.timed_event_graph import Arcs, TimedEventGraph, trace_circuit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -111,7 +111,7 @@ def period_curve(
         """Return the line of the critical circuit at ``x``; None for a deadlock."""
         length = growth.fixed * x.denominator + growth.slope * x.numerator
         try:
-            circuit = circuit_of(len(graph), arcs.stretched(length), time_limit)
+            circuit = trace_circuit(len(graph), arcs.stretched(length), time_limit)
         except ValueError as error:
             raise GaveUp(f"the numbers of this period are too large ({error})") from None
         return None if circuit is None else _line(arcs, growth, circuit.arcs, x, until)

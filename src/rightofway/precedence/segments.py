@@ -114,7 +114,7 @@ def _implying(waits: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
     return implying
 
 
-def linked_segments(
+def link_segments(
     first: Route, other: Route, pairs: Iterable[IncompatiblePair]
 ) -> Mapping[tuple[int, int], Segment]:
     """Return the segment of each pair of incompatible visits of two robots."""
@@ -166,7 +166,7 @@ def crossing(first: Route, i: int, other: Route, j: int) -> Segment:
     return _segment_of(first, other, ((i,), (j,), (i,), (j,)))
 
 
-def shared_segment(first: Route, i: int, other: Route, j: int) -> Segment:
+def find_shared_segment(first: Route, i: int, other: Route, j: int) -> Segment:
     """Return the longest run of vertices around two visits; head-on if it could be both.
 
     Parameters

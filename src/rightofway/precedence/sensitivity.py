@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
-from rightofway.precedence.timed_event_graph import Arcs, Circuit, TimedEventGraph, circuit_of
+from rightofway.precedence.timed_event_graph import Arcs, Circuit, TimedEventGraph, trace_circuit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,7 +64,7 @@ def sensitivity(
     share
         How much of each arc's length it is [ticks]; int64, shape (M,), at most the length.
     tight
-        What `tight_arcs` returns, where several shares are asked for.
+        What `find_tight_arcs` returns, where several shares are asked for.
     time_limit
         For each search [s].
 
@@ -73,7 +73,7 @@ def sensitivity(
     GaveUp
         If time ran out.
     """
-    mask = tight_arcs(graph, time_limit=time_limit) if tight is None else tight
+    mask = find_tight_arcs(graph, time_limit=time_limit) if tight is None else tight
     critical, on_critical = graph.arcs.chosen(mask), share[mask]
 
     def mean(length: NDArray[np.int64]) -> Fraction:
@@ -86,7 +86,9 @@ def sensitivity(
     return Sensitivity(cycle_time=now, gain=gain, loss=loss, until=until, at_best=at_best)
 
 
-def tight_arcs(graph: TimedEventGraph, *, time_limit: float | None = None) -> NDArray[np.bool_]:
+def find_tight_arcs(
+    graph: TimedEventGraph, *, time_limit: float | None = None
+) -> NDArray[np.bool_]:
     """Return a mask of arcs with no slack at the cycle time: all critical circuits are of these.
 
     Parameters
@@ -113,7 +115,7 @@ def tight_arcs(graph: TimedEventGraph, *, time_limit: float | None = None) -> ND
     return np.asarray(times[arcs.head] + arcs.height.astype(np.int64) * period == due)
 
 
-def critical_circuit_without(
+def find_critical_circuit_without(
     graph: TimedEventGraph,
     share: NDArray[np.int64],
     part: Fraction,
@@ -145,7 +147,7 @@ def critical_circuit_without(
 
 
 def _circuit(graph: TimedEventGraph, arcs: Arcs, time_limit: float | None) -> Circuit:
-    circuit = circuit_of(len(graph), arcs, time_limit)
+    circuit = trace_circuit(len(graph), arcs, time_limit)
     assert circuit is not None, "the orders of the graph are live, also with other lengths"
     return circuit
 
@@ -163,7 +165,7 @@ def _reach(
     which one decides there, until it is the first line itself.
     """
     until = Fraction(1)
-    other_circuit = critical_circuit_without(graph, share, until, time_limit=time_limit)
+    other_circuit = find_critical_circuit_without(graph, share, until, time_limit=time_limit)
     at_best = other_circuit.cycle_time
     while other_circuit.cycle_time > now - gain * until:
         arcs = graph.arcs.chosen(other_circuit.arcs)
@@ -171,5 +173,5 @@ def _reach(
         mean = Fraction(int(arcs.length.sum()), height)
         slope = Fraction(int(share[other_circuit.arcs].sum()), height)
         until = (now - mean) / (gain - slope)
-        other_circuit = critical_circuit_without(graph, share, until, time_limit=time_limit)
+        other_circuit = find_critical_circuit_without(graph, share, until, time_limit=time_limit)
     return until, at_best

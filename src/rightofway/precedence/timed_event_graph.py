@@ -380,7 +380,7 @@ class TimedEventGraph:
         GaveUp
             If time ran out.
         """
-        return circuit_of(len(self), self.arcs, time_limit)
+        return trace_circuit(len(self), self.arcs, time_limit)
 
     def earliest(
         self,
@@ -438,7 +438,7 @@ def _ranges(
     return of, np.arange(len(of)) - (np.cumsum(counts) - counts - first)[of]
 
 
-def circuit_of(n_visits: int, arcs: Arcs, time_limit: float | None) -> Circuit | None:
+def trace_circuit(n_visits: int, arcs: Arcs, time_limit: float | None) -> Circuit | None:
     """Return a circuit of the largest mean among arcs between visits; None for deadlock.
 
     Raises

@@ -11,10 +11,10 @@ from rightofway.cyclic import (
     CyclicResult,
     GroupResult,
     LapWait,
-    bottleneck_along,
+    list_visits_along,
     parameter_curves,
     parameter_effects,
-    visits_along,
+    trace_bottleneck,
 )
 from rightofway.errors import GaveUp
 from rightofway.model import Scenario
@@ -200,8 +200,8 @@ def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | Non
                 {"periods": int(graph.arcs.height[list(arcs)].sum()), "pieces": [], "visits": []}
             )
             continue
-        bottleneck = bottleneck_along(graph, arcs)
-        visits = [list(visit) for visit in visits_along(group, pattern, graph, arcs)]
+        bottleneck = trace_bottleneck(graph, arcs)
+        visits = [list(visit) for visit in list_visits_along(group, pattern, graph, arcs)]
         pieces = _steps_data(scenario, bottleneck)
         listed.append({"periods": bottleneck.periods, "pieces": pieces, "visits": visits})
     return data | {"curves": curves, "circuits": listed}

@@ -9,7 +9,7 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.io.plan.writer import outcome_document
 from rightofway.metrics import lost_time, measure, outcome_of, waits
 from rightofway.model import Plan, Scenario
-from rightofway.model.outcome import outcome_of_error
+from rightofway.model.outcome import classify_error
 from rightofway.values import written
 
 
@@ -56,7 +56,7 @@ def summary_data(plan: Plan) -> dict[str, Any]:
 
 def no_plan_data(error: NoPlanExists | GaveUp) -> dict[str, Any]:
     """Return the outcome of a search that found no plan."""
-    return outcome_document(outcome_of_error(error))
+    return outcome_document(classify_error(error))
 
 
 def _rounded(seconds: float | None) -> float | None:

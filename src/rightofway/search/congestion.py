@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import Itinerary, Problem
-from rightofway.model.given import checked_index
+from rightofway.model.given import require_index
 from rightofway.native import bound, find_vertices_near
 from rightofway.search.distances import Distances, Path
 from rightofway.site import VertexId
@@ -107,14 +107,14 @@ class Congestion:
         robot is in the way, this is the path of `Distances`.
         """
         self.distances.checkpoint()
-        checked_index("robot", robot, len(self.problem.itineraries))
+        require_index("robot", robot, len(self.problem.itineraries))
         to_go = self.distances.to(target, self.problem.itineraries[robot].edge_costs)
         route = self._kernel.path(robot, start, target, to_go)
         return tuple(VertexId(vertex) for vertex in route.tolist())
 
     def add(self, robot: int, path: Path) -> None:
         """Have a robot on a path."""
-        oncoming = self._oncoming[checked_index("robot", robot, len(self._oncoming))]
+        oncoming = self._oncoming[require_index("robot", robot, len(self._oncoming))]
         self._kernel.add(np.array(path, np.int32), oncoming)
 
 

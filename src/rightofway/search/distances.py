@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.errors import InputError
 from rightofway.model import Tick
-from rightofway.model.given import checked_index
+from rightofway.model.given import require_index
 from rightofway.site import Roadmap, VertexId
 
 Path = tuple[VertexId, ...]
@@ -90,7 +90,7 @@ class Distances:
         vertices = np.array(path, np.int32)
         if len(path) and not 0 <= vertices.min() <= vertices.max() < self.roadmap.n_vertices:
             k = int(np.argmax((vertices < 0) | (vertices >= self.roadmap.n_vertices)))
-            checked_index(("path", k), path[k], self.roadmap.n_vertices)
+            require_index(("path", k), path[k], self.roadmap.n_vertices)
         edges = self.roadmap.edges(vertices[:-1], vertices[1:])
         ticks = self.ticks_of_edges(edge_ticks)[edges]
         is_open = min(edges.min(initial=0), ticks.min(initial=0)) >= 0
@@ -105,7 +105,7 @@ class Distances:
         self.checkpoint()
         indptr, heads = self.roadmap.indptr, self.roadmap.heads
         table, ticks = self.to(target, edge_ticks), self.ticks_of_edges(edge_ticks)
-        checked_index("start", start, self.roadmap.n_vertices)
+        require_index("start", start, self.roadmap.n_vertices)
         if table[start] < 0:
             raise InputError.at("target", f"{target} cannot be reached from vertex {start}")
         path = [start]

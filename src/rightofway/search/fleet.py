@@ -13,7 +13,7 @@ from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, shown
 from rightofway.model import Problem, Scenario, Tick, Track
-from rightofway.model.given import checked_index, checked_number, checked_scenario, checked_seed
+from rightofway.model.given import checked_scenario, require_index, require_number, require_seed
 from rightofway.native import bound, tracks_of
 
 
@@ -62,9 +62,9 @@ class FleetSearch:
         threads: int | None = None,
         alone: NDArray[np.int64] | None = None,
     ) -> None:
-        n_threads = _cores() if threads is None else checked_number("threads", threads, 0, 1024)
+        n_threads = _cores() if threads is None else require_number("threads", threads, 0, 1024)
         self._core = _core.FleetSearch(
-            bound(problem), checked_seed(seed), n_threads or _cores(), alone
+            bound(problem), require_seed(seed), n_threads or _cores(), alone
         )
         self._n_robots = len(problem.itineraries)
 
@@ -110,7 +110,7 @@ class FleetSearch:
 
     def _robots(self, order: Sequence[int]) -> NDArray[np.int32]:
         for k, robot in enumerate(order):
-            checked_index(("order", k), robot, self._n_robots)
+            require_index(("order", k), robot, self._n_robots)
         return np.array(order, np.int32)
 
     def resume(self, *, searches: int, time_limit: float | None) -> bool:

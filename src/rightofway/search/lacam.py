@@ -18,7 +18,7 @@ from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import Blockage, NoPlanExists
 from rightofway.model import Problem, Track
-from rightofway.model.given import checked_index, checked_seed
+from rightofway.model.given import require_index, require_seed
 from rightofway.native import bound, tracks_of
 from rightofway.phrases import Phrase
 
@@ -72,13 +72,13 @@ def plan_by_lacam(
     """
     native, robots = bound(problem), range(len(problem.itineraries))
     for robot in ends_anywhere:
-        checked_index("ends_anywhere", robot, len(robots))
+        require_index("ends_anywhere", robot, len(robots))
     anywhere = [robot in ends_anywhere for robot in robots] if ends_anywhere else []
     end, first_visit, vertices, enter = _core.plan_by_lacam(
         native,
         np.array(anywhere, np.uint8),
         spreads,
-        checked_seed(seed),
+        require_seed(seed),
         most_effort,
         time_limit,
     )

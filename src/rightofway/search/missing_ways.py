@@ -31,7 +31,7 @@ def _legs_without_a_way(
             yield tail, head
 
 
-def missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blockage]:
+def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blockage]:
     """Yield where robots have no way, and whether parts of the map or one-way edges are why."""
     place, parts, distances = PlaceNames(scenario), RoadmapParts(scenario.roadmap), None
     name_of = scenario.roadmap.name
@@ -94,7 +94,7 @@ class RoadmapParts:
         """Return the part that holds a vertex."""
         if vertex not in self._of:
             ends = [*self.ends, *((head, tail) for tail, head in self.ends)]
-            part = frozenset(reached_vertices(vertex, ends))
+            part = frozenset(find_reached_vertices(vertex, ends))
             self._of.update(dict.fromkeys(part, part))
         return self._of[vertex]
 
@@ -114,12 +114,12 @@ class RoadmapParts:
         if self.searches > MAX_REASONS:
             return None
         ends = self.ends
-        before = reached_vertices(tail, ends)
-        after = reached_vertices(head, [(end, begin) for begin, end in ends])
+        before = find_reached_vertices(tail, ends)
+        after = find_reached_vertices(head, [(end, begin) for begin, end in ends])
         return next((edge for edge in ends if edge[0] in after and edge[1] in before), None)
 
 
-def reached_vertices(
+def find_reached_vertices(
     start: int, ends: Iterable[tuple[int, int]], closed: Collection[int] = ()
 ) -> set[int]:
     """Return the vertices that can be reached along edges, none of them closed."""

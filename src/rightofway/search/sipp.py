@@ -17,7 +17,7 @@ from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp, InputError
 from rightofway.model import NEVER, Problem, Tick, Track, drives_along
-from rightofway.model.given import checked_index
+from rightofway.model.given import require_index
 from rightofway.native import bound, excluded_by
 from rightofway.search.distances import Distances
 
@@ -75,7 +75,7 @@ class Bookings:
 
     def add(self, robot: int, track: Track) -> None:
         """Book all vertices of a track."""
-        checked_index("robot", robot, len(self.problem.itineraries))
+        require_index("robot", robot, len(self.problem.itineraries))
         for row, booking in self.of_track(robot, track):
             self.book(row, booking)
 
@@ -158,7 +158,7 @@ def earliest_track(
     problem = bookings.problem
     if distances.roadmap is not problem.roadmap and distances.roadmap != problem.roadmap:
         raise InputError.at("distances", "are of another roadmap than the bookings")
-    itinerary = problem.itineraries[checked_index("robot", robot, len(problem.itineraries))]
+    itinerary = problem.itineraries[require_index("robot", robot, len(problem.itineraries))]
     tables = [distances.to(stage.vertex, itinerary.edge_ticks) for stage in itinerary.stages]
     end, vertices, enter = _core.earliest_track(
         bound(problem), robot, bookings.table, tables, time_limit

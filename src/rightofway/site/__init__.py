@@ -1,14 +1,20 @@
 """The place that robots drive in: roadmap, zones, walls, lanes and their pieces, places by name."""
 
-from rightofway.site.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
+from rightofway.site.clustering import (
+    Floor,
+    Obstacle,
+    cluster,
+    compute_node_length,
+    compute_steps_per_unit,
+)
 from rightofway.site.edges import Edge, roadmap_of_edges
 from rightofway.site.geometry import (
     Frame,
     Point,
     VertexId,
-    rounding_step,
+    choose_rounding_step,
+    measure_straight_length,
     squared_distance,
-    straight_length,
 )
 from rightofway.site.grid import roadmap_of_grid
 from rightofway.site.roadmap import EdgeClass, Grid, Lane, Roadmap
@@ -24,12 +30,12 @@ __all__ = [
     "Point",
     "Roadmap",
     "VertexId",
+    "choose_rounding_step",
     "cluster",
-    "node_length",
+    "compute_node_length",
+    "compute_steps_per_unit",
+    "measure_straight_length",
     "roadmap_of_edges",
     "roadmap_of_grid",
-    "rounding_step",
     "squared_distance",
-    "steps_per_unit",
-    "straight_length",
 ]

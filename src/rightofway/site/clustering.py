@@ -91,7 +91,7 @@ def _floor_faults(floor: Floor) -> Iterator[InputFault]:
 
 
 @checks_arguments
-def node_length(speeds: Iterable[Fraction]) -> Fraction:
+def compute_node_length(speeds: Iterable[Fraction]) -> Fraction:
     """Return the cell size of node clustering: the least ``1 / v`` of the fleet.
 
     Parameters
@@ -101,7 +101,7 @@ def node_length(speeds: Iterable[Fraction]) -> Fraction:
 
     Examples
     --------
-    >>> node_length([Fraction(1), Fraction(2)])
+    >>> compute_node_length([Fraction(1), Fraction(2)])
     Fraction(1, 2)
     """
     fleet = tuple(speeds)
@@ -111,7 +111,7 @@ def node_length(speeds: Iterable[Fraction]) -> Fraction:
 
 
 @checks_arguments
-def steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
+def compute_steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
     """Return how many cells of that length a robot drives in a unit of time: ``speed / length``.
 
     Parameters
@@ -123,7 +123,7 @@ def steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
 
     Examples
     --------
-    >>> [int(steps_per_unit(Fraction(v), Fraction(1, 2))) for v in (1, 2)]
+    >>> [int(compute_steps_per_unit(Fraction(v), Fraction(1, 2))) for v in (1, 2)]
     [2, 4]
     """
     return speed / length

@@ -13,7 +13,7 @@ from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError
 from rightofway.site.geometry import Frame, VertexId
 from rightofway.site.roadmap import EdgeClass, Lane, Roadmap
-from rightofway.site.zones import NamedZone, zones_of
+from rightofway.site.zones import NamedZone, number_zones
 from rightofway.values import coerced, names, number, optional
 
 
@@ -153,7 +153,7 @@ def roadmap_of_edges(
         labels=tuple(positions),
         frame=frame or Frame(y_up=y_up),
         sides=None if sides is None else np.array(sides, np.float64),
-        zones=zones_of(zones, ids, both_ends, pieces or {}) if zones else (),
+        zones=number_zones(zones, ids, both_ends, pieces or {}) if zones else (),
         lanes=_lanes((pieces or {}).values(), ids),
     )
 

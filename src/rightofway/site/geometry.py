@@ -78,7 +78,7 @@ def squared_distance(tail: Point, head: Point) -> Fraction:
 
 
 @checks_arguments
-def rounding_step(squares: Iterable[Fraction]) -> Fraction:
+def choose_rounding_step(squares: Iterable[Fraction]) -> Fraction:
     """Return the step to which the lengths of a map are rounded up.
 
     Parameters
@@ -94,7 +94,7 @@ def rounding_step(squares: Iterable[Fraction]) -> Fraction:
     return FINE if any(0 < square < 1 for square in squares) else COARSE
 
 
-def straight_length(square: Fraction, step: Fraction = COARSE) -> Fraction:
+def measure_straight_length(square: Fraction, step: Fraction = COARSE) -> Fraction:
     """Return the length of a straight edge, rounded up to a step if it is no fraction.
 
     Parameters
@@ -111,7 +111,7 @@ def straight_length(square: Fraction, step: Fraction = COARSE) -> Fraction:
 
     Examples
     --------
-    >>> straight_length(Fraction(25)), straight_length(Fraction(2))
+    >>> measure_straight_length(Fraction(25)), measure_straight_length(Fraction(2))
     (Fraction(5, 1), Fraction(283, 200))
     """
     if square == 0:

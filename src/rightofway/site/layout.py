@@ -205,7 +205,7 @@ class LevelRoadmap(NamedTuple):
     split: SplitLanes
 
 
-def roadmap_of_level(
+def build_roadmap_of_level(
     level: Level,
     *,
     vehicle_type: str | None = None,

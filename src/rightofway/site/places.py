@@ -104,10 +104,10 @@ def _meant(value: object, roadmap: Roadmap | None) -> str:
             return f"for a point write {Spot(*map(exact, value))}"
         except ValueError:
             pass
-    return f"give {kinds_of_places(roadmap)}"
+    return f"give {list_kinds_of_places(roadmap)}"
 
 
-def kinds_of_places(roadmap: Roadmap | None) -> str:
+def list_kinds_of_places(roadmap: Roadmap | None) -> str:
     """Return how places of a roadmap may be written; None for any roadmap."""
     if roadmap is None:
         return "N<k>, [row, column], {x, y} or a vertex name"

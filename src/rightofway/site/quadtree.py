@@ -75,7 +75,7 @@ class Squares:
             yield f"Q{column}-{row}x{side}" if side > 1 else f"Q{column}-{row}"
 
 
-def squares_of(
+def join_squares(
     free: NDArray[np.bool_], *, largest: int, near: bool, max_squares: int = MAX_CELLS
 ) -> Squares:
     """Join free cells to the largest squares of a balanced quadtree.
@@ -162,7 +162,7 @@ def _halved(blocks: NDArray[Cell]) -> NDArray[Cell]:
     return blocks.repeat(2, axis=0).repeat(2, axis=1)
 
 
-def roadmap_of_squares(
+def build_roadmap_of_squares(
     free: NDArray[np.bool_],
     smallest: Fraction,
     *,
@@ -190,7 +190,9 @@ def roadmap_of_squares(
         raise InputError.at("", f"no free cell in {free.size} (give a smaller one)")
     least = min(radius, smallest / 2)
     near = least**2 <= CLEARANCE * smallest**2
-    squares = squares_of(free, largest=int(largest // smallest), near=near, max_squares=max_squares)
+    squares = join_squares(
+        free, largest=int(largest // smallest), near=near, max_squares=max_squares
+    )
     count = len(squares.side)
     tails, heads, lengths = _edges(squares, y_up=y_up)
     known, class_of_edge = np.unique(lengths, return_inverse=True)

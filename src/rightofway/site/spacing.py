@@ -16,7 +16,7 @@ from rightofway.errors import InputError, shown
 from rightofway.quantities import decimal
 from rightofway.site.crossings import MOST_PIECES, choose_spacing, find_crossed
 from rightofway.site.edges import Edge
-from rightofway.site.geometry import COARSE, Point, squared_distance, straight_length
+from rightofway.site.geometry import COARSE, Point, measure_straight_length, squared_distance
 
 STRAIGHT = 2
 """Points of a straight way: both ends."""
@@ -104,7 +104,7 @@ def split_lanes(
             points, own = drawings[lane], longest_piece.get(lane)
             if is_drawn and own is not None and longest[lane] > own:
                 _refuse_winding(edge, points, longest[lane], own)
-            lengths = lengths_along(points) if len(points) > STRAIGHT else [longest[lane]]
+            lengths = measure_lengths_along(points) if len(points) > STRAIGHT else [longest[lane]]
             inside, parts = _cuts(points, lengths, own)
             names = _joint_names(edge, len(inside))
             taken = next((name for name in names if name in places), None)
@@ -243,12 +243,12 @@ def _lane(edge: Edge, curves: Mapping[tuple[str, str], tuple[Point, ...]]) -> _E
     return frozenset(ends) if forward == back[::-1] else ends
 
 
-def lengths_along(points: Sequence[Point]) -> list[Fraction]:
+def measure_lengths_along(points: Sequence[Point]) -> list[Fraction]:
     """Return the lengths of the straight parts of a curve, each rounded up [length unit].
 
     Parts that differ by rounding only get one length, so that a tick need not be short.
     """
-    parts = [straight_length(squared_distance(*ends)) for ends in pairwise(points)]
+    parts = [measure_straight_length(squared_distance(*ends)) for ends in pairwise(points)]
     longest = max(parts)
     return [longest] * len(parts) if longest - min(parts) <= 2 * COARSE else parts
 
@@ -266,7 +266,7 @@ def _cuts(
     return inside[:-1], parts
 
 
-def pieces_by_name(
+def find_pieces(
     names: Collection[str], edges: Collection[tuple[str, str]]
 ) -> dict[tuple[str, str], list[tuple[str, str]]]:
     """Return the pieces of lanes that were split before a file was written, from their names.
@@ -278,7 +278,7 @@ def pieces_by_name(
 
     Examples
     --------
-    >>> pieces_by_name(["A", "B", "A-B/1"], {("A", "A-B/1"), ("A-B/1", "B"), ("B", "A")})
+    >>> find_pieces(["A", "B", "A-B/1"], {("A", "A-B/1"), ("A-B/1", "B"), ("B", "A")})
     {('A', 'B'): [('A', 'A-B/1'), ('A-B/1', 'B')]}
     """
     joints: dict[str, list[str]] = {}

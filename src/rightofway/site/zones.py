@@ -45,7 +45,7 @@ class NamedZone:
     edges: tuple[tuple[str, str], ...] = ()
 
 
-def zones_of(
+def number_zones(
     named: Collection[NamedZone],
     ids: Mapping[str, int],
     edges: Collection[tuple[str, str]],

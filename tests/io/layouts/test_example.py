@@ -10,7 +10,7 @@ from PIL import Image
 
 from rightofway.io import example_of_layout, load
 from rightofway.io.text import parse_yaml
-from rightofway.metrics.connectivity import strong_parts, ways_of
+from rightofway.metrics.connectivity import find_strong_parts, list_ways
 from rightofway.site import Edge, Roadmap, roadmap_of_edges
 from rightofway.solve import solve
 
@@ -77,6 +77,6 @@ def roadmap(*edges: str) -> Roadmap:
 )
 def test_the_largest_part_holds_vertices_that_reach_each_other(edges: list[str], part: str) -> None:
     found = roadmap(*edges)
-    names = "".join(found.name(vertex) for vertex in strong_parts(ways_of(found))[0])
+    names = "".join(found.name(vertex) for vertex in find_strong_parts(list_ways(found))[0])
     assert len(names) == len(part)
     assert names == part or len(part) == 1

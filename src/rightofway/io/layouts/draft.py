@@ -13,7 +13,12 @@ from rightofway.errors import InputError, is_printable, nearest, shown
 from rightofway.io.faults import Faults
 from rightofway.io.source import LONGEST_NAME, Source
 from rightofway.site.drawing import Picture
-from rightofway.site.geometry import Point, rounding_step, squared_distance, straight_length
+from rightofway.site.geometry import (
+    Point,
+    choose_rounding_step,
+    measure_straight_length,
+    squared_distance,
+)
 from rightofway.site.layout import Layout, LayoutEdge, LayoutVertex, Level, Station
 from rightofway.site.zones import NamedZone
 
@@ -114,7 +119,7 @@ class _Straight(dict[int, Fraction]):
         self.step = step
 
     def __missing__(self, square: int) -> Fraction:
-        self[square] = length = straight_length(Fraction(square, MICRO**2), self.step)
+        self[square] = length = measure_straight_length(Fraction(square, MICRO**2), self.step)
         return length
 
 
@@ -174,7 +179,7 @@ class LayoutDraft:
             for lane in limit_loop(level.lanes, READING)
         ]
         nearest_ends = min((square for square in squares if square), default=0)
-        straight = _Straight(rounding_step([Fraction(nearest_ends, MICRO**2)]))
+        straight = _Straight(choose_rounding_step([Fraction(nearest_ends, MICRO**2)]))
         no_lengths = self._no_lengths(level.lanes, squares)
         for lane, square in limit_loop(zip(level.lanes, squares, strict=True), READING):
             if lane.attribute in no_lengths:
@@ -254,11 +259,12 @@ class LayoutDraft:
             return edge
         points = [at for at, _ in groupby((ends[0], *lane.curve[1:-1], ends[1]))]
         squares = [squared_distance(*pair) for pair in pairwise(points)]
-        step = rounding_step(squares)
+        step = choose_rounding_step(squares)
         return replace(
             edge,
             length=max(
-                edge.length, sum((straight_length(square, step) for square in squares), Fraction(0))
+                edge.length,
+                sum((measure_straight_length(square, step) for square in squares), Fraction(0)),
             ),
             shape=tuple(points[1:-1]),
             chord_error=lane.chord_error,

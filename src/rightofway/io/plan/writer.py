@@ -13,7 +13,7 @@ from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.scenario.writer import dump_scenario
 from rightofway.io.text import json_text
 from rightofway.model import Decision, Outcome, Plan, PlannerRun, Scenario, SteadyState
-from rightofway.model.given import checked_plan, checked_truths
+from rightofway.model.given import checked_plan, require_truths
 from rightofway.phrases import parts_of
 from rightofway.values import written
 
@@ -34,7 +34,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     InputError
         If a track leads through a vertex that the roadmap does not have.
     """
-    checked_truths(seconds=seconds)
+    require_truths(seconds=seconds)
     scenario = checked_plan(plan).scenario
     n_vertices = scenario.roadmap.n_vertices
     for index, track in enumerate(plan.tracks):

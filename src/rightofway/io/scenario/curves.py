@@ -19,7 +19,7 @@ from rightofway.errors import InputError
 from rightofway.io.layouts.draft import MICRO
 from rightofway.io.layouts.nurbs import bezier
 from rightofway.site import Point
-from rightofway.site.spacing import lengths_along
+from rightofway.site.spacing import measure_lengths_along
 
 ERROR = Fraction(1, 2000)
 """How far the pieces may be from their curve, in parts of the way along its control points."""
@@ -69,7 +69,7 @@ def lane_curve(tail: Point, controls: Sequence[Point], head: Point) -> LaneCurve
     return LaneCurve(
         controls=tuple(controls),
         points=tuple(points[1:-1]),
-        length=sum(lengths_along(points), Fraction(0)),
+        length=sum(measure_lengths_along(points), Fraction(0)),
         error=error,
     )
 

@@ -17,7 +17,7 @@ from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.writer import yaml_of
 from rightofway.io.text import json_text
-from rightofway.metrics.connectivity import strong_parts, ways_of
+from rightofway.metrics.connectivity import find_strong_parts, list_ways
 from rightofway.quantities import Units
 from rightofway.site import roadmap_of_grid
 from rightofway.site.layout import Layout, Level
@@ -101,7 +101,7 @@ def _cell_size(occupancy: Occupancy, radius: Fraction) -> str:
         except InputError:  # no whole cell, none that is free, or cells below a pixel
             continue
         fitting.append(size)
-        if len(strong_parts(ways_of(roadmap))[0]) >= LARGE:
+        if len(find_strong_parts(list_ways(roadmap))[0]) >= LARGE:
             return size
     return fitting[0] if fitting else CELL_SIZES[0]
 
@@ -109,7 +109,7 @@ def _cell_size(occupancy: Occupancy, radius: Fraction) -> str:
 def _robots(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[dict[str, Any]]:
     """Return robots with homes and targets in the largest part whose vertices reach each other."""
     roadmap = loaded.roadmap
-    part = strong_parts(ways_of(roadmap))[0]
+    part = find_strong_parts(list_ways(roadmap))[0]
     inside, stations, parking = set(part), dict[int, str](), list[int]()
     if level is not None:
         ids = {roadmap.name(vertex): vertex for vertex in part}

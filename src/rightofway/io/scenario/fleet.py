@@ -25,7 +25,7 @@ from rightofway.io.tables import CellDocument, robots_of_csv
 from rightofway.model import Robot, Stop
 from rightofway.model.robot import ROBOT_ATTRIBUTES
 from rightofway.site import VertexId
-from rightofway.site.places import as_place, kinds_of_places
+from rightofway.site.places import as_place, list_kinds_of_places
 
 if TYPE_CHECKING:
     from rightofway.io.fields import Document
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 DEFAULT_SPEED = Fraction(1)
 
-HOME = f"the place it starts from: {kinds_of_places(None)}"
+HOME = f"the place it starts from: {list_kinds_of_places(None)}"
 
 
 def robots_in_table(data: dict[str, Any], base: Path | None) -> CellDocument:

@@ -19,9 +19,9 @@ from rightofway.io.scenario.loaded_map import (
 from rightofway.quantities import Units
 from rightofway.site import roadmap_of_grid
 from rightofway.site.drawing import Drawing
-from rightofway.site.layout import Layout, roadmap_of_level
+from rightofway.site.layout import Layout, build_roadmap_of_level
 from rightofway.site.occupancy import CellMap, Occupancy
-from rightofway.site.quadtree import MAX_SMALLEST, roadmap_of_squares
+from rightofway.site.quadtree import MAX_SMALLEST, build_roadmap_of_squares
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import MapDocument
@@ -51,7 +51,7 @@ def map_of_layout(
     if isinstance(layout, Layout):
         _refuse(document, "a layout of lanes", "cell_size", "smallest", "largest", "unknown")
         level = layout.level(document.level)
-        level_map = roadmap_of_level(
+        level_map = build_roadmap_of_level(
             level,
             vehicle_type=document.vehicle_type,
             robot_types=fleet.types,
@@ -139,7 +139,7 @@ def _map_of_squares(
         key="smallest",
     )
     corner = (occupancy.origin[0] / metres, occupancy.origin[1] / metres)
-    roadmap = roadmap_of_squares(
+    roadmap = build_roadmap_of_squares(
         free,
         smallest,
         largest=document.largest,

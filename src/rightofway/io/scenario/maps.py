@@ -31,18 +31,18 @@ from rightofway.site import (
     Point,
     Roadmap,
     VertexId,
+    choose_rounding_step,
     cluster,
-    node_length,
+    compute_node_length,
+    measure_straight_length,
     roadmap_of_edges,
     roadmap_of_grid,
-    rounding_step,
     squared_distance,
-    straight_length,
 )
 from rightofway.site.clustering import MAX_CELLS, free_cells
 from rightofway.site.drawing import Drawing
-from rightofway.site.quadtree import MAX_SMALLEST, roadmap_of_squares
-from rightofway.site.spacing import SplitLanes, pieces_by_name, refuse_many_pieces, split_lanes
+from rightofway.site.quadtree import MAX_SMALLEST, build_roadmap_of_squares
+from rightofway.site.spacing import SplitLanes, find_pieces, refuse_many_pieces, split_lanes
 from rightofway.site.zones import NamedZone
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ def _map_of_floor(
     if not isinstance(cell_size, Fraction):
         if not speeds:
             return None
-        cell_size = node_length(speeds)
+        cell_size = compute_node_length(speeds)
     lines = cluster(floor, cell_size, max_cells=document.floor.max_cells or MAX_CELLS)
     origin = document.origin
     if document.y_up:
@@ -167,12 +167,12 @@ def _map_of_squares(
     if not smallest:
         if not speeds:
             return None
-        smallest = node_length(speeds)
+        smallest = compute_node_length(speeds)
     with under("floor"):
         floor = _floor(document.floor, document)
     free = free_cells(floor, smallest, max_cells=MAX_SMALLEST, key="smallest")
     origin = document.origin or (Fraction(0), Fraction(0) if document.y_up else floor.height)
-    roadmap = roadmap_of_squares(
+    roadmap = build_roadmap_of_squares(
         free,
         smallest,
         largest=document.largest,
@@ -220,7 +220,7 @@ def _map_of_roadmap(
         and edge.tail in positions
         and edge.head in positions
     }
-    step = rounding_step(squares.values())
+    step = choose_rounding_step(squares.values())
     for index, edge in enumerate(limit_loop(document.edges, READING)):
         place, square = ("edges", index), squares.get(index)
         lane_length = faults.attempt(place, _length, edge, positions, square, step)
@@ -265,7 +265,7 @@ def _map_of_roadmap(
         split = split_lanes(positions, edges, on.longest_piece, shapes, distance=distance)
     written_pieces = {
         ends: [part for piece in pieces for part in split.pieces.get(piece, (piece,))]
-        for ends, pieces in pieces_by_name(
+        for ends, pieces in find_pieces(
             positions, {(edge.tail, edge.head) for edge in edges}
         ).items()
     }
@@ -374,7 +374,7 @@ def _length(
         faults.note("", f"leads from {edge.tail!r} to itself (take it out)")
     faults.stop()
     if edge.curve is None:
-        return edge.length or straight_length(square or Fraction(0), step), None
+        return edge.length or measure_straight_length(square or Fraction(0), step), None
     with under("curve"):
         curve = lane_curve(positions[edge.tail], edge.curve, positions[edge.head])
     return edge.length or curve.length, curve

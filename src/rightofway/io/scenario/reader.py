@@ -29,7 +29,7 @@ from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.picture import with_picture
 from rightofway.model import Rules, Scenario
-from rightofway.model.closures import Closure, closure_faults
+from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 from rightofway.quantities import Units
 from rightofway.site import Roadmap
@@ -172,7 +172,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
             edge=None if document.edge is None else (document.edge[0], document.edge[1]),
             **document.given("from_", "until", "radius"),
         )
-        for fault in closure_faults(closure, on.roadmap):
+        for fault in find_closure_faults(closure, on.roadmap):
             faults.add([fault.within(index)])
         closures.append(closure)
     faults.stop()

@@ -34,11 +34,11 @@ from rightofway.io.fields import (
     with_attributes,
 )
 from rightofway.model import Robot, Rules
-from rightofway.model.resources import circle_around
+from rightofway.model.resources import circumscribe
 from rightofway.quantities import LengthUnit, TimeUnit
-from rightofway.site.places import kinds_of_places
+from rightofway.site.places import list_kinds_of_places
 
-PLACES = kinds_of_places(None)
+PLACES = list_kinds_of_places(None)
 BARRED = "a list of types of robots that may not use it"
 WORK = "work time there [time unit], 0 by default"
 
@@ -357,7 +357,7 @@ class RobotDocument(Document):
 
     def own(self, owner: type) -> dict[str, Any]:
         """Return the attributes that were written; a size as the radius of the circle around it."""
-        size = {} if self.size is None else {"radius": circle_around(*self.size)}
+        size = {} if self.size is None else {"radius": circumscribe(*self.size)}
         return super().own(owner) | size
 
 

@@ -12,7 +12,7 @@ from rightofway.files import path_of, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.text import json_text
 from rightofway.model import Robot, Scenario
-from rightofway.model.attributes import plain_attributes
+from rightofway.model.attributes import list_plain_attributes
 from rightofway.model.given import checked_scenario
 from rightofway.quantities import Units
 from rightofway.site import EdgeClass, Roadmap, VertexId
@@ -40,7 +40,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
         "map": _map(roadmap) | _spacing(scenario),
         **_units(scenario.units),
         "robots": [_robot(robot, roadmap) for robot in scenario.robots],
-        "rules": plain_attributes(scenario.rules),
+        "rules": list_plain_attributes(scenario.rules),
         **_closures(scenario),
     }
 
@@ -255,5 +255,5 @@ def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
         "name": robot.name,
         "home": roadmap.name(robot.home),
         **trip,
-        **plain_attributes(robot),
+        **list_plain_attributes(robot),
     }

@@ -15,7 +15,7 @@ from rightofway.io.fields import positive
 from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.shape import MapDocument, UnitsDocument
-from rightofway.metrics.connectivity import strong_parts, ways_of
+from rightofway.metrics.connectivity import find_strong_parts, list_ways
 from rightofway.quantities import Units
 from rightofway.site import Roadmap
 from rightofway.studio.messages import Blobs, Emit
@@ -44,7 +44,7 @@ def dealt(
     with under("speeds"):
         rates = [_speed(speed) for speed in speeds]
     roadmap = _roadmap(document, folder, rates)
-    part = strong_parts(ways_of(roadmap))[0]
+    part = find_strong_parts(list_ways(roadmap))[0]
     if robots > len(part):
         message = (
             f"{robots} are more than the {len(part)} places that reach each other (give fewer)"

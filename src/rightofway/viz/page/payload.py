@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from rightofway.arguments import checks_arguments
 from rightofway.check import Report
 from rightofway.check.faults import FAULT_NAMES
-from rightofway.cyclic import pieces_of_plan
+from rightofway.cyclic import list_pieces_of_plan
 from rightofway.errors import InputError, NoPlanExists, shown
-from rightofway.metrics import Metrics, compare, joined_waits, lost_time, measure
+from rightofway.metrics import Metrics, compare, join_waits, lost_time, measure
 from rightofway.model import (
     Decision,
     ExecutionTrace,
@@ -337,7 +337,7 @@ def _steady(plan: Plan, steady: Sequence[SteadyState], book: PhraseBook) -> list
             "until": min(_until(group, plan.tracks[robot]) for robot in group.robots),
             "critical": list(group.critical),
         }
-        if pieces := pieces_of_plan(plan, group):
+        if pieces := list_pieces_of_plan(plan, group):
             short = summarize_circuit(pieces, plan.scenario, group.period)
             data["bottleneck"] = (
                 book.add(short),
@@ -414,7 +414,7 @@ def _execution(
         "robots": robots,
         "losses": [
             _loss(loss, book.add(describe_executed_loss(words, loss, unplanned(loss))))
-            for loss in joined_waits(plan.scenario, actual.tracks, stays)
+            for loss in join_waits(plan.scenario, actual.tracks, stays)
         ],
     }
 

@@ -15,7 +15,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.model import Plan
-from rightofway.model.given import checked_truths
+from rightofway.model.given import require_truths
 from rightofway.values import at, between, optional, whole_number
 from rightofway.viz.palette import LIGHT, Theme
 from rightofway.viz.raster.canvas import Pen, Point, Scene
@@ -68,7 +68,7 @@ def png_of(
     InputError
         For a tick below 0, or a scale that makes the picture empty or too large to draw.
     """
-    checked_truths(diagram=diagram)
+    require_truths(diagram=diagram)
     tick = at("tick", optional(whole_number), tick)
     if tick is not None and tick < 0:
         raise InputError.at("tick", f"{tick} is negative (give 0 or more)")

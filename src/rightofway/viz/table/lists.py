@@ -107,7 +107,7 @@ def collision_list(
     Parameters
     ----------
     collisions
-        The rows of `named_collisions`.
+        The rows of `name_collisions`.
     quantities
         How times are written.
     title
@@ -136,7 +136,7 @@ def collision_ticks(
     Parameters
     ----------
     collisions
-        The rows of `named_collisions`.
+        The rows of `name_collisions`.
     quantities
         How times are written.
     end

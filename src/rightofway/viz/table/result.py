@@ -12,7 +12,7 @@ from typing import Any
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.extras import needed
 from rightofway.files import archive_of, write_whole
-from rightofway.metrics import free_running, lost_time, measure, named_collisions
+from rightofway.metrics import free_running, lost_time, measure, name_collisions
 from rightofway.model import Plan
 from rightofway.viz.motion import Phase, trips_of
 from rightofway.viz.palette import robot_colours
@@ -77,8 +77,8 @@ def result_of(plan: Plan) -> bytes:
     except InputError as error:
         left_out.append(("time and space", f"is left out: {error.faults[0].message}"))
     quantities = plan.scenario.quantities
-    free = named_collisions(plan.scenario, free_running(plan))
-    left = named_collisions(plan.scenario, plan.tracks)
+    free = name_collisions(plan.scenario, free_running(plan))
+    left = name_collisions(plan.scenario, plan.tracks)
     for listing in (
         event_list(plan),
         collision_list(free, quantities),
