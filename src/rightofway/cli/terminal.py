@@ -46,7 +46,9 @@ def speak_utf8() -> None:
 def choose_deadline(seconds: float | None) -> Deadline:
     """Return when a command has to end: the limit counts from the beginning of its process."""
     began = getattr(click.get_current_context().find_root().obj, "began", None)
-    return Deadline(None if seconds is None else (began or time.monotonic()) + seconds)
+    if seconds is None or began is None:
+        return Deadline.after(seconds)
+    return Deadline(began + seconds)
 
 
 def quiet() -> bool:
