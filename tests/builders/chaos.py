@@ -771,6 +771,8 @@ def _detour(scenario: Scenario, draw: random.Random, route: RouteToDrive, end: i
 def _out_and_back(roadmap: Roadmap, vertex: int, draw: random.Random) -> list[int]:
     """Return a way to a neighbour and back; nothing if none leads back."""
     heads = roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist()
+    if not heads:
+        return []
     neighbour = draw.choice(heads)
     return [neighbour, vertex] if roadmap.edge(neighbour, vertex) is not None else []
 
