@@ -556,10 +556,10 @@ class _World:
             if self.control.ledger.robots[robot].fault is not None:
                 self.counts["cleared"] += 1
                 self.call(partial(self.control.clear, robot))
+            self._decide(robot)  # a state with a wrong field may say FAILED, too
             if self.chaos.people:
                 self.conditions[robot] = Condition()
                 self.call(partial(self.control.hold, robot, on=False))
-                self._decide(robot)
                 if self.control.ledger.robots[robot].is_off:
                     self._put(robot)
 
