@@ -260,6 +260,7 @@ class _World:
         self.journal.kill = lambda: self._happens(self.chaos.kills / 4)
         self.laps = LapsToDrive(plan) if chaos.laps else None
         self.is_calm = False
+        self.refused: dict[int, set[str]] = {}  # vertices at which a robot could not be put
         self.conditions = [Condition() for _ in self.robots]
         self.observer = Observer(plan.scenario, self.robots)
         self._begin()
@@ -364,9 +365,14 @@ class _World:
                 for own, goal in zip(robots, self.goals, strict=True)
             )
         return all(
-            own.arrived == own.route.end - 1 and own.finished >= own.route.all_jobs()
-            for own in robots
+            (own.arrived == own.route.end - 1 and own.finished >= own.route.all_jobs())
+            or (own.is_off and self._has_no_place(robot))
+            for robot, own in enumerate(robots)
         )
+
+    def _has_no_place(self, robot: int) -> bool:
+        """Whether no plan of the rest was found from any vertex, with nothing else going on."""
+        return len(self.refused.get(robot, ())) == self.scenario.roadmap.n_vertices
 
     def _event(self) -> None:
         chaos, robot = self.chaos, self.draw.randrange(len(self.robots))
@@ -529,6 +535,7 @@ class _World:
         real, roadmap = self.robots[robot], self.scenario.roadmap
         self.orders[robot].clear()
         real.forget()
+        self.refused.setdefault(robot, set())
         for _ in range(5):
             place = roadmap.name(self.draw.randrange(roadmap.n_vertices))
             before, real.place = real.place, place
@@ -537,6 +544,8 @@ class _World:
                 self.call(partial(self.dispatcher.place_robot, name, place))
             except (GaveUp, InputError):
                 self.counts["not placed"] += 1
+                if self.is_calm:
+                    self.refused[robot].add(place)
             if not self.control.ledger.robots[robot].is_off:
                 return
             real.place = before
@@ -675,7 +684,7 @@ class Observer:
             done = self._done(robot)
             if own.jobs_done > done.total():
                 raise Fault(f"robot {robot} has done {done.total()} jobs, not {own.jobs_done}")
-            if is_endless:
+            if is_endless or own.is_off:
                 continue
             skipped = {job for other, job in self.withdrawn if other == robot}
             wanted = own.route.all_jobs() - skipped
