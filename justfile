@@ -84,7 +84,7 @@ kills count:
 judge count *args:
     python -m tests.campaigns.plans judge {{ count }} {{ args }}
 
-# Compare plans of random fleets with lower bounds
+# Compare plans of random fleets with all lower bounds that are proven of them: ten thousand take minutes
 bounds count *args:
     python -m tests.campaigns.plans bound {{ count }} {{ args }}
 

@@ -24,7 +24,8 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 import rightofway
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.io import plan_text, scenario_text
-from rightofway.model import Plan, Scenario
+from rightofway.metrics import outcome_of
+from rightofway.model import Objective, Plan, Scenario, Tick
 from rightofway.planners.bounds import prove_bound
 from rightofway.precedence import ReleaseGraph
 from tests.builders.any_fleet import any_fleet
@@ -72,12 +73,16 @@ class Round:
         except Exception:  # noqa: BLE001 (whatever it is, it is a finding)
             self.find(traceback.format_exc(), scenario)
 
-    def plan(self, scenario: Scenario, planner: str, seed: int) -> Plan | None:
+    def plan(self, scenario: Scenario, planner: str, seed: int, **options: str) -> Plan | None:
         """Return a plan, None where there is none; count it."""
         began = time.perf_counter()
         try:
             found: Plan | None = rightofway.solve(
-                scenario, planner, time_limit=SLOW, seed=seed, options=QUICK.get(planner)
+                scenario,
+                planner,
+                time_limit=SLOW,
+                seed=seed,
+                options={**QUICK.get(planner, {}), **options},
             )
             self.counts[f"plans of {planner}"] += 1
         except NoPlanExists:
@@ -139,25 +144,53 @@ def _judge_broken(plan: Plan, into: Round, *, by_both: bool) -> None:
         into.find(f"check: {sorted(by_check)}; second judge: {sorted(by_the_other)}", plan)
 
 
+PROVERS: list[tuple[str, dict[str, str]]] = [
+    *((planner, {}) for planner in STRICT),
+    ("cbs", {"objective": "makespan"}),
+]
+"""Planners and options whose plans have a proven bound."""
+
+
 def bound(scenario: Scenario, chance: int, into: Round) -> None:
-    """Compare plans of all planners with lower bounds, by few steps or by many."""
+    """Compare plans of all planners with all that is proven of the fleet, by few steps or many."""
     steps = random.Random(chance).choice([1, 10, 100])  # noqa: S311
-    for planner in STRICT:
-        if not knows(planner, scenario):
+    plans: list[Plan] = []
+    proofs: list[tuple[str, Tick, Objective]] = []
+    impossible = []
+    for planner, options in PROVERS:
+        is_refused = "objective" in options and scenario.roadmap.has_surcharges
+        if is_refused or not knows(planner, scenario):
             continue
         with into.unless_it_fails(scenario):
             try:
-                plan = into.plan(scenario, planner, chance)
-                if plan is None:
-                    continue
-                proof, _ = prove_bound(scenario, nodes=steps, steps=steps)
+                plan = into.plan(scenario, planner, chance, **options)
             except NoPlanExists:
+                impossible.append(planner)
                 continue
-            into.counts["judged"] += 1
-            cost = proof.objective.of(scenario, plan.tracks)
-            if cost < proof.bound:
-                into.counts["above a plan"] += 1
-                into.find(f"{planner}: bound {proof.bound}, but the plan costs {cost}", plan)
+            if plan is not None:
+                outcome = outcome_of(plan)
+                plans.append(plan)
+                proofs.append((planner, outcome.bound or Tick(0), outcome.objective))
+    with into.unless_it_fails(scenario):
+        try:
+            proof, _ = prove_bound(scenario, nodes=steps, steps=steps)
+            proofs.append(("bound", proof.bound, proof.objective))
+        except NoPlanExists:
+            impossible.append("bound")
+    into.counts.update({"bounds": len(proofs), "judged": len(plans)})
+    for plan in plans:
+        if impossible:
+            into.find(f"{impossible} prove that there is no plan", plan)
+        _compare(plan, proofs, into)
+
+
+def _compare(plan: Plan, proofs: list[tuple[str, Tick, Objective]], into: Round) -> None:
+    for prover, least, objective in proofs:
+        cost = objective.of(plan.scenario, plan.tracks)
+        into.counts["comparisons"] += 1
+        if cost < least:
+            into.counts["above a plan"] += 1
+            into.find(f"{prover} proves {least}, but {plan.run.name} has {cost}", plan)
 
 
 def delay(scenario: Scenario, chance: int, into: Round) -> None:

@@ -8,7 +8,10 @@ import sys
 
 import pytest
 
+from rightofway import FleetBuilder
+from rightofway.model import Proof, Tick
 from tests.builders.brokers import MOSQUITTO
+from tests.campaigns import plans
 
 
 def said_by(*words: str) -> str:
@@ -17,12 +20,26 @@ def said_by(*words: str) -> str:
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
-@pytest.mark.parametrize("campaign", ["judge", "delay", "chaos"])
+@pytest.mark.parametrize("campaign", ["judge", "delay", "chaos", "bound"])
 def test_plans_are_judged_by_the_hundred(campaign: str) -> None:
     last = said_by("tests.campaigns.plans", campaign, "200").splitlines()[-1]
     judged = re.match(rf"{campaign}: (\d+) judged, 0 findings", last)
     assert judged, last
     assert int(judged[1]) >= 200
+
+
+def test_a_bound_above_a_plan_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One tick more than is true on a line, where plans cost what the robot needs alone."""
+    fleet = FleetBuilder(grid=["..."], rules="classic")
+    fleet.add_robot("R1", home=[0, 0], target=[0, 2])
+    into = plans.Round()
+    plans.bound(fleet.scenario(), 0, into)
+    assert into.findings == []
+    false = (Proof(bound=Tick(3)), True)
+    monkeypatch.setattr(plans, "prove_bound", lambda *_, **__: false)
+    plans.bound(fleet.scenario(), 0, into)
+    found = [what for what, *_ in into.findings]
+    assert found == [f"bound proves 3, but {planner} has 2" for planner, _ in plans.PROVERS]
 
 
 def test_a_studio_that_is_killed_loses_nothing() -> None:
