@@ -15,6 +15,9 @@ lint: node-modules
     npx --no prettier -- --log-level warn --check {{ scripts }}
     npx --no eslint -- --max-warnings 0 .
     npx --no knip -- --include files,exports,duplicates,unresolved --no-config-hints
+    check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
+    check-jsonschema --builtin-schema vendor.dependabot .github/dependabot.yml
+    zizmor --offline --quiet .github
 
 # Bring everything into the house style
 format: node-modules
