@@ -28,7 +28,7 @@ from rightofway.io import scenario_of
 from rightofway.metrics import measure
 from rightofway.model import Scenario
 from rightofway.site import Roadmap
-from rightofway.site.places import Spot, vertex_at
+from rightofway.site.places import Spot, find_vertex_at
 
 MAPS = DOCS.parent / "examples" / "maps"
 PAGE = DOCS / "layouts" / "ros-map.md"
@@ -95,7 +95,7 @@ def points() -> tuple[list[Spot], Roadmap]:
         heads = roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist()
         ahead.extend(head for head in heads if head not in reached)
         reached.update(heads)
-    return [Spot(*roadmap.point(each)) for each in sorted(reached)], scenario(
+    return [Spot(*roadmap.get_point(each)) for each in sorted(reached)], scenario(
         COARSER[-1], [(start, start)]
     ).roadmap
 
@@ -105,7 +105,7 @@ def fleet(spots: Sequence[Spot], coarse: Roadmap, robots: int, seed: int) -> End
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
     taken: dict[int, Spot] = {}
     for spot in draw.sample(spots, len(spots)):
-        taken.setdefault(vertex_at(coarse, spot), spot)
+        taken.setdefault(find_vertex_at(coarse, spot), spot)
         if len(taken) == 2 * robots:
             break
     chosen = list(taken.values())

@@ -114,7 +114,7 @@ def measured(path: Path) -> None:
     begin = time.process_time()
     found = read_layout(path)
     if not isinstance(found, Layout):
-        found.cells(Fraction(1, 2), radius=Fraction(1, 3))  # type: ignore[union-attr]
+        found.cut_cells(Fraction(1, 2), radius=Fraction(1, 3))  # type: ignore[union-attr]
     report = f"{path.name}: {time.process_time() - begin:.2f} s, {_peak():.0f} MB"
     if isinstance(found, Layout):
         one, other, *_ = (vertex.name for vertex in found.levels[0].vertices)

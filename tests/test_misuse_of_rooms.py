@@ -69,7 +69,7 @@ STEPS = {
         "find_tight_arcs",
     },
     "quantities": {"decimal"},
-    "site": {"squared_distance", "measure_straight_length"},
+    "site": {"measure_squared_distance", "measure_straight_length"},
 }
 """Steps of planners and of messages, taken for each robot or visit with what the package has made:
 they check nothing. This list may only grow shorter."""

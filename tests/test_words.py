@@ -120,8 +120,8 @@ FIRST_WORDS = """
     execute explain export extract fail fill find finish finishes flip flush follow forget free get
     give go goes handle hang happens has have hold holds improve inline insert inspect is join judge
     keep keeps kill lay limit link list listen load locate make map may measure mix name need note
-    obey open order owns parse pass pause perturb place plan prepare prioritize prove put reach
-    reaches read receive recognizes refuse release relocate remind remove rename repair repeat
+    number obey open order owns parse pass pause perturb place plan prepare prioritize prove put
+    reach reaches read receive recognizes refuse release relocate remind remove rename repair repeat
     replan replay report require reroute reset resolve restore resume retime retry reverse rollback
     round run save say scale search send serve set sets settle share show simulate skip solve speak
     splice split spread start stay step stop stream stretch submit summarize survey switch take tell
@@ -161,7 +161,6 @@ NOUNS = {
     "quantities": 9,
     "report": 16,
     "search": 17,
-    "site": 25,
     "studio": 79,
     "values": 18,
     "viz": 71,

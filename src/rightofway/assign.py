@@ -12,7 +12,7 @@ from fractions import Fraction
 
 from rightofway.errors import InputError, listed
 from rightofway.model import Robot, Rules, Tick
-from rightofway.site import Roadmap, VertexId, squared_distance
+from rightofway.site import Roadmap, VertexId, measure_squared_distance
 
 __all__ = ["HOMELESS", "deal_homes"]
 
@@ -109,7 +109,7 @@ def _apart(roadmap: Roadmap, first: Robot, other: Robot, clearance: Fraction) ->
         return False
     if not first.radius and not other.radius:
         return True
-    square = squared_distance(*map(roadmap.point, places))
+    square = measure_squared_distance(*map(roadmap.get_point, places))
     return square >= (first.radius + other.radius + clearance) ** 2
 
 

@@ -105,7 +105,7 @@ def vertex(value: object) -> int:
         return int(value)
     raise ValueError(
         f"{shown(value)} is no vertex number"
-        " (give roadmap.vertex(name), or build the fleet with FleetBuilder, which takes names)"
+        " (give roadmap.get_vertex(name), or build the fleet with FleetBuilder, which takes names)"
     )
 
 

@@ -553,7 +553,7 @@ class _World:
     def _any_place(self, at: str) -> tuple[str, ...]:
         """Return a vertex, or both ends of a lane that leaves it."""
         roadmap = self.scenario.roadmap
-        vertex = roadmap.vertex(at)
+        vertex = roadmap.get_vertex(at)
         heads = roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist()
         return (at, roadmap.name(self.draw.choice(heads))) if self._chance(0.5) and heads else (at,)
 
@@ -745,7 +745,7 @@ def _timed(route: RouteToDrive, robot: int, end: int, order: Sequence[Part]) -> 
 
 
 def _vertices(scenario: Scenario, route: RouteToDrive) -> list[int]:
-    return [int(scenario.roadmap.vertex(place)) for place in route.places]  # from its first
+    return [int(scenario.roadmap.get_vertex(place)) for place in route.places]  # from its first
 
 
 def _detour(scenario: Scenario, draw: random.Random, route: RouteToDrive, end: int) -> RouteToDrive:
@@ -783,7 +783,7 @@ def _out_and_back(roadmap: Roadmap, vertex: int, draw: random.Random) -> list[in
     if not heads:
         return []
     neighbour = draw.choice(heads)
-    return [neighbour, vertex] if roadmap.edge(neighbour, vertex) is not None else []
+    return [neighbour, vertex] if roadmap.find_edge(neighbour, vertex) is not None else []
 
 
 def _random_way(roadmap: Roadmap, start: int, goal: int, draw: random.Random) -> list[int] | None:

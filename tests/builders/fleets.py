@@ -11,7 +11,7 @@ from typing import Any
 
 from rightofway.io import load
 from rightofway.model import Robot, Rules, Scenario, Stop
-from rightofway.site import Roadmap, roadmap_of_grid
+from rightofway.site import Roadmap, make_grid_roadmap
 
 __all__ = [
     "PAPER",
@@ -49,14 +49,16 @@ def grid_fleet(
     work: Sequence[int] = (0,),
 ) -> Scenario:
     """Return robots R1, R2, … that go from the first place of a trip to the second."""
-    roadmap = roadmap_of_grid(grid)
+    roadmap = make_grid_roadmap(grid)
     return Scenario(
         roadmap=roadmap,
         robots=tuple(
             Robot(
                 name=f"R{index + 1}",
-                home=roadmap.vertex(home),
-                stops=(Stop(at=roadmap.vertex(target), work=Fraction(work[index % len(work)])),),
+                home=roadmap.get_vertex(home),
+                stops=(
+                    Stop(at=roadmap.get_vertex(target), work=Fraction(work[index % len(work)])),
+                ),
                 speed=speeds[index % len(speeds)],
             )
             for index, (home, target) in enumerate(trips)
@@ -93,7 +95,7 @@ def fleet_on(
 
     With ``apart``, no robot works at its own home, as laps ask for.
     """
-    roadmap = roadmap_of_grid(grid)
+    roadmap = make_grid_roadmap(grid)
     places = largest_part(roadmap)
     homes, targets = draw.sample(places, robots), draw.sample(places, robots)
     while apart and any(home == target for home, target in zip(homes, targets, strict=True)):

@@ -23,7 +23,7 @@ from rightofway.model import (
     stays_of,
 )
 from rightofway.quantities import Units
-from rightofway.site import Edge, VertexId, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, VertexId, make_grid_roadmap, make_roadmap
 
 __all__ = [
     "DOOR",
@@ -45,18 +45,20 @@ DOOR = ("...", "@.@", "...")
 
 def door() -> Plan:
     """Return the paper's Table 4: R1 waits one tick in N0, until R2 has left N1."""
-    roadmap = roadmap_of_grid(DOOR)
+    roadmap = make_grid_roadmap(DOOR)
     robots = tuple(
-        Robot(name=name, home=roadmap.vertex(home), stops=(Stop(at=roadmap.vertex(target)),))
+        Robot(
+            name=name, home=roadmap.get_vertex(home), stops=(Stop(at=roadmap.get_vertex(target)),)
+        )
         for name, home, target in (("R1", "N0", "N6"), ("R2", "N2", "N8"))
     )
     decision = Decision(
         tick=Tick(1),
         kind="vertex",
-        vertices=(roadmap.vertex("N1"),),
+        vertices=(roadmap.get_vertex("N1"),),
         robots=(0, 1),
         waits=0,
-        waits_at=roadmap.vertex("N0"),
+        waits_at=roadmap.get_vertex("N0"),
         ticks=Tick(1),
         level="robot",
         conflicts_left=(0, 0),
@@ -88,7 +90,7 @@ def loop(*, occupancy: str = "one", names: tuple[str, ...] = ("a", "b", "c", "d"
     """
     a, b, c, d = names
     lengths = {(a, b): 2, (b, a): 2, (b, c): 2, (c, b): 2, (c, d): 3, (d, c): 3, (d, a): 2}
-    roadmap = roadmap_of_edges(
+    roadmap = make_roadmap(
         {a: (0, 0), b: (2, 0), c: (2, 2), d: (-1, 2)},
         [Edge(tail=u, head=w, length=Fraction(length)) for (u, w), length in lengths.items()],
     )
@@ -107,7 +109,7 @@ def loop(*, occupancy: str = "one", names: tuple[str, ...] = ("a", "b", "c", "d"
 
 def hostile(name: str) -> Plan:
     """Return a plan in which everything that may have a name has this one."""
-    roadmap = roadmap_of_edges(
+    roadmap = make_roadmap(
         {name: (0, 0), "b": (1, 0)},
         [
             Edge(tail=name, head="b", length=Fraction(1)),
@@ -130,14 +132,14 @@ def crowd(robots: int, *, decisions: int = 0) -> Plan:
     columns, rows = 161, 63
     aisle = "." * columns
     shelf = "".join("." if column % 10 == 0 else "@" for column in range(columns))
-    roadmap = roadmap_of_grid([shelf if row % 3 else aisle for row in range(rows)])
+    roadmap = make_grid_roadmap([shelf if row % 3 else aisle for row in range(rows)])
     cells = [(3 * (index % 21), index // 21 * 3 + 1) for index in range(robots)]
     ways = []
     for index, (row, column) in enumerate(cells):
         goal_row, goal_column = 3 * ((index * 8 + 5) % 21), (column * 7 + 11 * index) % columns
         cross = column - column % 10
         corners = [(row, column), (row, cross), (goal_row, cross), (goal_row, goal_column)]
-        ways.append([roadmap.vertex(f"N{r * columns + c}") for r, c in _straight(corners)])
+        ways.append([roadmap.get_vertex(f"N{r * columns + c}") for r, c in _straight(corners)])
     fleet = tuple(
         Robot(name=f"Robot {index + 1}", home=way[0], stops=(Stop(at=way[-1], work=Fraction(3)),))
         for index, way in enumerate(ways)
@@ -187,7 +189,7 @@ def counter(laps: int = 4) -> Plan:
     R1 has its home in N0, R2 in N2; both work 3 ticks in N1 and turn for 1, and an edge takes 1. So
     N1 is held for 5 ticks by one and then by the other: everything comes again after 10.
     """
-    roadmap = roadmap_of_grid(["..."])
+    roadmap = make_grid_roadmap(["..."])
     robots = tuple(
         Robot(name=name, home=VertexId(home), stops=(Stop(at=VertexId(1), work=Fraction(3)),))
         for name, home in (("R1", 0), ("R2", 2))
@@ -264,15 +266,21 @@ def yard() -> Plan:
         ("dock", "gate"): 4, ("gate", "dock"): 4, ("gate", "press"): 3, ("press", "paint"): 4,
         ("paint", "dock"): 3,
     }  # fmt: skip
-    roadmap = roadmap_of_edges(
+    roadmap = make_roadmap(
         {"dock": (0, 0), "gate": (4, 0), "press": (4, 3), "paint": (0, 3)},
         [Edge(tail=u, head=w, length=Fraction(length)) for (u, w), length in lengths.items()],
     )
     robots = (
         Robot(
-            name="porter", home=roadmap.vertex("dock"), stops=(Stop(at=roadmap.vertex("press")),)
+            name="porter",
+            home=roadmap.get_vertex("dock"),
+            stops=(Stop(at=roadmap.get_vertex("press")),),
         ),
-        Robot(name="runner", home=roadmap.vertex("gate"), stops=(Stop(at=roadmap.vertex("dock")),)),
+        Robot(
+            name="runner",
+            home=roadmap.get_vertex("gate"),
+            stops=(Stop(at=roadmap.get_vertex("dock")),),
+        ),
     )
     return Plan(
         scenario=Scenario(roadmap=roadmap, robots=robots, units=Units(length="m", time="s")),

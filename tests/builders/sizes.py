@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from rightofway.model import Robot, Rules, Scenario, Stop
 from rightofway.native import clashes
-from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from rightofway.site.zones import Zone
 from tests.builders.fleets import grid_fleet, largest_part, random_fleet, random_grid
 
@@ -64,7 +64,7 @@ def dense(seed: int, *, size: int, robots: int, radii: Sequence[str]) -> Scenari
     """Return a large fleet on an open grid with few walls; one way trips."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
     grid = random_grid(draw, size=size, walls=0.05)
-    roadmap = roadmap_of_grid(grid)
+    roadmap = make_grid_roadmap(grid)
     exact = [Fraction(radius) for radius in radii]
 
     def places() -> list[str]:
@@ -103,7 +103,7 @@ def crowded_roadmap(
         found += [Edge(tail=tail, head=head, length=length)]
         if draw.random() < 1 - one_way:
             found += [Edge(tail=head, head=tail, length=length)]
-    return roadmap_of_edges({name: (float(x), float(y)) for name, (x, y) in at.items()}, found)
+    return make_roadmap({name: (float(x), float(y)) for name, (x, y) in at.items()}, found)
 
 
 def sized_on_lanes(seed: int, *, robots: int = 3) -> Scenario:
@@ -210,14 +210,14 @@ def crossing(radius: str = "0.4", clearance: str = "0.1") -> Scenario:
     edges = [
         Edge(tail=tail, head=head, length=Fraction(4)) for tail, head in ("AB", "BA", "CD", "DC")
     ]
-    roadmap = roadmap_of_edges(at, edges)
+    roadmap = make_roadmap(at, edges)
     return Scenario(
         roadmap=roadmap,
         robots=tuple(
             Robot(
                 name=name,
-                home=roadmap.vertex(home),
-                stops=(Stop(at=roadmap.vertex(target), work=Fraction(1)),),
+                home=roadmap.get_vertex(home),
+                stops=(Stop(at=roadmap.get_vertex(target), work=Fraction(1)),),
                 ends="none",
                 radius=Fraction(radius),
             )
@@ -251,7 +251,7 @@ def _both_ways(seed: int) -> Scenario:
     one_way, robots = crowded_roadmap(draw, vertices=12, edges=22), draw.randint(2, 3)
     names = [one_way.name(vertex) for vertex in range(one_way.n_vertices)]
     lanes = {
-        frozenset((tail, int(one_way.heads[edge]))): one_way.edge_class(edge).length
+        frozenset((tail, int(one_way.heads[edge]))): one_way.get_edge_class(edge).length
         for tail in range(one_way.n_vertices)
         for edge in range(int(one_way.indptr[tail]), int(one_way.indptr[tail + 1]))
     }
@@ -263,7 +263,7 @@ def _both_ways(seed: int) -> Scenario:
     at = {name: (float(x), float(y)) for name, (x, y) in zip(names, one_way.positions, strict=True)}
     places = draw.sample(range(one_way.n_vertices), 2 * robots)
     return Scenario(
-        roadmap=roadmap_of_edges(at, edges),
+        roadmap=make_roadmap(at, edges),
         robots=tuple(
             Robot(
                 name=f"R{k + 1}",

@@ -9,7 +9,7 @@ from fractions import Fraction
 from math import ceil
 
 from rightofway.model import Robot, Rules, Scenario, Stop
-from rightofway.site import VertexId, roadmap_of_grid
+from rightofway.site import VertexId, make_grid_roadmap
 from tests.builders.closures import with_closures
 from tests.builders.sizes import crowded_roadmap, has_room, tiny, zoned
 from tests.oracles import joint_space, turning
@@ -100,7 +100,7 @@ def trips(seed: int) -> Scenario:
         )
         for k, (home, end) in enumerate(zip(homes, ends, strict=True))
     )
-    return Scenario(roadmap=roadmap_of_grid(lines), robots=fleet, rules=rules)
+    return Scenario(roadmap=make_grid_roadmap(lines), robots=fleet, rules=rules)
 
 
 KINDS: dict[str, Callable[[int], Scenario]] = {

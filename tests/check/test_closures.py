@@ -24,7 +24,7 @@ def corridor(occupancy: str = "one", headway: int = 0) -> Scenario:
 
 def plan(scenario: Scenario, names: str = "ABCD", enter: Any = (0, 2, 4, 6)) -> Plan:
     """Return a plan; the tick is 2 time units, so times are given in time units."""
-    vertices = [scenario.roadmap.vertex(name) for name in names]
+    vertices = [scenario.roadmap.get_vertex(name) for name in names]
     tick = scenario.problem.clock.tick
     track = Track.of(vertices, [int(time / tick) for time in enter])
     return Plan(scenario=scenario, tracks=(track,), run=PlannerRun())
@@ -32,7 +32,7 @@ def plan(scenario: Scenario, names: str = "ABCD", enter: Any = (0, 2, 4, 6)) -> 
 
 def closure(scenario: Scenario, *names: str, **times: Any) -> Closure:
     """Return a closure of a vertex or an edge."""
-    ends = tuple(scenario.roadmap.vertex(name) for name in names)
+    ends = tuple(scenario.roadmap.get_vertex(name) for name in names)
     place = {"at": ends[0]} if len(ends) == 1 else {"edge": ends}
     given = {key: Fraction(value) for key, value in times.items() if value is not None}
     return Closure(**place, **given)  # type: ignore[arg-type]

@@ -12,7 +12,7 @@ import pytest
 from rightofway.check import Report, check
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
 from rightofway.quantities import Units
-from rightofway.site import Edge, VertexId, roadmap_of_edges
+from rightofway.site import Edge, VertexId, make_roadmap
 from tests.builders.fleets import grid_fleet
 
 Trip = tuple[Sequence[int], Sequence[int]]
@@ -229,7 +229,7 @@ def test_three_robots_are_enough_for_a_rotation(*, rotations: bool) -> None:
     corners = {"A": (0.0, 0.0), "B": (1.0, 0.0), "C": (0.0, 1.0)}
     edges = [Edge(tail=a, head=b, length=Fraction(1)) for a, b in ("AB", "BC", "CA")]
     scenario = Scenario(
-        roadmap=roadmap_of_edges(corners, edges),
+        roadmap=make_roadmap(corners, edges),
         robots=tuple(
             Robot(name=f"R{k}", home=VertexId(k), stops=(Stop(at=VertexId((k + 1) % 3)),))
             for k in range(3)
@@ -247,7 +247,7 @@ def test_two_circles_at_one_instant_are_two_rotations() -> None:
     ends = [("N0", "N1"), ("N1", "N6"), ("N6", "N5"), ("N5", "N0")]
     ends += [("N3", "N4"), ("N4", "N9"), ("N9", "N8"), ("N8", "N3")]
     scenario = grid_fleet(grid, ends, rules=Rules(ends="none", rotations=False))
-    vertex = scenario.roadmap.vertex
+    vertex = scenario.roadmap.get_vertex
     report = check(plan_of(scenario, [([vertex(a), vertex(b)], [0, 1]) for a, b in ends]))
     assert [fault.robots for fault in report.faults] == [(0, 1, 2, 3), (4, 5, 6, 7)]
 

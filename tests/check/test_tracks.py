@@ -9,7 +9,7 @@ import pytest
 
 from rightofway.check import Report, check
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
-from rightofway.site import Edge, VertexId, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, VertexId, make_grid_roadmap, make_roadmap
 
 # The rows 0 1 2 and 3 4 5; robots drive an edge in one tick and turn at stops in another.
 GRID = ["...", "..."]
@@ -30,7 +30,7 @@ def judged(
         stops=tuple(Stop(at=VertexId(at), work=Fraction(work)) for at, work in stops),
         speed=speed,
     )
-    scenario = Scenario(roadmap=roadmap_of_grid(GRID), robots=(robot,), rules=rules or Rules())
+    scenario = Scenario(roadmap=make_grid_roadmap(GRID), robots=(robot,), rules=rules or Rules())
     track = Track.of(vertices, enter)
     return check(Plan(scenario=scenario, tracks=(track,), run=PlannerRun(name="by hand")))
 
@@ -233,7 +233,7 @@ def test_work_longer_than_64_bits_is_cut_short() -> None:
 
 def two_way_and_one_way() -> Scenario:
     """A to B is 1 long, B to C is 3 long and one way, C to A is 2 long."""
-    roadmap = roadmap_of_edges(
+    roadmap = make_roadmap(
         {"A": (0, 0), "B": (1, 0), "C": (4, 0)},
         [
             Edge(tail="A", head="B", length=Fraction(1)),
@@ -242,7 +242,9 @@ def two_way_and_one_way() -> Scenario:
             Edge(tail="C", head="A", length=Fraction(2)),
         ],
     )
-    robot = Robot(name="R1", home=roadmap.vertex("A"), stops=(Stop(at=roadmap.vertex("C")),))
+    robot = Robot(
+        name="R1", home=roadmap.get_vertex("A"), stops=(Stop(at=roadmap.get_vertex("C")),)
+    )
     return Scenario(roadmap=roadmap, robots=(robot,))
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from rightofway import check
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
-from rightofway.site import Edge, VertexId, roadmap_of_edges
+from rightofway.site import Edge, VertexId, make_roadmap
 from tests.builders.fleets import grid_fleet
 
 NAMES = ("N0", "N1", "N3", "N1", "N0")
@@ -18,7 +18,7 @@ NAMES = ("N0", "N1", "N3", "N1", "N0")
 def judged(enter: list[int], *, rules: Rules, work: int = 0) -> list[str]:
     """Return the faults of a robot on the way out and home."""
     scenario = grid_fleet(["..", "@."], [("N0", "N3")], rules=rules, work=[work])
-    vertices = [scenario.roadmap.vertex(name) for name in NAMES]
+    vertices = [scenario.roadmap.get_vertex(name) for name in NAMES]
     plan = Plan(
         scenario=scenario, tracks=(Track.of(vertices, enter),), run=PlannerRun(name="by hand")
     )
@@ -76,9 +76,7 @@ def test_a_slanted_turn_is_rounded_up(stay: int, kinds: list[str]) -> None:
         speed=Fraction(4),
         turn_rate=Fraction(90),
     )
-    scenario = Scenario(
-        roadmap=roadmap_of_edges(at, edges), robots=(robot,), rules=Rules(ends="none")
-    )
+    scenario = Scenario(roadmap=make_roadmap(at, edges), robots=(robot,), rules=Rules(ends="none"))
     tracks = (Track.of([0, 1, 2], [0, 1, 1 + stay]),)
     report = check(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
     assert [fault.kind for fault in report.faults] == kinds

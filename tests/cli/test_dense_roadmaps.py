@@ -19,7 +19,7 @@ from rightofway.errors import GaveUp
 from rightofway.io import load
 from rightofway.model.resources import bind_resources
 from rightofway.native import bind_lists
-from rightofway.site import Edge, roadmap_of_edges
+from rightofway.site import Edge, make_roadmap
 
 
 @pytest.fixture(scope="module")
@@ -141,7 +141,7 @@ def test_a_place_more_costs_no_look_at_all_others() -> None:
     lanes = [
         Edge(tail=f"v{k}", head=f"v{k + 1}", length=Fraction(1)) for k in range(len(positions) - 1)
     ]
-    roadmap = roadmap_of_edges(positions, lanes)
+    roadmap = make_roadmap(positions, lanes)
     resources = bind_resources(roadmap, [Fraction("0.3")], Fraction(0))
     began = time.process_time()
     assert bind_lists(resources) is not None

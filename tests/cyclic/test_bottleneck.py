@@ -30,7 +30,7 @@ def crossing(*, work: tuple[int, int] = (4, 2), rules: Rules | None = None) -> S
 
 def laps_of(scenario: Scenario) -> list[Lap]:
     """Home, door, work, door; the turn at home and at work is as the rules say."""
-    door = scenario.roadmap.vertex("N4")
+    door = scenario.roadmap.get_vertex("N4")
     laps = []
     for itinerary in scenario.problem.itineraries:
         stop, home = itinerary.stages
@@ -130,7 +130,7 @@ def test_stages_are_found_in_the_visits_that_serve_them() -> None:
     lap, itinerary = laps_of(scenario)[0], scenario.problem.itineraries[0]
     stop, home = itinerary.stages
     assert find_stages_at(scenario.roadmap, itinerary, lap) == [[(1, home)], [], [(0, stop)], []]
-    assert lap.vertices[2] == VertexId(scenario.roadmap.vertex("N1"))
+    assert lap.vertices[2] == VertexId(scenario.roadmap.get_vertex("N1"))
 
 
 def test_a_first_stop_at_home_and_the_end_of_a_lap_are_served_in_one_visit() -> None:

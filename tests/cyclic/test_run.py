@@ -16,7 +16,7 @@ from rightofway.cyclic.run import share_time
 from rightofway.cyclic.simulator import CyclicSimulator
 from rightofway.model import Robot, Rules, Scenario, Stop
 from rightofway.planners import Deadline
-from rightofway.site import roadmap_of_grid
+from rightofway.site import make_grid_roadmap
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: paper_scenario(case) for case in PAPER}
@@ -146,10 +146,10 @@ def test_neighbours_that_set_out_through_each_others_homes_are_sent_round() -> N
 
 def test_work_and_turn_at_home_are_part_of_a_lap() -> None:
     """Out and back 2 + 2 cells, a turn at the stop, at home work 3 and one turn: 9 ticks."""
-    roadmap = roadmap_of_grid(["..."])
-    stops = (Stop(at=roadmap.vertex("N2")), Stop(at=roadmap.vertex("N0"), work=Fraction(3)))
+    roadmap = make_grid_roadmap(["..."])
+    stops = (Stop(at=roadmap.get_vertex("N2")), Stop(at=roadmap.get_vertex("N0"), work=Fraction(3)))
     scenario = Scenario(
-        roadmap=roadmap, robots=(Robot(name="R1", home=roadmap.vertex("N0"), stops=stops),)
+        roadmap=roadmap, robots=(Robot(name="R1", home=roadmap.get_vertex("N0"), stops=stops),)
     )
     [endless] = cyclic_routes(scenario)
     assert endless.lap.duration == 9

@@ -13,7 +13,7 @@ from rightofway.cyclic.simulator import Deadlock
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline
-from rightofway.site import roadmap_of_grid
+from rightofway.site import make_grid_roadmap
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.fleets import fleet_on, largest_part, random_grid
 from tests.builders.laws import law, leave
@@ -35,7 +35,7 @@ def groups_of(
 ) -> list[GroupContext]:
     """Return the groups of a random fleet, on any routes; none if a robot has nowhere to go."""
     grid = random_grid(draw, size=size, walls=walls)
-    most = len(largest_part(roadmap_of_grid(grid)))
+    most = len(largest_part(make_grid_roadmap(grid)))
     try:
         scenario: Scenario = fleet_on(
             grid, draw, robots=min(robots, most), rules=rules, apart=most > 1

@@ -7,7 +7,7 @@ import numpy as np
 from rightofway.cyclic import excerpt, run_laps
 from rightofway.io import load
 from rightofway.model import Robot, Scenario, Stop
-from rightofway.site import VertexId, roadmap_of_grid
+from rightofway.site import VertexId, make_grid_roadmap
 from rightofway.viz import payload_of
 from tests.builders.plans import counter
 
@@ -65,7 +65,7 @@ def test_who_waits_for_ever_is_shown_waiting() -> None:
 
 def test_a_deadlock_is_shown_to_its_end() -> None:
     """Two robots meet in one lane, each where the other has to go."""
-    roadmap = roadmap_of_grid(["...."])
+    roadmap = make_grid_roadmap(["...."])
     ends = ((0, 3), (3, 0))
     robots = tuple(
         Robot(name=f"R{index}", home=VertexId(home), stops=(Stop(at=VertexId(stop)),))

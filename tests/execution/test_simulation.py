@@ -211,7 +211,7 @@ def test_the_robots_of_a_rotation_wait_for_each_other_and_go_together() -> None:
     """
     ring = [("N0", "N1"), ("N1", "N3"), ("N3", "N2"), ("N2", "N0")]
     scenario = grid_fleet(["..", ".."], ring, rules=Rules(ends="none"))
-    vertex = scenario.roadmap.vertex
+    vertex = scenario.roadmap.get_vertex
     tracks = tuple(Track.of([vertex(home), vertex(target)], [0, 1]) for home, target in ring)
     plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
     outcome = rightofway.simulate(plan, "stop:R2@0+5", runs=1)

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import rightofway
 from rightofway.model import Plan, PlannerRun, Track
-from rightofway.site import Edge, roadmap_of_edges
+from rightofway.site import Edge, make_roadmap
 from tests.builders.sizes import crossing
 
 
@@ -41,7 +41,7 @@ def test_robots_take_another_way_past_a_robot_that_broke_down_in_a_lane() -> Non
     at = {"A": (0.0, 0.0), "B": (4.0, 0.0), "C": (2.0, -2.0), "D": (2.0, 2.0), "E": (8.0, 0.0)}
     lanes = [("A", "B", 4), ("C", "D", 4), ("C", "E", 7), ("E", "D", 7)]
     edges = [Edge(tail=tail, head=head, length=Fraction(length)) for tail, head, length in lanes]
-    roadmap = roadmap_of_edges(at, edges)
+    roadmap = make_roadmap(at, edges)
     scenario = replace(crossing(), roadmap=roadmap)
     tracks = Track.of([0, 1], [0, 4]), Track.of([2, 3], [0, 8])
     plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))

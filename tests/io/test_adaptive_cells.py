@@ -100,7 +100,7 @@ def test_a_map_in_pixels_lies_where_its_frame_says(tmp_path: Path) -> None:
     loaded = load_with_notes(tmp_path / "s.yaml")
     roadmap = loaded.scenario.roadmap
     assert roadmap.labels == ("Q0-0x4", "Q4-0x4", "Q0-4x4")
-    points = [tuple(map(int, roadmap.point(vertex))) for vertex in range(3)]
+    points = [tuple(map(int, roadmap.get_point(vertex))) for vertex in range(3)]
     assert points == [(0, 3), (2, 3), (0, 5)]
     assert loaded.notes == ("map cut into 3 squares of 2 m, from 48 free cells",)
     assert roadmap.lengths == (Fraction(2),)

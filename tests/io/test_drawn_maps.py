@@ -36,9 +36,9 @@ def bent(**changes: Any) -> dict[str, Any]:
 
 def edge_length(scenario: Scenario, tail: str, head: str) -> Fraction:
     roadmap = scenario.roadmap
-    edge = roadmap.edge(roadmap.vertex(tail), roadmap.vertex(head))
+    edge = roadmap.find_edge(roadmap.get_vertex(tail), roadmap.get_vertex(head))
     assert edge is not None
-    length: Fraction = roadmap.edge_class(edge).length
+    length: Fraction = roadmap.get_edge_class(edge).length
     return length
 
 
@@ -76,7 +76,7 @@ def test_a_curve_that_is_split_by_spacing_has_its_vertices_on_it() -> None:
     document = bent()
     document["map"]["spacing"] = 3
     roadmap = scenario_of(document).roadmap
-    middle = roadmap.positions[roadmap.vertex("A-B/2")]
+    middle = roadmap.positions[roadmap.get_vertex("A-B/2")]
     assert middle.tolist() == pytest.approx([4, -3], abs=0.01)  # four pieces; y is drawn downwards
 
 

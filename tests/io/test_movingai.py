@@ -8,7 +8,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.io import load, load_map, load_scen, write_map, write_scen
 from rightofway.model import Robot, Rules, Scenario, Stop
-from rightofway.site import Edge, roadmap_of_edges
+from rightofway.site import Edge, make_roadmap
 from tests.builders.fleets import grid_fleet
 
 MAP = "type octile\nheight 2\nwidth 3\nmap\n..T\nG@S\n"
@@ -210,14 +210,14 @@ def test_several_stops_and_roadmaps_fit_in_no_movingai_file(tmp_path: Path) -> N
     busy = Scenario(roadmap=fleet.roadmap, robots=(robot,))
     with pytest.raises(InputError, match=r"robots\[0\].stops: 2 stops, a .scen row has one goal"):
         write_scen(busy, tmp_path / "a.scen", map_name="a.map")
-    drawn = roadmap_of_edges(
-        {"A": (0, 0), "B": (1, 0)}, [Edge(tail="A", head="B", length=Fraction(1))]
-    )
+    drawn = make_roadmap({"A": (0, 0), "B": (1, 0)}, [Edge(tail="A", head="B", length=Fraction(1))])
     with pytest.raises(InputError, match="map: the roadmap is no grid"):
         write_map(drawn, tmp_path / "a.map")
     one_way = Scenario(
         roadmap=drawn,
-        robots=(Robot(name="R", home=drawn.vertex("A"), stops=(Stop(at=drawn.vertex("B")),)),),
+        robots=(
+            Robot(name="R", home=drawn.get_vertex("A"), stops=(Stop(at=drawn.get_vertex("B")),)),
+        ),
     )
     with pytest.raises(InputError, match="map: the roadmap is no grid"):
         write_scen(one_way, tmp_path / "a.scen", map_name="a.map")

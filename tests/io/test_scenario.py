@@ -40,7 +40,7 @@ def test_a_place_is_a_number_or_row_and_column() -> None:
         {"name": "R2", "home": [0, 2], "stops": [{"at": [2, 2], "work": 3}, {"at": "N4"}]},
     ]
     scenario = scenario_of(document(robots=robots))
-    vertex = scenario.roadmap.vertex
+    vertex = scenario.roadmap.get_vertex
     assert scenario.robots[1].home == vertex("N2")
     assert scenario.robots[1].stops == (
         Stop(at=vertex("N8"), work=Fraction(3)),
@@ -130,7 +130,7 @@ def test_a_floor_is_cut_as_small_as_the_fastest_robot_needs() -> None:
     ]
     scenario = scenario_of(document(map={"floor": floor}, robots=robots))
     assert scenario.roadmap.grid is not None
-    assert scenario.roadmap.grid.lines() == ("..@@..", "......")
+    assert scenario.roadmap.grid.as_lines() == ("..@@..", "......")
     assert scenario.roadmap.lengths == (Fraction(1, 2),)
     given = scenario_of(document(map={"floor": floor, "cell_size": 0.5}, robots=robots))
     assert given == scenario
@@ -161,8 +161,8 @@ def test_a_roadmap_may_be_drawn() -> None:
     roadmap = scenario_of(document(map={"roadmap": drawn}, robots=robots)).roadmap
 
     def length(tail: str, head: str) -> Fraction | None:
-        edge = roadmap.edge(roadmap.vertex(tail), roadmap.vertex(head))
-        return None if edge is None else roadmap.edge_class(edge).length
+        edge = roadmap.find_edge(roadmap.get_vertex(tail), roadmap.get_vertex(head))
+        return None if edge is None else roadmap.get_edge_class(edge).length
 
     assert roadmap.labels == ("dock", "shelf", "gate")
     assert roadmap.positions.tolist() == [[0, 0], [0.3, 0.4], [1, 0.5]]
@@ -179,9 +179,15 @@ def test_speeds_and_work_are_dealt_out_in_turn(tmp_path: Path) -> None:
     assert [
         (robot.name, robot.home, robot.speed, robot.stops, robot.laps) for robot in scenario.robots
     ] == [
-        ("R1", 0, 1, (Stop(at=scenario.roadmap.vertex("N4")),), 2),
-        ("R2", 1, Fraction(1, 2), (Stop(at=scenario.roadmap.vertex("N5"), work=Fraction(5)),), 2),
-        ("R3", 2, 1, (Stop(at=scenario.roadmap.vertex("N6")),), 2),
+        ("R1", 0, 1, (Stop(at=scenario.roadmap.get_vertex("N4")),), 2),
+        (
+            "R2",
+            1,
+            Fraction(1, 2),
+            (Stop(at=scenario.roadmap.get_vertex("N5"), work=Fraction(5)),),
+            2,
+        ),
+        ("R3", 2, 1, (Stop(at=scenario.roadmap.get_vertex("N6")),), 2),
     ]
     everyone = document(map={"grid": ["....", "...."]}, robots={"scen": "hall.scen"})
     assert len(scenario_of(everyone, base=tmp_path).robots) == 4

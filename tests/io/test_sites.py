@@ -25,7 +25,7 @@ def floor(**keys: Any) -> dict[str, Any]:
 def test_a_home_on_a_floor_does_not_depend_on_the_speed(speed: Any) -> None:
     home = {"x": 2.6, "y": 1.4}
     scenario = loaded(floor(), home=home, target={"x": 0, "y": 0}, speed=speed).scenario
-    x, y = scenario.roadmap.point(scenario.robots[0].home)
+    x, y = scenario.roadmap.get_point(scenario.robots[0].home)
     size = scenario.roadmap.lengths[0]
     assert abs(float(x) - 2.6) <= size / 2
     assert abs(float(y) - 1.4) <= size / 2
@@ -38,9 +38,9 @@ def test_a_floor_is_cut_from_the_corner_that_coordinates_begin_at() -> None:
     upwards = loaded(floor(y="up"), **trip).scenario.roadmap
     assert downwards.grid is not None
     assert upwards.grid is not None
-    assert downwards.grid.lines() == (".@.", "...")
-    assert upwards.grid.lines() == ("...", ".@.")
-    assert downwards.point(0) == upwards.point(upwards.vertex("N3"))
+    assert downwards.grid.as_lines() == (".@.", "...")
+    assert upwards.grid.as_lines() == ("...", ".@.")
+    assert downwards.get_point(0) == upwards.get_point(upwards.get_vertex("N3"))
 
 
 @pytest.mark.parametrize("y", ["up", "down"])

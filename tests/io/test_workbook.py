@@ -136,7 +136,7 @@ def test_colours_draw_a_map_and_empty_cells_are_noted(tmp_path: Path) -> None:
     loaded = load_with_notes(path)
     grid = loaded.scenario.roadmap.grid
     assert grid is not None
-    assert list(grid.lines()) == ["...", "@..", "..."]
+    assert list(grid.as_lines()) == ["...", "@..", "..."]
     assert loaded.notes == ()
     empty = edited(tmp_path / "empty.xlsx", put("map", "B1", None))
     assert load_with_notes(empty).notes == (
@@ -152,7 +152,7 @@ def test_a_dark_cell_is_blocked_whatever_is_written_there(tmp_path: Path) -> Non
     )  # fmt: skip
     grid = rightofway.load(path).roadmap.grid
     assert grid is not None
-    assert list(grid.lines()) == [".@.", "@.@", ".@."]
+    assert list(grid.as_lines()) == [".@.", "@.@", ".@."]
 
 
 def test_a_place_may_point_to_a_cell_of_the_map(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from rightofway.metrics.alone import alone_completions
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, completions_of
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
-from rightofway.site import roadmap_of_grid
+from rightofway.site import make_grid_roadmap
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.laws import law, once
 
@@ -120,7 +120,7 @@ AISLES = [("." + "@@@@@@@@@@." * 4) if row % 2 else "." * 45 for row in range(17
 def test_neighbours_do_not_take_away_each_others_tracks_for_ever(seed: int) -> None:
     """Who has to pass whose home once went unremembered in these fleets."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
-    roadmap = roadmap_of_grid(AISLES)
+    roadmap = make_grid_roadmap(AISLES)
     homes, targets = (draw.sample(range(roadmap.n_vertices), 60) for _ in range(2))
     scenario = grid_fleet(
         AISLES,

@@ -13,11 +13,11 @@ from rightofway.io import FOREIGN_FORMATS, foreign_text, load_plan, write_map
 from rightofway.io.foreign import planviz
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
 from rightofway.site import VertexId
-from rightofway.site.grid import roadmap_of_grid
+from rightofway.site.grid import make_grid_roadmap
 from tests.builders.laws import law
 from tests.oracles.planviz import visits_step_by_step
 
-HALL = roadmap_of_grid([".....", ".@...", "....."])
+HALL = make_grid_roadmap([".....", ".@...", "....."])
 
 
 @st.composite

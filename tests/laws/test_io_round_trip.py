@@ -42,7 +42,7 @@ from rightofway.model import (
 from rightofway.model.attributes import Attribute
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 from rightofway.phrases import Phrase, parts_of
-from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from rightofway.values import exact, written
 from tests.builders.any_fleet import any_fleet
 from tests.builders.laws import law, leave
@@ -68,7 +68,7 @@ def grids(draw: st.DrawFn) -> Roadmap:
     cells[:2] = ".."
     lines = ["".join(cells[row * columns : (row + 1) * columns]) for row in range(rows)]
     corners = st.none() | st.tuples(coordinates, coordinates)
-    return roadmap_of_grid(
+    return make_grid_roadmap(
         lines, cell_size=draw(lengths), y_up=draw(st.booleans()), origin=draw(corners)
     )
 
@@ -80,7 +80,7 @@ def drawn_roadmaps(draw: st.DrawFn) -> Roadmap:
     pairs = st.tuples(st.sampled_from(list(positions)), st.sampled_from(list(positions)))
     ends = draw(st.lists(pairs.filter(lambda pair: pair[0] != pair[1]), unique=True, max_size=8))
     edges = [Edge(tail=tail, head=head, length=draw(lengths)) for tail, head in ends]
-    return roadmap_of_edges(positions, edges, y_up=draw(st.booleans()))
+    return make_roadmap(positions, edges, y_up=draw(st.booleans()))
 
 
 @st.composite

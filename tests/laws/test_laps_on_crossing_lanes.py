@@ -18,7 +18,7 @@ from rightofway.model import BookingRules, Lap, Robot, Rules, Scenario, Stop, Ti
 from rightofway.precedence import CyclicSchedule
 from rightofway.report.circuits import describe_circuit
 from rightofway.search import PeriodicBookings, RowsOfLaps
-from rightofway.site import Edge, roadmap_of_edges
+from rightofway.site import Edge, make_roadmap
 from tests.builders.laws import law
 from tests.builders.sizes import crossing
 from tests.oracles import periodic_space as oracle
@@ -57,15 +57,15 @@ def crossing_lanes(draw: random.Random, ends_of_r1: str = "BE") -> Scenario:
         for a, b, length in lanes
         for tail, head in ((a, b), (b, a))
     ]
-    roadmap = roadmap_of_edges(at, edges)
+    roadmap = make_roadmap(at, edges)
     ends = [("A", draw.choice(ends_of_r1)), ("C", "D")]
     return Scenario(
         roadmap=roadmap,
         robots=tuple(
             Robot(
                 name=name,
-                home=roadmap.vertex(home),
-                stops=(Stop(at=roadmap.vertex(target), work=Fraction(draw.randint(0, 2))),),
+                home=roadmap.get_vertex(home),
+                stops=(Stop(at=roadmap.get_vertex(target), work=Fraction(draw.randint(0, 2))),),
                 radius=Fraction(size),
                 speed=Fraction(draw.choice([1, 2])),
             )
@@ -160,14 +160,14 @@ def test_groups_are_connected_by_what_excludes_each_other() -> None:
     edges = [
         Edge(tail=tail, head=head, length=Fraction(4)) for tail, head in ("AB", "BA", "CD", "DC")
     ]
-    roadmap = roadmap_of_edges(at, edges)
+    roadmap = make_roadmap(at, edges)
 
     def groups(radius: str) -> list[list[CyclicRoute]]:
         robots = tuple(
             Robot(
                 name=name,
-                home=roadmap.vertex(home),
-                stops=(Stop(at=roadmap.vertex(target)),),
+                home=roadmap.get_vertex(home),
+                stops=(Stop(at=roadmap.get_vertex(target)),),
                 radius=Fraction(radius),
             )
             for name, home, target in [("R1", "A", "B"), ("R2", "D", "C")]

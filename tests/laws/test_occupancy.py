@@ -7,7 +7,7 @@ import numpy as np
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from rightofway.site.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy, grown
+from rightofway.site.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy, widen_blocked
 from tests.builders.laws import law, leave
 
 maps = st.integers(1, 7).flatmap(
@@ -37,7 +37,7 @@ def test_pixels_nearer_than_the_distance_are_blocked(
         for column in range(-1, columns + 1)
         if (blocked[row, column] if 0 <= row < rows and 0 <= column < columns else outside)
     ]
-    found = grown(blocked, by, outside=outside)
+    found = widen_blocked(blocked, by, outside=outside)
     for row in range(rows):
         for column in range(columns):
             nearest = min(
@@ -57,7 +57,7 @@ def test_a_cell_is_free_if_all_pixels_that_it_touches_are(
     rows, columns = floor(height / size), floor(width / size)
     if not rows or not columns:
         leave("no cell has room")
-    lines = Occupancy(pixels=pixels, resolution=Fraction(1)).cells(size)
+    lines = Occupancy(pixels=pixels, resolution=Fraction(1)).cut_cells(size)
     for up in range(rows):
         for right in range(columns):
             touched = [

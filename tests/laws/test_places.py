@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, scenario_of
 from rightofway.model import Robot, Scenario, Stop
-from rightofway.site import Roadmap, VertexId, roadmap_of_grid
-from rightofway.site.places import Spot, vertex_at
+from rightofway.site import Roadmap, VertexId, make_grid_roadmap
+from rightofway.site.places import Spot, find_vertex_at
 from tests.builders.laws import law
 
 sizes = st.fractions(Fraction(1, 20), 5, max_denominator=40)
@@ -24,12 +24,12 @@ def grids(draw: st.DrawFn) -> Roadmap:
     rows = draw(st.lists(st.text(".@", min_size=columns, max_size=columns), min_size=1, max_size=6))
     rows[0] = "." + rows[0][1:]
     corner = draw(st.none() | st.tuples(coordinates, coordinates))
-    return roadmap_of_grid(rows, cell_size=draw(sizes), y_up=draw(st.booleans()), origin=corner)
+    return make_grid_roadmap(rows, cell_size=draw(sizes), y_up=draw(st.booleans()), origin=corner)
 
 
 def vertex_or_none(roadmap: Roadmap, spot: Spot) -> int | None:
     try:
-        return vertex_at(roadmap, spot)
+        return find_vertex_at(roadmap, spot)
     except InputError:
         return None
 
@@ -42,7 +42,7 @@ def test_every_point_inside_a_free_cell_is_that_cell(
     grid = roadmap.grid
     assert grid is not None
     for vertex in range(roadmap.n_vertices):
-        x, y = roadmap.point(vertex)
+        x, y = roadmap.get_point(vertex)
         half = grid.cell_size / 2
         inside = Spot(x + (2 * right - 1) * half, y + (2 * up - 1) * half)
         found = vertex_or_none(roadmap, inside)
@@ -74,7 +74,7 @@ def test_a_scenario_with_points_is_the_one_with_names(
     robot = Robot(name="R1", home=VertexId(home), stops=(Stop(at=VertexId(target)),))
     document["map"] = dump_scenario(Scenario(roadmap=roadmap, robots=(robot,)))["map"]
     points = {
-        key: dict(zip("xy", map(str, roadmap.point(vertex)), strict=True))
+        key: dict(zip("xy", map(str, roadmap.get_point(vertex)), strict=True))
         for key, vertex in (("home", home), ("target", target))
     }
     scenario = scenario_of(document)

@@ -12,7 +12,7 @@ from rightofway.errors import NoPlanExists
 from rightofway.metrics import alone_completions
 from rightofway.model import Robot, Rules, Scenario, Stop, route_of
 from rightofway.search import Bookings, Distances, earliest_track, least_completions
-from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from tests.builders.any_fleet import any_fleet
 from tests.builders.laws import law, leave
 from tests.oracles.alone import alone_completions as by_python
@@ -32,8 +32,8 @@ def alone(
     """Return the shortest completion of R1 with stops of (place, work)."""
     robot = Robot(
         name="R1",
-        home=roadmap.vertex(home),
-        stops=tuple(Stop(at=roadmap.vertex(at), work=Fraction(work)) for at, work in stops),
+        home=roadmap.get_vertex(home),
+        stops=tuple(Stop(at=roadmap.get_vertex(at), work=Fraction(work)) for at, work in stops),
         speed=speed,
     )
     scenario = Scenario(roadmap=roadmap, robots=(robot,), rules=rules or Rules())
@@ -41,7 +41,7 @@ def alone(
 
 
 def on_grid(stops: Sequence[tuple[str, int]], rules: Rules | None = None) -> int:
-    return alone(roadmap_of_grid(GRID), stops, rules=rules)
+    return alone(make_grid_roadmap(GRID), stops, rules=rules)
 
 
 def test_a_round_trip_is_there_work_turning_and_back() -> None:
@@ -81,7 +81,7 @@ SHORTCUT = [("A", "B", 1), ("B", "C", 1), ("A", "C", 5), ("C", "A", 7)]
 
 def shortcut() -> Roadmap:
     edges = [Edge(tail=tail, head=head, length=Fraction(length)) for tail, head, length in SHORTCUT]
-    return roadmap_of_edges(dict.fromkeys("ABC", (0.0, 0.0)), edges)
+    return make_roadmap(dict.fromkeys("ABC", (0.0, 0.0)), edges)
 
 
 def test_the_shortest_way_is_the_quickest_not_the_one_of_fewest_edges() -> None:
@@ -99,7 +99,7 @@ def test_a_place_without_a_way_back_is_named(length: int) -> None:
         Edge(tail="dock", head="shelf", length=Fraction(1)),
         Edge(tail="shelf", head="cellar", length=Fraction(length)),
     ]
-    roadmap = roadmap_of_edges(dict.fromkeys(("dock", "shelf", "cellar"), (0.0, 0.0)), edges)
+    roadmap = make_roadmap(dict.fromkeys(("dock", "shelf", "cellar"), (0.0, 0.0)), edges)
     with pytest.raises(NoPlanExists) as raised:
         alone(roadmap, [("shelf", 0)], home="dock")
     assert str(raised.value) == (
@@ -114,7 +114,7 @@ def test_every_robot_without_a_way_is_named() -> None:
         Robot(name=f"R{home}", home=VertexId(home), stops=(Stop(at=VertexId(1)),))
         for home in (0, 2, 3)
     )
-    scenario = Scenario(roadmap=roadmap_of_grid([".@..", ".@.."]), robots=robots)
+    scenario = Scenario(roadmap=make_grid_roadmap([".@..", ".@.."]), robots=robots)
     with pytest.raises(NoPlanExists) as raised:
         alone_completions(scenario)
     assert raised.value.robots == ("R0", "R3")
@@ -143,8 +143,8 @@ def fleets(draw: st.DrawFn) -> tuple[Scenario, Scenario]:
     positions = dict(zip(names, drawn or on_a_line, strict=True))
     apart_too = positions | {"here": (0.0, 9.0), "there": (1.0, 9.0)}
     return (
-        Scenario(roadmap=roadmap_of_edges(positions, edges), robots=robots),
-        Scenario(roadmap=roadmap_of_edges(apart_too, [*edges, apart]), robots=robots),
+        Scenario(roadmap=make_roadmap(positions, edges), robots=robots),
+        Scenario(roadmap=make_roadmap(apart_too, [*edges, apart]), robots=robots),
     )
 
 
@@ -159,7 +159,7 @@ def test_counting_edges_for_all_at_once_agrees_with_dijkstra(
 
 def test_more_robots_than_bits_of_a_block_are_counted_right() -> None:
     """From the cells of a row, each round the end of a wall, to the cells behind it."""
-    roadmap = roadmap_of_grid(["." * 280, "." + "@" * 279, "." * 280])
+    roadmap = make_grid_roadmap(["." * 280, "." + "@" * 279, "." * 280])
     robots = tuple(
         Robot(name=f"R{k}", home=VertexId(k), stops=(Stop(at=VertexId(281 + k)),))
         for k in range(280)

@@ -24,7 +24,7 @@ def door(speeds: Sequence[int], work: Sequence[int]) -> list[tuple[str, int, int
     scenario = grid_fleet(
         DOOR, [("N0", "N6"), ("N2", "N8")], speeds=[Fraction(v) for v in speeds], work=work
     )
-    vertex = scenario.roadmap.vertex
+    vertex = scenario.roadmap.get_vertex
     # Times so late that every robot has time for its work; free running takes them back.
     tracks = tuple(
         Track.of([vertex(name) for name in route], range(0, 900, 100))

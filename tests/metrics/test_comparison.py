@@ -12,7 +12,7 @@ from rightofway.errors import InputError
 from rightofway.metrics import changes, compare
 from rightofway.model import Closure, Robot, Scenario, Stop
 from rightofway.quantities import Units
-from rightofway.site import VertexId, roadmap_of_grid
+from rightofway.site import VertexId, make_grid_roadmap
 from tests.builders.plans import door, door_shifted, loop
 
 
@@ -24,7 +24,7 @@ def scenario(rows: tuple[str, ...] = ("....", "...."), **robot: Any) -> Scenario
     """Return a scenario of R1, which drives from the first place to the third."""
     one = Robot(name="R1", home=VertexId(0), stops=(stop(2, 3),), **robot)
     units = Units(length="m", time="s")
-    return Scenario(roadmap=roadmap_of_grid(rows), robots=(one,), units=units)
+    return Scenario(roadmap=make_grid_roadmap(rows), robots=(one,), units=units)
 
 
 def test_robots_are_compared_by_their_names_in_one_tick() -> None:
@@ -141,11 +141,11 @@ def test_changes_of_map_rules_and_closures_are_said() -> None:
 def test_a_finer_grid_of_one_floor_keeps_the_places() -> None:
     """A cell of 1 m at 0 and four cells of 0.5 m there: their middles are less than 1 m apart."""
     coarse = Scenario(
-        roadmap=roadmap_of_grid(("..",)),
+        roadmap=make_grid_roadmap(("..",)),
         robots=(Robot(name="R", home=VertexId(0), stops=(stop(1),)),),
     )
     fine = Scenario(
-        roadmap=roadmap_of_grid(("....", "...."), cell_size=Fraction(1, 2)),
+        roadmap=make_grid_roadmap(("....", "...."), cell_size=Fraction(1, 2)),
         robots=(Robot(name="R", home=VertexId(0), stops=(stop(2),)),),
     )
     assert [change.subject for change in changes(coarse, fine)] == ["map"]

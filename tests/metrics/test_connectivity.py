@@ -21,7 +21,7 @@ from rightofway.metrics.connectivity import (
     measure_distances_from,
     measure_route_load,
 )
-from rightofway.site import Edge, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, make_grid_roadmap, make_roadmap
 
 DIGRAPHS = st.integers(1, 9).flatmap(
     lambda count: st.tuples(
@@ -36,12 +36,12 @@ DIGRAPHS = st.integers(1, 9).flatmap(
 
 
 def ways(lines: list[str]) -> Ways:
-    return list_ways(roadmap_of_grid(lines))
+    return list_ways(make_grid_roadmap(lines))
 
 
 def drawn(count: int, ends: set[tuple[int, int]]) -> Ways:
     edges = [Edge(tail=str(a), head=str(b), length=Fraction(1)) for a, b in sorted(ends)]
-    return list_ways(roadmap_of_edges({str(k): (float(k), 0.0) for k in range(count)}, edges))
+    return list_ways(make_roadmap({str(k): (float(k), 0.0) for k in range(count)}, edges))
 
 
 def graph(count: int, ends: set[tuple[int, int]]) -> Any:
@@ -100,7 +100,7 @@ def test_rings_and_one_way_lanes_are_no_corridors() -> None:
 
 def test_distances_are_whole_multiples_of_one_length() -> None:
     edges = [Edge(tail="A", head="B", length=Fraction(1, 2)), Edge(tail="B", head="C", length=1)]  # type: ignore[arg-type]
-    made = list_ways(roadmap_of_edges({"A": (0, 0), "B": (0.5, 0), "C": (1.5, 0)}, edges))
+    made = list_ways(make_roadmap({"A": (0, 0), "B": (0.5, 0), "C": (1.5, 0)}, edges))
     assert measure_distances_from(made, 0) == ([0, 1, 2], {0: 0, 1: 1, 2: 3})
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from rightofway.metrics import Finding, Site, inspect
 from rightofway.model import Robot, Stop
 from rightofway.quantities import Units
-from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from rightofway.site.spacing import split_lanes
 
 METRES = Units(length="m", time="s")
@@ -28,7 +28,7 @@ def drawn(at: Mapping[str, tuple[float, float]], lanes: str) -> Roadmap:
         edges.append(Edge(tail=tail, head=head, length=length))
         if ">" not in lane:
             edges.append(Edge(tail=head, head=tail, length=length))
-    return roadmap_of_edges(at, edges)
+    return make_roadmap(at, edges)
 
 
 def robot(name: str, home: int, stop: int, radius: str = "0", **more: str) -> Robot:
@@ -118,7 +118,7 @@ def test_pieces_of_lanes_that_cross_are_in_nobodys_wrong_place() -> None:
     edges = [Edge(tail=tail, head=head, length=Fraction(8)) for tail, head in ("AB", "CD")]
     split = split_lanes(positions, edges, None, distance=Fraction(2))
     floats = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
-    roadmap = roadmap_of_edges(floats, split.edges, pieces=split.pieces)
+    roadmap = make_roadmap(floats, split.edges, pieces=split.pieces)
     robots = (robot("R1", 0, 1, "1"), robot("R2", 2, 3, "1"))
     findings = found(Site(roadmap=roadmap, units=METRES, robots=robots), "too near")
     assert {finding.severity for finding in findings} == {"note"}
@@ -154,14 +154,14 @@ def test_a_lane_beside_a_vertex_is_too_near() -> None:
 
 
 def test_cells_smaller_than_the_robots_are_one_finding() -> None:
-    site = Site(roadmap=roadmap_of_grid(["....."]), robots=(robot("R1", 0, 4, "0.6"),))
+    site = Site(roadmap=make_grid_roadmap(["....."]), robots=(robot("R1", 0, 4, "0.6"),))
     _walls, finding = found(site, "too near")
     assert finding.fact.startswith("The middles of cells are 1 length unit apart; robots of")
 
 
 def test_a_home_on_the_only_way_gets_a_parking_place_that_no_route_needs() -> None:
     """A row of four cells with a bay below the second; R2 lives in the row, the bay is free."""
-    roadmap = roadmap_of_grid([".....", "@@.@@"])
+    roadmap = make_grid_roadmap([".....", "@@.@@"])
     robots = (robot("R1", 0, 4), robot("R2", 1, 3))
     (home,) = [
         each
@@ -185,7 +185,7 @@ def test_a_home_that_shortest_routes_pass_gets_a_parking_place_too() -> None:
 
 
 def test_a_home_beside_the_way_is_not_on_it() -> None:
-    roadmap = roadmap_of_grid([".....", "@@.@@"])
+    roadmap = make_grid_roadmap([".....", "@@.@@"])
     site = Site(roadmap=roadmap, robots=(robot("R1", 0, 4), robot("R2", 5, 4)))
     assert [each.vertices[0] for each in found(site, "through way")] == []
 
@@ -198,7 +198,7 @@ def test_a_one_way_ring_makes_every_place_a_through_way() -> None:
 
 def test_a_corridor_counts_the_robots_that_must_pass_it() -> None:
     """Two halls joined by three cells: R1 and R2 cross, R3 stays in its hall."""
-    roadmap = roadmap_of_grid(["..@@@..", "......."])
+    roadmap = make_grid_roadmap(["..@@@..", "......."])
     robots = (robot("R1", 0, 3), robot("R2", 2, 1), robot("R3", 4, 1))
     (finding,) = found(Site(roadmap=roadmap, units=METRES, robots=robots), "corridor")
     assert str(finding) == (
@@ -211,7 +211,7 @@ def test_a_corridor_counts_the_robots_that_must_pass_it() -> None:
 
 def test_a_corridor_that_one_robot_uses_is_no_finding() -> None:
     """R2 works in the corridor, so that it counts; alone, R1 meets nobody there."""
-    roadmap = roadmap_of_grid(["..@@@..", "......."])
+    roadmap = make_grid_roadmap(["..@@@..", "......."])
     alone = (robot("R1", 0, 3), robot("R2", 1, 4))
     assert found(Site(roadmap=roadmap, robots=alone), "corridor") == []
     (finding,) = found(Site(roadmap=roadmap, robots=(alone[0], robot("R2", 1, 7))), "corridor")
@@ -219,7 +219,7 @@ def test_a_corridor_that_one_robot_uses_is_no_finding() -> None:
 
 
 def test_a_corridor_with_a_way_round_is_a_note() -> None:
-    roadmap = roadmap_of_grid(["..@@@..", ".......", "..@@@..", "......."])
+    roadmap = make_grid_roadmap(["..@@@..", ".......", "..@@@..", "......."])
     site = Site(roadmap=roadmap, robots=(robot("R1", 4, 10),))
     assert {each.severity for each in found(site, "corridor")} == {"note"}
 
@@ -227,14 +227,14 @@ def test_a_corridor_with_a_way_round_is_a_note() -> None:
 def test_a_corridor_that_few_routes_take_is_no_finding_where_there_is_a_way_round() -> None:
     """Twelve homes drive straight on at the left; the thirteenth may take the three cells."""
     rows = ["............", "............", "@@@@....@@@.", "@@@@...@...."]
-    roadmap = roadmap_of_grid(rows)
+    roadmap = make_grid_roadmap(rows)
     straight = [robot(f"R{at}", at, at + 12) for at in range(12)]
     site = Site(roadmap=roadmap, robots=(*straight, robot("R", 32, 31)))
     assert found(site, "corridor") == []
 
 
 def test_a_corridor_that_nobody_uses_is_no_finding() -> None:
-    roadmap = roadmap_of_grid(["..@@@..", "......."])
+    roadmap = make_grid_roadmap(["..@@@..", "......."])
     assert found(Site(roadmap=roadmap, robots=(robot("R1", 0, 1),)), "corridor") == []
 
 
@@ -249,16 +249,16 @@ def test_the_busiest_vertex_is_a_bottleneck_with_its_share() -> None:
 
 def test_an_open_floor_without_places_has_no_bottleneck_and_one_with_a_door_has() -> None:
     open_floor = ["." * 24] * 16
-    assert inspect(Site(roadmap=roadmap_of_grid(open_floor), units=METRES)).findings == ()
+    assert inspect(Site(roadmap=make_grid_roadmap(open_floor), units=METRES)).findings == ()
     walled = ["." * 14 + "@" + "." * 9] * 16
     walled[7] = "." * 24
-    (finding,) = inspect(Site(roadmap=roadmap_of_grid(walled), units=METRES)).findings
+    (finding,) = inspect(Site(roadmap=make_grid_roadmap(walled), units=METRES)).findings
     assert finding.fact.startswith("(13.5, 7.5) is on")  # the cell before the door
 
 
 def test_a_cell_goes_by_its_middle_where_lengths_have_a_unit() -> None:
     """Cells of a grid without a unit go by the number that people write in its file."""
-    roadmap = roadmap_of_grid(["...", "..."])
+    roadmap = make_grid_roadmap(["...", "..."])
     robots = (robot("R1", 0, 4),)
     assert Site(roadmap=roadmap, units=METRES, robots=robots).name(4) == "(1.5, 1.5, stop of R1)"
     assert Site(roadmap=roadmap, units=METRES).name(5) == "(2.5, 1.5)"
@@ -286,11 +286,11 @@ def test_errors_come_before_warnings_and_notes() -> None:
 
 
 def test_a_large_site_without_places_says_how_it_was_sampled() -> None:
-    result = inspect(Site(roadmap=roadmap_of_grid(["." * 20] * 20)))
+    result = inspect(Site(roadmap=make_grid_roadmap(["." * 20] * 20)))
     assert result.sampled == (16, 400)
 
 
-ROOM = roadmap_of_grid(["...", "...", "..."])
+ROOM = make_grid_roadmap(["...", "...", "..."])
 HOMES = st.permutations(range(9))
 
 

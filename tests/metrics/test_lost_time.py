@@ -9,7 +9,7 @@ from typing import Any
 import rightofway
 from rightofway.metrics import lost_time
 from rightofway.model import Loss, Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
-from rightofway.site import Edge, VertexId, roadmap_of_edges
+from rightofway.site import Edge, VertexId, make_roadmap
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import counter, door
 
@@ -134,7 +134,7 @@ def test_where_rotations_are_forbidden_a_robot_comes_one_tick_after_the_other() 
 def test_a_robot_with_a_size_waits_for_one_that_is_too_near() -> None:
     """R2 may not drive to b before R1, one length unit from b in c, has come to d."""
     places = {"a": (0, 0), "b": (2, 0), "e": (4, 0), "c": (2, 1), "d": (2, 5)}
-    roadmap = roadmap_of_edges(
+    roadmap = make_roadmap(
         places,
         [
             Edge(tail=tail, head=head, length=Fraction(length))
@@ -144,8 +144,8 @@ def test_a_robot_with_a_size_waits_for_one_that_is_too_near() -> None:
     robots = tuple(
         Robot(
             name=name,
-            home=roadmap.vertex(home),
-            stops=(Stop(at=roadmap.vertex(stop)),),
+            home=roadmap.get_vertex(home),
+            stops=(Stop(at=roadmap.get_vertex(stop)),),
             speed=Fraction(2),
             radius=Fraction(3, 5),
         )

@@ -12,7 +12,7 @@ import pytest
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import measure
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track, completions_of
-from rightofway.site import roadmap_of_grid
+from rightofway.site import make_grid_roadmap
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 DOOR = ["...", "@.@", "..."]
@@ -23,7 +23,7 @@ OUT_AND_BACK = "N0 N1 N4 N7 N6 N7 N4 N1 N0"
 
 def plan_of(scenario: Scenario, *trips: tuple[str, Sequence[int]]) -> Plan:
     """Make a plan of trips: names of vertices, and when each is entered."""
-    vertex = scenario.roadmap.vertex
+    vertex = scenario.roadmap.get_vertex
     tracks = (Track.of([vertex(name) for name in names.split()], enter) for names, enter in trips)
     return Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun(name="by hand"))
 
@@ -96,9 +96,9 @@ def test_the_work_at_the_end_of_a_trip_counts_after_the_last_arrival() -> None:
 
 def test_a_visit_serves_only_what_it_has_time_for() -> None:
     """Twice 2 of work at N1; the first visit has 3 ticks, which is one work and its turning."""
-    roadmap = roadmap_of_grid(DOOR)
-    stop = Stop(at=roadmap.vertex("N1"), work=Fraction(2))
-    robot = Robot(name="R1", home=roadmap.vertex("N0"), stops=(stop, stop))
+    roadmap = make_grid_roadmap(DOOR)
+    stop = Stop(at=roadmap.get_vertex("N1"), work=Fraction(2))
+    robot = Robot(name="R1", home=roadmap.get_vertex("N0"), stops=(stop, stop))
     scenario = Scenario(roadmap=roadmap, robots=(robot,), rules=ONE_WAY)
     plan = plan_of(scenario, ("N0 N1 N4 N1", [0, 1, 5, 6]))
     assert completions_of(scenario, plan.tracks) == (6 + 2,)

@@ -38,7 +38,7 @@ def closed(scenario: Scenario, closure: Closure) -> set[str]:
 
 def at(name: str, radius: str | None = None) -> Closure:
     """Return a closure of a vertex for ever."""
-    vertex = line().roadmap.vertex(name)
+    vertex = line().roadmap.get_vertex(name)
     return Closure(at=vertex, radius=None if radius is None else Fraction(radius))
 
 
@@ -66,7 +66,7 @@ def test_a_radius_of_0_closes_the_edges_of_a_vertex_for_robots_with_a_size() -> 
 
 
 def test_a_closed_edge_leaves_its_ends_and_the_edges_there_open() -> None:
-    edge = line().roadmap.vertex("B"), line().roadmap.vertex("A")
+    edge = line().roadmap.get_vertex("B"), line().roadmap.get_vertex("A")
     assert closed(line(), Closure(edge=edge)) == {"A>B", "B>A"}
     near = closed(line(), Closure(edge=edge, radius=Fraction(2)))
     assert near == {"A>B", "B>A", "D", "D>E", "E>D"}
@@ -74,10 +74,10 @@ def test_a_closed_edge_leaves_its_ends_and_the_edges_there_open() -> None:
 
 def test_a_closed_lane_is_closed_with_all_its_pieces_and_the_vertices_on_it() -> None:
     scenario = line(spacing=2)
-    edge = scenario.roadmap.vertex("B"), scenario.roadmap.vertex("A")
+    edge = scenario.roadmap.get_vertex("B"), scenario.roadmap.get_vertex("A")
     pieces = {"A>A-B/1", "A-B/1>B", "B>A-B/1", "A-B/1>A"}
     assert closed(scenario, Closure(edge=edge)) == {"A-B/1", *pieces}
-    piece = scenario.roadmap.vertex("A"), scenario.roadmap.vertex("A-B/1")
+    piece = scenario.roadmap.get_vertex("A"), scenario.roadmap.get_vertex("A-B/1")
     assert closed(scenario, Closure(edge=piece)) == {"A>A-B/1", "A-B/1>A"}
 
 
@@ -105,4 +105,4 @@ def test_closures_that_overlap_or_touch_are_one() -> None:
     other = replace(at("B"), from_=Fraction(4), until=Fraction(8))
     closures = replace(scenario, closures=(other, one)).problem.closures
     assert closures is not None
-    assert closures.at_vertex(0, scenario.roadmap.vertex("B")) == [(0, 4)]
+    assert closures.at_vertex(0, scenario.roadmap.get_vertex("B")) == [(0, 4)]

@@ -14,7 +14,7 @@ import pytest
 
 import rightofway
 from rightofway import FleetBuilder, InputError, LnsOptions, Robot, Rules, Scenario, Stop
-from rightofway.site import Edge, roadmap_of_grid
+from rightofway.site import Edge, make_grid_roadmap
 
 DOOR = ["...", "@.@", "..."]
 
@@ -43,7 +43,7 @@ def test_a_number_is_kept_exactly_however_it_is_written(half: Any) -> None:
     made = robot(name="R1", home=0, stops=[stop(at=3, work=half)], speed=half, turn=half)
     assert (made.speed, made.turn, made.stops[0].work) == (Fraction(1, 2),) * 3
     assert rules(headway=half, turn=half).headway == Fraction(1, 2)
-    assert roadmap_of_grid(DOOR, cell_size=half).lengths == (Fraction(1, 2),)
+    assert make_grid_roadmap(DOOR, cell_size=half).lengths == (Fraction(1, 2),)
     assert Edge(tail="A", head="B", length=half).length == Fraction(1, 2)
 
 
@@ -63,7 +63,7 @@ def test_edges_without_a_length_share_one_step() -> None:
     roadmap = fleet.roadmap()
     # roots of 2 and 1.25, rounded up to a millionth, because a and c are 0.5 apart
     assert [float(length) for length in roadmap.lengths] == [0.5, 1.118034, 1.414214]
-    assert roadmap.point(1) == (Fraction(1), Fraction(1))
+    assert roadmap.get_point(1) == (Fraction(1), Fraction(1))
 
 
 def test_a_float_counts_as_the_decimal_that_it_prints_as() -> None:
@@ -74,7 +74,7 @@ def test_lists_are_kept_as_tuples_so_that_the_fleet_can_be_measured_and_written(
     tmp_path: Path,
 ) -> None:
     robots = [robot(name="R1", home=0, stops=[stop(at=4)])]
-    plan = solve(scenario_of(roadmap=roadmap_of_grid(DOOR), robots=robots))
+    plan = solve(scenario_of(roadmap=make_grid_roadmap(DOOR), robots=robots))
     assert plan.scenario.robots == tuple(robots)
     assert rightofway.measure(plan).flowtime == plan.flowtime
     rightofway.write_plan(plan, tmp_path / "plan.json")
@@ -100,7 +100,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "home is a name": (
         lambda: robot(name="R1", home="N0", stops=()),
-        r"robot 'R1': home: 'N0' is no vertex number \(give roadmap.vertex\(name\), or build",
+        r"robot 'R1': home: 'N0' is no vertex number \(give roadmap.get_vertex\(name\), or build",
     ),
     "turn is a word": (
         lambda: robot(name="R1", home=0, stops=(), turn="x"),
@@ -141,12 +141,12 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         "roadmap: 'door.map' is no roadmap",
     ),
     "a robot is a name": (
-        lambda: scenario_of(roadmap=roadmap_of_grid(DOOR), robots=["R1"]),
+        lambda: scenario_of(roadmap=make_grid_roadmap(DOOR), robots=["R1"]),
         r"robots\[0\]: 'R1' is no robot \(give a Robot\)",
     ),
     "the fleet is one robot": (
         lambda: scenario_of(
-            roadmap=roadmap_of_grid(DOOR), robots=robot(name="R1", home=0, stops=())
+            roadmap=make_grid_roadmap(DOOR), robots=robot(name="R1", home=0, stops=())
         ),
         "robots: .* is no fleet",
     ),
@@ -305,9 +305,9 @@ def test_every_wrong_value_of_a_robot_is_reported_at_once() -> None:
 def test_a_fleet_from_a_grid_is_that_of_the_file() -> None:
     """`examples/door.yaml` has the same robots; a place is a name or (row, column)."""
     written = rightofway.load(Path(__file__).parents[2] / "examples" / "door.yaml")
-    fleet = FleetBuilder(grid=list(written.roadmap.grid.lines()))  # type: ignore[union-attr]
+    fleet = FleetBuilder(grid=list(written.roadmap.grid.as_lines()))  # type: ignore[union-attr]
     for each in written.robots:
-        row, column = written.roadmap.grid.cell(each.home)  # type: ignore[union-attr]
+        row, column = written.roadmap.grid.get_cell(each.home)  # type: ignore[union-attr]
         target, work = each.stops[0].at, each.stops[0].work
         name = written.roadmap.name(target)
         fleet.add_robot(each.name, home=(row, column), target=name, work=work, speed=each.speed)
@@ -317,7 +317,7 @@ def test_a_fleet_from_a_grid_is_that_of_the_file() -> None:
 def test_a_map_file_gives_the_same_map_as_its_rows(tmp_path: Path) -> None:
     file = tmp_path / "door.map"
     file.write_text("type octile\nheight 3\nwidth 3\nmap\n" + "\n".join(DOOR) + "\n")
-    assert FleetBuilder(map_file=file).roadmap() == roadmap_of_grid(DOOR)
+    assert FleetBuilder(map_file=file).roadmap() == make_grid_roadmap(DOOR)
 
 
 def test_stops_have_work_times_of_their_own() -> None:
@@ -338,12 +338,12 @@ def test_edges_have_their_straight_length_and_lead_both_ways_unless_told_otherwi
     fleet.add_vertex("store", 3, 0)
     fleet.add_edge("dock", "press").add_edge("press", "store", "9/2", both_ways=False)
     roadmap = fleet.roadmap()
-    dock, press, store = map(roadmap.vertex, ("dock", "press", "store"))
+    dock, press, store = map(roadmap.get_vertex, ("dock", "press", "store"))
     assert roadmap.lengths == (Fraction(9, 2), Fraction(5))
-    assert roadmap.edge(dock, press) is not None
-    assert roadmap.edge(press, dock) is not None
-    assert roadmap.edge(press, store) is not None
-    assert roadmap.edge(store, press) is None
+    assert roadmap.find_edge(dock, press) is not None
+    assert roadmap.find_edge(press, dock) is not None
+    assert roadmap.find_edge(press, store) is not None
+    assert roadmap.find_edge(store, press) is None
 
 
 def test_a_graph_of_networkx_is_a_map_and_its_nodes_are_places() -> None:

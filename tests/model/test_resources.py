@@ -14,7 +14,7 @@ from rightofway.errors import InputError
 from rightofway.model import Resources, Rules, Scenario
 from rightofway.model.resources import bind_resources, circumscribe, close_pairs
 from rightofway.native import bind_lists, clashes, excluded_by, find_vertices_near
-from rightofway.site import Edge, Roadmap, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, Roadmap, make_grid_roadmap, make_roadmap
 from rightofway.site.zones import NamedZone
 from tests.builders.any_fleet import any_fleet
 from tests.builders.fleets import grid_fleet
@@ -58,7 +58,7 @@ def test_crossing_lanes_exclude_each_other_in_both_directions() -> None:
 )
 def test_on_a_grid_discs_that_touch_are_apart(radius: str, near: int) -> None:
     """The centre of a 5 x 5 grid has itself, 4 cells at distance 1, 4 at 1.414…, 4 at 2."""
-    roadmap = roadmap_of_grid(["....."] * 5)
+    roadmap = make_grid_roadmap(["....."] * 5)
     resources = bind_resources(roadmap, [Fraction(radius)], Fraction(0))
     assert len(excluded_by(resources, 12)) == near
     assert not any(len(excluded_by(resources, row)) for row in range(25, 25 + roadmap.n_edges))
@@ -73,7 +73,7 @@ def test_moving_a_layout_changes_nothing(shift: tuple[float, float]) -> None:
         edges = [
             Edge(tail=f"V{k}", head=f"V{k + 1}", length=Fraction(1, 10)) for k in range(len(at) - 1)
         ]
-        return roadmap_of_edges(at, edges)
+        return make_roadmap(at, edges)
 
     here, there = (
         bind_resources(
@@ -162,7 +162,7 @@ def test_close_pairs_are_decided_exactly_and_lanes_that_meet_do_not_cross() -> N
     at = {"A": (0.0, 0.0), "B": (4.0, 0.0), "C": (4.0, 4.0), "D": (0.0, 4.0), "M": (0.3, 0.0)}
     lanes = [("A", "C"), ("C", "A"), ("B", "D"), ("C", "B"), ("A", "B")]
     edges = [Edge(tail=tail, head=head, length=Fraction(6)) for tail, head in lanes]
-    roadmap = roadmap_of_edges(at, edges)
+    roadmap = make_roadmap(at, edges)
     found = close_pairs(roadmap, Fraction("0.3"))
     assert (found.vertices, found.crossings) == ([], [((0, 2), (1, 3))])
     assert found.beside == [(4, (0, 1)), (4, (0, 2))]  # M lies on A-B, and 0.21 from A-C
@@ -175,7 +175,7 @@ def test_a_zone_of_too_many_lanes_is_refused_by_name() -> None:
     names = [f"v{k}" for k in range(2_001)]
     positions = {name: (float(k), 0.0) for k, name in enumerate(names)}
     hall = NamedZone(name="hall", vertices=tuple(names))
-    roadmap = roadmap_of_edges(
+    roadmap = make_roadmap(
         positions, [Edge(tail="v0", head="v1", length=Fraction(1))], zones=[hall]
     )
     with pytest.raises(

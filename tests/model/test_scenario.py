@@ -7,7 +7,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.model import Robot, Rules, Scenario, Stop
-from rightofway.site import VertexId, roadmap_of_grid
+from rightofway.site import VertexId, make_grid_roadmap
 from tests.builders.fleets import grid_fleet
 
 ROW = ["....."]
@@ -43,7 +43,7 @@ def test_a_robot_may_differ_from_the_rules() -> None:
 
 
 def test_every_independent_fault_is_reported_at_once() -> None:
-    roadmap = roadmap_of_grid(ROW)
+    roadmap = make_grid_roadmap(ROW)
     stop = Stop(at=VertexId(9), work=Fraction(-1))
     bad = Robot(name="", home=VertexId(0), stops=(stop,), speed=Fraction(-1, 2))
     twin = Robot(name="B", home=VertexId(0), stops=())

@@ -13,14 +13,14 @@ from rightofway.errors import InputError
 from rightofway.fleet_builder import FleetBuilder
 from rightofway.model import Clock, Robot, Rules, Scenario, Stop, Track, route_through
 from rightofway.model.turning import compute_turnings, measure_angles
-from rightofway.site import Edge, Roadmap, VertexId, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from tests.builders.fleets import grid_fleet
 
 
 def lanes(positions: dict[str, tuple[float, float]], *pairs: str) -> Roadmap:
     """Return lanes of length 1 between vertices of one letter: ``AB`` leads from A to B."""
     edges = [Edge(tail=pair[0], head=pair[1], length=Fraction(1)) for pair in pairs]
-    return roadmap_of_edges(positions, edges)
+    return make_roadmap(positions, edges)
 
 
 def angle(roadmap: Roadmap, before: int, after: int) -> int:
@@ -29,7 +29,7 @@ def angle(roadmap: Roadmap, before: int, after: int) -> int:
 
 
 def test_a_grid_has_three_kinds_of_angles() -> None:
-    assert measure_angles(roadmap_of_grid(["...", "..."])).angles == (0, 90_000_000, 180_000_000)
+    assert measure_angles(make_grid_roadmap(["...", "..."])).angles == (0, 90_000_000, 180_000_000)
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ def test_moving_a_roadmap_changes_no_angle() -> None:
 
 def test_a_turn_is_rounded_up_to_ticks() -> None:
     """At 40 degrees per time unit: 90 degrees take 2.25, 180 take 4.5; ticks last 1/2."""
-    roadmap = roadmap_of_grid(["...", "..."])
+    roadmap = make_grid_roadmap(["...", "..."])
     (turning,) = compute_turnings(roadmap, [Fraction(40)], Clock(tick=Fraction(1, 2)))
     assert turning is not None
     assert turning.ticks.tolist() == [0, 5, 9]
@@ -88,7 +88,9 @@ def test_a_turn_is_rounded_up_to_ticks() -> None:
 
 def test_robots_of_one_rate_share_their_turns() -> None:
     one, none, other = compute_turnings(
-        roadmap_of_grid(["...", "..."]), [Fraction(45), None, Fraction(45)], Clock(tick=Fraction(1))
+        make_grid_roadmap(["...", "..."]),
+        [Fraction(45), None, Fraction(45)],
+        Clock(tick=Fraction(1)),
     )
     assert one is other
     assert none is None
@@ -102,7 +104,7 @@ def test_a_route_turns_at_corners_and_stops_alike() -> None:
     """East, south; back north, west: 90 degrees at the corner, twice, and 180 at the stop."""
     scenario = corner(Rules(turn_rate=Fraction(90)))
     roadmap, itinerary = scenario.roadmap, scenario.problem.itineraries[0]
-    vertices = [roadmap.vertex(name) for name in ("N0", "N1", "N3", "N1", "N0")]
+    vertices = [roadmap.get_vertex(name) for name in ("N0", "N1", "N3", "N1", "N0")]
     assert route_through(roadmap, itinerary, vertices).dwell == (0, 1, 2, 1, 0)
 
 

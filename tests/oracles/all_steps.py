@@ -50,7 +50,7 @@ def is_step(
 def _may_drive(scenario: Scenario, robot: int, tail: int, head: int) -> bool:
     """Tell whether there is an edge, and it is not barred to the robot."""
     roadmap, ticks = scenario.roadmap, scenario.problem.itineraries[robot].edge_ticks
-    edge = roadmap.edge(tail, head)
+    edge = roadmap.find_edge(tail, head)
     return edge is not None and ticks[roadmap.class_of_edge[edge]] >= 0
 
 

@@ -137,7 +137,7 @@ class _Turns:
         self._turn: list[int] = turning.ticks[turning.angles.kind].tolist()
         self._cells = None
         if roadmap.grid is not None:
-            self._cells = [roadmap.grid.cell(vertex) for vertex in range(roadmap.n_vertices)]
+            self._cells = [roadmap.grid.get_cell(vertex) for vertex in range(roadmap.n_vertices)]
             self._quickest = min((ticks for ticks in pace if ticks > 0), default=0)
 
     def first(self, vertex: int) -> Iterator[tuple[int, int]]:

@@ -66,7 +66,7 @@ class Site:
         self.headway = ceil(self.rules.headway / self.tick)
         self.squares: dict[tuple[Shape, Shape], Fraction] = {}
         self.edges = {
-            (tail, int(self.roadmap.heads[edge])): self.roadmap.edge_class(edge)
+            (tail, int(self.roadmap.heads[edge])): self.roadmap.get_edge_class(edge)
             for tail in range(self.roadmap.n_vertices)
             for edge in range(int(self.roadmap.indptr[tail]), int(self.roadmap.indptr[tail + 1]))
         }
@@ -122,7 +122,7 @@ class Site:
 
 def _place(roadmap: Roadmap, vertex: int) -> Point:
     if roadmap.grid is not None:
-        row, column = roadmap.grid.cell(vertex)
+        row, column = roadmap.grid.get_cell(vertex)
         return column * roadmap.grid.cell_size, row * roadmap.grid.cell_size
     x, y = roadmap.positions[vertex].tolist()
     return Fraction(repr(x)), Fraction(repr(y))

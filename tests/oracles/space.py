@@ -28,7 +28,7 @@ class Booked(NamedTuple):
 def point(roadmap: Roadmap, vertex: int) -> Point:
     """Return the exact position of a vertex."""
     if roadmap.grid is not None:
-        row, column = roadmap.grid.cell(vertex)
+        row, column = roadmap.grid.get_cell(vertex)
         return column * roadmap.grid.cell_size, row * roadmap.grid.cell_size
     x, y = roadmap.positions[vertex]
     return Fraction(str(float(x))), Fraction(str(float(y)))
@@ -84,9 +84,9 @@ def incompatible(scenario: Scenario, i: int, one: Shape, j: int, other: Shape) -
 def drive(scenario: Scenario, robot: int, tail: int, head: int) -> Fraction:
     """Return the ticks of a drive."""
     roadmap = scenario.roadmap
-    edge = roadmap.edge(tail, head)
+    edge = roadmap.find_edge(tail, head)
     assert edge is not None
-    kind = roadmap.edge_class(edge)
+    kind = roadmap.get_edge_class(edge)
     limit = kind.max_speed
     own, tick = scenario.robots[robot].speed, scenario.problem.clock.tick
     speed = own if limit is None else min(own, limit)

@@ -40,7 +40,7 @@ def test_a_robot_that_closures_stop_even_alone_is_named_with_them(
 
 def test_only_closures_that_block_are_named() -> None:
     scenario = corridor(at="N5", until=2)
-    at = scenario.roadmap.vertex("N0")
+    at = scenario.roadmap.get_vertex("N0")
     late = replace(scenario, closures=(*scenario.closures, Closure(at=at, from_=Fraction(9))))
     with pytest.raises(NoPlanExists) as proven:
         solve(late)

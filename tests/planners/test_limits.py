@@ -20,7 +20,7 @@ from rightofway.model import Robot, Rules, Scenario, Stop, Tick
 from rightofway.planners import Deadline, Task
 from rightofway.planners.priorities import fixed_priority
 from rightofway.planners.two_level import two_level
-from rightofway.site import VertexId, roadmap_of_grid
+from rightofway.site import VertexId, make_grid_roadmap
 from tests.builders.fleets import random_fleet
 
 HARD = Path(__file__).parents[1] / "data" / "hard"
@@ -177,5 +177,5 @@ def corridor(laps: int, homes: tuple[int, ...]) -> Scenario:
     robots = tuple(
         Robot(name=f"R{home}", home=VertexId(home), stops=(Stop(at=VertexId(3)),)) for home in homes
     )
-    roadmap = roadmap_of_grid(["....."])
+    roadmap = make_grid_roadmap(["....."])
     return Scenario(roadmap=roadmap, robots=robots, rules=Rules(laps=laps))

@@ -45,7 +45,7 @@ def test_one_flip_lets_the_fast_robot_through_before_the_slow_one() -> None:
         rules=Rules(ends="none"),
         speeds=[Fraction(1), Fraction(1, 5)],
     )
-    vertex, corridor = scenario.roadmap.vertex, [f"N{k}" for k in range(8, 16)]
+    vertex, corridor = scenario.roadmap.get_vertex, [f"N{k}" for k in range(8, 16)]
     behind = (
         Track.of([vertex(v) for v in ["N0", *corridor, "N7"]], [0, *range(10, 46, 5), 46]),
         Track.of([vertex(v) for v in ["N16", *corridor, "N23"]], range(0, 46, 5)),

@@ -127,7 +127,7 @@ def test_a_deadlock_that_waiting_cannot_open_is_opened_by_another_way() -> None:
     plan = solve(grid_fleet(corridor, [("N0", "N4"), ("N4", "N2")]))
     assert rightofway.check(plan).ok
     assert plan.run.status == "re-routed R2"
-    assert plan.scenario.roadmap.vertex("N8") in plan.tracks[1].vertices
+    assert plan.scenario.roadmap.get_vertex("N8") in plan.tracks[1].vertices
     assert "waiting cannot keep R1 and R2 apart" in plan.run.reroutes[0].because
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rightofway.model import Robot, Rules, Scenario, Stop, Tick, Track
 from rightofway.precedence import Arrival, Part, ReleaseGraph
-from rightofway.site import VertexId, roadmap_of_grid
+from rightofway.site import VertexId, make_grid_roadmap
 from tests.builders.plans import door
 
 
@@ -23,7 +23,7 @@ def test_the_second_robot_waits_until_the_first_has_arrived_beyond_the_door() ->
 
 def test_robots_that_move_round_a_square_at_one_instant_are_a_cycle() -> None:
     """Four robots on 2 x 2 cells, each to the next cell clockwise: 0, 1, 3, 2."""
-    roadmap, circle = roadmap_of_grid(("..", "..")), (0, 1, 3, 2)
+    roadmap, circle = make_grid_roadmap(("..", "..")), (0, 1, 3, 2)
     ways = list(zip(circle, (*circle[1:], 0), strict=True))
     robots = tuple(
         Robot(name=f"R{k}", home=VertexId(home), stops=(Stop(at=VertexId(to)),))

@@ -35,7 +35,7 @@ def pieces(scenario: Scenario, *steps: tuple[str, int, str]) -> list[Piece]:
         Piece(
             kind=kind,  # type: ignore[arg-type]
             robot=robot,
-            places=tuple(map(scenario.roadmap.vertex, places.split())),
+            places=tuple(map(scenario.roadmap.get_vertex, places.split())),
             ticks=Tick(1),
         )
         for kind, robot, places in steps

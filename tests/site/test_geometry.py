@@ -9,10 +9,10 @@ from rightofway.site import (
     Frame,
     Point,
     choose_rounding_step,
+    make_grid_roadmap,
+    make_roadmap,
+    measure_squared_distance,
     measure_straight_length,
-    roadmap_of_edges,
-    roadmap_of_grid,
-    squared_distance,
 )
 from rightofway.site.geometry import COARSE, FINE
 
@@ -44,20 +44,22 @@ def test_the_origin_is_the_lower_left_corner_of_a_grid(
     y_up: bool, origin: Point | None, first: Point, last: Point
 ) -> None:
     """Two rows of three cells of length 1: a cell's point is its centre."""
-    roadmap = roadmap_of_grid(["...", "..."], y_up=y_up, origin=origin)
-    assert (roadmap.point(0), roadmap.point(5)) == (first, last)
+    roadmap = make_grid_roadmap(["...", "..."], y_up=y_up, origin=origin)
+    assert (roadmap.get_point(0), roadmap.get_point(5)) == (first, last)
 
 
 def test_a_vertex_keeps_its_point_where_y_grows_upwards() -> None:
-    roadmap = roadmap_of_edges({"a": (0.1, -19.65), "b": (0.1, 4.0)}, [], y_up=True)
-    assert roadmap.point(0) == (Fraction("0.1"), Fraction("-19.65"))
+    roadmap = make_roadmap({"a": (0.1, -19.65), "b": (0.1, 4.0)}, [], y_up=True)
+    assert roadmap.get_point(0) == (Fraction("0.1"), Fraction("-19.65"))
     assert roadmap.positions[0, 1] > roadmap.positions[1, 1], "a is drawn below b"
-    assert roadmap != roadmap_of_edges({"a": (0.1, 19.65), "b": (0.1, -4.0)}, [])
+    assert roadmap != make_roadmap({"a": (0.1, 19.65), "b": (0.1, -4.0)}, [])
 
 
 def test_a_distance_that_is_a_fraction_is_exact() -> None:
     assert (
-        measure_straight_length(squared_distance(ZERO, at(Fraction(3, 10), Fraction(4, 10))))
+        measure_straight_length(
+            measure_squared_distance(ZERO, at(Fraction(3, 10), Fraction(4, 10)))
+        )
         == HALF
     )
 
@@ -75,7 +77,7 @@ def test_the_step_is_finer_where_a_distance_is_below_1() -> None:
 
 def test_a_rounded_length_is_never_short_and_less_than_a_step_too_long() -> None:
     for x in range(1, 40):
-        square = squared_distance(ZERO, at(x, Fraction(1, 7)))
+        square = measure_squared_distance(ZERO, at(x, Fraction(1, 7)))
         length = measure_straight_length(square)
         assert (length - COARSE) ** 2 < square <= length**2
 
@@ -86,4 +88,4 @@ def test_a_rounded_length_is_never_short_and_less_than_a_step_too_long() -> None
 )
 def test_a_distance_that_cannot_be_kept_is_refused(head: Point, message: str) -> None:
     with pytest.raises(InputError, match=message):
-        measure_straight_length(squared_distance(ZERO, head))
+        measure_straight_length(measure_squared_distance(ZERO, head))

@@ -36,12 +36,12 @@ def test_no_robot_is_faster_than_the_limit_of_an_edge_and_none_is_slower_for_it(
     roadmap = limited().roadmap
     assert roadmap.lengths == (Fraction(3), Fraction(6), Fraction(6))
     assert tuple(each.max_speed for each in roadmap.edge_classes) == (None, None, Fraction(1, 2))
-    assert [each.duration(Fraction(2)) for each in roadmap.edge_classes] == [
+    assert [each.compute_duration(Fraction(2)) for each in roadmap.edge_classes] == [
         Fraction(3, 2),
         Fraction(3),
         Fraction(12),
     ]
-    assert [each.duration(Fraction(1, 3)) for each in roadmap.edge_classes] == [
+    assert [each.compute_duration(Fraction(1, 3)) for each in roadmap.edge_classes] == [
         Fraction(9),
         Fraction(18),
         Fraction(18),
@@ -114,7 +114,9 @@ def test_a_roadmap_keeps_the_pieces_of_each_lane_that_it_split() -> None:
     back = roadmap.lanes[0]
     assert names(roadmap, back.ends) == ["A", "B-1"]
     assert names(roadmap, back.joints) == ["B-1-A/2", "B-1-A/1"]
-    assert all(roadmap.edge(*piece) is not None for lane in roadmap.lanes for piece in lane.pieces)
+    assert all(
+        roadmap.find_edge(*piece) is not None for lane in roadmap.lanes for piece in lane.pieces
+    )
 
 
 def test_a_file_keeps_the_pieces_of_lanes_by_their_names() -> None:
@@ -136,12 +138,12 @@ def test_pieces_of_a_file_that_are_split_again_are_pieces_of_the_whole_lane() ->
 
 def test_the_ways_along_the_ends_of_a_lane_are_its_drawings() -> None:
     roadmap = split_both_ways().roadmap
-    a, b, joint = map(roadmap.vertex, ("A", "B-1", "B-1-A/1"))
-    assert [names(roadmap, way) for way in roadmap.ways_along((b, a))] == [
+    a, b, joint = map(roadmap.get_vertex, ("A", "B-1", "B-1-A/1"))
+    assert [names(roadmap, way) for way in roadmap.find_ways_along((b, a))] == [
         ["A", "B-1-A/2", "B-1-A/1", "B-1"]
     ]
-    assert roadmap.ways_along((joint, b)) == [(joint, b)]
-    assert roadmap.ways_along((a, roadmap.vertex("C"))) == []
+    assert roadmap.find_ways_along((joint, b)) == [(joint, b)]
+    assert roadmap.find_ways_along((a, roadmap.get_vertex("C"))) == []
 
 
 @pytest.mark.parametrize(
@@ -159,7 +161,7 @@ def test_vertices_are_along_one_lane_if_one_of_them_is_between_its_pieces(
     vertices: list[str], is_along: bool
 ) -> None:
     roadmap = split_both_ways().roadmap
-    assert roadmap.is_along_one_lane([roadmap.vertex(name) for name in vertices]) is is_along
+    assert roadmap.is_along_one_lane([roadmap.get_vertex(name) for name in vertices]) is is_along
 
 
 def test_a_lane_that_is_short_enough_stays_whole() -> None:
@@ -220,7 +222,7 @@ def test_a_convoy_on_a_lane_of_40_drives_as_close_as_its_pieces_allow(
         "auto": {"iterations": 9, "nodes": 9},
     }
     plan = rightofway.solve(scenario, planner, options=given.get(planner))
-    tick, at_b = scenario.problem.clock.tick, scenario.roadmap.vertex("B")
+    tick, at_b = scenario.problem.clock.tick, scenario.roadmap.get_vertex("B")
     passing = [
         tick * int(track.enter[track.vertices.tolist().index(at_b)]) for track in plan.tracks
     ]

@@ -29,7 +29,7 @@ def test_points_within_the_distance_and_no_others_are_found(
 ) -> None:
     points, others = scattered(seed, n, extent, longest)
     inside = np.vstack((points, others))
-    one, other = PointGrid(inside, distance).near(inside)
+    one, other = PointGrid(inside, distance).find_near(inside)
     gaps = np.hypot(*(inside[:, None] - inside).transpose(2, 0, 1))
     assert sorted(zip(one, other, strict=True)) == list(map(tuple, np.argwhere(gaps <= distance)))
 
@@ -41,7 +41,7 @@ def test_points_within_the_distance_of_a_line_and_no_others_are_found(
     begin, end = scattered(seed, n, extent, longest)
     lines, points = Lines(begin, end), np.vstack((begin, end))
     grid = PointGrid(points, distance + lines.piece)
-    line, point = lines.near_points(grid, slice(n // 2, n), distance)
+    line, point = lines.find_near_points(grid, slice(n // 2, n), distance)
     near = {
         (k, j)
         for k in range(n // 2, n)
@@ -67,7 +67,7 @@ def test_lines_that_cross_are_found_once(seed: int, n: int, extent: float, longe
     a, b = scattered(seed, n, extent, longest)
     lines = Lines(a, b)
     grid = PointGrid(lines.middles, lines.piece * (1 + 1e-9))
-    parts = [lines.crossing(grid, slice(k, k + 7), 0) for k in range(0, n, 7)]
+    parts = [lines.find_crossing(grid, slice(k, k + 7), 0) for k in range(0, n, 7)]
     found = [
         pair for one, other in parts for pair in zip(one.tolist(), other.tolist(), strict=True)
     ]

@@ -6,16 +6,16 @@ import pytest
 
 from rightofway import InputError
 from rightofway.quantities import Units
-from rightofway.site import Roadmap, roadmap_of_edges, roadmap_of_grid
-from rightofway.site.places import Spot, as_place, vertex_at
+from rightofway.site import Roadmap, make_grid_roadmap, make_roadmap
+from rightofway.site.places import Spot, as_place, find_vertex_at
 
-GRID = roadmap_of_grid(["...", "@..", "..."], cell_size=Fraction(1, 2))
-UPWARDS = roadmap_of_grid(["...", "@..", "..."], y_up=True, origin=(Fraction(10), Fraction(20)))
-DRAWN = roadmap_of_edges({"bay": (0.1, -19.65), "7": (3.0, 4.0), "pit": (3.0, 4.0)}, [], y_up=True)
+GRID = make_grid_roadmap(["...", "@..", "..."], cell_size=Fraction(1, 2))
+UPWARDS = make_grid_roadmap(["...", "@..", "..."], y_up=True, origin=(Fraction(10), Fraction(20)))
+DRAWN = make_roadmap({"bay": (0.1, -19.65), "7": (3.0, 4.0), "pit": (3.0, 4.0)}, [], y_up=True)
 
 
 def found(roadmap: Roadmap, x: object, y: object) -> str:
-    return roadmap.name(vertex_at(roadmap, as_place({"x": x, "y": y})))
+    return roadmap.name(find_vertex_at(roadmap, as_place({"x": x, "y": y})))
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_what_is_no_place_is_said_with_what_may_be_meant(
     roadmap: Roadmap, place: object, message: str
 ) -> None:
     with pytest.raises(InputError) as caught:
-        vertex_at(roadmap, as_place(place, roadmap), units=Units(length="m"))
+        find_vertex_at(roadmap, as_place(place, roadmap), units=Units(length="m"))
     assert str(caught.value) == message
 
 

@@ -31,7 +31,7 @@ def random_floor(seed: int, share: float) -> NDArray[np.bool_]:
 def edges_of(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction]]:
     for tail in range(roadmap.n_vertices):
         for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1])):
-            length = roadmap.edge_class(edge).length
+            length = roadmap.get_edge_class(edge).length
             yield tail, int(roadmap.heads[edge]), length
 
 
@@ -93,7 +93,7 @@ def test_no_drive_between_two_middles_comes_nearer_than_the_radius_or_half_a_sma
     least = min(radius, Fraction(1, 2)) ** 2
     for tail, head, _ in edges_of(roadmap):
         if tail < head:
-            (x, y), (to_x, to_y) = roadmap.point(tail), roadmap.point(head)
+            (x, y), (to_x, to_y) = roadmap.get_point(tail), roadmap.get_point(head)
             for row, column in blocked:
                 near_x = min(x, to_x) - 1 <= column + 1 and column <= max(x, to_x) + 1
                 near_y = min(y, to_y) - 1 <= row + 1 and row <= max(y, to_y) + 1
@@ -117,7 +117,7 @@ def squared_gap(
 def test_an_edge_is_as_long_as_the_straight_line_or_a_little_longer() -> None:
     free = random_floor(3, 0.1)
     for tail, head, length in edges_of(roadmap := build_roadmap_of_squares(free, Fraction(1, 2))):
-        (x, y), (to_x, to_y) = roadmap.point(tail), roadmap.point(head)
+        (x, y), (to_x, to_y) = roadmap.get_point(tail), roadmap.get_point(head)
         square = (x - to_x) ** 2 + (y - to_y) ** 2
         assert square <= length**2 <= square * OBLIQUE**2 / Fraction(5, 2)
 
@@ -139,14 +139,14 @@ def test_squares_lie_where_the_frame_says() -> None:
     corner = (Fraction(10), Fraction(-4))
     up = build_roadmap_of_squares(free, Fraction(1, 2), y_up=True, corner=corner, origin=corner)
     assert up.labels == ("Q1-0", "Q0-1", "Q1-1")
-    assert up.point(0) == (Fraction("10.75"), Fraction("-3.75"))
+    assert up.get_point(0) == (Fraction("10.75"), Fraction("-3.75"))
     down = build_roadmap_of_squares(free, Fraction(1, 2), corner=corner, origin=corner)
-    assert down.point(0) == (Fraction("10.75"), Fraction("-3.75"))
+    assert down.get_point(0) == (Fraction("10.75"), Fraction("-3.75"))
     yaw = Fraction("1.5707963267949")  # a quarter turn: x to y
     turned = build_roadmap_of_squares(
         free, Fraction(1, 2), y_up=True, corner=corner, origin=corner, yaw=yaw
     )
-    x, y = turned.point(0)
+    x, y = turned.get_point(0)
     assert (round(x, 9), round(y, 9)) == (Fraction("9.75"), Fraction("-3.25"))
 
 

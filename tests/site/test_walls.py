@@ -12,7 +12,7 @@ from rightofway.errors import InputError, NoPlanExists
 from rightofway.io import dump_scenario, scenario_of
 from rightofway.metrics import Site, inspect
 from rightofway.model import Scenario
-from rightofway.site import roadmap_of_grid
+from rightofway.site import make_grid_roadmap
 from rightofway.site.walls import clear_of_walls, reaches_walls
 
 HALL = ["......", "......", "..@...", "......", "......"]
@@ -32,7 +32,7 @@ def hall(radius: str, walls: str = "strict", home: str = "N13", target: str = "N
 
 def test_a_robot_reaches_where_its_disc_leaves_the_free_cells() -> None:
     """A pillar in the middle of 6 x 5 cells: 0.7 cells reach straight, not over the corner."""
-    roadmap = roadmap_of_grid(HALL)
+    roadmap = make_grid_roadmap(HALL)
     wide = reaches_walls(roadmap, Fraction(7, 10))
     free = {roadmap.name(vertex) for vertex in range(roadmap.n_vertices) if not wide[vertex]}
     corners, right = {"N7", "N9", "N19", "N21"}, {"N10", "N16", "N22"}
@@ -42,12 +42,12 @@ def test_a_robot_reaches_where_its_disc_leaves_the_free_cells() -> None:
 
 
 def test_edges_are_barred_for_robots_that_are_too_wide() -> None:
-    roadmap = roadmap_of_grid(HALL)
+    roadmap = make_grid_roadmap(HALL)
     clear = clear_of_walls(roadmap, [Fraction(2, 5), Fraction(7, 10)])
     into = {
         clear.name(int(clear.heads[edge]))
         for edge in range(clear.n_edges)
-        if not clear.edge_class(edge).is_barred(None, Fraction(7, 10))
+        if not clear.get_edge_class(edge).is_barred(None, Fraction(7, 10))
     }
     assert into == {"N7", "N9", "N19", "N21", "N10", "N16", "N22"}
     assert not any(each.is_barred(None, Fraction(2, 5)) for each in clear.edge_classes)

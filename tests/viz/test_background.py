@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from rightofway.errors import InputError
-from rightofway.site import Edge, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, make_grid_roadmap, make_roadmap
 from rightofway.viz import Background, payload_of
 from rightofway.viz.page.background import background_data
 from rightofway.viz.page.schema import PlaceData
@@ -29,13 +29,13 @@ def picture(tmp_path: Path) -> Path:
 
 def test_a_picture_is_as_wide_as_the_map_and_lies_on_its_lower_border(picture: Path) -> None:
     # three cells from -0.5 to 2.5; 60 by 30 pixels are 3 by 1.5 cells
-    found = background_data(roadmap_of_grid(DOOR), Background(picture=picture))
+    found = background_data(make_grid_roadmap(DOOR), Background(picture=picture))
     assert box_of(found) == [-0.5, 1.0, 3.0, 1.5]
     assert found["href"].startswith("data:image/png;base64,")
 
 
 def test_a_scale_is_the_length_of_a_pixel(picture: Path) -> None:
-    roadmap = roadmap_of_grid(DOOR, cell_size=Fraction(1, 2))
+    roadmap = make_grid_roadmap(DOOR, cell_size=Fraction(1, 2))
     found = background_data(roadmap, Background(picture=picture, scale=0.05))
     assert box_of(found) == pytest.approx([-0.5, -0.5, 6.0, 3.0])
 
@@ -43,7 +43,7 @@ def test_a_scale_is_the_length_of_a_pixel(picture: Path) -> None:
 def test_an_origin_is_a_point_of_the_site(picture: Path) -> None:
     """As in a map of ROS: y grows upwards, the origin is the lower left pixel's corner."""
     edge = Edge(tail="a", head="b", length=Fraction(2))
-    roadmap = roadmap_of_edges({"a": (1, 5), "b": (3, 5)}, [edge], y_up=True)
+    roadmap = make_roadmap({"a": (1, 5), "b": (3, 5)}, [edge], y_up=True)
     found = background_data(roadmap, Background(picture=picture, scale=0.1, origin=(0, 4)))
     # a unit of the drawing is the edge of 2; a is drawn at (0, 0); the origin is 1 left of a and
     # 1 below it; the picture is 6 by 3 length units
@@ -52,7 +52,7 @@ def test_an_origin_is_a_point_of_the_site(picture: Path) -> None:
 
 def test_a_portable_greymap_becomes_a_picture_that_browsers_show(tmp_path: Path) -> None:
     Image.new("L", (4, 2), 200).save(tmp_path / "map.pgm")
-    found = background_data(roadmap_of_grid(DOOR), Background(picture=tmp_path / "map.pgm"))
+    found = background_data(make_grid_roadmap(DOOR), Background(picture=tmp_path / "map.pgm"))
     assert found["href"].startswith("data:image/png;base64,")
 
 

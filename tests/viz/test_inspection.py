@@ -7,7 +7,7 @@ from fractions import Fraction
 from rightofway.metrics import Site, inspect
 from rightofway.model import Robot, Stop
 from rightofway.quantities import Units
-from rightofway.site import Edge, VertexId, roadmap_of_edges
+from rightofway.site import Edge, VertexId, make_roadmap
 from rightofway.viz import inspection_page, site_data
 from tests.builders.payloads import payload_in
 
@@ -17,7 +17,7 @@ EVIL = '</script><img src="x" onerror="alert(1)">'
 def yard() -> Site:
     """Return two places on one lane, and a robot with a size."""
     edges = [Edge(tail=a, head=b, length=Fraction(2)) for a, b in ("AB", "BA")]
-    roadmap = roadmap_of_edges({"A": (0, 0), "B": (2, 0)}, edges)
+    roadmap = make_roadmap({"A": (0, 0), "B": (2, 0)}, edges)
     robot = Robot(name="R1", home=VertexId(0), stops=(Stop(at=VertexId(1)),), radius=Fraction(1, 2))
     return Site(roadmap=roadmap, units=Units(length="m", time="s"), robots=(robot,))
 

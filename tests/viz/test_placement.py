@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from rightofway.site import Edge, roadmap_of_edges, roadmap_of_grid
+from rightofway.site import Edge, make_grid_roadmap, make_roadmap
 from rightofway.viz.placement import (
     MAX_ROBOTS,
     MAX_VERTICES,
@@ -16,7 +16,7 @@ from tests.builders.plans import DOOR, loop
 
 
 def test_a_cell_is_a_unit_whatever_its_size() -> None:
-    plane = plane_of(roadmap_of_grid(DOOR, cell_size=Fraction(1, 2)))
+    plane = plane_of(make_grid_roadmap(DOOR, cell_size=Fraction(1, 2)))
     # column and row of N0, N1, N2, N4, N6, N7, N8
     assert plane.points.tolist() == [[0, 0], [1, 0], [2, 0], [1, 1], [0, 2], [1, 2], [2, 2]]
     assert (plane.width, plane.height) == (3, 3)
@@ -30,21 +30,21 @@ def test_a_short_edge_is_a_unit_of_a_roadmap() -> None:
 
 
 def test_a_drawing_knows_its_unit_and_its_corner() -> None:
-    cells = plane_of(roadmap_of_grid(DOOR, cell_size=Fraction(1, 2)))
+    cells = plane_of(make_grid_roadmap(DOOR, cell_size=Fraction(1, 2)))
     assert (cells.unit, cells.corner) == (0.5, (0, 0))
     edge = Edge(tail="a", head="b", length=Fraction(9))  # drawn 2 across and 3 down
-    drawn = plane_of(roadmap_of_edges({"a": (3, 1), "b": (5, 4)}, [edge]))
+    drawn = plane_of(make_roadmap({"a": (3, 1), "b": (5, 4)}, [edge]))
     assert drawn.unit == pytest.approx(13**0.5)
     assert drawn.corner == (3, 1)
 
 
 def test_a_roadmap_without_an_edge_is_drawn_as_it_is() -> None:
-    plane = plane_of(roadmap_of_edges({"a": (3, 1), "b": (5, 1)}, []))
+    plane = plane_of(make_roadmap({"a": (3, 1), "b": (5, 1)}, []))
     assert plane.points.tolist() == [[0, 0], [2, 0]]
 
 
 def test_vertices_on_one_spot_do_not_divide_by_zero() -> None:
-    roadmap = roadmap_of_edges(
+    roadmap = make_roadmap(
         {"a": (1, 1), "b": (1, 1)}, [Edge(tail="a", head="b", length=Fraction(1))]
     )
     assert plane_of(roadmap).points.tolist() == [[0, 0], [0, 0]]

@@ -14,7 +14,7 @@ from PIL import Image, ImageColor
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
 from rightofway.model import Plan, Robot, Scenario, Stop
-from rightofway.site import Edge, VertexId, roadmap_of_edges
+from rightofway.site import Edge, VertexId, make_roadmap
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.solve import solve
 from rightofway.viz import Film, write_gif, write_png
@@ -224,7 +224,7 @@ def test_the_picture_of_a_layout_lies_where_it_says(tmp_path: Path) -> None:
     picture.save(tmp_path / "hall.png")
     edge = Edge(tail="A", head="B", length=Fraction(2))
     roadmap = replace(
-        roadmap_of_edges({"A": (0, 0), "B": (2, 0)}, [edge], y_up=True),
+        make_roadmap({"A": (0, 0), "B": (2, 0)}, [edge], y_up=True),
         drawing=Drawing(
             picture=Picture(
                 file=tmp_path / "hall.png", pixel=Fraction(1), corner=(Fraction(-1), Fraction(2))

@@ -11,7 +11,7 @@ import pytest
 from rightofway.check import check
 from rightofway.errors import InputError
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
-from rightofway.site import Edge, VertexId, roadmap_of_edges
+from rightofway.site import Edge, VertexId, make_roadmap
 from rightofway.solve import solve
 from rightofway.viz.table import Row, TimeSpaceTable, as_csv, as_text, table_of
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
@@ -27,7 +27,7 @@ WAYS_OUT = {
 
 def plan_of(scenario: Scenario, *trips: tuple[Sequence[int], Sequence[int]]) -> Plan:
     """Make a plan of cells and enter."""
-    vertex = scenario.roadmap.vertex
+    vertex = scenario.roadmap.get_vertex
     tracks = (Track.of([vertex(f"N{cell}") for cell in cells], enter) for cells, enter in trips)
     return Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun(name="by hand"))
 
@@ -210,7 +210,7 @@ def named() -> Plan:
         Edge(tail="棚", head="dock", length=Fraction(3, 2)),
     ]
     scenario = Scenario(
-        roadmap=roadmap_of_edges({"dock": (0.0, 0.0), "棚": (1.0, 0.0)}, edges),
+        roadmap=make_roadmap({"dock": (0.0, 0.0), "棚": (1.0, 0.0)}, edges),
         robots=(Robot(name="Zoë", home=VertexId(0), stops=(Stop(at=VertexId(1)),)),),
     )
     track = Track.of([0, 1, 0], [0, 2, 6])

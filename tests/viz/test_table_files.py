@@ -12,7 +12,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
-from rightofway.site import Edge, VertexId, roadmap_of_edges
+from rightofway.site import Edge, VertexId, make_roadmap
 from rightofway.viz.table import table_of, write_csv, write_xlsx
 from tests.builders.fleets import grid_fleet
 
@@ -91,7 +91,7 @@ def named(place: str) -> Plan:
     ends = [(place, "bay"), ("bay", place)]
     edges = [Edge(tail=tail, head=head, length=Fraction(1)) for tail, head in ends]
     scenario = Scenario(
-        roadmap=roadmap_of_edges({place: (0.0, 0.0), "bay": (1.0, 0.0)}, edges),
+        roadmap=make_roadmap({place: (0.0, 0.0), "bay": (1.0, 0.0)}, edges),
         robots=(Robot(name="Shuttle 1", home=VertexId(0), stops=(Stop(at=VertexId(1)),)),),
     )
     return plan_of(scenario, ([0, 1, 0], [0, 2, 3]))

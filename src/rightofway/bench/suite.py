@@ -253,9 +253,10 @@ def _with_rows(document: MapCasesDocument, index: int, counts: tuple[int, ...], 
         name=document.name or Path(document.file).stem,
         scen=Path(scen).name,
         counts=counts,
-        data={"grid": grid.lines()},
+        data={"grid": grid.as_lines()},
         ends=tuple(
-            (grid.cell(robot.home), grid.cell(robot.stops[0].at)) for robot in scenario.robots
+            (grid.get_cell(robot.home), grid.get_cell(robot.stops[0].at))
+            for robot in scenario.robots
         ),
     )
 

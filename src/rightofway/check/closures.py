@@ -36,9 +36,9 @@ def judge_barred(visits: Visits, names: Names, collector: FaultCollector) -> Non
             int(value) for value in (visits.robot[visit], visits.vertex[visit], following[visit])
         )
         robot_type = names.scenario.robots[robot].type
-        edge = roadmap.edge(tail, head)
+        edge = roadmap.find_edge(tail, head)
         why = Phrase("is barred for type {type}", type=str(robot_type))
-        if edge is None or robot_type not in roadmap.edge_class(edge).barred:
+        if edge is None or robot_type not in roadmap.get_edge_class(edge).barred:
             why = Phrase("is nearer to a wall than the robot's radius")
         collector.add(
             Fault(

@@ -81,7 +81,7 @@ def _angle(in_x: Fraction, in_y: Fraction, out_x: Fraction, out_y: Fraction) -> 
 
 def _place(roadmap: Roadmap, vertex: int) -> tuple[Fraction | int, Fraction | int]:
     if roadmap.grid is not None:
-        row, column = roadmap.grid.cell(vertex)
+        row, column = roadmap.grid.get_cell(vertex)
         return column, row  # whole cells: fractions are slow to compare
     x, y = roadmap.positions[vertex].tolist()
     return Fraction(str(x)), Fraction(str(y))

@@ -255,7 +255,7 @@ def _background(path: str | None, scale: float | None, plan: Plan) -> Background
     if len(pictures) != 1:
         message = f"names {len(pictures)} pictures (give a ROS map, or a building of one level)"
         raise InputError.at("", message, path)
-    return Background.of(pictures[0].scaled(1 / (plan.scenario.units.metres or Fraction(1))))
+    return Background.of(pictures[0].scale(1 / (plan.scenario.units.metres or Fraction(1))))
 
 
 def _write(plan: Plan, path: str, extras: dict[str, Any]) -> None:

@@ -275,7 +275,7 @@ class _Durations:
 
     def _ticks(self, robot: int, route: RouteToDrive, visit: int) -> int:
         """Return how long the drive into a visit lasts without delays [ticks]."""
-        ends = (self._roadmap.vertex(route.place(at)) for at in (visit - 1, visit))
+        ends = (self._roadmap.get_vertex(route.place(at)) for at in (visit - 1, visit))
         itinerary = self._plan.scenario.problem.itineraries[robot]
         return drives_along(self._roadmap, itinerary, list(map(int, ends)))[0]
 

@@ -145,7 +145,7 @@ class Dispatcher:
         GaveUp
             If no plan with it was found: the old one stands.
         """
-        self.plan.scenario.roadmap.vertex(at)  # refuses what is none
+        self.plan.scenario.roadmap.get_vertex(at)  # refuses what is none
         robots = self.ledger.robots
         candidates = [self.number_of(robot)] if robot is not None else range(len(robots))
         on_floor = [number for number in candidates if not robots[number].is_off]
@@ -181,7 +181,7 @@ class Dispatcher:
             If no plan with it was found: the old one stands.
         """
         if at is not None:
-            self.plan.scenario.roadmap.vertex(at)  # refuses what is none
+            self.plan.scenario.roadmap.get_vertex(at)  # refuses what is none
         stops = self._stops()
         number, place = self._open_job(stops, name)
         old = stops[number][place]
@@ -300,7 +300,7 @@ class Dispatcher:
         if at is None and not said:
             raise InputError.at("robot", f"{name} does not say where it is (give --at)")
         place = at or said
-        self.plan.scenario.roadmap.vertex(place)  # refuses what is none
+        self.plan.scenario.roadmap.get_vertex(place)  # refuses what is none
         first, stops = own.route.end, self._stops()
         stops[robot] = stops_to_make(own, own.arrived - 1)
         if stops[robot] and stops[robot][0].ends_lap:
@@ -486,13 +486,13 @@ class Dispatcher:
             *(stop.place for stop in stops),
             own.route.places[-1],
         ]
-        vertices = [roadmap.vertex(place) for place in stations]
+        vertices = [roadmap.get_vertex(place) for place in stations]
 
         def ticks(start: int, end: int) -> int:
             to_end = self._distances.to(VertexId(end), itinerary.edge_ticks)[start]
             return int(to_end) if to_end >= 0 else UNREACHABLE
 
-        vertex = roadmap.vertex(at)
+        vertex = roadmap.get_vertex(at)
         return min(
             (ticks(before, vertex) + ticks(vertex, after) - ticks(before, after), place)
             for place, (before, after) in enumerate(pairwise(vertices))
@@ -528,12 +528,12 @@ def _list_edges_into(roadmap: Roadmap, names: Sequence[str]) -> list[Edge]:
 
     Robots between the ends of a lane that was split drive out of it.
     """
-    vertices = [roadmap.vertex(name) for name in names]
+    vertices = [roadmap.get_vertex(name) for name in names]
     if len(vertices) == 1:
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         into = [(tail, vertices[0]) for tail in tails[roadmap.heads == vertices[0]].tolist()]
     else:
-        lanes = roadmap.ways_along((vertices[0], vertices[-1]))
+        lanes = roadmap.find_ways_along((vertices[0], vertices[-1]))
         if not lanes:
             message = f"no lane joins {names[0]} and {names[-1]} (name both its ends)"
             raise InputError.at("place", message)
@@ -541,7 +541,7 @@ def _list_edges_into(roadmap: Roadmap, names: Sequence[str]) -> list[Edge]:
     return [
         (roadmap.name(tail), roadmap.name(head))
         for tail, head in into
-        if roadmap.edge(tail, head) is not None
+        if roadmap.find_edge(tail, head) is not None
     ]
 
 

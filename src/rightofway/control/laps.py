@@ -229,7 +229,7 @@ def _graph_of_present(
     span = max(route.enter[-1] for route in routes) - begins + 1
     tracks = [
         Track.of(
-            [int(roadmap.vertex(place)) for place in route.places],
+            [int(roadmap.get_vertex(place)) for place in route.places],
             [
                 tick - begins + span * (route.first + index > end)
                 for index, tick in enumerate(route.enter)

@@ -130,7 +130,7 @@ class OrderMap:
                 None
                 if vertex is None
                 else Place(
-                    point=self._point(self.scenario.roadmap.point(vertex)),
+                    point=self._point(self.scenario.roadmap.get_point(vertex)),
                     map_id=self.identity.map_id,
                     deviation=self.deviation,
                 )
@@ -152,16 +152,16 @@ class OrderMap:
     def _made_lane(self, tail: str, head: str) -> OrderLane | None:
         scenario, roadmap = self.scenario, self.scenario.roadmap
         start, end = self._vertex(tail), self._vertex(head)
-        edge = None if start is None or end is None else roadmap.edge(start, end)
+        edge = None if start is None or end is None else roadmap.find_edge(start, end)
         if start is None or end is None or edge is None:
             return None
-        kind = roadmap.edge_class(edge)
+        kind = roadmap.get_edge_class(edge)
         speed = scenario.robots[self.robot].speed
         speed = speed if kind.max_speed is None else min(speed, kind.max_speed)
         shape = self._shapes.get((start, end))
         points = tuple[tuple[float, float], ...]()
         if shape is not None:
-            course = (roadmap.point(start), *shape[0], roadmap.point(end))
+            course = (roadmap.get_point(start), *shape[0], roadmap.get_point(end))
             points = tuple(map(self._point, course))
         return OrderLane(
             length=float(kind.length * self._metre),
@@ -172,7 +172,7 @@ class OrderMap:
 
     def _vertex(self, name: str) -> VertexId | None:
         try:
-            return self.scenario.roadmap.vertex(name)
+            return self.scenario.roadmap.get_vertex(name)
         except InputError:
             return None
 

@@ -215,7 +215,7 @@ class Recording:
         for own in self._ledger.robots:
             for place in own.route.places:
                 try:
-                    self._roadmap.vertex(place)
+                    self._roadmap.get_vertex(place)
                 except InputError:
                     message = f"is of another map, with {shown(place)} (give the plan of it)"
                     raise InputError.at("journal", message) from None
@@ -278,7 +278,7 @@ class Recording:
         known.route = route
         if old is None or visit < max(route.end, old.end):
             vertices = [
-                int(self._roadmap.vertex(place)) for place in route.stretch(visit, route.end)
+                int(self._roadmap.get_vertex(place)) for place in route.stretch(visit, route.end)
             ]
             self._rows.append((tick, robot, "route", visit, vertices))
 

@@ -195,7 +195,7 @@ class RestPlanner:
             route_through(
                 whole.roadmap,
                 itinerary,
-                [whole.roadmap.vertex(place) for place in routes[robot].places],
+                [whole.roadmap.get_vertex(place) for place in routes[robot].places],
             )
             for robot, itinerary in zip(moving, whole.problem.itineraries, strict=True)
         ]
@@ -232,7 +232,7 @@ class RestPlanner:
         route = own.route.since(own.arrived)
         length = released - own.arrived + 1
         roadmap = self._scenario.roadmap
-        vertices = tuple(int(roadmap.vertex(place)) for place in route.places[:length])
+        vertices = tuple(int(roadmap.get_vertex(place)) for place in route.places[:length])
         work = sum(
             ticks
             for names, times in zip(route.jobs[:length], route.work[:length], strict=True)
@@ -263,11 +263,11 @@ class RestPlanner:
     ) -> Roadmap:
         """Return the roadmap without what is closed, and what robots that are stuck exclude."""
         roadmap = self._scenario.roadmap
-        shut = {(roadmap.vertex(tail), roadmap.vertex(head)) for tail, head in closed}
+        shut = {(roadmap.get_vertex(tail), roadmap.get_vertex(head)) for tail, head in closed}
         held = list_held(self._scenario, {k: commitments[k].vertices for k in stuck})
         if not shut and not held.vertices:
             return roadmap
-        return roadmap.without(held.vertices, {*shut, *held.edges})
+        return roadmap.exclude(held.vertices, {*shut, *held.edges})
 
     def _routes(
         self,
@@ -348,7 +348,7 @@ class RestPlanner:
             return len(stops)
         distances, ticks = Distances(passable), self._scenario.problem.itineraries[robot].edge_ticks
         for number, stop in enumerate(stops):
-            vertex = passable.vertex(stop.place)
+            vertex = passable.get_vertex(stop.place)
             if distances.to(vertex, ticks)[home] < 0:
                 return number
             home = vertex
@@ -364,9 +364,9 @@ class RestPlanner:
         """
         roadmap, place = self._scenario.roadmap, commitment.vertices[-1]
         stops_ahead = [*stops, StopToMake(own.route.places[-1])]
-        if stops_ahead[0].job and roadmap.vertex(stops_ahead[0].place) == place:
+        if stops_ahead[0].job and roadmap.get_vertex(stops_ahead[0].place) == place:
             heads = roadmap.heads[roadmap.indptr[place] : roadmap.indptr[place + 1]].tolist()
-            back = [head for head in heads if roadmap.edge(head, place) is not None]
+            back = [head for head in heads if roadmap.find_edge(head, place) is not None]
             if not back:
                 raise GaveUp(f"{stops_ahead[0].place} cannot be left and entered again")
             stops_ahead.insert(0, StopToMake(roadmap.name(back[aside % len(back)])))
@@ -379,7 +379,7 @@ class RestPlanner:
         time = self._scenario.problem.clock.time
         work = [Stop(at=VertexId(end), work=time(Tick(busy)))]
         for stop in stops:
-            vertex = self._scenario.roadmap.vertex(stop.place)
+            vertex = self._scenario.roadmap.get_vertex(stop.place)
             work.append(Stop(at=vertex, work=time(Tick(stop.work))))
         return replace(
             self._scenario.robots[robot],

@@ -231,7 +231,7 @@ def _of_speed(scenario: Scenario, graph: TimedEventGraph, place: int, robot: Rob
     at_own, at_limit = np.array([[int(share * parts) for share in pair] for pair in shares]).T
     before = np.empty(len(graph), np.int64)
     before[graph.after] = np.arange(len(graph))
-    edges = scenario.roadmap.edges(graph.vertex[before[arcs.head]], graph.vertex[arcs.head])
+    edges = scenario.roadmap.find_edges(graph.vertex[before[arcs.head]], graph.vertex[arcs.head])
     classes = scenario.roadmap.class_of_edge[edges]
     limited = np.flatnonzero((drive > 0) & (at_limit[classes] > 0))
     slow = drive[limited] * at_limit[classes[limited]]

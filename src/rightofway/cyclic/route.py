@@ -155,7 +155,7 @@ class GroupContext:
         """Return the rows that a visit books until its end: its vertex and the edge driven out."""
         route, resources = self.routes[index], self.scenario.problem.resources
         vertex, following = route.vertex(visit), route.vertex(visit + 1)
-        edge = self.scenario.roadmap.edge(vertex, following)
+        edge = self.scenario.roadmap.find_edge(vertex, following)
         assert edge is not None, "laps lead along edges"
         return resources.vertex_row(route.robot, vertex), resources.edge_row(route.robot, edge)
 
@@ -274,7 +274,7 @@ def take_out_closed_places(scenario: Scenario) -> Scenario:
     vertices = [place for place in places[0] if place < n_vertices]
     return replace(
         scenario,
-        roadmap=roadmap.without(vertices, edges),
+        roadmap=roadmap.exclude(vertices, edges),
         closures=(),
         clock=scenario.problem.clock,
     )
@@ -337,7 +337,7 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
         is_shut = np.isin(own, list(shut))
         edges = np.flatnonzero(is_shut[resources.n_vertices :] | is_shut[roadmap.heads])
         ends = zip(tails[edges].tolist(), roadmap.heads[edges].tolist(), strict=True)
-        distances = Distances(roadmap.without((), list(ends)))
+        distances = Distances(roadmap.exclude((), list(ends)))
         if reaches_its_places(itinerary, distances):
             avoiding[robot] = shortest_route(roadmap, itinerary, distances)
             booked[robot] = passed(robot)

@@ -160,7 +160,7 @@ def list_held(scenario: Scenario, paths: Mapping[int, Sequence[int]]) -> Held:
         own += (
             resources.edge_row(robot, edge)
             for ends in pairwise(path)
-            if (edge := roadmap.edge(*ends)) is not None
+            if (edge := roadmap.find_edge(*ends)) is not None
         )
         rows.update(other for row in own for other in excluded_by(resources, row))
     n_vertices, count = resources.n_vertices, resources.n_vertices + resources.n_edges
@@ -196,7 +196,7 @@ def replan(
     closed = find_held_by_broken(forecast)
     roadmap = scenario.roadmap
     if closed.vertices:
-        roadmap = roadmap.without(closed.vertices, closed.edges)
+        roadmap = roadmap.exclude(closed.vertices, closed.edges)
     closures = _closures_after(scenario, roadmap, forecast.now)
     if closures is None:
         return ()
@@ -379,7 +379,7 @@ def _closures_after(scenario: Scenario, roadmap: Roadmap, now: Tick) -> tuple[Cl
         until = None if closure.until is None else closure.until - passed
         if until is not None and until <= 0:
             continue
-        if closure.edge is not None and not roadmap.ways_along(closure.edge):
+        if closure.edge is not None and not roadmap.find_ways_along(closure.edge):
             if closure.radius is not None:
                 return None
             continue

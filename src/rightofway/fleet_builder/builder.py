@@ -26,9 +26,9 @@ from rightofway.model import Robot, Scenario, Stop, TripEnd
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.given import require_truths
 from rightofway.quantities import Units
-from rightofway.site import Roadmap, VertexId, roadmap_of_grid
+from rightofway.site import Roadmap, VertexId, make_grid_roadmap
 from rightofway.site.layout import Layout, LevelRoadmap, build_roadmap_of_level
-from rightofway.site.places import as_place, vertex_at
+from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.zones import NamedZone
 from rightofway.values import Number, at, list_of, optional, text, word_of
 from rightofway.values import length as exact_length
@@ -144,11 +144,11 @@ class FleetBuilder:
         if grid is not None:
             rows = grid.strip("\n").split("\n") if isinstance(grid, str) else grid
             with under("grid"):
-                self._roadmap = roadmap_of_grid(rows, **frame)
+                self._roadmap = make_grid_roadmap(rows, **frame)
         elif map_file is not None:
             from rightofway.io import load_map
 
-            self._roadmap = roadmap_of_grid(load_map(path_of(map_file, "map_file")), **frame)
+            self._roadmap = make_grid_roadmap(load_map(path_of(map_file, "map_file")), **frame)
         elif graph is not None:
             self._drawn = lanes_of_graph(graph)
             self.roadmap()
@@ -464,7 +464,7 @@ class FleetBuilder:
         ):
             return self._stations[place]
         with under(key):
-            return vertex_at(roadmap, as_place(place, roadmap), units=self._units)
+            return find_vertex_at(roadmap, as_place(place, roadmap), units=self._units)
 
     def _refuse_fixed_map(self, place: str) -> None:
         if self._roadmap is not None:
@@ -489,7 +489,7 @@ class FleetBuilder:
         assert seconds, "a unit of time has a length"
         self._level = partial(
             build_roadmap_of_level,
-            layout.level(level),
+            layout.get_level(level),
             vehicle_type=vehicle_type,
             metre=1 / metres,
             second=1 / seconds,

@@ -14,9 +14,9 @@ from rightofway.site import (
     Point,
     Roadmap,
     choose_rounding_step,
+    make_roadmap,
+    measure_squared_distance,
     measure_straight_length,
-    roadmap_of_edges,
-    squared_distance,
 )
 from rightofway.site.spacing import SplitLanes, split_lanes
 from rightofway.site.zones import NamedZone
@@ -120,7 +120,7 @@ class DrawnLanes:
             split = split_lanes(
                 self.positions, edges, spacing, distance=distance, is_drawn=self.is_drawn
             )
-        return roadmap_of_edges(
+        return make_roadmap(
             {name: (float(x), float(y)) for name, (x, y) in split.positions.items()},
             split.edges,
             y_up=y_up,
@@ -131,7 +131,7 @@ class DrawnLanes:
         )
 
     def _square(self, tail: str, head: str) -> Fraction:
-        return squared_distance(self.positions[tail], self.positions[head])
+        return measure_squared_distance(self.positions[tail], self.positions[head])
 
 
 def lanes_of_graph(graph: Any) -> DrawnLanes:

@@ -9,7 +9,7 @@ from typing import Any
 from rightofway.errors import InputError, nearest, shown, under
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.model.given import checked_scenario
-from rightofway.site.places import as_place, vertex_at
+from rightofway.site.places import as_place, find_vertex_at
 from rightofway.values import at, list_of
 
 __all__ = ["plan_of_paths"]
@@ -69,7 +69,7 @@ def _track(scenario: Scenario, name: str, path: Sequence[Any]) -> Track:
     for index, (place, tick) in enumerate(_timed(scenario, name, path)):
         with under(("paths", name, index)):
             roadmap = scenario.roadmap
-            vertex = vertex_at(roadmap, as_place(place, roadmap), units=scenario.units)
+            vertex = find_vertex_at(roadmap, as_place(place, roadmap), units=scenario.units)
         if not vertices or vertices[-1] != vertex:
             vertices.append(vertex)
             enter.append(tick)

@@ -21,7 +21,7 @@ from rightofway.files import write_whole
 from rightofway.io.faults import Faults
 from rightofway.io.text import read_text
 from rightofway.model import Robot, Rules, Scenario, Stop
-from rightofway.site import Grid, Roadmap, roadmap_of_grid
+from rightofway.site import Grid, Roadmap, make_grid_roadmap
 
 _SIZE = re.compile(r"[0-9]{1,9}")
 _COLUMNS = "bucket, map, width, height, start x, start y, goal x, goal y, optimal length"
@@ -158,7 +158,7 @@ def write_map(roadmap: Roadmap, path: Path | str) -> None:
     """
     grid = _grid_of(roadmap)
     header = ("type octile", f"height {grid.rows}", f"width {grid.columns}", "map")
-    write_whole(path, "\n".join((*header, *grid.lines())) + "\n")
+    write_whole(path, "\n".join((*header, *grid.as_lines())) + "\n")
 
 
 @checks_arguments
@@ -204,7 +204,7 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
         raise InputError(faults)
     lines = ["version 1"]
     for robot, moves in zip(scenario.robots, _optimal_lengths(scenario), strict=True):
-        (start_y, start_x), (goal_y, goal_x) = map(grid.cell, (robot.home, robot.stops[0].at))
+        (start_y, start_x), (goal_y, goal_x) = map(grid.get_cell, (robot.home, robot.stops[0].at))
         columns = (0, map_name, grid.columns, grid.rows, start_x, start_y, goal_x, goal_y, moves)
         lines.append("\t".join(map(str, columns)))
     write_whole(path, "\n".join(lines) + "\n")
@@ -240,7 +240,7 @@ def _left_out(scenario: Scenario, grid: Grid) -> Iterator[str]:
         yield "radii are left out; .scen robots are points"
     if scenario.closures:
         yield "closures are left out"
-    if scenario.roadmap.frame != roadmap_of_grid(["."], cell_size=grid.cell_size).frame:
+    if scenario.roadmap.frame != make_grid_roadmap(["."], cell_size=grid.cell_size).frame:
         yield "y and origin of the map are left out"
     if any((robot.ends or scenario.rules.ends) == "home" for robot in robots):
         yield "ways back and laps are left out; .scen robots stay at their goals"

@@ -133,7 +133,7 @@ class _Site:
 
     def point(self, vertex: int) -> tuple[Fraction, Fraction]:
         """Return where a vertex is [m]."""
-        x, y = self.roadmap.point(vertex)
+        x, y = self.roadmap.get_point(vertex)
         return x * self.metre, y * self.metre * self.down
 
     def poses(self, robot: int) -> Iterator[Pose]:

@@ -96,9 +96,9 @@ def _level(path: Path, layout: Layout, choice: Choice) -> Level:
         if choice.cell_size is not None:
             message = "is given with a layout of lanes, which has no cells (take it out)"
             raise InputError.at("cell_size", message)
-        level = layout.level(choice.level)
+        level = layout.get_level(choice.level)
         if choice.vehicle_type is not None:
-            level.lanes_of(choice.vehicle_type)
+            level.list_lanes(choice.vehicle_type)
     return level
 
 

@@ -301,7 +301,7 @@ def _places_booked(
 ) -> Iterator[tuple[int, _Booking]]:
     """Yield what one robot books, with the row of the resource: vertices, and edges it drives."""
     vertices = [VertexId(vertex) for vertex in track.vertices.tolist()]
-    edges = scenario.roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
+    edges = scenario.roadmap.find_edges(track.vertices[:-1], track.vertices[1:]).tolist()
     starts = (track.enter - np.append(0, stay.drive[:-1])).tolist()
     ends = [*scenario.problem.booking_rules.end(track.enter[1:]).tolist(), NEVER]
     for vertex, start, end in zip(vertices, starts, ends, strict=True):

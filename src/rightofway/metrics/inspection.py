@@ -371,7 +371,7 @@ def _length_of_a_step(roadmap: Roadmap, ways: Ways) -> Fraction:
     if not ways.along[tail]:
         return Fraction(1)
     first = int(roadmap.indptr[tail])
-    return roadmap.edge_class(first).length / ways.steps[tail][0]
+    return roadmap.get_edge_class(first).length / ways.steps[tail][0]
 
 
 def _bottlenecks(

@@ -83,7 +83,7 @@ def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
         turning = int((stay.dwell - stay.turns).sum()) - _least_dwell_of_trip(itinerary)
         room = list(_room_made(robot, track, stay, bookings, turning)) if driven else []
         if itinerary.turning is not None:
-            edges = scenario.roadmap.edges(track.vertices[:-1], track.vertices[1:])
+            edges = scenario.roadmap.find_edges(track.vertices[:-1], track.vertices[1:])
             room = list(_with_turns(room, track, stay, itinerary.turning, edges))
         making_room = sum(loss.ticks for loss in room)
         lost = LostTime(

@@ -12,7 +12,7 @@ from rightofway.metrics.site import Finding, Site
 from rightofway.model.resources import ClosePairs, close_pairs
 from rightofway.phrases import Phrase, counted, joined
 from rightofway.site import Roadmap
-from rightofway.site.geometry import squared_distance
+from rightofway.site.geometry import measure_squared_distance
 from rightofway.site.walls import reaches_walls
 
 TOUCHING = Fraction(1, 10**6)
@@ -158,7 +158,10 @@ def _near_vertices(
             continue
         apart = site.units.written_length(round_distance(roadmap, first, other))
         both_homes = _homes_clash(site, first, other)
-        is_joined = roadmap.edge(first, other) is not None or roadmap.edge(other, first) is not None
+        is_joined = (
+            roadmap.find_edge(first, other) is not None
+            or roadmap.find_edge(other, first) is not None
+        )
         are_places = first in site.places and other in site.places
         are_drawn = joints.isdisjoint((first, other))
         names = {"one": site.name(first), "other": site.name(other)}
@@ -193,8 +196,10 @@ def _homes_clash(site: Site, first: int, other: int) -> bool:
     radius = {int(robot.home): robot.radius for robot in site.robots}
     if not {first, other} <= radius.keys() or not radius[first] + radius[other]:
         return False
-    at = site.roadmap.point(first), site.roadmap.point(other)
-    return squared_distance(*at) < (radius[first] + radius[other] + site.rules.clearance) ** 2
+    at = site.roadmap.get_point(first), site.roadmap.get_point(other)
+    return (
+        measure_squared_distance(*at) < (radius[first] + radius[other] + site.rules.clearance) ** 2
+    )
 
 
 def round_distance(roadmap: Roadmap, first: int, other: int) -> Fraction:

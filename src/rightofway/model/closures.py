@@ -20,7 +20,7 @@ from rightofway.deadline import check_work
 from rightofway.errors import InputFault
 from rightofway.model.resources import read_exact_positions
 from rightofway.model.units import NEVER, Clock, Tick
-from rightofway.site import Point, Roadmap, VertexId, squared_distance
+from rightofway.site import Point, Roadmap, VertexId, measure_squared_distance
 from rightofway.values import coerced, number, optional, vertex
 
 Ends = tuple[VertexId, VertexId]
@@ -102,7 +102,7 @@ def find_closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFau
     for key, place in unknown:
         last = roadmap.n_vertices - 1
         yield InputFault(key, f"vertex {place} is not on the roadmap (give 0 to {last})")
-    if closure.edge is not None and not unknown and not roadmap.ways_along(closure.edge):
+    if closure.edge is not None and not unknown and not roadmap.find_ways_along(closure.edge):
         tail, head = map(roadmap.name, closure.edge)
         yield InputFault("edge", f"no edge joins {tail} and {head} (name the ends of an edge)")
 
@@ -249,9 +249,9 @@ def _closed_resources(plane: _Plane, closure: Closure, reach: Fraction | None) -
     ``reach`` is the distance below which what is near is closed, too; None for nothing.
     """
     roadmap = plane.roadmap
-    ways = [] if closure.edge is None else roadmap.ways_along(closure.edge)
+    ways = [] if closure.edge is None else roadmap.find_ways_along(closure.edge)
     own = {ends for lane in ways for pair in pairwise(lane) for ends in (pair, pair[::-1])}
-    edges = (roadmap.edge(*ends) for ends in own)
+    edges = (roadmap.find_edge(*ends) for ends in own)
     closed: set[int] = {roadmap.n_vertices + edge for edge in edges if edge is not None}
     closed.update(place for lane in ways for place in lane[1:-1])
     if closure.at is not None:
@@ -303,7 +303,7 @@ def _to_point(point: Point, segment: Segment) -> Fraction:
     dx, dy = bx - ax, by - ay
     square = dx * dx + dy * dy
     if not square:
-        return squared_distance(point, segment[0])
+        return measure_squared_distance(point, segment[0])
     share = ((point[0] - ax) * dx + (point[1] - ay) * dy) / square
     share = min(max(share, Fraction(0)), Fraction(1))
-    return squared_distance(point, (ax + share * dx, ay + share * dy))
+    return measure_squared_distance(point, (ax + share * dx, ay + share * dy))

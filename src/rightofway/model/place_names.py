@@ -16,7 +16,7 @@ DECIMALS = 3
 
 def middle(roadmap: Roadmap, vertex: int) -> str:
     """Return the middle of a cell in the site's frame: ``7.25, 4.75``."""
-    return ", ".join(decimal(part, DECIMALS) for part in roadmap.point(vertex))
+    return ", ".join(decimal(part, DECIMALS) for part in roadmap.get_point(vertex))
 
 
 class PlaceNames:

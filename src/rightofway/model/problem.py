@@ -283,7 +283,7 @@ def _ticks_key(robot: Robot) -> tuple[Any, ...]:
 def _drive_times(roadmap: Roadmap, robot: Robot) -> Iterator[Fraction]:
     for edge_class in limit_loop(roadmap.edge_classes, DERIVING):
         if not edge_class.is_barred(robot.type, robot.radius):
-            yield edge_class.duration(robot.speed)
+            yield edge_class.compute_duration(robot.speed)
 
 
 def _stop_times(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
@@ -296,7 +296,7 @@ def _edge_ticks(roadmap: Roadmap, robot: Robot, clock: Clock) -> tuple[Tick, ...
     return tuple(
         Tick(-1)
         if edge_class.is_barred(robot.type, robot.radius)
-        else clock.ticks(edge_class.duration(robot.speed))
+        else clock.ticks(edge_class.compute_duration(robot.speed))
         for edge_class in limit_loop(roadmap.edge_classes, DERIVING)
     )
 

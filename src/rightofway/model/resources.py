@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from rightofway.deadline import check_work
 from rightofway.errors import InputError, shown
-from rightofway.site import Point, Roadmap, squared_distance
+from rightofway.site import Point, Roadmap, measure_squared_distance
 from rightofway.site.nearness import Lines, PointGrid
 from rightofway.site.zones import Zone
 
@@ -99,13 +99,13 @@ def read_exact_positions(roadmap: Roadmap) -> list[Point]:
 def are_nearer(roadmap: Roadmap, first: int, other: int, distance: Fraction) -> bool:
     """Return whether two vertices are nearer than a distance; exact."""
     at = read_exact_positions(roadmap)
-    return squared_distance(at[first], at[other]) < distance**2
+    return measure_squared_distance(at[first], at[other]) < distance**2
 
 
 def distance(roadmap: Roadmap, first: int, other: int) -> float:
     """Return the distance of two vertices [length unit]."""
     at = read_exact_positions(roadmap)
-    return sqrt(squared_distance(at[first], at[other]))
+    return sqrt(measure_squared_distance(at[first], at[other]))
 
 
 def find_too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, float]]:
@@ -121,10 +121,10 @@ def find_too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction,
     doubt = 1e-14 * np.abs(roadmap.positions).max()  # of coordinates and their differences
     straight = np.hypot(*(end - begin).T) + doubt
     for edge in np.flatnonzero(straight > lengths * (1 + float(ROUNDING) / 2)).tolist():
-        length = roadmap.edge_class(edge).length
+        length = roadmap.get_edge_class(edge).length
         (x, y), (to_x, to_y) = begin[edge].tolist(), end[edge].tolist()
         tail = Fraction(repr(x)), Fraction(repr(y))
-        square = squared_distance(tail, (Fraction(repr(to_x)), Fraction(repr(to_y))))
+        square = measure_squared_distance(tail, (Fraction(repr(to_x)), Fraction(repr(to_y))))
         if square > (length * (1 + ROUNDING)) ** 2:
             yield int(tails[edge]), int(roadmap.heads[edge]), length, sqrt(square)
 
@@ -214,7 +214,7 @@ class Resources:
             Where it goes; an edge leads from the last one to the first.
         """
         visited = np.array(vertices, np.int32)
-        edges = roadmap.edges(visited, np.concatenate((visited[1:], visited[:1])))
+        edges = roadmap.find_edges(visited, np.concatenate((visited[1:], visited[:1])))
         return visited + self.vertex_row(robot, 0), edges + self.edge_row(robot, 0)
 
 
@@ -252,7 +252,7 @@ def list_members(roadmap: Roadmap, zone: Zone) -> list[int]:
     An edge that ends at a vertex of the zone is left out, because the vertex is booked as long.
     """
     inside = {*zone.vertices}
-    numbers = [roadmap.edge(*ends) for ends in zone.edges if inside.isdisjoint(ends)]
+    numbers = [roadmap.find_edge(*ends) for ends in zone.edges if inside.isdisjoint(ends)]
     return [*zone.vertices, *(roadmap.n_vertices + edge for edge in numbers if edge is not None)]
 
 
@@ -325,7 +325,7 @@ class _Drawing:
         check_work(FINDING)
         vertices = PointGrid(points, near)
         for begin in range(0, len(points), LANES_AT_ONCE):
-            left, right = vertices.near(points[begin : begin + LANES_AT_ONCE])
+            left, right = vertices.find_near(points[begin : begin + LANES_AT_ONCE])
             upwards = left + begin < right
             yield ((left + begin)[upwards], right[upwards]), none, none
         lanes = Lines(points[self.a], points[self.b])
@@ -333,8 +333,8 @@ class _Drawing:
         middles = PointGrid(lanes.middles, lanes.piece + 2 * slack)
         for begin in range(0, len(self.a), LANES_AT_ONCE):
             some = slice(begin, begin + LANES_AT_ONCE)
-            lane, vertex = lanes.near_points(vertices, some, near)
-            yield none, (vertex, lane), lanes.crossing(middles, some, slack)
+            lane, vertex = lanes.find_near_points(vertices, some, near)
+            yield none, (vertex, lane), lanes.find_crossing(middles, some, slack)
 
     def close_pairs(self, distance: Fraction) -> ClosePairs:
         """Return vertices and lanes nearer than a distance, and lanes that cross."""

@@ -220,7 +220,7 @@ def drives_along(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[int]
         If no edge leads from some vertex to the next.
     """
     path = np.array(vertices, np.int32)
-    edges = roadmap.edges(path[:-1], path[1:])
+    edges = roadmap.find_edges(path[:-1], path[1:])
     if len(edges) and edges.min() < 0:
         gap = int(np.argmin(edges))
         raise KeyError((vertices[gap], vertices[gap + 1]))
@@ -247,7 +247,7 @@ def turns_along(
     """
     turns = np.zeros(len(vertices), np.int64)
     if itinerary.turning is not None:
-        turns[1:-1] = itinerary.turning.between(roadmap.edges(vertices[:-1], vertices[1:]))
+        turns[1:-1] = itinerary.turning.between(roadmap.find_edges(vertices[:-1], vertices[1:]))
     return turns
 
 

@@ -140,7 +140,7 @@ def compute_costs(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ..
         return costs
     more = []
     for itinerary, track in zip(scenario.problem.itineraries, tracks, strict=True):
-        edges = roadmap.edges(track.vertices[:-1], track.vertices[1:])
+        edges = roadmap.find_edges(track.vertices[:-1], track.vertices[1:])
         by_class = np.array(itinerary.surcharges, np.int64)
         more.append(by_class[roadmap.class_of_edge[edges]].sum())
     return tuple(Tick(cost + int(extra)) for cost, extra in zip(costs, more, strict=True))
@@ -152,7 +152,7 @@ def _edges_of_fleet(
     """Return the edge after each visit of all tracks, -1 where there is none; int32."""
     vertices = np.concatenate([track.vertices for track in tracks])
     vertices[(vertices < 0) | (vertices >= roadmap.n_vertices)] = -1
-    edges = np.append(roadmap.edges(vertices[:-1], vertices[1:]), np.int32(-1))
+    edges = np.append(roadmap.find_edges(vertices[:-1], vertices[1:]), np.int32(-1))
     edges[vertices < 0] = -1
     edges[ends - 1] = -1
     return edges

@@ -51,7 +51,7 @@ class BookedRows:
         at_vertex, along_edge = [], []
         for robot, route in enumerate(vertices):
             visited = np.asarray(route, np.int32)
-            edges = problem.roadmap.edges(visited[:-1], visited[1:])
+            edges = problem.roadmap.find_edges(visited[:-1], visited[1:])
             at_vertex.append(resources.vertex_row(robot, 0) + visited)
             along_edge.append(np.append(resources.edge_row(robot, 0) + edges, -1))
         return cls(
@@ -131,7 +131,7 @@ class ClosedPlaces:
         lists: list[list[tuple[Tick, Tick]]] = []
         for robot, route in enumerate(routes):
             visited = np.array(route.vertices, np.int32)
-            edges = problem.roadmap.edges(visited[:-1], visited[1:]).tolist()
+            edges = problem.roadmap.find_edges(visited[:-1], visited[1:]).tolist()
             for vertex, edge in zip(route.vertices, [None, *edges], strict=True):
                 lists.append(closures.at_vertex(robot, vertex))
                 lists.append([] if edge is None else closures.along_edge(robot, edge))

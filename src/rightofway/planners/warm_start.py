@@ -209,7 +209,7 @@ def _closed_ways(scenario: Scenario) -> Callable[..., bool]:
     always = (closures.start <= 0) & (closures.end >= NEVER)
 
     def is_closed(robot: int, visited: NDArray[np.int32], *, for_ever: bool = False) -> bool:
-        edges = roadmap.edges(visited[:-1], visited[1:])
+        edges = roadmap.find_edges(visited[:-1], visited[1:])
         resources = np.concatenate((visited, roadmap.n_vertices + edges))
         rows = resources + closures.size_of[robot] * (closures.n_vertices + closures.n_edges)
         return bool(np.isin(rows, closures.row[always] if for_ever else closures.row).any())

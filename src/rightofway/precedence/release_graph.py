@@ -214,7 +214,7 @@ def _uses_of(scenario: Scenario, robot: int, track: Track) -> list[_Use]:
         _Use(enter[k], own + vertex, robot, k, k + 1, is_vertex=True)
         for k, vertex in enumerate(vertices)
     ]
-    edges = roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
+    edges = roadmap.find_edges(track.vertices[:-1], track.vertices[1:]).tolist()
     drives = drives_along(roadmap, scenario.problem.itineraries[robot], vertices)
     uses += (
         _Use(enter[k] - ticks, resources.edge_row(robot, edge), robot, k, k, is_vertex=False)

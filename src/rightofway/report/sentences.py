@@ -391,7 +391,7 @@ def list_closed_vertices(closure: Closure, scenario: Scenario) -> tuple[int, ...
     """Return the vertices of a closure, along a lane in order."""
     if closure.edge is None:
         return () if closure.at is None else (int(closure.at),)
-    return tuple(map(int, scenario.roadmap.ways_along(closure.edge)[0]))
+    return tuple(map(int, scenario.roadmap.find_ways_along(closure.edge)[0]))
 
 
 def read_closed_ticks(closure: Closure, scenario: Scenario) -> tuple[int, int | None]:

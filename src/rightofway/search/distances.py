@@ -91,7 +91,7 @@ class Distances:
         if len(path) and not 0 <= vertices.min() <= vertices.max() < self.roadmap.n_vertices:
             k = int(np.argmax((vertices < 0) | (vertices >= self.roadmap.n_vertices)))
             require_index(("path", k), path[k], self.roadmap.n_vertices)
-        edges = self.roadmap.edges(vertices[:-1], vertices[1:])
+        edges = self.roadmap.find_edges(vertices[:-1], vertices[1:])
         ticks = self.ticks_of_edges(edge_ticks)[edges]
         is_open = min(edges.min(initial=0), ticks.min(initial=0)) >= 0
         return int(ticks.sum()) if is_open else None

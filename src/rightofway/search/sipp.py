@@ -101,7 +101,7 @@ class Bookings:
             yield first_row + vertex, Booking(start, end, robot)
         if not self._books_edges:
             return
-        edges = problem.roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
+        edges = problem.roadmap.find_edges(track.vertices[:-1], track.vertices[1:]).tolist()
         begins = (enter - drives_in)[1:].tolist()
         for edge, start, end in zip(edges, begins, ends, strict=True):
             yield first_row + self._n_vertices + edge, Booking(start, end, robot)

@@ -7,16 +7,16 @@ from rightofway.site.clustering import (
     compute_node_length,
     compute_steps_per_unit,
 )
-from rightofway.site.edges import Edge, roadmap_of_edges
+from rightofway.site.edges import Edge, make_roadmap
 from rightofway.site.geometry import (
     Frame,
     Point,
     VertexId,
     choose_rounding_step,
+    measure_squared_distance,
     measure_straight_length,
-    squared_distance,
 )
-from rightofway.site.grid import roadmap_of_grid
+from rightofway.site.grid import make_grid_roadmap
 from rightofway.site.roadmap import EdgeClass, Grid, Lane, Roadmap
 
 __all__ = [
@@ -34,8 +34,8 @@ __all__ = [
     "cluster",
     "compute_node_length",
     "compute_steps_per_unit",
+    "make_grid_roadmap",
+    "make_roadmap",
+    "measure_squared_distance",
     "measure_straight_length",
-    "roadmap_of_edges",
-    "roadmap_of_grid",
-    "squared_distance",
 ]

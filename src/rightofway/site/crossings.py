@@ -86,10 +86,10 @@ def find_crossed(
     for first in range(0, count, LINES_AT_ONCE):
         check_work("finding lanes that cross")
         some = slice(first, min(first + LINES_AT_ONCE, count))
-        line, point = lines.near_points(vertices, some, distance * (1 - TIE))
+        line, point = lines.find_near_points(vertices, some, distance * (1 - TIE))
         to_point = points[point] - lines.begin[line]
         meet(line, (to_point * step[line]).sum(axis=1) / lengths[line] ** 2)
-        line, other = lines.crossing(middles, some, slack)
+        line, other = lines.find_crossing(middles, some, slack)
         between = lines.begin[other] - lines.begin[line]
         turn = _cross(step[line], step[other])
         is_parallel = turn == 0

@@ -43,7 +43,7 @@ class Picture:
     opacity: Fraction | None = None
     name: str = ""
 
-    def scaled(self, metre: Fraction) -> Picture:
+    def scale(self, metre: Fraction) -> Picture:
         """Return a picture in metres in another unit; ``metre`` is a metre in it."""
         return replace(
             self,

@@ -48,7 +48,7 @@ class Edge:
             self, source, length=number, max_speed=optional(number), barred=names, surcharge=number
         )
 
-    def piece(self, tail: str, head: str, length: Fraction, surcharge: Fraction) -> Edge:
+    def make_piece(self, tail: str, head: str, length: Fraction, surcharge: Fraction) -> Edge:
         """Return a piece of this edge; its values are exact already, and are not checked again."""
         piece = object.__new__(Edge)  # a lane may have 100 000
         values = (tail, head, length, self.max_speed, self.barred, surcharge)
@@ -58,7 +58,7 @@ class Edge:
 
 
 @checks_arguments
-def roadmap_of_edges(
+def make_roadmap(
     positions: Mapping[str, tuple[float, float]],
     edges: Sequence[Edge],
     *,

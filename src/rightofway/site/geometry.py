@@ -66,7 +66,7 @@ class Frame:
         return Fraction(cos, 10**12), Fraction(sin, 10**12)
 
 
-def squared_distance(tail: Point, head: Point) -> Fraction:
+def measure_squared_distance(tail: Point, head: Point) -> Fraction:
     """Return the square of the straight distance of two points.
 
     Parameters

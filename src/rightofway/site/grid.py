@@ -27,7 +27,7 @@ EAST_SOUTH_WEST_NORTH = ((0, 1), (1, 0), (0, -1), (-1, 0))
 
 
 @checks_arguments
-def roadmap_of_grid(
+def make_grid_roadmap(
     lines: Sequence[str],
     *,
     cell_size: Number = 1,

@@ -14,7 +14,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, listed, nearest, shown
 from rightofway.site.drawing import Drawing, Picture
-from rightofway.site.edges import Edge, roadmap_of_edges
+from rightofway.site.edges import Edge, make_roadmap
 from rightofway.site.geometry import Point
 from rightofway.site.roadmap import Roadmap
 from rightofway.site.spacing import SplitLanes, split_lanes
@@ -116,7 +116,7 @@ class Level:
         """Names of the vehicle types that lanes are reserved for, sorted."""
         return tuple(sorted({name for edge in self.edges for name in edge.types or ()}))
 
-    def lanes_of(self, vehicle_type: str | None) -> tuple[LayoutEdge, ...]:
+    def list_lanes(self, vehicle_type: str | None) -> tuple[LayoutEdge, ...]:
         """Return the lanes that a vehicle type may use.
 
         Raises
@@ -160,7 +160,7 @@ class Layout:
     notes: tuple[str, ...] = ()
 
     @checks_arguments
-    def level(self, name: str | None = None) -> Level:
+    def get_level(self, name: str | None = None) -> Level:
         """Return a level by name; None for the only one.
 
         Raises
@@ -230,9 +230,9 @@ def build_roadmap_of_level(
     known_types, selects = level.vehicle_types, False
     if vehicle_type is None and robot_types and None not in robot_types:
         for name in sorted(name for name in robot_types if name is not None):
-            level.lanes_of(name)
+            level.list_lanes(name)
         selects = bool(known_types)
-    lanes = level.edges if selects else level.lanes_of(vehicle_type)
+    lanes = level.edges if selects else level.list_lanes(vehicle_type)
     slowest: dict[tuple[str, str], Edge] = {}
     longs = {length: length * metre for length in {lane.length for lane in lanes}}
     limits = {
@@ -266,7 +266,7 @@ def build_roadmap_of_level(
         }
         split = split_lanes(positions, edges, spacing, shapes, distance=distance)
     drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
-    roadmap = roadmap_of_edges(drawn, split.edges, y_up=True, zones=zones, pieces=split.pieces)
+    roadmap = make_roadmap(drawn, split.edges, y_up=True, zones=zones, pieces=split.pieces)
     bends = {(lane.tail, lane.head): lane.shape for lane in lanes if lane.shape}
     roadmap = replace(roadmap, drawing=_drawing(level, roadmap, bends, metre))
     return LevelRoadmap(
@@ -298,7 +298,7 @@ def _drawing(
     metre: Fraction,
 ) -> Drawing:
     """Return the places and curves of a level that its roadmap has, and its picture."""
-    ids = {name: roadmap.vertex(name) for name in roadmap.labels or ()}
+    ids = {name: roadmap.get_vertex(name) for name in roadmap.labels or ()}
     stations = {
         station.name: next(ids[name] for name in station.vertices if name in ids)
         for station in level.stations
@@ -312,9 +312,9 @@ def _drawing(
         curves=tuple(
             (ids[tail], ids[head], tuple((x * metre, y * metre) for x, y in points))
             for (tail, head), points in bends.items()
-            if {tail, head} <= ids.keys() and roadmap.edge(ids[tail], ids[head]) is not None
+            if {tail, head} <= ids.keys() and roadmap.find_edge(ids[tail], ids[head]) is not None
         ),
-        picture=level.picture and level.picture.scaled(metre),
+        picture=level.picture and level.picture.scale(metre),
     )
 
 

@@ -51,7 +51,7 @@ class PointGrid:
         columns, rows = np.floor((points - self._least) / self._side).astype(np.int64).T
         return columns, rows
 
-    def near(self, points: Floats) -> tuple[Ints, Ints]:
+    def find_near(self, points: Floats) -> tuple[Ints, Ints]:
         """Return pairs within the distance: indices of given points, and of those of the grid.
 
         Parameters
@@ -91,7 +91,7 @@ class Lines:
         step = (end - begin)[self.line_of]
         self.middles = begin[self.line_of] + share[:, None] * step
 
-    def near_points(self, grid: PointGrid, some: slice, distance: float) -> tuple[Ints, Ints]:
+    def find_near_points(self, grid: PointGrid, some: slice, distance: float) -> tuple[Ints, Ints]:
         """Return pairs of some lines and points that are within a distance.
 
         Parameters
@@ -110,7 +110,7 @@ class Lines:
         near = np.hypot(*(to_point - share[:, None] * step).T) <= distance
         return line[near], point[near]
 
-    def crossing(self, grid: PointGrid, some: slice, slack: float) -> tuple[Ints, Ints]:
+    def find_crossing(self, grid: PointGrid, some: slice, slack: float) -> tuple[Ints, Ints]:
         """Return pairs of some lines with later ones that cross or touch, and few more.
 
         Parameters
@@ -146,6 +146,6 @@ class Lines:
         """Return the pairs of some lines and points of a grid that are near one of their pieces."""
         begin, stop, _ = some.indices(len(self.begin))
         pieces = slice(self.first[begin], self.first[stop])
-        piece, point = grid.near(self.middles[pieces])
+        piece, point = grid.find_near(self.middles[pieces])
         line = self.line_of[pieces][piece]
         return np.divmod(np.unique(line * n_points + point), n_points)

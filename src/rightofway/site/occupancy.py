@@ -57,7 +57,7 @@ class Occupancy:
     picture: Picture | None = None
     notes: tuple[str, ...] = ()
 
-    def cells(
+    def cut_cells(
         self, size: Fraction, *, radius: Fraction = Fraction(0), unknown_is_free: bool = False
     ) -> tuple[str, ...]:
         """Return the rows of `free_cells`, the upper one first: ``.`` for free, ``@`` for blocked.
@@ -119,7 +119,7 @@ class Occupancy:
         blocked = self.pixels == OCCUPIED if unknown_is_free else self.pixels != FREE
         growth = (radius - size / 2) / self.resolution
         if growth > 0:
-            blocked = grown(blocked, growth, outside=not unknown_is_free)
+            blocked = widen_blocked(blocked, growth, outside=not unknown_is_free)
         blocked = blocked[::-1]  # from the origin on
         step = size / self.resolution
         across = [(int(k * step), ceil((k + 1) * step)) for k in range(max(rows, columns))]
@@ -141,7 +141,7 @@ class CellMap:
     lines: tuple[str, ...]
 
 
-def grown(blocked: NDArray[np.bool_], by: Fraction, *, outside: bool) -> NDArray[np.bool_]:
+def widen_blocked(blocked: NDArray[np.bool_], by: Fraction, *, outside: bool) -> NDArray[np.bool_]:
     """Return the pixels that have a point nearer than a distance to a blocked pixel.
 
     Returns

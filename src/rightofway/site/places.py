@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, InputFault, is_printable, shown
 from rightofway.quantities import Units, decimal
-from rightofway.site.geometry import Point, VertexId, squared_distance
+from rightofway.site.geometry import Point, VertexId, measure_squared_distance
 from rightofway.site.roadmap import Grid, Roadmap, UnknownVertex
 from rightofway.values import coordinate, exact
 
@@ -114,7 +114,7 @@ def list_kinds_of_places(roadmap: Roadmap | None) -> str:
     return "N<k>, [row, column] or {x, y}" if roadmap.grid else "the name of a vertex, or {x, y}"
 
 
-def vertex_at(
+def find_vertex_at(
     roadmap: Roadmap,
     place: Place,
     *,
@@ -167,7 +167,7 @@ def _named(place: str | tuple[int, int], roadmap: Roadmap) -> VertexId:
         message = f"{_named_as(place)} needs a grid, and this is a roadmap (give a vertex name)"
         raise InputError.at("", message)
     try:
-        return roadmap.vertex(place)
+        return roadmap.get_vertex(place)
     except UnknownVertex as error:
         raise InputError.at("", error.faults[0].message) from None
 
@@ -248,8 +248,8 @@ def _nearest(spot: Spot, roadmap: Roadmap) -> int:
 
 def _with_distance(vertex: int, spot: Spot, roadmap: Roadmap, units: Units) -> str:
     """Return a vertex with its point and its distance from a point."""
-    point: Point = roadmap.point(vertex)
-    away = float(squared_distance(point, (spot.x, spot.y))) ** 0.5
+    point: Point = roadmap.get_point(vertex)
+    away = float(measure_squared_distance(point, (spot.x, spot.y))) ** 0.5
     name = roadmap.name(vertex) if roadmap.grid else repr(roadmap.name(vertex))
     if _smallest_side(roadmap) > 4 * SHORT:  # a point near the middle of a cell lies in it, too
         point = round(point[0] / SHORT) * SHORT, round(point[1] / SHORT) * SHORT

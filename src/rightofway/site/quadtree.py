@@ -68,7 +68,7 @@ class Squares:
     side: NDArray[np.int32]
     at: NDArray[np.int32]
 
-    def names(self) -> Iterator[str]:
+    def name_squares(self) -> Iterator[str]:
         """Yield the name of each square: ``Q<column>-<row>``, and ``x<side>`` above 1."""
         of = (values.tolist() for values in (self.column, self.row, self.side))
         for column, row, side in zip(*of, strict=True):
@@ -215,7 +215,7 @@ def build_roadmap_of_squares(
             EdgeClass(length=Fraction(int(twelfths), 12) * smallest) for twelfths in known
         ),
         positions=np.column_stack((x, -y if y_up else y)),
-        labels=tuple(squares.names()),
+        labels=tuple(squares.name_squares()),
         frame=Frame(y_up=y_up, **turned),
         sides=np.asarray(squares.side * float(smallest), np.float64),
     )

@@ -54,12 +54,12 @@ class Grid:
     cells: NDArray[np.int32]
     vertex_at: NDArray[np.int32]
 
-    def lines(self) -> tuple[str, ...]:
+    def as_lines(self) -> tuple[str, ...]:
         """Return the grid as text, ``.`` for free and ``@`` for blocked."""
         text = np.where(self.vertex_at >= 0, ".", "@").reshape(self.rows, self.columns)
         return tuple("".join(row) for row in text)
 
-    def cell(self, vertex: int) -> tuple[int, int]:
+    def get_cell(self, vertex: int) -> tuple[int, int]:
         """Return the (row, column) of a vertex."""
         row, column = divmod(int(self.cells[vertex]), self.columns)
         return row, column
@@ -89,7 +89,7 @@ class EdgeClass:
     surcharge: Fraction = Fraction(0)
     max_radius: Fraction | None = None
 
-    def duration(self, speed: Fraction) -> Fraction:
+    def compute_duration(self, speed: Fraction) -> Fraction:
         """Return how long a robot of a speed drives along an edge [time unit]."""
         return self.length / (speed if self.max_speed is None else min(speed, self.max_speed))
 
@@ -217,7 +217,7 @@ class Roadmap:
         cut = f", grid of {grid.columns} x {grid.rows} cells" if grid else ""
         return f"Roadmap({self.n_vertices} vertices, {self.n_edges} edges{cut})"
 
-    def edge_class(self, edge: int) -> EdgeClass:
+    def get_edge_class(self, edge: int) -> EdgeClass:
         """Return what an edge has in common with others of its class."""
         if type(edge) not in WHOLE or not 0 <= edge < self.n_edges:
             raise InputError.at("edge", f"{shown(edge)} is none of {self.n_edges} edges")
@@ -240,13 +240,15 @@ class Roadmap:
         return frozenset().union(*on_edges, *self.barred_vertices.values())
 
     @checks_arguments
-    def ways_along(self, ends: tuple[VertexId, VertexId]) -> list[tuple[VertexId, ...]]:
+    def find_ways_along(self, ends: tuple[VertexId, VertexId]) -> list[tuple[VertexId, ...]]:
         """Return the vertices along an edge or a split lane, both ends included, in any direction.
 
         One way for each drawing of the lane: its directions may be driven along different curves.
         Nothing if no edge or lane has these ends.
         """
-        ways = [ends] if any(self.edge(*pair) is not None for pair in (ends, ends[::-1])) else []
+        ways = (
+            [ends] if any(self.find_edge(*pair) is not None for pair in (ends, ends[::-1])) else []
+        )
         drawn: dict[frozenset[VertexId], tuple[VertexId, ...]] = {}
         for lane in self.lanes:  # both directions of one curve are one way
             if lane.ends in (ends, ends[::-1]):
@@ -283,7 +285,7 @@ class Roadmap:
             return self.labels[vertex]
         return f"N{int(self.grid.cells[vertex]) if self.grid else vertex}"
 
-    def vertex(self, name: str) -> VertexId:
+    def get_vertex(self, name: str) -> VertexId:
         """Return the vertex of that name.
 
         Raises
@@ -315,23 +317,23 @@ class Roadmap:
             message = f"{shown(vertex)} is no vertex (give a number from 0 to {last})"
             raise UnknownVertex([InputFault(place, message)])
 
-    def point(self, vertex: int) -> Point:
+    def get_point(self, vertex: int) -> Point:
         """Return where a vertex lies in the site's frame; on a grid, the centre of its cell."""
         self._refuse_unknown("vertex", vertex)
         if self.grid is not None:
-            row, column = self.grid.cell(vertex)
+            row, column = self.grid.get_cell(vertex)
             size = self.grid.cell_size
             return self.frame.to_site((column * size, row * size))
         x, y = self.positions[vertex].tolist()
         return self.frame.to_site((Fraction(repr(x)), Fraction(repr(y))))
 
     @checks_arguments
-    def without(self, closed: Collection[int], edges: Collection[tuple[int, int]] = ()) -> Roadmap:
+    def exclude(self, closed: Collection[int], edges: Collection[tuple[int, int]] = ()) -> Roadmap:
         """Return the same vertices without some edges, and without those at closed vertices."""
         tails = np.repeat(np.arange(self.n_vertices), np.diff(self.indptr))
         shut = np.fromiter(closed, np.int64, len(closed))
         is_open = ~(np.isin(tails, shut) | np.isin(self.heads, shut))
-        is_open[[index for ends in edges if (index := self.edge(*ends)) is not None]] = False
+        is_open[[index for ends in edges if (index := self.find_edge(*ends)) is not None]] = False
         degree = np.bincount(tails[is_open], minlength=self.n_vertices)
         open_pairs = set(zip(tails[is_open].tolist(), self.heads[is_open].tolist(), strict=True))
         zones = (
@@ -346,7 +348,7 @@ class Roadmap:
             zones=tuple(zones),
         )
 
-    def edge(self, tail: int, head: int) -> int | None:
+    def find_edge(self, tail: int, head: int) -> int | None:
         """Return the index of the edge from ``tail`` to ``head``, or None without one."""
         self._refuse_unknown("tail", tail)
         self._refuse_unknown("head", head)
@@ -356,7 +358,7 @@ class Roadmap:
         return None
 
     @checks_arguments
-    def edges(self, tails: NDArray[np.int32], heads: NDArray[np.int32]) -> NDArray[np.int32]:
+    def find_edges(self, tails: NDArray[np.int32], heads: NDArray[np.int32]) -> NDArray[np.int32]:
         """Return the indices of the edges from ``tails`` to ``heads``, -1 without one; int32."""
         for place, ends in (("tails", tails), ("heads", heads)):
             is_list = ends.ndim == 1 and ends.dtype.kind in "iu"

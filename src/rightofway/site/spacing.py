@@ -16,7 +16,12 @@ from rightofway.errors import InputError, shown
 from rightofway.quantities import decimal
 from rightofway.site.crossings import MOST_PIECES, choose_spacing, find_crossed
 from rightofway.site.edges import Edge
-from rightofway.site.geometry import COARSE, Point, measure_straight_length, squared_distance
+from rightofway.site.geometry import (
+    COARSE,
+    Point,
+    measure_squared_distance,
+    measure_straight_length,
+)
 
 STRAIGHT = 2
 """Points of a straight way: both ends."""
@@ -128,7 +133,7 @@ def split_lanes(
         found_lengths = _each(shares, max(edge.length, least).__mul__)
         surcharges = _each(shares, edge.surcharge.__mul__)
         split += [
-            edge.piece(tail, head, length, surcharge)
+            edge.make_piece(tail, head, length, surcharge)
             for (tail, head), length, surcharge in zip(
                 pairwise(lane_vertices), found_lengths, surcharges, strict=True
             )
@@ -211,7 +216,7 @@ def _refuse_winding(
     edge: Edge, points: Sequence[Point], length: Fraction, spacing: Fraction
 ) -> None:
     """Refuse to split a lane whose places would lie far nearer together than robots drive."""
-    drawn = sum(sqrt(squared_distance(*ends)) for ends in pairwise(points))
+    drawn = sum(sqrt(measure_squared_distance(*ends)) for ends in pairwise(points))
     if length > MOST_WINDING * drawn:
         gap = drawn / ceil(length / spacing)
         raise InputError.at(
@@ -248,7 +253,7 @@ def measure_lengths_along(points: Sequence[Point]) -> list[Fraction]:
 
     Parts that differ by rounding only get one length, so that a tick need not be short.
     """
-    parts = [measure_straight_length(squared_distance(*ends)) for ends in pairwise(points)]
+    parts = [measure_straight_length(measure_squared_distance(*ends)) for ends in pairwise(points)]
     longest = max(parts)
     return [longest] * len(parts) if longest - min(parts) <= 2 * COARSE else parts
 

@@ -80,7 +80,7 @@ def _map_shapes(scenario: Scenario, plane: Plane) -> Iterator[str]:
     roadmap = scenario.roadmap
     if roadmap.grid is not None:
         runs = []
-        for row, line in enumerate(roadmap.grid.lines()):
+        for row, line in enumerate(roadmap.grid.as_lines()):
             for is_wall, run in groupby(enumerate(line), lambda cell: cell[1] == "@"):
                 cells = [column for column, _ in run]
                 if is_wall:

@@ -74,8 +74,8 @@ def edge_length(roadmap: Roadmap) -> Callable[[int, int], float]:
     """Return the function from the ends of an edge to its length [length unit]; 0 without one."""
 
     def length(tail: int, head: int) -> float:
-        edge = None if tail == head else roadmap.edge(tail, head)
-        return 0.0 if edge is None else float(roadmap.edge_class(edge).length)
+        edge = None if tail == head else roadmap.find_edge(tail, head)
+        return 0.0 if edge is None else float(roadmap.get_edge_class(edge).length)
 
     return length
 

@@ -160,12 +160,12 @@ def test_pieces_are_near_the_curve_and_have_its_length(tmp_path: Path) -> None:
            "B"]  # fmt: skip
     t = np.linspace(0, 1, 20_001)
     curve = np.column_stack((10 * (3 * t**2 - 2 * t**3), 12 * (t - t**2)))
-    for tail, head in pairwise(map(roadmap.vertex, way)):
-        middle = [float(sum(axis)) / 2 for axis in zip(roadmap.point(tail), roadmap.point(head),
-                                                       strict=True)]  # fmt: skip
+    for tail, head in pairwise(map(roadmap.get_vertex, way)):
+        ends = roadmap.get_point(tail), roadmap.get_point(head)
+        middle = [float(sum(axis)) / 2 for axis in zip(*ends, strict=True)]
         assert np.hypot(*(curve - middle).T).min() <= CHORD_ERROR
-    edges = [roadmap.edge(*ends) for ends in pairwise(map(roadmap.vertex, way))]
-    total = sum(float(roadmap.edge_class(edge).length) for edge in edges if edge is not None)
+    edges = [roadmap.find_edge(*ends) for ends in pairwise(map(roadmap.get_vertex, way))]
+    total = sum(float(roadmap.get_edge_class(edge).length) for edge in edges if edge is not None)
     assert total == pytest.approx(bow_length(4), abs=0.05)
 
 

@@ -11,7 +11,7 @@ from PIL import Image
 from rightofway.io import example_of_layout, load
 from rightofway.io.text import parse_yaml
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
-from rightofway.site import Edge, Roadmap, roadmap_of_edges
+from rightofway.site import Edge, Roadmap, make_roadmap
 from rightofway.solve import solve
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
@@ -61,7 +61,7 @@ def test_the_example_can_be_planned(file: str, tmp_path: Path) -> None:
 
 def roadmap(*edges: str) -> Roadmap:
     positions = {name: (float(number), 0.0) for number, name in enumerate("ABCDEF")}
-    return roadmap_of_edges(
+    return make_roadmap(
         positions, [Edge(tail=edge[0], head=edge[1], length=Fraction(1)) for edge in edges]
     )
 

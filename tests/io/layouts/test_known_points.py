@@ -25,7 +25,7 @@ def at(x: float, y: float) -> Point:
 def level_of(name: str, level: str | None = None) -> Level:
     found = read_layout(HERE / name)
     assert isinstance(found, Layout)
-    return found.level(level)
+    return found.get_level(level)
 
 
 def points(level: Level) -> dict[str, Point]:
@@ -69,16 +69,16 @@ def test_lif_keeps_positions_types_limits_and_stations() -> None:
 def test_the_slower_of_two_parallel_lanes_counts_for_a_vehicle_type() -> None:
     """A forklift with a load may drive 0.5 m/s, without one 1.5 m/s."""
     roadmap = scenario_on("P1", "Press", layout="hall.lif.json", vehicle_type="forklift").roadmap
-    edge = roadmap.edge(roadmap.vertex("A"), roadmap.vertex("B"))
+    edge = roadmap.find_edge(roadmap.get_vertex("A"), roadmap.get_vertex("B"))
     assert edge is not None
-    assert roadmap.edge_class(edge).max_speed == Fraction(1, 2)
+    assert roadmap.get_edge_class(edge).max_speed == Fraction(1, 2)
     assert roadmap.labels == ("P1", "A", "B")  # only tuggers drive to C
 
 
 def test_nav2_edges_are_directed_and_limits_in_metres_per_second() -> None:
     found = read_layout(HERE / "route.geojson")
     assert isinstance(found, Layout)
-    level = found.level()
+    level = found.get_level()
     assert points(level) == {
         "0": at(0, -1.5),
         "1": at(3, 2.5),
@@ -96,10 +96,10 @@ def test_graphml_weights_that_contradict_the_positions_are_no_lengths() -> None:
     """The weight of a > b is 1, and the line is 5 m long: that of b > c, 12.5, is none either."""
     found = read_layout(HERE / "hall.graphml")
     assert isinstance(found, Layout)
-    assert points(found.level()) == {
+    assert points(found.get_level()) == {
         "a": at(-4, 2.5), "b": at(-1, 6.5), "c": at(-1, -1.5),
     }  # fmt: skip
-    assert lanes(found.level()) == {
+    assert lanes(found.get_level()) == {
         "a > b": (5, None), "b > a": (5, None),
         "b > c": (8, None), "c > b": (8, None), "c > a": (5, None),
     }  # fmt: skip
@@ -116,7 +116,7 @@ def test_graphml_weights_that_agree_with_the_positions_are_lengths(tmp_path: Pat
     (tmp_path / "hall.graphml").write_text(text, "utf-8")
     found = read_layout(tmp_path / "hall.graphml")
     assert isinstance(found, Layout)
-    assert lanes(found.level())["b > c"] == (12.5, None)
+    assert lanes(found.get_level())["b > c"] == (12.5, None)
     assert found.notes == ()
 
 
@@ -215,7 +215,7 @@ levels:
     )
     found = read_layout(path)
     assert isinstance(found, Layout)
-    assert points(found.level("L2")) == {"near": at(2, 1), "far": at(15, 3)}
+    assert points(found.get_level("L2")) == {"near": at(2, 1), "far": at(15, 3)}
 
 
 @pytest.mark.parametrize("file", ["nodes.csv", "edges.csv"])
@@ -236,16 +236,16 @@ def test_a_ros_map_is_cut_from_its_origin_on() -> None:
     on: dict[str, Any] = {"layout": "room.yaml", "cell_size": 0.5}
     roadmap = scenario_on({"x": -0.75, "y": 2.25}, {"x": -0.75, "y": 2.75}, **on).roadmap
     assert roadmap.grid is not None
-    assert roadmap.grid.lines() == ("@@@@@@", "......", "..@...", ".....@")
-    assert roadmap.point(roadmap.vertex("N18")) == at(-0.75, 2.25)
-    assert roadmap.point(roadmap.vertex("N11")) == at(1.75, 3.25)
+    assert roadmap.grid.as_lines() == ("@@@@@@", "......", "..@...", ".....@")
+    assert roadmap.get_point(roadmap.get_vertex("N18")) == at(-0.75, 2.25)
+    assert roadmap.get_point(roadmap.get_vertex("N11")) == at(1.75, 3.25)
 
 
 def test_unknown_pixels_are_free_where_the_scenario_says_so() -> None:
     on: dict[str, Any] = {"layout": "room.yaml", "cell_size": 0.5, "unknown": "free"}
     roadmap = scenario_on({"x": -0.75, "y": 2.25}, {"x": 1.75, "y": 2.25}, **on).roadmap
     assert roadmap.grid is not None
-    assert roadmap.grid.lines()[3] == "......"
+    assert roadmap.grid.as_lines()[3] == "......"
 
 
 def test_a_map_with_yaw_is_turned_about_its_origin(tmp_path: Path) -> None:
@@ -258,7 +258,7 @@ def test_a_map_with_yaw_is_turned_about_its_origin(tmp_path: Path) -> None:
     roadmap = scenario.roadmap
     assert roadmap.name(scenario.robots[0].home) == "N18"
     assert roadmap.name(scenario.robots[0].stops[0].at) == "N19"  # x of the map is y of the site
-    x, y = roadmap.point(roadmap.vertex("N18"))
+    x, y = roadmap.get_point(roadmap.get_vertex("N18"))
     assert abs(x + Fraction(5, 4)) < Fraction(1, 10**9)
     assert abs(y - Fraction(9, 4)) < Fraction(1, 10**9)
     assert plan_of(dump_plan(solve(scenario))).scenario.roadmap == roadmap
@@ -288,10 +288,10 @@ def test_a_scenario_on_a_layout_is_in_metres_and_seconds_unless_it_names_units()
         "units": {"length": "mm", "time": "min"}, "robots": robots,
     }  # fmt: skip
     roadmap: Roadmap = scenario_of(document, HERE).roadmap
-    edge = roadmap.edge(roadmap.vertex("Cross"), roadmap.vertex("Dock"))
+    edge = roadmap.find_edge(roadmap.get_vertex("Cross"), roadmap.get_vertex("Dock"))
     assert edge is not None
-    assert roadmap.edge_class(edge).length == 4000  # [mm]
-    assert roadmap.edge_class(edge).max_speed == 18_000  # [mm/min]
+    assert roadmap.get_edge_class(edge).length == 4000  # [mm]
+    assert roadmap.get_edge_class(edge).max_speed == 18_000  # [mm/min]
 
 
 @pytest.mark.parametrize(
@@ -352,18 +352,18 @@ def test_a_building_names_its_picture_or_says_that_it_is_missing(tmp_path: Path)
     path.write_text(text, encoding="utf-8")
     missing = read_layout(path)
     assert isinstance(missing, Layout)
-    assert missing.level("L1").picture is None
+    assert missing.get_level("L1").picture is None
     assert "the picture 'hall.png' is not beside the file" in " ".join(missing.notes)
     (tmp_path.parent / "hall.png").write_bytes(b"")
     path.write_text(text.replace("hall.png", "../hall.png"), encoding="utf-8")
     outside = read_layout(path)
     assert isinstance(outside, Layout)
-    assert outside.level("L1").picture is None
+    assert outside.get_level("L1").picture is None
     path.write_text(text, encoding="utf-8")
     (tmp_path / "hall.png").write_bytes(b"")  # only its name counts here
     found = read_layout(path)
     assert isinstance(found, Layout)
-    one, two = (found.level(name).picture for name in ("L1", "L2"))
+    one, two = (found.get_level(name).picture for name in ("L1", "L2"))
     assert one is not None
     assert two is not None
     assert (one.pixel, one.corner, one.yaw) == (Fraction(1, 20), at(0, 0), Fraction(0))

@@ -39,4 +39,4 @@ def test_other_packages_add_formats(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     found = read_layout(path)
     layouts.layout_formats.cache_clear()
     assert isinstance(found, Layout)
-    assert [vertex.name for vertex in found.level().vertices] == ["dock", "press"]
+    assert [vertex.name for vertex in found.get_level().vertices] == ["dock", "press"]

@@ -19,7 +19,7 @@ LEVELS = [
 def single(file: str, level: str | None) -> Layout:
     found = read_layout(HERE / file)
     assert isinstance(found, Layout)
-    return replace(found, levels=(found.level(level),))
+    return replace(found, levels=(found.get_level(level),))
 
 
 def known_to_all(level: Level) -> list[object]:

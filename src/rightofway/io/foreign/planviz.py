@@ -333,7 +333,7 @@ def write(plan: Plan) -> str:
         assigned = 0
         for stage, finished in zip(itinerary.stages, _served(plan, robot), strict=False):
             own += [[len(tasks), assigned, "assigned"], [len(tasks), finished, "finished"]]
-            tasks.append([len(tasks), *grid.cell(stage.vertex)])
+            tasks.append([len(tasks), *grid.get_cell(stage.vertex)])
             assigned = finished
         events.append(own)
     document = {

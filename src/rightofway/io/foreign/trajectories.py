@@ -261,7 +261,7 @@ def cells_of_plan(plan: Plan) -> CellsOfPlan:
         rows=cells // grid.columns,
         columns=cells % grid.columns,
         goals=[
-            grid.cell(itinerary.stages[-1].vertex)
+            grid.get_cell(itinerary.stages[-1].vertex)
             for itinerary in plan.scenario.problem.itineraries
         ],
     )

@@ -16,8 +16,8 @@ from rightofway.site.drawing import Picture
 from rightofway.site.geometry import (
     Point,
     choose_rounding_step,
+    measure_squared_distance,
     measure_straight_length,
-    squared_distance,
 )
 from rightofway.site.layout import Layout, LayoutEdge, LayoutVertex, Level, Station
 from rightofway.site.zones import NamedZone
@@ -251,14 +251,14 @@ class LayoutDraft:
         """Return an edge with its curve, if that leads from its tail to its head."""
         ends = vertices[lane.tail].at, vertices[lane.head].at
         gaps = (
-            squared_distance(*gap)
+            measure_squared_distance(*gap)
             for gap in zip(ends, (lane.curve[0], lane.curve[-1]), strict=True)
         )
         if max(gaps) > NEAR**2:
             self.repair("a trajectory that does not lead from start to end counts as straight")
             return edge
         points = [at for at, _ in groupby((ends[0], *lane.curve[1:-1], ends[1]))]
-        squares = [squared_distance(*pair) for pair in pairwise(points)]
+        squares = [measure_squared_distance(*pair) for pair in pairwise(points)]
         step = choose_rounding_step(squares)
         return replace(
             edge,

@@ -14,7 +14,7 @@ from typing import Any
 from rightofway.arguments import checks_arguments, value_of
 from rightofway.errors import InputError, listed
 from rightofway.io.text import json_line
-from rightofway.site.geometry import Point, squared_distance
+from rightofway.site.geometry import Point, measure_squared_distance
 from rightofway.site.layout import Layout, LayoutEdge, LayoutVertex, Level
 
 LISTS = {"layouts", "nodes", "edges", "stations", "features"}
@@ -116,7 +116,7 @@ def _curved(level: Level) -> int:
         and edge.length > step
         # Lengths and distances of floats are off by far less than half a step.
         and float(edge.length) > dist(near[edge.tail], near[edge.head]) + float(step) / 2
-        and (edge.length - step) ** 2 > squared_distance(at[edge.tail], at[edge.head])
+        and (edge.length - step) ** 2 > measure_squared_distance(at[edge.tail], at[edge.head])
         for edge in level.edges
     )
 

@@ -106,7 +106,7 @@ class _Names:
         grid = scenario.roadmap.grid
         return cls(
             robots={robot.name: index for index, robot in enumerate(scenario.robots)},
-            on=LoadedMap(roadmap=scenario.roadmap, lines=grid.lines() if grid else ()),
+            on=LoadedMap(roadmap=scenario.roadmap, lines=grid.as_lines() if grid else ()),
         )
 
     def robot(self, place: Where, name: str) -> int:

@@ -19,7 +19,7 @@ from rightofway.io.scenario.writer import yaml_of
 from rightofway.io.text import json_text
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
 from rightofway.quantities import Units
-from rightofway.site import roadmap_of_grid
+from rightofway.site import make_grid_roadmap
 from rightofway.site.layout import Layout, Level
 from rightofway.site.occupancy import Occupancy
 from rightofway.values import written
@@ -76,7 +76,7 @@ def example_of_layout(path: Path | str, target: Path | str, radius: Fraction = F
         shape |= {"level": level.name} if len(layout.levels) > 1 else {}
         types = level.vehicle_types
         if len(types) > 1:
-            shape["vehicle_type"] = max(types, key=lambda name: len(level.lanes_of(name)))
+            shape["vehicle_type"] = max(types, key=lambda name: len(level.list_lanes(name)))
     elif isinstance(layout, Occupancy):
         shape["cell_size"] = _cell_size(layout, radius)
     from rightofway.io.scenario.shape import MapDocument
@@ -97,7 +97,7 @@ def _cell_size(occupancy: Occupancy, radius: Fraction) -> str:
     fitting = list[str]()
     for size in CELL_SIZES:
         try:
-            roadmap = roadmap_of_grid(occupancy.cells(Fraction(size), radius=radius))
+            roadmap = make_grid_roadmap(occupancy.cut_cells(Fraction(size), radius=radius))
         except InputError:  # no whole cell, none that is free, or cells below a pixel
             continue
         fitting.append(size)

@@ -17,7 +17,7 @@ from rightofway.io.scenario.loaded_map import (
     note_on_squares,
 )
 from rightofway.quantities import Units
-from rightofway.site import roadmap_of_grid
+from rightofway.site import make_grid_roadmap
 from rightofway.site.drawing import Drawing
 from rightofway.site.layout import Layout, build_roadmap_of_level
 from rightofway.site.occupancy import CellMap, Occupancy
@@ -50,7 +50,7 @@ def map_of_layout(
     assert seconds, "a unit of time has a length"
     if isinstance(layout, Layout):
         _refuse(document, "a layout of lanes", "cell_size", "smallest", "largest", "unknown")
-        level = layout.level(document.level)
+        level = layout.get_level(document.level)
         level_map = build_roadmap_of_level(
             level,
             vehicle_type=document.vehicle_type,
@@ -91,11 +91,11 @@ def _map_of_pixels(
         if isinstance(document.cell_size, Fraction)
         else _usual_cell(occupancy) / metres
     )
-    lines = occupancy.cells(
+    lines = occupancy.cut_cells(
         size * metres, radius=radius * metres, unknown_is_free=document.unknown == "free"
     )
     with under("layout"):
-        roadmap = roadmap_of_grid(
+        roadmap = make_grid_roadmap(
             lines,
             cell_size=size,
             y_up=True,
@@ -103,7 +103,7 @@ def _map_of_pixels(
             yaw=occupancy.yaw,
         )
     if occupancy.picture is not None:
-        roadmap = replace(roadmap, drawing=Drawing(picture=occupancy.picture.scaled(1 / metres)))
+        roadmap = replace(roadmap, drawing=Drawing(picture=occupancy.picture.scale(1 / metres)))
     cells = f"map cut into {len(lines[0])} x {len(lines)} cells of {units.written_length(size)}"
     blocked = "what the picture shows there"
     if 2 * radius > size:
@@ -150,7 +150,7 @@ def _map_of_squares(
         yaw=occupancy.yaw,
     )
     if occupancy.picture is not None:
-        roadmap = replace(roadmap, drawing=Drawing(picture=occupancy.picture.scaled(1 / metres)))
+        roadmap = replace(roadmap, drawing=Drawing(picture=occupancy.picture.scale(1 / metres)))
     note = note_on_squares("map", roadmap, int(free.sum()), units)
     return LoadedMap(roadmap=roadmap, units=units, notes=(*occupancy.notes, note))
 
@@ -162,7 +162,7 @@ def _map_of_cells(document: MapDocument, cells_of_map: CellMap, file: Path) -> L
     _refuse(document, "a map in cells", "level", "vehicle_type", "spacing", "unknown")
     size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
     with under("layout"):
-        roadmap = roadmap_of_grid(cells_of_map.lines, cell_size=size)
+        roadmap = make_grid_roadmap(cells_of_map.lines, cell_size=size)
     return LoadedMap(roadmap=roadmap, lines=cells_of_map.lines, file=file)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from rightofway.quantities import Units, decimal
 from rightofway.site import Floor, Grid, Roadmap, VertexId
-from rightofway.site.places import as_place, vertex_at
+from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.spacing import SplitLanes
 
 
@@ -75,7 +75,7 @@ class LoadedMap:
 
         if isinstance(place, str) and place not in (self.roadmap.labels or ()):
             place = self.stations.get(place, place)
-        return vertex_at(self.roadmap, place, units=self.units, what_blocks=what_blocks)
+        return find_vertex_at(self.roadmap, place, units=self.units, what_blocks=what_blocks)
 
 
 def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:

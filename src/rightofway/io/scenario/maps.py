@@ -34,10 +34,10 @@ from rightofway.site import (
     choose_rounding_step,
     cluster,
     compute_node_length,
+    make_grid_roadmap,
+    make_roadmap,
+    measure_squared_distance,
     measure_straight_length,
-    roadmap_of_edges,
-    roadmap_of_grid,
-    squared_distance,
 )
 from rightofway.site.clustering import MAX_CELLS, free_cells
 from rightofway.site.drawing import Drawing
@@ -87,11 +87,11 @@ def map_of(
         with under("file"):
             file = file_beside(base, document.file)
             lines = load_map(file)
-            roadmap = roadmap_of_grid(lines, cell_size=cell_size, **frame)
+            roadmap = make_grid_roadmap(lines, cell_size=cell_size, **frame)
     else:
         with under("grid"):
             file, lines = None, tuple(document.grid)
-            roadmap = roadmap_of_grid(lines, cell_size=cell_size, **frame)
+            roadmap = make_grid_roadmap(lines, cell_size=cell_size, **frame)
     roadmap = replace(roadmap, obstacles=_named_obstacles(document.obstacles))
     return LoadedMap(roadmap=roadmap, lines=lines, file=file)
 
@@ -143,7 +143,7 @@ def _map_of_floor(
     elif origin:
         origin = (origin[0], origin[1] - floor.height + len(lines) * cell_size)
     with under("floor"):
-        roadmap = roadmap_of_grid(
+        roadmap = make_grid_roadmap(
             lines,
             cell_size=cell_size,
             y_up=document.y_up,
@@ -213,7 +213,7 @@ def _map_of_roadmap(
     positions = {name: vertex.at for name, vertex in document.vertices.items()}
     lengths = list[Fraction | None]()
     squares = {
-        index: squared_distance(positions[edge.tail], positions[edge.head])
+        index: measure_squared_distance(positions[edge.tail], positions[edge.head])
         for index, edge in enumerate(document.edges)
         if edge.length is None
         and edge.curve is None
@@ -275,7 +275,7 @@ def _map_of_roadmap(
     sides = None if document.sides is None else [float(side) for side in document.sides]
     rounded = sum((lengths[index] or 0) ** 2 != square for index, square in squares.items())
     note = f"{rounded} of {len(document.edges)} lengths rounded up to {decimal(step, 6)}"
-    roadmap = roadmap_of_edges(
+    roadmap = make_roadmap(
         drawn,
         split.edges,
         y_up=on.y_up,
@@ -321,9 +321,9 @@ def _shapes(
 def _bends(curves: Mapping[tuple[str, str], LaneCurve], roadmap: Roadmap) -> dict[str, Any]:
     """Return the points and the control points of the curves that are one edge each."""
     whole = [
-        (roadmap.vertex(tail), roadmap.vertex(head), curve)
+        (roadmap.get_vertex(tail), roadmap.get_vertex(head), curve)
         for (tail, head), curve in curves.items()
-        if roadmap.edge(roadmap.vertex(tail), roadmap.vertex(head)) is not None
+        if roadmap.find_edge(roadmap.get_vertex(tail), roadmap.get_vertex(head)) is not None
     ]
     return {
         "curves": tuple((tail, head, curve.points) for tail, head, curve in whole),
@@ -337,7 +337,7 @@ def _places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:
 
     def vertex(name: str) -> VertexId:
         try:
-            return roadmap.vertex(name)
+            return roadmap.get_vertex(name)
         except KeyError:
             near = nearest(name, document.vertices)
             hint = f"did you mean {near!r}?" if near else "add it to vertices"

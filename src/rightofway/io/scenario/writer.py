@@ -159,7 +159,7 @@ def _shape(roadmap: Roadmap) -> dict[str, Any]:
     left, bottom = frame.to_site((-size / 2, grid.rows * size - size / 2))
     usual = (Fraction(0), Fraction(0) if frame.y_up else grid.rows * size)
     origin = {} if (left, bottom) == usual else {"origin": [written(left), written(bottom)]}
-    shape = {"grid": list(grid.lines()), "cell_size": written(size), **y, **origin, **yaw}
+    shape = {"grid": list(grid.as_lines()), "cell_size": written(size), **y, **origin, **yaw}
     named = [
         {
             "name": obstacle.name,
@@ -188,9 +188,9 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
         {
             "from": name(tail),
             "to": name(int(roadmap.heads[edge])),
-            "length": written(roadmap.edge_class(edge).length),
+            "length": written(roadmap.get_edge_class(edge).length),
             "both_ways": False,
-            **_of_class(roadmap.edge_class(edge)),
+            **_of_class(roadmap.get_edge_class(edge)),
             **curves.get((VertexId(tail), VertexId(int(roadmap.heads[edge]))), {}),
         }
         for tail in range(roadmap.n_vertices)

@@ -156,7 +156,7 @@ def _level(
                 "kind": finding.kind,
                 "fact": parts_of(finding.fact),
                 "remedy": parts_of(finding.remedy),
-                "vertices": [int(site.roadmap.vertex(vertex)) for vertex in finding.vertices],
+                "vertices": [int(site.roadmap.get_vertex(vertex)) for vertex in finding.vertices],
                 "robots": [robot_of[robot] for robot in finding.robots],
             }
             for finding in inspection.findings

@@ -45,7 +45,7 @@ def map_data(
         "frame": _frame(plane, roadmap),
     }
     if grid is not None:
-        data["rows"] = grid.lines()
+        data["rows"] = grid.as_lines()
     else:
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         data |= {
@@ -53,7 +53,9 @@ def map_data(
             "points": np.round(plane.points, decimals).ravel().tolist(),
             "tails": differences(tails.tolist()),
             "heads": differences(roadmap.heads.tolist()),
-            "lengths": [float(roadmap.edge_class(edge).length) for edge in range(roadmap.n_edges)],
+            "lengths": [
+                float(roadmap.get_edge_class(edge).length) for edge in range(roadmap.n_edges)
+            ],
         }
     drawing = roadmap.drawing
     sides = () if roadmap.sides is None else roadmap.sides / plane.unit
@@ -129,7 +131,7 @@ def _limits(roadmap: Roadmap) -> list[tuple[str, list[int]]]:
     """Return the speed limits, each with its edges."""
     edges = defaultdict[str, list[int]](list)
     for edge in range(roadmap.n_edges):
-        limit = roadmap.edge_class(edge).max_speed
+        limit = roadmap.get_edge_class(edge).max_speed
         if limit is not None:
             edges[str(limit)].append(edge)
     return list(edges.items())

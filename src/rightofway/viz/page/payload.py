@@ -227,7 +227,7 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> F
                 "remedy": book.add(blockage.remedy),
                 "tick": 0,
                 "robots": [robot_of[name] for name in blockage.robots],
-                "vertices": [int(scenario.roadmap.vertex(name)) for name in blockage.vertices],
+                "vertices": [int(scenario.roadmap.get_vertex(name)) for name in blockage.vertices],
             }
             for blockage in no_plan.blockages[:LISTED_FAULTS]
         ],

@@ -74,7 +74,7 @@ def _picture(pen: Pen, scene: Ground) -> None:
 
 
 def _grid(pen: Pen, scene: Ground, grid: Grid) -> None:
-    lines, theme, hair = grid.lines(), scene.theme, pen.hairline
+    lines, theme, hair = grid.as_lines(), scene.theme, pen.hairline
     right, bottom = len(lines[0]) - 0.5, len(lines) - 0.5
     pen.box((-0.5, -0.5), (right, bottom), theme.floor)
     if not pen.is_small:
