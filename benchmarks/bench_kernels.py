@@ -8,10 +8,10 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from rightofway.model import BookingRules, Scenario
-from rightofway.planners.lacam import timetable_of
-from rightofway.planners.routing import shortest_routes
+from rightofway.planners.lacam import build_timetable
+from rightofway.planners.routing import find_shortest_routes
 from rightofway.precedence import PrecedenceGraph
-from rightofway.search import Bookings, Distances, earliest_track, plan_by_lacam
+from rightofway.search import Bookings, Distances, find_earliest_track, plan_by_lacam
 
 ROBOTS = 200
 
@@ -22,7 +22,7 @@ def scenario(fleet: Callable[[int], Scenario]) -> Scenario:
 
 
 def graph_of_routes(scenario: Scenario) -> PrecedenceGraph:
-    routes = shortest_routes(scenario, Distances(scenario.roadmap))
+    routes = find_shortest_routes(scenario, Distances(scenario.roadmap))
     return PrecedenceGraph(
         routes,
         rules=BookingRules(headway=scenario.problem.booking_rules.headway, books_ahead=False),
@@ -60,16 +60,16 @@ def test_search_for_one_robot(benchmark: BenchmarkFixture, scenario: Scenario) -
     bookings = Bookings(scenario.problem)
     last = len(scenario.robots) - 1
     for robot in range(last):
-        track = earliest_track(robot, bookings, distances)
+        track = find_earliest_track(robot, bookings, distances)
         if track is not None:
             bookings.add(robot, track)
-    benchmark(earliest_track, last, bookings, distances)
+    benchmark(find_earliest_track, last, bookings, distances)
 
 
 def test_search_for_the_fleet(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
     def plan_in_steps() -> None:
         tracks = plan_by_lacam(scenario.problem.in_steps(), spreads=False)
         assert tracks is not None
-        timetable_of(scenario, tracks)
+        build_timetable(scenario, tracks)
 
     benchmark(plan_in_steps)

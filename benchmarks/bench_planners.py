@@ -10,15 +10,13 @@ from pytest_benchmark.fixture import BenchmarkFixture
 import rightofway
 from rightofway.metrics import measure
 from rightofway.model import Scenario
-from rightofway.planners import Feature, registered
+from rightofway.planners import Feature, find_all
 
 
 @pytest.mark.parametrize("robots", [50, 100, 200, 400])
 @pytest.mark.parametrize(
     "planner",
-    sorted(
-        name for name, spec in registered().items() if Feature.LEAVES_SWAPS not in spec.features
-    ),
+    sorted(name for name, spec in find_all().items() if Feature.LEAVES_SWAPS not in spec.features),
 )
 def test_planner(
     benchmark: BenchmarkFixture, fleet: Callable[[int], Scenario], planner: str, robots: int

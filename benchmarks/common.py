@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 import rightofway
 from rightofway.bench import Row
-from rightofway.bench.report import markdown_table
+from rightofway.bench.report import make_markdown_table
 from rightofway.model import Scenario
 
 __all__ = [
@@ -56,7 +56,7 @@ def place_of(row: Row) -> tuple[Any, ...]:
 
 def table(heads: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
     """Return a Markdown table that ends with its last line."""
-    return markdown_table([heads, *lines]) + "\n"
+    return make_markdown_table([heads, *lines]) + "\n"
 
 
 def percent(share: float) -> str:

@@ -18,9 +18,9 @@ from matplotlib.ticker import PercentFormatter
 import rightofway
 from benchmarks.common import IMAGES, RESULTS, plain_axes, save_figure
 from rightofway.errors import GaveUp
-from rightofway.metrics import alone_completions, measure
+from rightofway.metrics import compute_alone_completions, measure
 from rightofway.model import Plan, Route, Rules, Scenario
-from rightofway.planners.routing import clear_routes, shortest_routes
+from rightofway.planners.routing import clear_routes, find_shortest_routes
 from rightofway.search import Distances
 from tests.builders.fleets import random_fleet
 from tests.oracles.fixed_routes import Optimum, best_on, routes_of
@@ -32,7 +32,7 @@ TIME_LIMIT = 300
 """More than any plan here takes, so that none depends on the machine [s]."""
 
 ROUTES: dict[str, Callable[[Scenario, Distances], list[Route]]] = {
-    "shortest": shortest_routes,
+    "shortest": find_shortest_routes,
     "clear": clear_routes,
 }
 
@@ -129,7 +129,7 @@ def cases_of(family: Family, seed: int) -> tuple[list[Case], int]:
         On how many sets of routes it was not proven.
     """
     scenario = fleet(family, seed)
-    lower_bound, unproven = sum(alone_completions(scenario)), set()
+    lower_bound, unproven = sum(compute_alone_completions(scenario)), set()
 
     @cache
     def best(routes: tuple[Route, ...]) -> int | None:

@@ -22,7 +22,7 @@ from matplotlib.ticker import PercentFormatter
 import rightofway
 from benchmarks.common import IMAGES, RESULTS, plain_axes, save_figure, table, write_tables
 from rightofway.model import Plan, Rules
-from rightofway.planners import Feature, registered
+from rightofway.planners import Feature, find_all
 from tests.builders.fleets import random_fleet
 
 RUNS, POLICY_RUNS = 10_000, 20
@@ -68,7 +68,7 @@ def runs_table() -> str:
     """Return a line for each planner: the sum of all its runs."""
     lines = []
     for planner in sorted(
-        name for name, spec in registered().items() if Feature.LEAVES_SWAPS not in spec.features
+        name for name, spec in find_all().items() if Feature.LEAVES_SWAPS not in spec.features
     ):
         found, seconds = [], 0.0
         for fleet in FLEETS:

@@ -129,7 +129,7 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
     "layout_of_graph": lambda: (rw.layout_of_graph, {}),
     "load": lambda: (rw.load, {"path": "fleet.yaml"}),
     "load_plan": lambda: (rw.load_plan, {"path": "plan.json"}),
-    "lost_time": lambda: (rw.lost_time, {}),
+    "compute_lost_time": lambda: (rw.compute_lost_time, {}),
     "measure": lambda: (rw.measure, {}),
     "plan_of_laps": lambda: (rw.plan_of_laps, {"result": rw.run_laps(DOOR)}),
     "plan_of_paths": lambda: (rw.plan_of_paths, {"scenario": DOOR, "paths": {}}),

@@ -118,20 +118,22 @@ FIRST_WORDS = """
     commit compare complain compute confine connect convert count create cut deal decide defer delay
     delete derive descend describe download draw drive dump empty end enter enters evict exclude
     execute explain export extract fail fill find finish finishes flip flush follow forget free get
-    give go goes handle hang happens has have hold holds improve inline insert inspect is join judge
+    give go goes group handle hang happens has have hold holds improve inline insert inspect is join
+    judge
     keep keeps kill lay limit link list listen load locate make map may measure mix name need note
     number obey open order owns parse pass pause perturb place plan prepare prioritize prove put
     reach reaches read receive recognizes refuse release relocate remind remove rename repair repeat
     replan replay report require reroute reset resolve restore resume retime retry reverse rollback
-    round run save say scale search send serve set sets settle share show simulate skip solve speak
-    splice split spread start stay step stop stream stretch submit summarize survey switch take tell
-    to trace translate turn unroll upload validate wait waits widen withdraw work write
+    round run save say scale search send serve set sets settle share show simulate skip solve
+    sort speak splice split spread start stay step stop stream stretch submit summarize survey
+    switch take tell to trace translate turn unroll upload validate wait waits widen withdraw work
+    write
 """
 VERBS = frozenset(FIRST_WORDS.split())
 """First words of functions: verbs, claims (``is_empty``), ``as_``, ``to_``; add what is missing."""
 
 ESTABLISHED = {
-    *("auto", "cbs", "fixed_priority", "lacam", "lns", "paper", "prioritized"),
+    *("auto", "cbs", "fixed_priority", "lacam", "lns", "local_search", "paper", "prioritized"),
     *("priority_search", "random_priority", "two_level"),
     *("main",),
 }
@@ -139,8 +141,6 @@ ESTABLISHED = {
 
 NOUNS = {
     "arguments": 6,
-    "bench": 13,
-    "check": 12,
     "cli": 33,
     "control": 45,
     "cyclic": 48,
@@ -152,15 +152,12 @@ NOUNS = {
     "files": 2,
     "fleet_builder": 12,
     "io": 73,
-    "metrics": 18,
     "model": 45,
     "native": 5,
     "phrases": 5,
-    "planners": 28,
     "precedence": 45,
     "quantities": 9,
     "report": 16,
-    "search": 17,
     "studio": 79,
     "values": 18,
     "viz": 71,

@@ -52,7 +52,7 @@ if _TYPE_CHECKING:
     )
     from rightofway.metrics import (
         Metrics,
-        lost_time,
+        compute_lost_time,
         measure,
         waits,
     )
@@ -145,7 +145,7 @@ _ROOMS = {
     ),
     "metrics": (
         "Metrics",
-        "lost_time",
+        "compute_lost_time",
         "measure",
         "waits",
     ),
@@ -247,11 +247,11 @@ __all__ = [
     "Wait",
     "best_timetable",
     "check",
+    "compute_lost_time",
     "improve",
     "layout_of_graph",
     "load",
     "load_plan",
-    "lost_time",
     "measure",
     "plan_of_laps",
     "plan_of_paths",
@@ -267,7 +267,7 @@ __all__ = [
 ]
 
 
-_EARLIER = {"save_plan": "write_plan"}
+_EARLIER = {"lost_time": "compute_lost_time", "save_plan": "write_plan"}
 """Earlier names, which work until the next major version and warn (docs/promises.md)."""
 
 

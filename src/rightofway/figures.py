@@ -16,9 +16,9 @@ class PackageFigures:
 
     def alone_completions(self, scenario: Scenario) -> tuple[Tick, ...]:
         """Return the least completion of each robot without the others [ticks]."""
-        from rightofway.metrics import alone_completions
+        from rightofway.metrics import compute_alone_completions
 
-        return alone_completions(scenario)
+        return compute_alone_completions(scenario)
 
     def waits(self, plan: Plan) -> tuple[Wait, ...]:
         """Return all waits of a plan."""
@@ -28,15 +28,15 @@ class PackageFigures:
 
     def lost_time(self, plan: Plan) -> tuple[LostTime, ...]:
         """Return what each robot of a plan loses to others."""
-        from rightofway.metrics import lost_time
+        from rightofway.metrics import compute_lost_time
 
-        return lost_time(plan)
+        return compute_lost_time(plan)
 
     def event_columns(self, plan: Plan) -> dict[str, list[Any]]:
         """Return the columns of the table of all visits of a plan."""
-        from rightofway.metrics import event_columns
+        from rightofway.metrics import make_event_columns
 
-        return event_columns(plan)
+        return make_event_columns(plan)
 
     def plan_html(self, plan: Plan) -> str:
         """Return the page of a plan in a frame."""

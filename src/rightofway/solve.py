@@ -44,7 +44,7 @@ from rightofway.planners import (
     find,
 )
 from rightofway.planners.features import refuse_unknown
-from rightofway.planners.registry import able
+from rightofway.planners.registry import name_able
 from rightofway.values import at, between, written
 
 __all__ = ["improve", "solve"]
@@ -181,7 +181,7 @@ def _refuse_start(spec: PlannerSpec, plan: Plan, place: str) -> None:
     """Refuse a start that is not a plan, and planners that cannot improve one."""
     checked_plan(plan, place)
     if Feature.IMPROVES not in spec.features:
-        message = f"{spec.name} cannot start from a plan (choose {able(Feature.IMPROVES)})"
+        message = f"{spec.name} cannot start from a plan (choose {name_able(Feature.IMPROVES)})"
         raise InputError.at("planner", message)
 
 
@@ -216,12 +216,12 @@ def _run(
     # These load the native core: not for help.
     from rightofway.planners.impossible import refuse_closed_ways, refuse_stranded
     from rightofway.planners.warm_start import compare_with_start
-    from rightofway.search import least_completions
+    from rightofway.search import compute_least_completions
 
     seconds_per_visit = at("seconds_per_visit", between(0, 3600), seconds_per_visit)
     planner = f"planner {spec.name}"
     refuse_unknown(
-        task.scenario.problem, spec.features, planner, lambda needed: f"choose {able(needed)}"
+        task.scenario.problem, spec.features, planner, lambda needed: f"choose {name_able(needed)}"
     )
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
@@ -230,7 +230,7 @@ def _run(
         with_plan.append(time.perf_counter() - began)
 
     with kernel_limits(), limit_work(deadline):
-        alone = least_completions(task.scenario, time_limit=deadline.seconds_left())
+        alone = compute_least_completions(task.scenario, time_limit=deadline.seconds_left())
         if alone is None:
             raise GaveUp("time ran out while measuring distances (give a longer time limit)")
         refuse_stranded(task.scenario, np.flatnonzero(alone < 0).tolist())
@@ -300,9 +300,9 @@ def _written_options(task: Task) -> dict[str, Any]:
 def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
     """Return the draft of a planner that starts from an old plan, or from nothing if it must."""
     from rightofway.planners.impossible import refuse_closed_ways
-    from rightofway.planners.warm_start import first_plan
+    from rightofway.planners.warm_start import make_first_plan
 
-    tracks = first_plan(task, old)
+    tracks = make_first_plan(task, old)
     if tracks is None:
         task.report(Phrase("the old plan does not help: planning from nothing"))
         refuse_closed_ways(task.scenario, task.deadline)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from rightofway.bench import Case, read_suite
-from rightofway.bench.fleets import largest_part, random_grid
+from rightofway.bench.fleets import draw_grid, find_largest_part
 from rightofway.errors import InputError
 from rightofway.model import Scenario
 
@@ -113,8 +113,8 @@ def test_the_first_rows_of_a_scen_are_the_fleet_and_speeds_go_round(tmp_path: Pa
     )
     (tmp_path / "hall.map").unlink()  # a case needs no files
     assert (two.map, two.scen) == ("hall", "hall.scen")
-    assert ends(two.scenario()) == [("N0", "N2"), ("N5", "N3")]
-    scenario = three.scenario()
+    assert ends(two.make_scenario()) == [("N0", "N2"), ("N5", "N3")]
+    scenario = three.make_scenario()
     assert ends(scenario) == [("N0", "N2"), ("N5", "N3"), ("N1", "N1")]
     speeds = [robot.speed for robot in scenario.robots]
     assert speeds == [Fraction(1), Fraction(1, 3), Fraction(1)]
@@ -129,7 +129,7 @@ def test_a_scenario_file_has_its_own_fleet(tmp_path: Path) -> None:
     )
     [case] = cases(tmp_path, ONE + 'maps = [{scenario = "lane.yaml"}]\nfleets = [{name = "a"}]\n')
     assert (case.map, case.fleet, case.robots) == ("lane", "", 1)
-    [robot] = case.scenario().robots
+    [robot] = case.make_scenario().robots
     assert (robot.name, robot.speed) == ("Ada", Fraction(1, 7))
 
 
@@ -140,7 +140,7 @@ def drawn(directory: Path, *, count: int, seed: int) -> Scenario:
         "maps = [{random = {size = [9, 7], walls = 0.3, seed = 5}}]\n"
         'fleets = [{name = "a", speeds = [1, 2, 3], deal = "by seed", work = [2, 4]}]\n',
     )
-    return case.scenario()
+    return case.make_scenario()
 
 
 def test_the_same_seed_draws_the_same_fleet_and_a_smaller_one_is_its_beginning(
@@ -165,9 +165,9 @@ def test_what_is_drawn_is_within_bounds_and_all_of_it_comes_up(tmp_path: Path) -
 
 def test_a_drawn_grid_is_the_same_everywhere() -> None:
     """Python promises the numbers of `random()` for a seed; so these rows hold everywhere."""
-    assert random_grid(width=6, height=3, walls=0.3, seed=0) == ["..@...", "..@...", "......"]
+    assert draw_grid(width=6, height=3, walls=0.3, seed=0) == ["..@...", "..@...", "......"]
 
 
 def test_the_largest_part_is_found() -> None:
-    assert largest_part(["..@.", "@@@.", "..@."]) == [(0, 3), (1, 3), (2, 3)]
-    assert largest_part(["@@"]) == []
+    assert find_largest_part(["..@.", "@@@.", "..@."]) == [(0, 3), (1, 3), (2, 3)]
+    assert find_largest_part(["@@"]) == []

@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from rightofway.bench import COLUMNS, Group, Quartiles, Row, by_planner, write_report
-from rightofway.bench.summary import by_robots
+from rightofway.bench import COLUMNS, Group, Quartiles, Row, group_by_planner, write_report
+from rightofway.bench.summary import group_by_robots
 from rightofway.errors import InputError
 
 
@@ -48,15 +48,15 @@ def test_where_nothing_is_solved_there_is_no_median() -> None:
 
 def test_planners_are_named_by_what_tells_them_apart() -> None:
     plain = [row(1), row(2, planner="two", options="a=1 b=1")]
-    assert list(by_planner(plain)) == ["one", "two"]
+    assert list(group_by_planner(plain)) == ["one", "two"]
     with_options = [*plain, row(3, planner="two", options="a=2 b=1")]
-    assert list(by_planner(with_options)) == ["one", "two a=1", "two a=2"]
+    assert list(group_by_planner(with_options)) == ["one", "two a=1", "two a=2"]
     with_limits = [*plain, row(3, limit=0.5)]
-    assert list(by_planner(with_limits)) == ["one (10 s)", "two (10 s)", "one (0.5 s)"]
+    assert list(group_by_planner(with_limits)) == ["one (10 s)", "two (10 s)", "one (0.5 s)"]
 
 
 def test_groups_by_robots_are_in_order() -> None:
-    groups = by_robots([row(1, robots=20), row(2, robots=5), row(3, robots=20)])
+    groups = group_by_robots([row(1, robots=20), row(2, robots=5), row(3, robots=20)])
     assert {robots: group.cases for robots, group in groups.items()} == {5: 1, 20: 2}
     assert list(groups) == [5, 20]
 

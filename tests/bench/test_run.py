@@ -12,7 +12,7 @@ import pytest
 
 import rightofway
 from rightofway.bench import Case, read_suite, run_here
-from rightofway.bench.process import Interrupted, Processes, cores, machine
+from rightofway.bench.process import Interrupted, Processes, count_cores, describe_machine
 from rightofway.bench.run import run
 from rightofway.errors import InputError
 
@@ -30,14 +30,14 @@ def case(tmp_path: Path) -> Case:
 
 
 def test_a_row_has_what_solving_the_case_here_gives(case: Case) -> None:
-    plan = rightofway.solve(case.scenario(), "two-level")
+    plan = rightofway.solve(case.make_scenario(), "two-level")
     metrics = rightofway.measure(plan)
     [row] = run_here([case])
     assert (row["flowtime"], row["makespan"]) == (metrics.flowtime, metrics.makespan)
     assert row["lower_bound"] == metrics.lower_bound
     assert row["message"] == plan.run.status
     assert {name: row[name] for name in case.labels} == case.labels
-    assert {name: row[name] for name in machine()} == machine()
+    assert {name: row[name] for name in describe_machine()} == describe_machine()
 
 
 def test_the_memory_of_a_case_is_not_that_of_who_started_it(case: Case) -> None:
@@ -62,8 +62,8 @@ def test_no_process_is_started_after_the_end(case: Case) -> None:
 
 
 def test_the_machine_is_told() -> None:
-    found = machine()
-    assert found["cores"] == cores() >= 1
+    found = describe_machine()
+    assert found["cores"] == count_cores() >= 1
     assert found["version"] == rightofway.__version__
     assert found["cpu"]
     package = Path(rightofway.__file__).parent
@@ -118,7 +118,7 @@ def test_wrong_options_of_laps_are_refused(tmp_path: Path, options: str, message
 
 
 def test_a_plan_has_its_decisions_by_level_among_the_figures(case: Case) -> None:
-    plan = rightofway.solve(case.scenario(), "two-level")
+    plan = rightofway.solve(case.make_scenario(), "two-level")
     figures = json.loads(run(case)["figures"])
     assert sum(figures["decisions"].values()) == len(plan.run.decisions)
     assert figures["rerouted"] == len(plan.run.reroutes)

@@ -8,14 +8,14 @@ from dataclasses import replace
 import rightofway
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Scenario, Track, stays_of
-from rightofway.planners import Feature, registered
+from rightofway.planners import Feature, find_all
 from tests.builders.changes import CHANGES
 from tests.builders.laws import leave
 from tests.oracles import judge
 
 __all__ = ["ALL", "QUICK", "STRICT", "broken", "by_both_judges", "knows", "planned"]
 
-SPECS = registered()
+SPECS = find_all()
 ALL = sorted(SPECS)
 STRICT = [name for name in ALL if Feature.LEAVES_SWAPS not in SPECS[name].features]
 """Planners whose plans keep all rules; the paper's method leaves swaps."""

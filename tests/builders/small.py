@@ -6,13 +6,13 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.model import Rules, Scenario
-from rightofway.planners import Feature, registered
+from rightofway.planners import Feature, find_all
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario, random_fleet
 
 __all__ = ["SMALL", "STRICT"]
 
 STRICT = sorted(
-    name for name, spec in registered().items() if Feature.LEAVES_SWAPS not in spec.features
+    name for name, spec in find_all().items() if Feature.LEAVES_SWAPS not in spec.features
 )
 """Planners whose plans keep all rules; the paper's method leaves swaps."""
 

@@ -24,7 +24,7 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 import rightofway
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.io import plan_text, scenario_text
-from rightofway.metrics import outcome_of
+from rightofway.metrics import derive_outcome
 from rightofway.model import Objective, Plan, Scenario, Tick
 from rightofway.planners.bounds import prove_bound
 from rightofway.precedence import ReleaseGraph
@@ -168,7 +168,7 @@ def bound(scenario: Scenario, chance: int, into: Round) -> None:
                 impossible.append(planner)
                 continue
             if plan is not None:
-                outcome = outcome_of(plan)
+                outcome = derive_outcome(plan)
                 plans.append(plan)
                 proofs.append((planner, outcome.bound or Tick(0), outcome.objective))
     with into.unless_it_fails(scenario):

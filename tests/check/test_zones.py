@@ -11,9 +11,9 @@ from rightofway import FleetBuilder, check, solve
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.io import dump_scenario, scenario_of
 from rightofway.model import Plan, PlannerRun, Track
-from rightofway.planners import Feature, registered
+from rightofway.planners import Feature, find_all
 
-KNOW_ZONES = sorted(spec.name for spec in registered().values() if Feature.SIZES in spec.features)
+KNOW_ZONES = sorted(spec.name for spec in find_all().values() if Feature.SIZES in spec.features)
 
 
 def document(zone: dict[str, Any] | None = None) -> dict[str, Any]:
@@ -159,7 +159,7 @@ def test_plans_keep_zones_and_lose_no_more_than_they_must(
 
 def test_planners_that_do_not_know_zones_refuse_them() -> None:
     scenario = scenario_of(document({"vertices": ["B", "F"]}))
-    for planner in set(registered()) - set(KNOW_ZONES):
+    for planner in set(find_all()) - set(KNOW_ZONES):
         with pytest.raises(
             InputError, match=f"planner {planner} (does not know .* zones|is for points)"
         ):

@@ -12,11 +12,11 @@ import rightofway
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import measure
 from rightofway.model import Plan, Scenario
-from rightofway.planners import Feature, registered
+from rightofway.planners import Feature, find_all
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.small import SMALL, STRICT
 
-PLANNERS = sorted(registered())
+PLANNERS = sorted(find_all())
 
 
 def key(plan: Plan) -> list[tuple[bytes, bytes]]:
@@ -57,7 +57,7 @@ def test_the_impossible_is_refused_as_proven(planner: str) -> None:
 
 @pytest.mark.parametrize("planner", PLANNERS)
 def test_every_option_has_its_default_first_and_refuses_what_it_does_not_know(planner: str) -> None:
-    spec = registered()[planner]
+    spec = find_all()[planner]
     for option in spec.options:
         with pytest.raises(rightofway.InputError, match="is not a"):
             spec.settle({option.name: "no such value"})
@@ -67,7 +67,7 @@ def test_every_option_has_its_default_first_and_refuses_what_it_does_not_know(pl
 
 
 @pytest.mark.parametrize(
-    "planner", [name for name in PLANNERS if Feature.IMPROVES in registered()[name].features]
+    "planner", [name for name in PLANNERS if Feature.IMPROVES in find_all()[name].features]
 )
 @pytest.mark.parametrize("seed", range(3))
 def test_who_can_start_from_a_plan_makes_it_no_worse(planner: str, seed: int) -> None:

@@ -17,7 +17,7 @@ from rightofway.cyclic import (
 )
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import BookingRules, Rules, Scenario
-from rightofway.planners import planning_problem
+from rightofway.planners import make_planning_problem
 from rightofway.precedence import TimedEventGraph
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.laws import law, leave
@@ -53,7 +53,7 @@ def comparisons(result: CyclicResult) -> list[BaselineComparison]:
 def test_three_periods_of_a_chosen_timetable_have_no_fault(scenario: Scenario) -> None:
     result = chosen(scenario)
     headway, ahead = (
-        planning_problem(scenario).booking_rules.headway,
+        make_planning_problem(scenario).booking_rules.headway,
         scenario.problem.booking_rules.books_ahead,
     )
     for group, comparison in zip(result.groups, comparisons(result), strict=True):

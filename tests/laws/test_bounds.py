@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from rightofway import solve
 from rightofway.model import Scenario, cost_of
 from rightofway.planners.bounds import prove_bound
-from rightofway.search import PriceAscent, least_completions
+from rightofway.search import PriceAscent, compute_least_completions
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, planned
 from tests.builders.fleets import random_fleet
@@ -21,7 +21,7 @@ kinds, seeds = st.sampled_from(sorted(KINDS)), st.integers(0, 10**6)
 @law(kinds, seeds, st.integers(1, 200))
 def test_no_prices_bound_a_tiny_fleet_above_its_optimum(kind: str, seed: int, steps: int) -> None:
     scenario = KINDS[kind](seed)
-    alone = least_completions(scenario)
+    alone = compute_least_completions(scenario)
     if alone is None or alone.min() < 0:
         leave("a robot cannot reach its places")
     least = least_flowtime(kind, scenario)
@@ -46,7 +46,7 @@ def test_no_plan_of_any_fleet_costs_less_than_prices_say(
 def test_more_steps_never_lower_the_bound_and_parts_are_as_good_as_one_run(
     scenario: Scenario, first: int, more: int
 ) -> None:
-    alone = least_completions(scenario)
+    alone = compute_least_completions(scenario)
     if alone is None or alone.min() < 0:
         leave("a robot cannot reach its places")
     whole, in_parts = PriceAscent(scenario.problem), PriceAscent(scenario.problem)

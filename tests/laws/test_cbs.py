@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 
 from rightofway import OutcomeKind, check, solve
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.metrics import alone_completions, find_forced_losses
+from rightofway.metrics import compute_alone_completions, find_forced_losses
 from rightofway.model import Objective, Plan, PlannerRun, Scenario, completions_of, cost_of
 from rightofway.model.outcome import minimized
 from rightofway.planners.bounds import prove_bound
-from rightofway.search import ConflictBasedSearch, least_completions
+from rightofway.search import ConflictBasedSearch, compute_least_completions
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import planned
 from tests.builders.laws import law, leave
@@ -40,7 +40,7 @@ NODES = 300
 
 
 def _search(scenario: Scenario, **options: Any) -> ConflictBasedSearch:
-    alone = least_completions(scenario)
+    alone = compute_least_completions(scenario)
     if alone is None or alone.min() < 0:
         leave("a robot cannot reach its places")
     return ConflictBasedSearch(scenario.problem, **options)
@@ -198,7 +198,7 @@ def test_the_least_makespan_is_proven(kind: str, seed: int) -> None:
 @law(any_fleet())
 def test_two_robots_lose_what_is_forced_in_any_plan(scenario: Scenario) -> None:
     completions = completions_of(scenario, planned(scenario, "lns").tracks)
-    alone = alone_completions(scenario)
+    alone = compute_alone_completions(scenario)
     for loss in find_forced_losses(scenario):
         assert sum(completions[robot] - alone[robot] for robot in loss.robots) >= loss.ticks > 0
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from rightofway.model import Scenario, route_of
 from rightofway.precedence import graph_on
-from rightofway.search import Bookings, Distances, earliest_track
+from rightofway.search import Bookings, Distances, find_earliest_track
 from tests.builders.closures import closed_fleet
 from tests.builders.laws import law, leave
 from tests.oracles.closures import earliest_times
@@ -25,7 +25,7 @@ def test_precedence_graphs_have_the_earliest_times_that_keep_clear_of_closures(
     bookings, distances = Bookings(scenario.problem), Distances(scenario.roadmap)
     tracks = []
     for robot in range(len(scenario.robots)):
-        track = earliest_track(robot, bookings, distances)
+        track = find_earliest_track(robot, bookings, distances)
         if track is None:
             leave("a robot has no way")
         tracks.append(track)

@@ -7,7 +7,7 @@ from functools import partial
 from hypothesis import strategies as st
 
 from rightofway.model import Scenario, completions_of, cost_of
-from rightofway.search import Distances, earliest_track, least_completions
+from rightofway.search import Distances, compute_least_completions, find_earliest_track
 from tests.builders.any_fleet import any_fleet
 from tests.builders.booked import booked_on, table_of
 from tests.builders.laws import law, leave
@@ -32,10 +32,10 @@ def test_the_search_finds_the_least_completion_and_surcharges(
     scenario, booked = drawn
     problem = scenario.problem
     itinerary = problem.itineraries[0]
-    alone = least_completions(scenario)
+    alone = compute_least_completions(scenario)
     if alone is None or alone[0] < 0:
         leave("no way leads to a stop")
-    track = earliest_track(0, table_of(problem, booked), Distances(scenario.roadmap))
+    track = find_earliest_track(0, table_of(problem, booked), Distances(scenario.roadmap))
     best = least_cost(
         scenario.roadmap,
         itinerary,

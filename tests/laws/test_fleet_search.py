@@ -9,7 +9,7 @@ import pytest
 from hypothesis import strategies as st
 
 from rightofway.check import check
-from rightofway.metrics.alone import alone_completions
+from rightofway.metrics.alone import compute_alone_completions
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, completions_of
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
@@ -57,30 +57,30 @@ def test_plans_are_sound_better_each_time_and_the_same_on_any_number_of_threads(
     for search in searches:
         if not search.prioritize(order, searches=500, time_limit=None):
             return
-    first = searches[0].tracks()
+    first = searches[0].list_tracks()
     assert judged(scenario, first)
     assert searches[0].cost == sum(completions_of(scenario, first))
     for search in searches:
         before = search.cost
         search.improve(3000, patience=10**9)
         assert search.cost <= before
-    better = searches[0].tracks()
+    better = searches[0].list_tracks()
     assert judged(scenario, better)
     assert searches[0].cost == sum(completions_of(scenario, better))
-    assert all(search.tracks() == better for search in searches)
+    assert all(search.list_tracks() == better for search in searches)
 
 
 @law(FLEETS)
 def test_the_least_completions_are_those_of_the_metrics(scenario: Scenario) -> None:
-    assert tuple(search_of(scenario).alone()) == alone_completions(scenario)
+    assert tuple(search_of(scenario).compute_alone()) == compute_alone_completions(scenario)
 
 
 @law(FLEETS)
 def test_tracks_that_are_taken_over_come_back_as_they_are(scenario: Scenario) -> None:
     one, other = search_of(scenario), search_of(scenario)
     if one.prioritize(range(len(scenario.robots)), searches=500, time_limit=None):
-        other.start(one.tracks())
-        assert other.tracks() == one.tracks()
+        other.start(one.list_tracks())
+        assert other.list_tracks() == one.list_tracks()
         assert other.cost == one.cost
 
 
@@ -91,10 +91,10 @@ def test_retiming_gives_the_timetable_of_the_precedence_graph(
     search = search_of(scenario, seed=seed)
     if search.prioritize(range(len(scenario.robots)), searches=500, time_limit=None):
         search.improve(100, patience=10**9)
-        before = search.tracks()
+        before = search.list_tracks()
         search.retime()
-        assert search.tracks() == tuple(graph_of(scenario.problem, before).tracks())
-        assert search.cost == sum(completions_of(scenario, search.tracks()))
+        assert search.list_tracks() == tuple(graph_of(scenario.problem, before).tracks())
+        assert search.cost == sum(completions_of(scenario, search.list_tracks()))
 
 
 def test_tracks_that_break_the_rules_are_not_taken_over() -> None:
@@ -109,7 +109,7 @@ def test_a_fleet_that_cannot_do_better_ends_at_once() -> None:
     scenario = random_fleet(3, robots=1)
     search = search_of(scenario)
     search.prioritize([0], searches=1, time_limit=None)
-    assert search.cost == search.alone().sum()
+    assert search.cost == search.compute_alone().sum()
     assert search.improve(10**9, patience=10**9) <= 32
 
 
@@ -129,6 +129,6 @@ def test_neighbours_do_not_take_away_each_others_tracks_for_ever(seed: int) -> N
         speeds=[Fraction(1, ticks) for ticks in (1, 2, 3, 5)],
     )
     search = search_of(scenario)
-    order = search.alone().argsort(kind="stable").tolist()
+    order = search.compute_alone().argsort(kind="stable").tolist()
     assert search.prioritize(order, searches=20 * len(order), time_limit=None)
-    assert judged(scenario, search.tracks())
+    assert judged(scenario, search.list_tracks())

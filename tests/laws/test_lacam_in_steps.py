@@ -11,7 +11,7 @@ import rightofway
 from rightofway.errors import NoPlanExists
 from rightofway.io import scenario_of
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
-from rightofway.planners.lacam import timetable_of
+from rightofway.planners.lacam import build_timetable
 from rightofway.search import plan_by_lacam
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law
@@ -123,7 +123,7 @@ def test_the_timetable_of_steps_is_a_plan_without_fault(scenario: Scenario) -> N
     except NoPlanExists:
         return
     assert in_steps is not None
-    tracks = tuple(timetable_of(scenario, in_steps))
+    tracks = tuple(build_timetable(scenario, in_steps))
     plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="joint"))
     assert rightofway.check(plan).faults == ()
 

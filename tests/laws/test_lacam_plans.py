@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import rightofway
 from rightofway.errors import NoPlanExists
 from rightofway.model import Scenario, Track
-from rightofway.planners import planning_problem
+from rightofway.planners import make_planning_problem
 from rightofway.precedence import graph_of
 from rightofway.search import plan_by_lacam
 from tests.builders.any_fleet import FEATURES, any_fleet
@@ -29,7 +29,7 @@ UNKNOWN = {"closures", "barred"}
 @law(any_fleet(without={*UNKNOWN, "no rotations", "sizes"}), st.integers(0, 2**32 - 1))
 def test_nobody_could_be_earlier_in_the_same_order(scenario: Scenario, seed: int) -> None:
     planned(scenario, "lacam")
-    tracks = plan_by_lacam(planning_problem(scenario), seed=seed, most_effort=20_000)
+    tracks = plan_by_lacam(make_planning_problem(scenario), seed=seed, most_effort=20_000)
     if tracks is None:
         leave("the search gave up")
     assert graph_of(scenario.problem, tracks).tracks() == tracks

@@ -16,7 +16,7 @@ from rightofway.cyclic.sensitivity import parameter_effects
 from rightofway.cyclic.to_plan import unroll_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Closure, Plan, Scenario, Tick
-from rightofway.planners import planning_problem
+from rightofway.planners import make_planning_problem
 from rightofway.site import VertexId
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.fleets import grid_fleet
@@ -109,7 +109,7 @@ def test_what_repeats_is_the_timetable_of_its_own_orders(scenario: Scenario, rul
         if timetable is None or sum(map(len, timetable.enter)) > SLOW:
             continue
         headway, books_ahead = (
-            planning_problem(run.scenario).booking_rules.headway,
+            make_planning_problem(run.scenario).booking_rules.headway,
             scenario.problem.booking_rules.books_ahead,
         )
         times = replay(timetable, 5, headway=headway, books_ahead=books_ahead)

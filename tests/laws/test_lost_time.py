@@ -10,8 +10,8 @@ import numpy as np
 from hypothesis import strategies as st
 
 from rightofway.check import check
-from rightofway.metrics import alone_completions, lost_time, waits
-from rightofway.metrics.waits import freed_by
+from rightofway.metrics import compute_alone_completions, compute_lost_time, waits
+from rightofway.metrics.waits import find_freeing_visits
 from rightofway.model import Plan, Scenario, Track, stays_of
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, planned
@@ -40,8 +40,8 @@ def test_alone_detours_making_room_and_waiting_sum_up_to_the_completion(
     scenario: Scenario, planner: str
 ) -> None:
     plan = planned_quickly(scenario, planner)
-    alone = alone_completions(scenario)
-    for lost, activity in zip(lost_time(plan), oracle.ticks_by_activity(plan), strict=True):
+    alone = compute_alone_completions(scenario)
+    for lost, activity in zip(compute_lost_time(plan), oracle.ticks_by_activity(plan), strict=True):
         assert lost.completion == plan.completions[lost.robot]
         assert lost.alone == alone[lost.robot]
         assert min(lost.detours, lost.making_room, lost.waiting) >= 0
@@ -65,7 +65,7 @@ def test_joined_waits_are_for_the_robots_that_hold_the_places(
     plan = planned_quickly(scenario, planner)
     found: Counter[tuple[int, int | None]] = Counter()
     joined = 0
-    for lost in lost_time(plan):
+    for lost in compute_lost_time(plan):
         for loss in lost.losses:
             if loss.kind != "makes room":
                 found[loss.robot, loss.for_robot] += loss.ticks
@@ -88,7 +88,7 @@ def test_a_wait_that_is_a_tick_shorter_breaks_the_right_of_way_that_is_its_cause
 ) -> None:
     """The wait before the visit that is bound is shortened; the judge names the robot it is for."""
     plan = planned_quickly(scenario, planner)
-    for lost in lost_time(plan):
+    for lost in compute_lost_time(plan):
         for loss in lost.losses:
             if loss.kind == "makes room" or loss.for_robot is None:
                 continue
@@ -106,7 +106,7 @@ def test_a_wait_that_is_a_tick_shorter_breaks_the_right_of_way_that_is_its_cause
 
 def bound_visit(plan: Plan, robot: int, waited: int) -> int:
     """Return the visit after a wait that cannot begin a tick earlier."""
-    frees = freed_by(plan.scenario, plan.tracks, stays_of(plan.scenario, plan.tracks))
+    frees = find_freeing_visits(plan.scenario, plan.tracks, stays_of(plan.scenario, plan.tracks))
     first = sum(len(track) for track in plan.tracks[:robot])
     own = frees[first : first + len(plan.tracks[robot])]
     return waited + 1 + int(np.flatnonzero(own[waited + 1 :] >= 0)[0])

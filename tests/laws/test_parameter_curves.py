@@ -20,7 +20,7 @@ from rightofway.model import Lap, Rules, Scenario, Tick
 from rightofway.model.lap import compute_turns_of_lap
 from rightofway.model.route import drives_along
 from rightofway.native import BookedRows
-from rightofway.planners import planning_problem
+from rightofway.planners import make_planning_problem
 from rightofway.precedence import TimedEventGraph
 from tests.builders.fleets import random_fleet
 from tests.builders.sizes import repeated
@@ -70,7 +70,7 @@ def period_by_hand(group: GroupResult, scenario: Scenario) -> Fraction | None:
         )
     after = replace(timetable, laps=tuple(laps))
     rows = BookedRows.of_laps(old.problem, timetable.robots, timetable.laps, timetable.counts)
-    graph = TimedEventGraph(after, rules=planning_problem(scenario).booking_rules, rows=rows)
+    graph = TimedEventGraph(after, rules=make_planning_problem(scenario).booking_rules, rows=rows)
     found = graph.critical_circuit_if_live()
     return None if found is None else found.cycle_time * scenario.problem.clock.tick
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from rightofway.cyclic.route import cyclic_routes
 from rightofway.model import BookingRules, Itinerary, Lap, Rules, Scenario, Tick, drives_along
 from rightofway.model.lap import compute_turns_of_lap
-from rightofway.planners import planning_problem
+from rightofway.planners import make_planning_problem
 from rightofway.precedence import CyclicSchedule
 from rightofway.search import Distances, PeriodicBookings, RoundTrip
 from tests.builders.fleets import grid_fleet, random_fleet
@@ -39,7 +39,7 @@ def crowd(
     circle = PeriodicBookings(
         scenario.roadmap.n_vertices,
         period,
-        rules=planning_problem(scenario).booking_rules,
+        rules=make_planning_problem(scenario).booking_rules,
     )
     there = []
     for robot in range(1, len(laps)):
@@ -76,7 +76,7 @@ def test_a_route_is_found_exactly_where_there_is_one(seed: int, robots: int, rul
     itinerary = scenario.problem.itineraries[0]
     trip = RoundTrip.of(itinerary, Distances(scenario.roadmap))
     headway, ahead = (
-        int(planning_problem(scenario).booking_rules.headway),
+        int(make_planning_problem(scenario).booking_rules.headway),
         scenario.problem.booking_rules.books_ahead,
     )
     passed = any(itinerary.home in other.vertices for other in others.laps)

@@ -15,7 +15,7 @@ import rightofway
 from rightofway.cyclic import best_timetable, plan_of_laps, run_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, PlannerRun, Scenario, Track
-from rightofway.planners.routing import shortest_routes
+from rightofway.planners.routing import find_shortest_routes
 from rightofway.precedence import graph_on
 from rightofway.search import Distances
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
@@ -93,7 +93,7 @@ def test_robots_that_come_too_close_come_as_close_as_the_oracle_finds(fleet: Sce
 def heedless(fleet: Scenario) -> Plan:
     """Return a plan in which each robot drives a shortest route as if it were alone."""
     try:
-        routes = shortest_routes(fleet, Distances(fleet.roadmap))
+        routes = find_shortest_routes(fleet, Distances(fleet.roadmap))
     except NoPlanExists:
         leave("a robot has no way")
     graph = graph_on(replace(fleet, closures=()).problem, routes)

@@ -12,7 +12,7 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.execution import delay_model_of, read_delays, simulate
 from rightofway.io import scenario_of
 from rightofway.model import NEVER, Plan, Scenario
-from rightofway.planners.routing import shortest_routes
+from rightofway.planners.routing import find_shortest_routes
 from rightofway.precedence import (
     ActionDependencyGraph,
     DelaySample,
@@ -48,7 +48,9 @@ PLANNERS = st.sampled_from(["two-level", "fixed-priority", "prioritized"])
 def undecided(scenario: Scenario) -> PrecedenceGraph:
     """Return the graph of shortest routes, without any right of way."""
     try:
-        return graph_on(scenario.problem, shortest_routes(scenario, Distances(scenario.roadmap)))
+        return graph_on(
+            scenario.problem, find_shortest_routes(scenario, Distances(scenario.roadmap))
+        )
     except NoPlanExists:
         leave("a robot has no way")
 

@@ -21,8 +21,8 @@ from rightofway import _core
 from rightofway.cyclic import best_timetable
 from rightofway.errors import NoPlanExists, RightOfWayError
 from rightofway.model import BookingRules, Lap, Plan, Scenario, Tick
-from rightofway.planners import registered
-from rightofway.planners.flip import flipped
+from rightofway.planners import find_all
+from rightofway.planners.flip import flip_right_of_way
 from rightofway.precedence import ActionDependencyGraph, DelayModel, TimedEventGraph
 from rightofway.search import (
     Bookings,
@@ -32,8 +32,8 @@ from rightofway.search import (
     PeriodicBookings,
     PriceAscent,
     RoundTrip,
-    earliest_track,
-    least_completions,
+    compute_least_completions,
+    find_earliest_track,
     plan_by_lacam,
 )
 from rightofway.site import VertexId
@@ -114,7 +114,7 @@ def repair(scenario: Scenario, limit: float) -> None:
 
 def track(scenario: Scenario, limit: float) -> None:
     bookings, distances = Bookings(scenario.problem), Distances(scenario.roadmap)
-    earliest_track(0, bookings, distances, time_limit=limit)
+    find_earliest_track(0, bookings, distances, time_limit=limit)
 
 
 def periodic() -> tuple[PeriodicBookings, Lap]:
@@ -178,7 +178,7 @@ CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "ConflictBasedSearch.run": least_plan,
     "ConflictBasedSearch.search_together": least_sum,
     "CyclicSimulator.advance": lambda one, limit: rightofway.run_laps(one, time_limit=limit),
-    "FleetSearch.alone": lambda one, limit: least_completions(one, time_limit=limit),
+    "FleetSearch.alone": lambda one, limit: compute_least_completions(one, time_limit=limit),
     "FleetSearch.resume": resume,
     "FleetSearch.improve": improve,
     "FleetSearch.prioritize": prioritize,
@@ -208,7 +208,7 @@ def test_a_native_call_ends_when_its_limit_is_over(name: str, fleet: str) -> Non
 
 
 @pytest.mark.parametrize("fleet", ["a fleet", "no plan", "one way"])
-@pytest.mark.parametrize("planner", registered())
+@pytest.mark.parametrize("planner", find_all())
 def test_a_planner_ends_when_its_limit_is_over(planner: str, fleet: str) -> None:
     for limit in (0, 1e-9, 1e-4, 0.02):
         with in_time(limit):
@@ -236,4 +236,4 @@ def test_what_follows_a_plan_ends_when_its_limit_is_over() -> None:
         with in_time(limit):
             rightofway.simulate(some, "stop:R1@3+50", runs=10**6, replan=True, time_limit=limit)
         with in_time(limit):
-            flipped(some, waits, goes_first, end, time_limit=limit)
+            flip_right_of_way(some, waits, goes_first, end, time_limit=limit)

@@ -11,14 +11,14 @@ import rightofway
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
 from rightofway.model import Plan, Scenario, cost_of
-from rightofway.planners import Feature, registered
+from rightofway.planners import Feature, find_all
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, broken, by_both_judges, planned
 from tests.builders.changes import CHANGES
 from tests.builders.fleets import random_fleet
 from tests.builders.laws import law, leave, once
 
-STARTERS = sorted(name for name, spec in registered().items() if Feature.IMPROVES in spec.features)
+STARTERS = sorted(name for name, spec in find_all().items() if Feature.IMPROVES in spec.features)
 """Planners that can start from a plan."""
 
 planners, starters = st.sampled_from(STRICT), st.sampled_from(STARTERS)

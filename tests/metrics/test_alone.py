@@ -9,9 +9,9 @@ import pytest
 from hypothesis import strategies as st
 
 from rightofway.errors import NoPlanExists
-from rightofway.metrics import alone_completions
+from rightofway.metrics import compute_alone_completions
 from rightofway.model import Robot, Rules, Scenario, Stop, route_of
-from rightofway.search import Bookings, Distances, earliest_track, least_completions
+from rightofway.search import Bookings, Distances, compute_least_completions, find_earliest_track
 from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from tests.builders.any_fleet import any_fleet
 from tests.builders.laws import law, leave
@@ -37,7 +37,7 @@ def alone(
         speed=speed,
     )
     scenario = Scenario(roadmap=roadmap, robots=(robot,), rules=rules or Rules())
-    return alone_completions(scenario)[0]
+    return compute_alone_completions(scenario)[0]
 
 
 def on_grid(stops: Sequence[tuple[str, int]], rules: Rules | None = None) -> int:
@@ -116,7 +116,7 @@ def test_every_robot_without_a_way_is_named() -> None:
     )
     scenario = Scenario(roadmap=make_grid_roadmap([".@..", ".@.."]), robots=robots)
     with pytest.raises(NoPlanExists) as raised:
-        alone_completions(scenario)
+        compute_alone_completions(scenario)
     assert raised.value.robots == ("R0", "R3")
 
 
@@ -153,7 +153,7 @@ def test_counting_edges_for_all_at_once_agrees_with_dijkstra(
     pair: tuple[Scenario, Scenario],
 ) -> None:
     """An edge of length 2 is one tick, or two of the shorter ticks that an edge of 1 asks for."""
-    equal, unequal = map(alone_completions, pair)
+    equal, unequal = map(compute_alone_completions, pair)
     assert unequal == tuple(2 * ticks for ticks in equal)
 
 
@@ -165,7 +165,7 @@ def test_more_robots_than_bits_of_a_block_are_counted_right() -> None:
         for k in range(280)
     )
     scenario = Scenario(roadmap=roadmap, robots=robots, rules=Rules(ends="none"))
-    assert alone_completions(scenario) == tuple(2 * k + 2 for k in range(280))
+    assert compute_alone_completions(scenario) == tuple(2 * k + 2 for k in range(280))
 
 
 @law(any_fleet(without={"closures"}))
@@ -174,13 +174,13 @@ def test_the_bound_of_a_robot_alone_is_what_it_reaches_alone(scenario: Scenario)
 
     The search prefers a longer way without a surcharge.
     """
-    native = least_completions(scenario)
+    native = compute_least_completions(scenario)
     assert native is not None
     assert native.tolist() == list(by_python(scenario))
     if (native < 0).any():
         leave("a robot has no way")
     for robot, least in enumerate(native.tolist()):
-        track = earliest_track(robot, Bookings(scenario.problem), Distances(scenario.roadmap))
+        track = find_earliest_track(robot, Bookings(scenario.problem), Distances(scenario.roadmap))
         assert track is not None
         work = route_of(scenario.roadmap, scenario.problem.itineraries[robot], track).dwell[-1]
         completion = int(track.enter[-1]) + work

@@ -7,7 +7,14 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from rightofway.metrics import Collision, Swap, collisions, free_running, near_misses, swaps
+from rightofway.metrics import (
+    Collision,
+    Swap,
+    find_collisions,
+    find_near_misses,
+    find_swaps,
+    free_running,
+)
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Tick, Track
 from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet
@@ -31,7 +38,7 @@ def door(speeds: Sequence[int], work: Sequence[int]) -> list[tuple[str, int, int
         for route in (R1_ROUTE, R2_ROUTE)
     )
     plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
-    met = collisions(scenario, free_running(plan))
+    met = find_collisions(scenario, free_running(plan))
     return [(scenario.roadmap.name(c.vertex), c.start, (c.end or 0) - c.start) for c in met]
 
 
@@ -79,7 +86,7 @@ def test_free_running_leaves_the_plan_alone() -> None:
 def met(*trips: tuple[Sequence[int], Sequence[int]], **rules: Any) -> list[Collision]:
     ends = [(f"N{vertices[0]}", f"N{vertices[-1]}") for vertices, _ in trips]
     scenario = grid_fleet(OPEN, ends, rules=Rules(ends="none", **rules))
-    return list(collisions(scenario, plan_of(scenario, *trips).tracks))
+    return list(find_collisions(scenario, plan_of(scenario, *trips).tracks))
 
 
 def spans(found: list[Collision]) -> list[tuple[tuple[int, int], int, int, int | None]]:
@@ -110,7 +117,7 @@ def test_a_robot_does_not_collide_with_itself() -> None:
 
 def test_a_swap_names_the_vertices_that_the_robots_leave() -> None:
     tracks = (Track.of([3, 4, 5], [0, 2, 4]), Track.of([5, 4, 3], [0, 1, 2]))
-    assert swaps(tracks) == (
+    assert find_swaps(tracks) == (
         Swap(robots=(0, 1), vertices=(VertexId(3), VertexId(4)), tick=Tick(2)),
     )
 
@@ -118,7 +125,7 @@ def test_a_swap_names_the_vertices_that_the_robots_leave() -> None:
 def test_robots_that_follow_or_come_later_do_not_swap() -> None:
     ahead, behind = Track.of([3, 4, 5], [0, 2, 4]), Track.of([3, 4], [1, 2])
     later = Track.of([5, 4, 3], [0, 1, 3])
-    assert swaps((ahead, behind, later)) == ()
+    assert find_swaps((ahead, behind, later)) == ()
 
 
 def sized(grid: Sequence[str], *tracks: Track, clearance: Fraction = Fraction(0)) -> Scenario:
@@ -139,8 +146,8 @@ def test_robots_on_neighbouring_cells_are_too_near_for_a_wide_clearance() -> Non
     Both drive right, one row apart, and book the next cell while they drive, to the end.
     """
     tracks = (Track.of([0, 1], [0, 1]), Track.of([3, 4], [0, 2]))
-    assert near_misses(sized(OPEN, *tracks), tracks) == ()
-    found = near_misses(sized(OPEN, *tracks, clearance=Fraction(3, 10)), tracks)
+    assert find_near_misses(sized(OPEN, *tracks), tracks) == ()
+    found = find_near_misses(sized(OPEN, *tracks, clearance=Fraction(3, 10)), tracks)
     assert [(each.robots, each.places, each.start, each.end) for each in found] == [
         ((0, 1), ((0,), (3,)), 0, None)
     ]
@@ -149,10 +156,10 @@ def test_robots_on_neighbouring_cells_are_too_near_for_a_wide_clearance() -> Non
 def test_a_robot_that_drives_by_is_too_near_while_it_books_the_cell() -> None:
     """R2 stands in N4; R1 passes N1 in [1, 2), and books it from tick 0 until it is in N2."""
     tracks = (Track.of([0, 1, 2], [0, 1, 2]), Track.of([4], [0]))
-    found = near_misses(sized(OPEN, *tracks, clearance=Fraction(3, 10)), tracks)
+    found = find_near_misses(sized(OPEN, *tracks, clearance=Fraction(3, 10)), tracks)
     assert [(each.places, each.start, each.end) for each in found] == [(((1,), (4,)), 0, 2)]
 
 
 def test_robots_without_a_size_are_never_too_near() -> None:
     tracks = (Track.of([0], [0]), Track.of([1], [0]))
-    assert near_misses(grid_fleet(OPEN, [("N0", "N0"), ("N1", "N1")]), tracks) == ()
+    assert find_near_misses(grid_fleet(OPEN, [("N0", "N0"), ("N1", "N1")]), tracks) == ()

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.metrics import changes, compare
+from rightofway.metrics import compare, find_changes
 from rightofway.model import Closure, Robot, Scenario, Stop
 from rightofway.quantities import Units
 from rightofway.site import VertexId, make_grid_roadmap
@@ -85,14 +85,14 @@ def test_too_many_plans_are_refused() -> None:
 
 def test_changes_of_a_robot_are_in_its_units() -> None:
     faster = scenario(speed=Fraction(3, 2), radius=Fraction(1, 5))
-    found = [change.text for change in changes(scenario(), faster)]
+    found = [change.text for change in find_changes(scenario(), faster)]
     assert found[:2] == ["R1: speed 1 m/s → 1.5 m/s", "R1: radius 0 m → 0.2 m"]
 
 
 def test_changes_of_places_and_work_name_them() -> None:
     before = scenario()
     moved = replace(before.robots[0], home=VertexId(4), stops=(stop(3, 5),))
-    found = [change.text for change in changes(before, replace(before, robots=(moved,)))]
+    found = [change.text for change in find_changes(before, replace(before, robots=(moved,)))]
     assert found == [
         "R1: home (0.5, 0.5) → (0.5, 1.5)",
         "R1: stops (2.5, 0.5) → (3.5, 0.5)",
@@ -104,19 +104,19 @@ def test_robots_that_change_in_the_same_way_are_one_entry() -> None:
     before = scenario()
     first = before.robots[0]
     fleet = tuple(replace(first, name=f"R{i}", home=VertexId(i)) for i in range(1, 4))
-    added = changes(before, replace(before, robots=(first, *fleet[1:])))
+    added = find_changes(before, replace(before, robots=(first, *fleet[1:])))
     assert [change.text for change in added] == ["R2 and R3: added"]
     slow = tuple(replace(robot, speed=Fraction(1, 2)) for robot in fleet)
-    found = changes(replace(before, robots=fleet), replace(before, robots=slow))
+    found = find_changes(replace(before, robots=fleet), replace(before, robots=slow))
     assert [change.text for change in found] == ["3 robots: speed 1 m/s → 0.5 m/s"]
-    gone = changes(replace(before, robots=fleet), replace(before, robots=fleet[:2]))
+    gone = find_changes(replace(before, robots=fleet), replace(before, robots=fleet[:2]))
     assert [change.text for change in gone] == ["R3: removed"]
 
 
 def test_changes_of_map_rules_and_closures_are_said() -> None:
     before = scenario()
     walled = scenario(("....", "...@"))
-    assert [change.text for change in changes(before, walled)] == [
+    assert [change.text for change in find_changes(before, walled)] == [
         "map: 8 free cells → 7 free cells"
     ]
     closed = replace(
@@ -126,14 +126,14 @@ def test_changes_of_map_rules_and_closures_are_said() -> None:
             Closure(edge=(VertexId(5), VertexId(6))),
         ),
     )
-    assert [change.text for change in changes(before, closed)] == [
+    assert [change.text for change in find_changes(before, closed)] == [
         "(1.5, 0.5): closed", "(1.5, 1.5) to (2.5, 1.5): closed",
     ]  # fmt: skip
-    assert [change.text for change in changes(closed, before)] == [
+    assert [change.text for change in find_changes(closed, before)] == [
         "(1.5, 0.5): open", "(1.5, 1.5) to (2.5, 1.5): open",
     ]  # fmt: skip
     later = replace(before, rules=replace(before.rules, headway=Fraction(1), rotations=False))
-    assert [change.text for change in changes(before, later)] == [
+    assert [change.text for change in find_changes(before, later)] == [
         "rules: headway 0 s → 1 s", "rules: rotations yes → no",
     ]  # fmt: skip
 
@@ -148,4 +148,4 @@ def test_a_finer_grid_of_one_floor_keeps_the_places() -> None:
         roadmap=make_grid_roadmap(("....", "...."), cell_size=Fraction(1, 2)),
         robots=(Robot(name="R", home=VertexId(0), stops=(stop(2),)),),
     )
-    assert [change.subject for change in changes(coarse, fine)] == ["map"]
+    assert [change.subject for change in find_changes(coarse, fine)] == ["map"]

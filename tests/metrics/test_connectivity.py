@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from rightofway.metrics.connectivity import (
     Ways,
-    corridors,
+    find_corridors,
     find_immediate_dominators,
     find_separations,
     find_strong_parts,
@@ -83,19 +83,19 @@ def test_a_vertex_separates_places_if_and_only_if_closing_it_does(
 
 def test_a_corridor_is_a_chain_between_two_halls_with_its_length() -> None:
     """Row 0 holds vertices 0 to 3, row 1 vertices 4 to 10; 6, 7 and 8 join two halls of 2 x 2."""
-    (found,) = corridors(ways(["..@@@..", "......."]))
+    (found,) = find_corridors(ways(["..@@@..", "......."]))
     assert (found.inside, found.ends, found.steps) == ((6, 7, 8), (5, 9), 4)
 
 
 def test_a_corridor_into_a_dead_end_ends_there() -> None:
-    (found,) = corridors(ways(["...."]))
+    (found,) = find_corridors(ways(["...."]))
     assert (found.inside, found.ends) == ((1, 2), (0, 3))
 
 
 def test_rings_and_one_way_lanes_are_no_corridors() -> None:
-    assert corridors(ways(["...", ".@.", "..."])) == []
-    assert corridors(ways(["@...", "..@.", "@..."])) == []
-    assert corridors(drawn(4, {(0, 1), (1, 2), (2, 3)})) == []
+    assert find_corridors(ways(["...", ".@.", "..."])) == []
+    assert find_corridors(ways(["@...", "..@.", "@..."])) == []
+    assert find_corridors(drawn(4, {(0, 1), (1, 2), (2, 3)})) == []
 
 
 def test_distances_are_whole_multiples_of_one_length() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import rightofway
-from rightofway.metrics import event_columns, events, lost_time
+from rightofway.metrics import compute_lost_time, list_events, make_event_columns
 from rightofway.model import Plan, PlannerRun, Rules, Stop, Track
 from rightofway.model.robot import Robot
 from rightofway.model.scenario import Scenario
@@ -31,7 +31,7 @@ def test_a_visit_says_what_it_is_for() -> None:
     """Works 2 at the middle and turns 1, then stops at the end, turns, and comes home."""
     stops = (Stop(at=VertexId(1), work=Fraction(2)), Stop(at=VertexId(2)))
     plan = plan_of(corridor(*stops), [0, 1, 2, 1, 0], [0, 1, 5, 7, 9])
-    assert [(event.purpose, event.enter, event.leave) for event in events(plan)] == [
+    assert [(event.purpose, event.enter, event.leave) for event in list_events(plan)] == [
         ("home", 0, 1),
         ("work at stop 1, turn", 1, 5),
         ("stop 2, turn", 5, 7),
@@ -42,7 +42,7 @@ def test_a_visit_says_what_it_is_for() -> None:
 
 def test_laps_are_counted_and_home_between_them_is_named_once() -> None:
     plan = plan_of(corridor(Stop(at=VertexId(1)), laps=2), [0, 1, 0, 1, 0], [0, 1, 3, 5, 7])
-    assert [event.purpose for event in events(plan)] == [
+    assert [event.purpose for event in list_events(plan)] == [
         "home", "stop 1 of lap 1, turn", "home, turn", "stop 1 of lap 2, turn", "home",
     ]  # fmt: skip
 
@@ -51,7 +51,7 @@ def test_a_wait_names_the_robot_and_the_place_that_it_has_to_leave() -> None:
     """Table 4: R1 waits at home for one tick, until R2 has left N1."""
     plan = rightofway.solve(DOOR_1, "two-level", swaps="leave")
     name = DOOR_1.roadmap.name
-    waits = [event for event in events(plan) if event.waits]
+    waits = [event for event in list_events(plan) if event.waits]
     assert [(each.robot, name(each.vertex), each.waits) for each in waits] == [(0, "N0", 1)]
     assert waits[0].waits_for == 1
     assert waits[0].to_leave is not None
@@ -63,7 +63,7 @@ def test_columns_have_times_in_the_scenario_unit_and_exact_ticks() -> None:
     plan = plan_of(
         corridor(Stop(at=VertexId(1), work=Fraction(1)), speed=Fraction(2)), [0, 1, 0], [0, 1, 5]
     )
-    columns = event_columns(plan)
+    columns = make_event_columns(plan)
     assert columns["enter"] == [0.0, 0.5, 2.5]
     assert columns["leave"] == [0.5, 2.5, None]
     assert (columns["enter_tick"], columns["leave_tick"]) == ([0, 1, 5], [1, 5, None])
@@ -74,12 +74,12 @@ def test_a_visit_says_that_a_robot_turns_on_the_spot() -> None:
     fleet = rightofway.FleetBuilder(grid=["..", "@."], turn_rate=45)
     scenario = fleet.add_robot("R", home="N0", target="N3", work=1).scenario()
     plan = plan_of(scenario, [0, 1, 2, 1, 0], [0, 1, 4, 10, 14])
-    assert [(event.purpose, event.enter, event.waits) for event in events(plan)] == [
+    assert [(event.purpose, event.enter, event.waits) for event in list_events(plan)] == [
         ("home", 0, 0),
         ("turn", 1, 0),
         ("work at stop 1, turn", 4, 0),
         ("wait, turn", 10, 1),
         ("home", 14, 0),
     ]
-    (lost,) = lost_time(plan)
+    (lost,) = compute_lost_time(plan)
     assert (lost.alone, lost.detours, lost.making_room, lost.waiting) == (13, 0, 0, 1)

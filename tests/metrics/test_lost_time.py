@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 import rightofway
-from rightofway.metrics import lost_time
+from rightofway.metrics import compute_lost_time
 from rightofway.model import Loss, Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
 from rightofway.site import Edge, VertexId, make_roadmap
 from tests.builders.fleets import grid_fleet
@@ -27,11 +27,14 @@ def plan_of(grid: Sequence[str], *trips: Trip, **rules: Any) -> Plan:
 
 
 def parts(plan: Plan) -> list[tuple[int, int, int, int]]:
-    return [(lost.alone, lost.detours, lost.making_room, lost.waiting) for lost in lost_time(plan)]
+    return [
+        (lost.alone, lost.detours, lost.making_room, lost.waiting)
+        for lost in compute_lost_time(plan)
+    ]
 
 
 def only_loss(plan: Plan) -> Loss:
-    (loss,) = (loss for lost in lost_time(plan) for loss in lost.losses)
+    (loss,) = (loss for lost in compute_lost_time(plan) for loss in lost.losses)
     return loss
 
 
@@ -47,7 +50,7 @@ def test_a_robot_that_waits_loses_its_wait() -> None:
 def test_a_longer_way_is_a_detour() -> None:
     plan = plan_of(["...", "..."], ([0, 3, 4, 5, 2], [0, 1, 2, 3, 4]))
     assert parts(plan) == [(2, 2, 0, 0)]
-    assert lost_time(plan)[0].losses == ()
+    assert compute_lost_time(plan)[0].losses == ()
 
 
 def test_a_robot_that_steps_aside_makes_room_for_the_one_that_comes_then() -> None:
@@ -55,7 +58,7 @@ def test_a_robot_that_steps_aside_makes_room_for_the_one_that_comes_then() -> No
     aside = ([0, 1, 4, 1, 2], [0, 1, 2, 4, 5])
     passing = ([3, 0, 1], [0, 2, 3])
     plan = plan_of(["...", "..."], aside, passing)
-    (first, second) = lost_time(plan)[0].losses
+    (first, second) = compute_lost_time(plan)[0].losses
     assert parts(plan)[0] == (2, 0, 2, 1)
     assert (first.kind, first.vertex, first.towards) == ("makes room", 1, 4)
     assert (first.tick, first.end, first.ticks, first.for_robot) == (2, 4, 2, 1)
@@ -68,7 +71,7 @@ def test_a_robot_that_leaves_its_last_place_again_makes_room() -> None:
     tracks = (Track.of([0, 1, 0], [0, 3, 4]), Track.of([2, 1, 2], [0, 8, 10]))
     plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
     assert parts(plan)[0] == (2, 0, 2, 0)
-    assert lost_time(plan)[0].losses[0].for_robot is None
+    assert compute_lost_time(plan)[0].losses[0].for_robot is None
 
 
 def test_waits_behind_one_robot_along_one_way_are_one() -> None:
@@ -96,7 +99,7 @@ def test_waits_for_one_robot_that_goes_another_way_stay_two() -> None:
         ([1, 4, 5, 2, 5], [0, 2, 3, 4, 6]),
         ([0, 1, 2], [0, 2, 6]),
     )
-    losses = lost_time(plan)[1].losses
+    losses = compute_lost_time(plan)[1].losses
     assert [(loss.kind, loss.for_robot, loss.ticks, loss.count) for loss in losses] == [
         ("waits", 0, 1, 1),
         ("waits", 0, 3, 1),
@@ -106,7 +109,7 @@ def test_waits_for_one_robot_that_goes_another_way_stay_two() -> None:
 def test_a_wait_whose_reason_lies_further_on_names_that_place() -> None:
     """R2 waits in N0, and so comes to N3 as R1 leaves; N1 and N2 are free all the time."""
     plan = plan_of(["....", "...."], ([7, 3, 7], [0, 1, 6]), ([0, 1, 2, 3], [0, 4, 5, 6]))
-    loss = lost_time(plan)[1].losses[0]
+    loss = compute_lost_time(plan)[1].losses[0]
     assert (loss.kind, loss.vertex, loss.towards) == ("waits", 0, 1)
     assert (loss.freed, loss.for_robot, loss.ticks) == (3, 0, 3)
 
@@ -114,7 +117,7 @@ def test_a_wait_whose_reason_lies_further_on_names_that_place() -> None:
 def test_two_waits_for_one_leaving_are_one() -> None:
     """R2 waits in N0 and in N2 until R1 leaves N3."""
     plan = plan_of(["....", "...."], ([7, 3, 7], [0, 1, 6]), ([0, 1, 2, 3], [0, 3, 4, 6]))
-    (loss,) = lost_time(plan)[1].losses
+    (loss,) = compute_lost_time(plan)[1].losses
     assert (loss.kind, loss.ticks, loss.count) == ("waits", 3, 2)
     assert (loss.vertex, loss.until_vertex, loss.freed) == (0, 2, 3)
 
@@ -164,12 +167,12 @@ def test_work_at_the_end_is_no_loss() -> None:
     track = Track.of([0, 1, 2], [0, 1, 2])
     plan = Plan(scenario=scenario, tracks=(track,), run=PlannerRun(name="by hand"))
     assert parts(plan) == [(7, 0, 0, 0)]
-    assert lost_time(plan)[0].completion == 7
+    assert compute_lost_time(plan)[0].completion == 7
 
 
 def test_of_a_plan_that_jumps_the_parts_still_sum_up() -> None:
     """From N0 to N2 at once: 1 tick of 2, so the way is 1 tick shorter than the shortest."""
-    (lost,) = lost_time(plan_of(["..."], ([0, 2], [0, 1])))
+    (lost,) = compute_lost_time(plan_of(["..."], ([0, 2], [0, 1])))
     assert lost.completion == 1
     assert (lost.alone, lost.lost) == (2, -1)
 
@@ -204,7 +207,7 @@ def test_a_plan_answers_for_itself_in_plain_data() -> None:
 
 def test_waits_of_several_laps_stay_apart() -> None:
     """R1 alone: 4 times 6 ticks and 3 turns at home. It waits for the counter from lap 2 on."""
-    (lost, _) = lost_time(counter())
+    (lost, _) = compute_lost_time(counter())
     assert (lost.completion, lost.alone, lost.waiting) == (36, 27, 9)
     assert [(loss.kind, loss.for_robot, loss.ticks) for loss in lost.losses] == [
         ("waits", 1, 3)

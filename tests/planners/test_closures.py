@@ -11,7 +11,7 @@ import pytest
 from rightofway import FleetBuilder, check, improve, solve
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.model import Closure, Scenario, cost_of
-from rightofway.planners import registered
+from rightofway.planners import find_all
 
 
 def corridor(**closure: Any) -> Scenario:
@@ -83,7 +83,7 @@ def two_ways(*, kind: str | None = None, surcharge: str = "0") -> Scenario:
     return fleet.add_robot("R1", home="A", target="C", type=kind).scenario()
 
 
-@pytest.mark.parametrize("planner", [name for name in registered() if name != "lacam"])
+@pytest.mark.parametrize("planner", [name for name in find_all() if name != "lacam"])
 def test_every_planner_keeps_types_off_barred_edges(planner: str) -> None:
     heavy, light = (
         solve(two_ways(kind=name), planner, time_limit=2, options=_few(planner))
@@ -94,7 +94,7 @@ def test_every_planner_keeps_types_off_barred_edges(planner: str) -> None:
     assert heavy.lower_bound == heavy.flowtime
 
 
-@pytest.mark.parametrize("planner", [name for name in registered() if name != "lacam"])
+@pytest.mark.parametrize("planner", [name for name in find_all() if name != "lacam"])
 def test_every_planner_takes_the_way_of_least_time_and_surcharge(planner: str) -> None:
     """The bound stays that of the quickest way."""
     cheap, costly = (

@@ -7,7 +7,7 @@ from fractions import Fraction
 from rightofway.model import Rules
 from rightofway.planners import Task
 from rightofway.planners.conflict_resolution import PartialPlan
-from rightofway.planners.routing import shortest_routes
+from rightofway.planners.routing import find_shortest_routes
 from rightofway.planners.two_level import plan_by_two_levels
 from rightofway.search import Distances
 from tests.builders.fleets import grid_fleet
@@ -18,7 +18,7 @@ def test_a_deadlock_is_explained_by_its_circle() -> None:
     trips = [("N0", "N1"), ("N1", "N3"), ("N3", "N2"), ("N2", "N0")]
     rules = Rules(occupancy="both", ends="none", turn=Fraction(0))
     scenario = grid_fleet(["..", ".."], trips, rules=rules)
-    routes = shortest_routes(scenario, Distances(scenario.roadmap))
+    routes = find_shortest_routes(scenario, Distances(scenario.roadmap))
     plan = PartialPlan(Task(scenario=scenario), routes)
     plan.resolve_all(plan_by_two_levels)
     [why] = plan.deferred.values()

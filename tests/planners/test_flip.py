@@ -11,7 +11,7 @@ import rightofway
 from rightofway.check import check
 from rightofway.errors import GaveUp
 from rightofway.model import Plan, Rules, Scenario, Tick, completions_of
-from rightofway.planners.flip import Flipped, flipped
+from rightofway.planners.flip import Flipped, flip_right_of_way
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, by_both_judges, planned
 from tests.builders.fleets import grid_fleet
@@ -29,7 +29,7 @@ def longest_wait(plan: Plan) -> tuple[int, int, Tick]:
 def answered(plan: Plan, waits: int, goes_first: int, end: Tick) -> Flipped | None:
     """Return the answer; None where it is a reason."""
     try:
-        return flipped(plan, waits, goes_first, end)
+        return flip_right_of_way(plan, waits, goes_first, end)
     except GaveUp:
         return None
 
@@ -40,7 +40,7 @@ def test_where_both_share_a_door_the_routes_stay() -> None:
     fleet = grid_fleet(rows, [("N0", "N6"), ("N2", "N8")], rules=rules)
     plan = rightofway.solve(fleet, "two-level")
     waits, goes_first, end = longest_wait(plan)
-    answer = flipped(plan, waits, goes_first, end)
+    answer = flip_right_of_way(plan, waits, goes_first, end)
     assert answer.keeps_routes
     before, after = (completions_of(fleet, one) for one in (plan.tracks, answer.tracks))
     assert (before[waits], before[goes_first]) == (5, 4)
@@ -58,16 +58,16 @@ def test_a_robot_that_starts_or_ends_in_the_way_is_named_where_there_is_no_other
     plan = rightofway.solve(fleet, "two-level")
     why = "R1 cannot go before R2: R2 starts in its way, and no other way brings R1 home sooner"
     with pytest.raises(GaveUp, match=why):
-        flipped(plan, 0, 1, Tick(0))
+        flip_right_of_way(plan, 0, 1, Tick(0))
     with pytest.raises(GaveUp, match="R1 ends in the way of R2"):
-        flipped(plan, *longest_wait(plan))
+        flip_right_of_way(plan, *longest_wait(plan))
 
 
 def test_a_plan_with_swaps_is_refused() -> None:
     plan = rightofway.solve(grid_fleet(["....", "...."], [("N0", "N3"), ("N3", "N0")]), "paper")
     assert not check(plan).ok
     with pytest.raises(GaveUp, match=r"the plan has .* swap conflict"):
-        flipped(plan, 0, 1, Tick(1))
+        flip_right_of_way(plan, 0, 1, Tick(1))
 
 
 @law(any_fleet(robots=(2, 4)), st.sampled_from(STRICT))

@@ -15,7 +15,7 @@ import pytest
 import rightofway
 from rightofway import search
 from rightofway.errors import GaveUp, InputError
-from rightofway.metrics import alone_completions
+from rightofway.metrics import compute_alone_completions
 from rightofway.model import Robot, Rules, Scenario, Stop, Tick
 from rightofway.planners import Deadline, Task
 from rightofway.planners.priorities import fixed_priority
@@ -69,7 +69,7 @@ def test_planning_ends_early_enough_for_what_is_done_with_the_plan(crowd: Scenar
 
 
 def test_distances_are_not_measured_beyond_the_time_limit(scenario: Scenario) -> None:
-    assert search.least_completions(scenario, time_limit=0) is None
+    assert search.compute_least_completions(scenario, time_limit=0) is None
     with pytest.raises(GaveUp, match="time ran out while measuring distances"):
         rightofway.solve(scenario, time_limit=0)
 
@@ -95,7 +95,7 @@ def test_a_circle_of_one_way_lanes_does_not_keep_a_call_for_ever() -> None:
 
 def test_reports_use_what_planning_computed(scenario: Scenario) -> None:
     plan = rightofway.solve(scenario, "lacam")
-    assert plan.run.alone == alone_completions(scenario)
+    assert plan.run.alone == compute_alone_completions(scenario)
     claimed = replace(plan, run=replace(plan.run, alone=tuple(map(Tick, range(10)))))
     assert rightofway.measure(claimed).lower_bound == sum(range(10))
 

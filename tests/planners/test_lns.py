@@ -83,9 +83,9 @@ def test_the_search_sums_costs_by_weights() -> None:
     search = FleetSearch(fleet.problem)
     assert search.prioritize(range(len(robots)), searches=10_000, time_limit=None)
     before = search.cost
-    assert before == cost_of(fleet, search.tracks())
+    assert before == cost_of(fleet, search.list_tracks())
     search.improve(40, patience=1000)
-    assert search.cost == cost_of(fleet, search.tracks()) < before
+    assert search.cost == cost_of(fleet, search.list_tracks()) < before
 
 
 def test_progress_tells_flowtime_gap_and_rate() -> None:

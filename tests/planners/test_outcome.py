@@ -14,7 +14,7 @@ from rightofway.cli.main import main
 from rightofway.errors import InvalidPlan
 from rightofway.io.plan.reader import plan_of
 from rightofway.io.plan.writer import dump_plan
-from rightofway.metrics import outcome_of
+from rightofway.metrics import derive_outcome
 from rightofway.model import Objective, Proof, Scenario, Tick
 from rightofway.model.outcome import classify_cost
 from rightofway.phrases import parts_of
@@ -117,7 +117,7 @@ def test_plan_files_keep_the_outcome_and_older_ones_open_without_it() -> None:
     del document["planner"]["outcome"]
     old = plan_of(document)
     assert old.run.outcome is None
-    assert outcome_of(old) == plan.run.outcome
+    assert derive_outcome(old) == plan.run.outcome
 
 
 def test_an_outcome_that_its_plan_refutes_counts_for_nothing() -> None:
@@ -128,7 +128,7 @@ def test_an_outcome_that_its_plan_refutes_counts_for_nothing() -> None:
         Outcome(kind=OutcomeKind.OPTIMAL, bound=Tick(4)),
     ):
         claimed = replace(plan, run=replace(plan.run, outcome=said))
-        assert outcome_of(claimed).kind is OutcomeKind.BEST_FOUND
+        assert derive_outcome(claimed).kind is OutcomeKind.BEST_FOUND
 
 
 def test_an_improved_plan_has_an_outcome() -> None:

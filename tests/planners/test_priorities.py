@@ -12,7 +12,7 @@ import rightofway
 from rightofway.errors import GaveUp
 from rightofway.model import Plan, Rules, Scenario, Track
 from rightofway.planners import Draft
-from rightofway.planners.routing import clear_routes, shortest_routes
+from rightofway.planners.routing import clear_routes, find_shortest_routes
 from rightofway.search import Distances
 from tests.builders.fleets import grid_fleet, random_fleet
 
@@ -79,7 +79,7 @@ def test_where_no_waiting_helps_one_is_sent_another_way() -> None:
 def test_routes_keep_clear_of_others_or_are_the_shortest() -> None:
     scenario = random_fleet(1, size=16, robots=10)
     distances = Distances(scenario.roadmap)
-    routes = {"clear": clear_routes, "shortest": shortest_routes}
+    routes = {"clear": clear_routes, "shortest": find_shortest_routes}
     driven = {}
     for name, choose in routes.items():
         plan = planned(scenario, "fixed-priority", routes=name)

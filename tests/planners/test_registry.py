@@ -22,7 +22,7 @@ from rightofway.planners import (
     PlannerOptions,
     PlannerSpec,
     find,
-    registered,
+    find_all,
 )
 
 
@@ -106,24 +106,24 @@ def test_an_exact_option_is_described_by_its_limits() -> None:
 
 def test_features_are_named_by_words() -> None:
     assert sorted(find("paper").features) == ["barred edges", "leaves swaps"]
-    able = [name for name, spec in registered().items() if Feature.IMPROVES in spec.features]
+    able = [name for name, spec in find_all().items() if Feature.IMPROVES in spec.features]
     assert able[:3] == ["auto", "local-search", "lns"]
 
 
-@pytest.mark.parametrize("planner", sorted(registered()))
+@pytest.mark.parametrize("planner", sorted(find_all()))
 def test_options_of_a_planner_hold_their_own_defaults(planner: str) -> None:
-    spec = registered()[planner]
+    spec = find_all()[planner]
     assert spec.settle(spec.options_type()) == spec.settle({})
     assert [option.name for option in spec.options] == list(spec.settle({}))
 
 
 ASKS_TWICE = """
 import shutil, sys
-from rightofway.planners import registered
-first = registered()
+from rightofway.planners import find_all
+first = find_all()
 first.pop("auto")
 shutil.rmtree(sys.argv[1])
-print(list(first)[-1], list(registered())[-1], "auto" in registered())
+print(list(first)[-1], list(find_all())[-1], "auto" in find_all())
 """
 
 

@@ -9,7 +9,7 @@ import pytest
 import rightofway
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Rules, Scenario
-from rightofway.planners.routing import chosen_routes
+from rightofway.planners.routing import choose_routes
 from rightofway.planners.task import Task
 from rightofway.planners.two_level import replay_movement_groups
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario, random_fleet
@@ -136,7 +136,7 @@ def test_a_robot_planned_again_on_its_own_route_is_not_called_rerouted() -> None
     scenario = random_fleet(29, size=6, robots=8)
     plan = solve(scenario)
     assert plan.run.status == "re-routed R7"
-    _, routes = chosen_routes(Task(scenario=scenario, options={"routes": "clear"}))
+    _, routes = choose_routes(Task(scenario=scenario, options={"routes": "clear"}))
     driven = [tuple(track.vertices.tolist()) for track in plan.tracks]
     other = [robot for robot, route in enumerate(routes) if driven[robot] != route.vertices]
     assert other == [reroute.robot for reroute in plan.run.reroutes] == [6]

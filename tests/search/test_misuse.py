@@ -22,7 +22,7 @@ MISUSE: list[tuple[Callable[[], Any], str]] = [
     (lambda: rightofway.measure(None), "plan: nothing is no plan"),  # type: ignore[arg-type]
     (lambda: rightofway.check(3), "plan: 3 is no plan"),  # type: ignore[arg-type]
     (lambda: rightofway.waits("x"), "plan: 'x' is no plan"),  # type: ignore[arg-type]
-    (lambda: rightofway.lost_time([]), "is no plan"),  # type: ignore[arg-type]
+    (lambda: rightofway.compute_lost_time([]), "is no plan"),  # type: ignore[arg-type]
     (lambda: rightofway.simulate(None), "plan: nothing is no plan"),  # type: ignore[arg-type]
     (lambda: rightofway.run_laps(None), "scenario: nothing is no scenario"),  # type: ignore[arg-type]
     (lambda: rightofway.best_timetable(3), "scenario: 3 is no scenario"),  # type: ignore[arg-type]
@@ -39,11 +39,14 @@ MISUSE: list[tuple[Callable[[], Any], str]] = [
         r"order\[0\]: 0.5 is none of 2",
     ),
     (lambda: search.FleetSearch(PROBLEM).start(["a"]), r"tracks\[0\]: 'a' is no track"),  # type: ignore[list-item]
-    (lambda: FLOOR.ticks_of_edges(PACE + PACE), "edge_ticks: 2 for 1 edge classes"),
-    (lambda: FLOOR.path(-1, 0, PACE), "start: -1 is none of 7"),  # type: ignore[arg-type]
-    (lambda: FLOOR.cost((0, 99), PACE), r"path\[1\]: 99 is none of 7"),  # type: ignore[arg-type]
+    (lambda: FLOOR.compute_edge_ticks(PACE + PACE), "edge_ticks: 2 for 1 edge classes"),
+    (lambda: FLOOR.find_path(-1, 0, PACE), "start: -1 is none of 7"),  # type: ignore[arg-type]
+    (lambda: FLOOR.compute_cost((0, 99), PACE), r"path\[1\]: 99 is none of 7"),  # type: ignore[arg-type]
     (lambda: search.plan_by_lacam(PROBLEM, ends_anywhere=[9]), "ends_anywhere: 9 is none of 2"),
-    (lambda: search.earliest_track(9, search.Bookings(PROBLEM), FLOOR), "robot: 9 is none of 2"),
+    (
+        lambda: search.find_earliest_track(9, search.Bookings(PROBLEM), FLOOR),
+        "robot: 9 is none of 2",
+    ),
 ]
 
 

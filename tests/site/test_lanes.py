@@ -16,7 +16,7 @@ from rightofway import FleetBuilder
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, scenario_of
 from rightofway.model import Scenario
-from rightofway.planners import Feature, registered
+from rightofway.planners import Feature, find_all
 from rightofway.site import Edge, Roadmap
 from rightofway.site.spacing import SplitLanes, split_lanes
 
@@ -48,12 +48,10 @@ def test_no_robot_is_faster_than_the_limit_of_an_edge_and_none_is_slower_for_it(
     ]
 
 
-@pytest.mark.parametrize("planner", sorted(registered()))
+@pytest.mark.parametrize("planner", sorted(find_all()))
 def test_every_planner_keeps_speed_limits(planner: str) -> None:
     plan = rightofway.solve(limited(), planner, time_limit=2)
-    may_swap = (
-        {"swap conflict"} if Feature.LEAVES_SWAPS in registered()[planner].features else set()
-    )
+    may_swap = {"swap conflict"} if Feature.LEAVES_SWAPS in find_all()[planner].features else set()
     assert set(rightofway.check(plan).counts) <= may_swap
     assert plan.flowtime >= plan.lower_bound
 

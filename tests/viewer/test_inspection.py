@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from rightofway.io.sites import Choice, read_sites
-from rightofway.metrics import inspect, sentences
+from rightofway.metrics import describe_site, inspect
 from rightofway.viz import write_inspection
 from rightofway.viz.palette import LIGHT
 from tests.builders.players import Player
@@ -80,7 +80,7 @@ def test_the_page_has_the_words_of_the_command(inspected: Open, crossing: Path) 
     (_, site), *_ = read_sites(crossing, Choice()).sites
     result = inspect(site)
     viewer = inspected(crossing)
-    assert viewer.text("#size") == " ".join(sentences(site, result))
+    assert viewer.text("#size") == " ".join(describe_site(site, result))
     titles = [row.get_attribute("title") for row in findings(viewer).all()]
     assert titles == [str(finding) for finding in result.findings]
 

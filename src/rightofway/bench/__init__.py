@@ -5,11 +5,11 @@ matplotlib, only Parquet files pyarrow, only clusters distributed; they are impo
 """
 
 from rightofway.bench.cluster import run_on_cluster
-from rightofway.bench.process import machine, run_here
+from rightofway.bench.process import describe_machine, run_here
 from rightofway.bench.report import write_report
 from rightofway.bench.results import COLUMNS, Results, Row
 from rightofway.bench.suite import Case, read_suite
-from rightofway.bench.summary import Group, Quartiles, by_planner
+from rightofway.bench.summary import Group, Quartiles, group_by_planner
 
 __all__ = [
     "COLUMNS",
@@ -18,8 +18,8 @@ __all__ = [
     "Quartiles",
     "Results",
     "Row",
-    "by_planner",
-    "machine",
+    "describe_machine",
+    "group_by_planner",
     "read_suite",
     "run_here",
     "run_on_cluster",

@@ -9,7 +9,7 @@ from textwrap import shorten
 from typing import Any
 
 from rightofway.arguments import checks_arguments
-from rightofway.bench.process import lost, run_on_worker
+from rightofway.bench.process import make_lost_row, run_on_worker
 from rightofway.bench.results import Row
 from rightofway.bench.suite import Case
 from rightofway.errors import InputError
@@ -93,7 +93,7 @@ def _rows(distributed: Any, client: Any, cases: Iterator[Case]) -> Iterator[Row]
         try:
             row: Row = future.result()
         except distributed.KilledWorker:
-            row = lost(case, "each worker that tried it died, perhaps for its memory")
+            row = make_lost_row(case, "each worker that tried it died, perhaps for its memory")
         except Exception as error:
             if future.status != "error":
                 raise

@@ -15,7 +15,7 @@ from rightofway.io.formats import SCENARIO_FORMAT
 Cell = tuple[int, int]
 
 
-def random_grid(*, width: int, height: int, walls: float, seed: int) -> list[str]:
+def draw_grid(*, width: int, height: int, walls: float, seed: int) -> list[str]:
     """Return the rows of a grid in which each cell is blocked with probability ``walls``."""
     draw = _generator("walls", seed)
     return [
@@ -23,7 +23,7 @@ def random_grid(*, width: int, height: int, walls: float, seed: int) -> list[str
     ]
 
 
-def largest_part(lines: Sequence[str]) -> list[Cell]:
+def find_largest_part(lines: Sequence[str]) -> list[Cell]:
     """Return the cells of the largest connected part of a grid, row by row; the first of equals."""
     unseen = {
         (row, column): None
@@ -45,7 +45,7 @@ def largest_part(lines: Sequence[str]) -> list[Cell]:
     return sorted(largest)
 
 
-def scenario_document(
+def make_scenario_document(
     problem: Mapping[str, Any], fleet: Mapping[str, Any] | None, robots: int, seed: int
 ) -> dict[str, Any]:
     """Return the scenario of a `Case` as a document.
@@ -56,8 +56,8 @@ def scenario_document(
     if fleet is None:
         return dict(problem["scenario"])
     if "random" in problem:
-        lines = random_grid(**problem["random"])
-        places = largest_part(lines)
+        lines = draw_grid(**problem["random"])
+        places = find_largest_part(lines)
         homes, targets = _shuffled(places, "homes", seed), _shuffled(places, "targets", seed)
         ends = list(zip(homes, targets, strict=True))[:robots]
     else:

@@ -49,9 +49,9 @@ def run_here(cases: Iterable[Case], *, jobs: int | None = None) -> Iterator[Row]
     -----
     When the iteration is left early, running cases are ended and have no row.
     """
-    machine()  # before any thread asks for it
+    describe_machine()  # before any thread asks for it
     processes = Processes()
-    pool = ThreadPoolExecutor(jobs or cores())
+    pool = ThreadPoolExecutor(jobs or count_cores())
     try:
         for future in as_completed([pool.submit(processes.run, case) for case in cases]):
             yield future.result()
@@ -145,7 +145,7 @@ def run_on_worker(case: Case) -> Row:
     return Processes().run(case)
 
 
-def lost(case: Case, message: str) -> Row:
+def make_lost_row(case: Case, message: str) -> Row:
     """Return the row of a case whose worker died each time it was tried."""
     return _failed(case, "killed", message)
 
@@ -156,26 +156,26 @@ def _failed(case: Case, status: str, message: str) -> Row:
 
 def _row(case: Case, outcome: dict[str, Any]) -> Row:
     """Return a row with a value, or None, for every column."""
-    row = {column.name: None for column in COLUMNS} | case.labels | machine() | outcome
+    row = {column.name: None for column in COLUMNS} | case.labels | describe_machine() | outcome
     row["message"] = " ".join(str(row["message"]).split())[:LONGEST]
     return row
 
 
 @checks_arguments
 @cache
-def machine() -> dict[str, Any]:
+def describe_machine() -> dict[str, Any]:
     """Return commit, versions and hardware, as rows have them."""
     return {
         "commit": _commit(),
         "version": rightofway.__version__,
         "cpu": _cpu(),
-        "cores": cores(),
+        "cores": count_cores(),
         "compiler": compiler(),
         "python": platform.python_version(),
     }
 
 
-def cores() -> int:
+def count_cores() -> int:
     """Return how many cores this process may use."""
     affinity = getattr(os, "sched_getaffinity", None)
     return len(affinity(0)) if affinity else os.cpu_count() or 1

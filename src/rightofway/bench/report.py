@@ -15,10 +15,10 @@ from rightofway.bench.results import Row
 from rightofway.bench.summary import (
     Group,
     Quartiles,
-    by_planner,
-    by_robots,
-    grouped,
-    planner_names,
+    group_by_planner,
+    group_by_robots,
+    group_rows,
+    name_planners,
 )
 from rightofway.errors import InputError
 from rightofway.extras import needed
@@ -93,7 +93,7 @@ def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
     if not rows:
         raise InputError.at("", "there is no row to report on (run some cases)", str(path))
     is_page = path.suffix.lower() != ".md"
-    table, paragraph = (_html_table, _html_paragraph) if is_page else (markdown_table, str)
+    table, paragraph = (_html_table, _html_paragraph) if is_page else (make_markdown_table, str)
     parts = [table(_planners(rows))]
     for name, draw, words in (("cactus", _cactus, CACTUS), ("ratio", _ratios, RATIOS)):
         alt, picture = words.partition(":")[0], _picture(rows, draw, "svg" if is_page else "png")
@@ -119,7 +119,7 @@ FIGURES = ("solved", "flowtime / bound", "first plan [s]", "memory [MB]")
 
 def _planners(rows: Sequence[Row]) -> Table:
     table: Table = [["planner", *FIGURES, "not solved"]]
-    for name, planner_rows in by_planner(rows).items():
+    for name, planner_rows in group_by_planner(rows).items():
         group = Group.of(planner_rows)
         ends = [f"{n} {status}" for status, n in group.statuses.items() if status != "solved"]
         table.append([name, *_figures(group), ", ".join(ends)])
@@ -127,14 +127,14 @@ def _planners(rows: Sequence[Row]) -> Table:
 
 
 def _details(rows: Sequence[Row]) -> Table:
-    names = planner_names(rows)
+    names = name_planners(rows)
     return [
         ["map", "fleet", "robots", "planner", *FIGURES],
         *(
             [*place, str(robots), planner, *_figures(group)]
-            for place, part in grouped(rows, "map", "fleet").items()
-            for planner, planner_rows in by_planner(part, names).items()
-            for robots, group in by_robots(planner_rows).items()
+            for place, part in group_rows(rows, "map", "fleet").items()
+            for planner, planner_rows in group_by_planner(part, names).items()
+            for robots, group in group_by_robots(planner_rows).items()
         ),
     ]
 
@@ -165,7 +165,7 @@ def _html_paragraph(sentence: str) -> str:
     return f"<p>{html.escape(sentence)}</p>"
 
 
-def markdown_table(table: Table) -> str:
+def make_markdown_table(table: Table) -> str:
     """Return a table as Markdown; its first row has the headings."""
     heads, *lines = table
     return "\n".join(
@@ -176,7 +176,7 @@ def markdown_table(table: Table) -> str:
 
 def _machines(rows: Iterable[Row]) -> Iterator[str]:
     keys = ("version", "commit", "cpu", "cores", "compiler", "python")
-    for (version, commit, cpu, cores, compiler, python), machine_rows in grouped(
+    for (version, commit, cpu, cores, compiler, python), machine_rows in group_rows(
         rows, *keys
     ).items():
         versions = f"rightofway {version}" + (f" (commit {commit})" if commit else "")
@@ -198,7 +198,7 @@ def _picture(rows: Sequence[Row], draw: Callable[[Sequence[Row], Any], None], fo
 def _cactus(rows: Sequence[Row], figure: Any) -> None:
     """Draw how many cases each planner has solved after how many seconds."""
     figure.set_size_inches(7, 4.2)
-    axes, planners = figure.add_subplot(), by_planner(rows)
+    axes, planners = figure.add_subplot(), group_by_planner(rows)
     for index, (name, planner_rows) in enumerate(planners.items()):
         # Laps have no first plan: they are known at the end.
         known = (
@@ -228,7 +228,7 @@ def _ratios(rows: Sequence[Row], figure: Any) -> None:
 
     Medians are of solved cases; where others are not solved the marker is hollow.
     """
-    parts, names = grouped(rows, "map", "fleet"), planner_names(rows)
+    parts, names = group_rows(rows, "map", "fleet"), name_planners(rows)
     planners = list(dict.fromkeys(names.values()))
     columns = min(3, len(parts))
     lines = math.ceil(len(parts) / columns)
@@ -238,10 +238,10 @@ def _ratios(rows: Sequence[Row], figure: Any) -> None:
         axes.remove()
     for axes, (title, part) in zip(grid.flat, parts.items(), strict=False):
         axes.set_title(", ".join(filter(None, title)), fontsize="medium")
-        by_name = by_planner(part, names)
+        by_name = group_by_planner(part, names)
         for index, name in enumerate(planners):
             beside = 1.02 ** (index - (len(planners) - 1) / 2)  # spreads do not cover others
-            _draw_planner(axes, by_robots(by_name.get(name, [])), name, index, beside)
+            _draw_planner(axes, group_by_robots(by_name.get(name, [])), name, index, beside)
         counts = sorted({row["robots"] for row in part})
         axes.set(xscale="log", xlim=(counts[0] / 1.3, counts[-1] * 1.3))
         axes.set_xticks(counts, [str(count) for count in counts])

@@ -42,23 +42,23 @@ def run(case: Case) -> dict[str, Any]:
     """Plan a case, have the plan judged and measured; return a row's columns from ``solved`` on."""
     clock = _Clock()
     try:
-        scenario = case.scenario()
+        scenario = case.make_scenario()
         if case.planner == LAPS:
             clock = _Clock()
-            return {**_laps(case, scenario), **clock.spent()}
+            return {**_laps(case, scenario), **clock.measure()}
         find(case.planner).load()  # importing it is not planning
         clock = _Clock()
         plan = solve(
             scenario, case.planner,
             time_limit=float(case.limit), seed=case.seed, options=case.options,
         )  # fmt: skip
-        spent = clock.spent()
+        spent = clock.measure()
         return {**_judged(plan), **spent}
     except Exception as error:  # noqa: BLE001 (a planner may raise anything, and the next case runs)
         status = next((name for kind, name in ENDINGS.items() if isinstance(error, kind)), "defect")
         words = f"{type(error).__name__}: {error}" if status == "defect" else str(error)
         valid = False if status == "invalid plan" else None
-        return {**_ended(status, words, valid=valid), **clock.spent()}
+        return {**_ended(status, words, valid=valid), **clock.measure()}
 
 
 def _ended(status: str, message: str, *, valid: bool | None) -> dict[str, Any]:
@@ -141,7 +141,7 @@ class _Clock:
     def __init__(self) -> None:
         self._wall, self._cpu = time.perf_counter(), _cpu_seconds()
 
-    def spent(self) -> dict[str, float]:
+    def measure(self) -> dict[str, float]:
         return {
             "wall_seconds": round(time.perf_counter() - self._wall, 6),
             "cpu_seconds": round(_cpu_seconds() - self._cpu, 6),

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.arguments import checks_arguments
-from rightofway.bench.fleets import Cell, largest_part, random_grid, scenario_document
+from rightofway.bench.fleets import Cell, draw_grid, find_largest_part, make_scenario_document
 from rightofway.errors import InputError, Steps, Where, in_file, under
 from rightofway.io import dump_scenario, load, scenario_of
 from rightofway.io.faults import Faults, validate
@@ -115,9 +115,9 @@ class Case:
         counts = [f"{self.robots} robots", f"seed {self.seed}", f"{float(self.limit):g} s"]
         return ", ".join([*names, *counts, " ".join([self.planner, labels["options"]]).strip()])
 
-    def scenario(self) -> Scenario:
+    def make_scenario(self) -> Scenario:
         """Make the scenario."""
-        document = scenario_document(self.problem, self.fleet_data, self.robots, self.seed)
+        document = make_scenario_document(self.problem, self.fleet_data, self.robots, self.seed)
         return scenario_of(document)
 
 
@@ -214,7 +214,7 @@ def _maps(document: MapCasesDocument, counts: Sequence[int] | None, base: Path) 
     if document.random is not None:
         width, height = document.random.size
         walls, seed = document.random.walls, document.random.seed
-        room = len(largest_part(random_grid(width=width, height=height, walls=walls, seed=seed)))
+        room = len(find_largest_part(draw_grid(width=width, height=height, walls=walls, seed=seed)))
         if max(counts) > room:
             message = f"{max(counts)} is more than the {room} cells that hang together (give fewer)"
             raise InputError.at("counts", message)

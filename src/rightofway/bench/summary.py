@@ -67,7 +67,7 @@ class Group:
         )
 
 
-def grouped(rows: Iterable[Row], *keys: str) -> dict[tuple[Any, ...], list[Row]]:
+def group_rows(rows: Iterable[Row], *keys: str) -> dict[tuple[Any, ...], list[Row]]:
     """Return the rows that agree in some columns, in the order of their first."""
     groups: dict[tuple[Any, ...], list[Row]] = {}
     for row in rows:
@@ -75,13 +75,13 @@ def grouped(rows: Iterable[Row], *keys: str) -> dict[tuple[Any, ...], list[Row]]
     return groups
 
 
-def planner_names(rows: Iterable[Row]) -> dict[str, str]:
+def name_planners(rows: Iterable[Row]) -> dict[str, str]:
     """Return a name for the planner of each row, by the row's key.
 
     Options are part of the name where they differ between runs of the planner, and so is the time
     limit where it differs.
     """
-    variants = grouped(rows, "planner", "options", "limit")
+    variants = group_rows(rows, "planner", "options", "limit")
     common: dict[str, set[str]] = {}
     for planner, options, _ in variants:
         common[planner] = common.get(planner, set(options.split())) & set(options.split())
@@ -95,7 +95,9 @@ def planner_names(rows: Iterable[Row]) -> dict[str, str]:
 
 
 @checks_arguments
-def by_planner(rows: Sequence[Row], names: Mapping[str, str] | None = None) -> dict[str, list[Row]]:
+def group_by_planner(
+    rows: Sequence[Row], names: Mapping[str, str] | None = None
+) -> dict[str, list[Row]]:
     """Return the rows of each planner; names are those among all rows, if these are only some.
 
     Parameters
@@ -105,14 +107,14 @@ def by_planner(rows: Sequence[Row], names: Mapping[str, str] | None = None) -> d
     names
         Name of each planner with its options; None to make names from the rows.
     """
-    names = names or planner_names(rows)
+    names = names or name_planners(rows)
     groups: dict[str, list[Row]] = {}
     for row in rows:
         groups.setdefault(names[row["key"]], []).append(row)
     return groups
 
 
-def by_robots(rows: Iterable[Row]) -> dict[int, Group]:
+def group_by_robots(rows: Iterable[Row]) -> dict[int, Group]:
     """Return the groups of equal numbers of robots, the smallest first."""
-    groups = grouped(rows, "robots")
+    groups = group_rows(rows, "robots")
     return {robots: Group.of(group) for (robots,), group in sorted(groups.items())}

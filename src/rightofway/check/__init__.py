@@ -10,7 +10,7 @@ from rightofway.check.conflicts import judge_bookings, judge_rotations, judge_sw
 from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, Report
 from rightofway.check.space import judge_space
 from rightofway.check.tracks import judge_drives, judge_trips, judge_turns
-from rightofway.check.visits import visits_of
+from rightofway.check.visits import lay_out_visits
 from rightofway.check.zones import judge_zones
 from rightofway.model import Plan
 from rightofway.model.given import checked_plan, require_number
@@ -55,7 +55,7 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
 
     A closure is a booking of nobody without headway; a robot's booking has its own.
     """
-    visits = visits_of(checked_plan(plan))
+    visits = lay_out_visits(checked_plan(plan))
     limit = require_number("limit", limit, 0, 2**31 - 1)
     if quantities is not None:
         read = one_of(Quantities, "no quantities", "give Quantities, or None")

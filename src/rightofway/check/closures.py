@@ -48,9 +48,9 @@ def judge_barred(visits: Visits, names: Names, collector: FaultCollector) -> Non
                 tick=Tick(int(visits.leave[visit])),
                 reason=Phrase(
                     "{robot} drives from {tail} to {head}, which {why}",
-                    robot=names.robot(robot),
-                    tail=names.vertex(tail),
-                    head=names.vertex(head),
+                    robot=names.name_robot(robot),
+                    tail=names.name_vertex(tail),
+                    head=names.name_vertex(head),
                     why=why,
                 ),
                 remedy=Phrase("choose another way"),
@@ -83,7 +83,7 @@ def judge_closures(plan: Plan, visits: Visits, names: Names, collector: FaultCol
         is_shut = np.zeros(len(codes), bool)
         present = np.unique(kind[at_once])
         if closure.radius is None:
-            present = present[np.isin(codes[present] // len(sizes), shut.own_codes(n))]
+            present = present[np.isin(codes[present] // len(sizes), shut.list_own_codes(n))]
         for index in present.tolist():
             place, own = divmod(int(codes[index]), len(sizes))
             is_shut[index] = shut.holds(divmod(place, n), sizes[own])
@@ -156,7 +156,7 @@ class _Shut:
         lanes = (ends for path in self.ways for ends in pairwise(path))
         return joints | {(min(ends), max(ends)) for ends in lanes}
 
-    def own_codes(self, n: int) -> list[int]:
+    def list_own_codes(self, n: int) -> list[int]:
         """Return the closure's own places as one number each, of n vertices."""
         return [tail * n + head for tail, head in self._inside]
 
@@ -208,13 +208,13 @@ def _square_between(p: Vector, q: Vector, r: Vector, s: Vector) -> Fraction:
 
 
 def _fault(robot: int, place: Place, moment: int, end: int | None, names: Names) -> Fault:
-    first, second = map(names.vertex, place)
+    first, second = map(names.name_vertex, place)
     where = first
     if first != second:
         where = Phrase("the edge between {tail} and {head}", tail=first, head=second)
     until = Phrase("for ever")
     if end is not None:
-        until = Phrase("until {end}", end=names.until(end))
+        until = Phrase("until {end}", end=names.say_until(end))
     return Fault(
         kind="closed",
         robots=(robot,),
@@ -222,9 +222,9 @@ def _fault(robot: int, place: Place, moment: int, end: int | None, names: Names)
         tick=Tick(moment),
         reason=Phrase(
             "{robot} books {place} at {moment}, which is closed {until}",
-            robot=names.robot(robot),
+            robot=names.name_robot(robot),
             place=where,
-            moment=names.moment(moment),
+            moment=names.say_moment(moment),
             until=until,
         ),
         remedy=Phrase("come after that, or leave before it begins"),

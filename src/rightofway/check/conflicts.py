@@ -59,19 +59,19 @@ def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCol
     start, leave = starts[crowded], visits.leave[crowded]
 
     def name(booking: int) -> str:
-        return names.robot(int(robot[booking]))
+        return names.name_robot(int(robot[booking]))
 
     def interval(booking: int) -> Phrase:
-        begin = names.moment(start[booking])
+        begin = names.say_moment(start[booking])
         if last[booking]:
             return Phrase("from {begin} for ever", begin=begin)
-        return Phrase("from {begin} to {end}", begin=begin, end=names.until(leave[booking]))
+        return Phrase("from {begin} to {end}", begin=begin, end=names.say_until(leave[booking]))
 
     def conflict(first: int, second: int) -> Verdict:
         reason = Phrase(
             "{one} books {vertex} {time} and {other} {other_time}",
             one=name(first),
-            vertex=names.vertex(int(vertex[first])),
+            vertex=names.name_vertex(int(vertex[first])),
             time=interval(first),
             other=name(second),
             other_time=interval(second),
@@ -83,14 +83,14 @@ def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCol
             "{other} comes to {vertex} at {moment}, {time} after {one} left, the headway is"
             " {headway}",
             other=name(second),
-            vertex=names.vertex(int(vertex[first])),
-            moment=names.moment(start[second]),
-            time=names.duration(start[second] - leave[first]),
+            vertex=names.name_vertex(int(vertex[first])),
+            moment=names.say_moment(start[second]),
+            time=names.say_duration(start[second] - leave[first]),
             one=name(first),
-            headway=names.duration(headway),
+            headway=names.say_duration(headway),
         )
         return reason, Phrase(
-            "come at {moment} or later", moment=names.moment(leave[first] + headway)
+            "come at {moment} or later", moment=names.say_moment(leave[first] + headway)
         )
 
     def report(
@@ -151,8 +151,8 @@ def judge_swaps(visits: Visits, names: Names, collector: FaultCollector) -> None
         moves = int(first[position]), int(second[position])
         robots = tuple(int(visits.robot[move]) for move in moves)
         vertices = tuple(VertexId(int(visits.vertex[move])) for move in moves)
-        robot_names = joined([names.robot(robot) for robot in robots])
-        where = joined([names.vertex(vertex) for vertex in vertices])
+        robot_names = joined([names.name_robot(robot) for robot in robots])
+        where = joined([names.name_vertex(vertex) for vertex in vertices])
         return Fault(
             kind="swap conflict",
             robots=robots,
@@ -227,8 +227,8 @@ def judge_rotations(visits: Visits, names: Names, collector: FaultCollector) -> 
     for tick, head_of in heads.items():
         for circle in _circles(head_of):
             moving = [robots[tick, vertex] for vertex in circle]
-            robot_names = joined([names.robot(robot) for robot in moving])
-            where = joined([names.vertex(vertex) for vertex in circle])
+            robot_names = joined([names.name_robot(robot) for robot in moving])
+            where = joined([names.name_vertex(vertex) for vertex in circle])
             fault = Fault(
                 kind="rotation",
                 robots=tuple(sorted(moving)),

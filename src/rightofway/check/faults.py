@@ -232,7 +232,9 @@ class FaultCollector:
         self._kept.sort(key=lambda fault: (fault.tick, fault.robots, fault.kind, fault.vertices))
         listed = self._kept[: self._limit]
         return Report(
-            faults=tuple(replace(fault, moment=self._names.moment(fault.tick)) for fault in listed),
+            faults=tuple(
+                replace(fault, moment=self._names.say_moment(fault.tick)) for fault in listed
+            ),
             counts=dict(sorted(self._counts.items())),
         )
 
@@ -244,11 +246,11 @@ class Names:
     scenario: Scenario
     quantities: Quantities
 
-    def robot(self, index: int) -> str:
+    def name_robot(self, index: int) -> str:
         """Return a robot's name."""
         return self.scenario.robots[index].name
 
-    def vertex(self, vertex: int) -> str:
+    def name_vertex(self, vertex: int) -> str:
         """Return what people call a vertex, whether the roadmap has it or not."""
         if 0 <= vertex < self.scenario.roadmap.n_vertices:
             return self.places(vertex)
@@ -259,15 +261,15 @@ class Names:
         """What people call the vertices."""
         return PlaceNames(self.scenario, numbered=True)
 
-    def moment(self, tick: int) -> str:
+    def say_moment(self, tick: int) -> str:
         """Return a point in time: ``time 2``, ``6 min 23 s``."""
         return self.quantities.moment(int(tick))
 
-    def until(self, tick: int) -> str:
+    def say_until(self, tick: int) -> str:
         """Return a point in time that follows another one in a sentence: ``2``, ``6 min 23 s``."""
         has_unit = self.quantities.time_unit and not self.quantities.in_ticks
-        return self.moment(tick) if has_unit else self.quantities.cell(int(tick))
+        return self.say_moment(tick) if has_unit else self.quantities.cell(int(tick))
 
-    def duration(self, ticks: int) -> str:
+    def say_duration(self, ticks: int) -> str:
         """Return how long something lasts: ``2 time units``."""
         return self.quantities.duration(int(ticks))

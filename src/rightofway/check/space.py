@@ -45,7 +45,7 @@ class _Times:
     start: NDArray[Any]  # [ticks]
     end: NDArray[Any]  # [ticks]
 
-    def in_order(self) -> _Times:
+    def sort(self) -> _Times:
         """Return all that has a duration, by shape, then by start."""
         order = order_by(self.shape, self.start)
         order = order[np.array(self.start < self.end, bool)[order]]
@@ -114,13 +114,13 @@ class _Shapes:
         """Return pairs of shapes, sorted by the first, as a list for each shape."""
         return _Near(np.searchsorted(first, np.arange(len(self.one) + 1)), second)
 
-    def apart(self, i: Indices, j: Indices) -> Exact:
+    def compute_least_distances(self, i: Indices, j: Indices) -> Exact:
         """Return the least distance of robots, 0 where none of the two has a size."""
         both = self._radius[i] + self._radius[j]
         distance: Exact = np.where(both == 0, 0, both + self._clearance)
         return distance
 
-    def length(self, square: Fraction) -> float:
+    def compute_length(self, square: Fraction) -> float:
         """Return the length [length unit] of which the square in whole multiples is given."""
         return sqrt(square) / self._scale
 
@@ -296,10 +296,10 @@ def _judge_bookings(
         visit=np.concatenate((stays, drives)),
         start=np.concatenate(((visits.enter - approach)[stays], begun[drives])),
         end=np.concatenate(((visits.leave + headway)[stays], (visits.leave + headway)[drives])),
-    ).in_order()
+    ).sort()
     pairs: list[tuple[Indices, Indices]] = []
     for first, second in shapes.together(bookings, shapes.near_without_common_vertex):
-        limit = shapes.apart(bookings.robot[first], bookings.robot[second])
+        limit = shapes.compute_least_distances(bookings.robot[first], bookings.robot[second])
         excluded = shapes.exclude(bookings.shape[first], bookings.shape[second], limit)
         pairs.append((first[excluded], second[excluded]))
     first, second = (np.concatenate(part) for part in zip(*pairs, strict=True))
@@ -309,7 +309,7 @@ def _judge_bookings(
         robots = tuple(int(bookings.robot[entry]) for entry in pair)
         places = [_place(visits, bookings, entry, names) for entry in pair]
         booked = [
-            Phrase("{robot} books {place}", robot=names.robot(robot), place=place)
+            Phrase("{robot} books {place}", robot=names.name_robot(robot), place=place)
             for robot, (place, _) in zip(robots, places, strict=True)
         ]
         collector.add(
@@ -334,9 +334,9 @@ def _place(
     visit = int(times.visit[entry])
     tail = VertexId(int(visits.vertex[visit]))
     if times.shape[entry] < names.scenario.roadmap.n_vertices:
-        return names.vertex(tail), (tail,)
+        return names.name_vertex(tail), (tail,)
     head = VertexId(int(visits.vertex[visit + 1]))
-    ends = {"tail": names.vertex(tail), "head": names.vertex(head)}
+    ends = {"tail": names.name_vertex(tail), "head": names.name_vertex(head)}
     return Phrase("the edge from {tail} to {head}", **ends), (tail, head)
 
 
@@ -352,7 +352,7 @@ def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: Fault
         visit=np.concatenate((stays, drives)),
         start=np.concatenate((visits.enter[stays], begun[drives])),
         end=np.concatenate((begun[stays], visits.leave[drives])),
-    ).in_order()
+    ).sort()
     parts = [
         _encounters(visits, shapes, motions, *pair)
         for pair in shapes.together(motions, shapes.near)
@@ -364,9 +364,11 @@ def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: Fault
         robots = tuple(int(motions.robot[entry]) for entry in pair)
         places = [_place(visits, motions, entry, names) for entry in pair]
         needed = int(
-            shapes.apart(motions.robot[first[k : k + 1]], motions.robot[second[k : k + 1]])[0]
+            shapes.compute_least_distances(
+                motions.robot[first[k : k + 1]], motions.robot[second[k : k + 1]]
+            )[0]
         )
-        one_robot, other_robot = map(names.robot, robots)
+        one_robot, other_robot = map(names.name_robot, robots)
         where, other_where = (_whereabouts(at, names) for _, at in places)
         collector.add(
             Fault(
@@ -379,8 +381,8 @@ def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: Fault
                     " {place}, {other} {other_place}",
                     one=one_robot,
                     other=other_robot,
-                    distance=quantities.length(shapes.length(square[k])),
-                    needed=decimal(shapes.length(Fraction(needed**2))),
+                    distance=quantities.length(shapes.compute_length(square[k])),
+                    needed=decimal(shapes.compute_length(Fraction(needed**2))),
                     moment=quantities.moment(when[k]),
                     place=where,
                     other_place=other_where,
@@ -391,7 +393,7 @@ def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: Fault
 
 
 def _whereabouts(at: tuple[VertexId, ...], names: Names) -> Phrase:
-    first, last = names.vertex(at[0]), names.vertex(at[-1])
+    first, last = names.name_vertex(at[0]), names.name_vertex(at[-1])
     if len(at) > 1:
         return Phrase("between {tail} and {head}", tail=first, head=last)
     return Phrase("at {vertex}", vertex=first)
@@ -406,7 +408,7 @@ def _encounters(
     durations of both. It is least at the ends of their common time, or where its square has its
     least value.
     """
-    limit = shapes.apart(motions.robot[first], motions.robot[second])
+    limit = shapes.compute_least_distances(motions.robot[first], motions.robot[second])
     sized = np.array(limit > 0, bool)
     first, second, limit = first[sized], second[sized], limit[sized]
     x1, y1, u1, v1, whole1 = _line(visits, shapes, motions, first)

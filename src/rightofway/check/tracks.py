@@ -23,10 +23,10 @@ def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> Non
     """Find unknown vertices, jumps, drives that are too fast and times that go backwards."""
 
     def robot(visit: int) -> str:
-        return names.robot(int(visits.robot[visit]))
+        return names.name_robot(int(visits.robot[visit]))
 
     def vertex(visit: int) -> str:
-        return names.vertex(int(visits.vertex[visit]))
+        return names.name_vertex(int(visits.vertex[visit]))
 
     def unknown(visit: int) -> Verdict:
         last = str(names.scenario.roadmap.n_vertices - 1)
@@ -44,9 +44,9 @@ def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> Non
             "{robot} enters {vertex} at {moment}, but {next} after it at {earlier}",
             robot=robot(visit),
             vertex=vertex(visit),
-            moment=names.moment(visits.enter[visit]),
+            moment=names.say_moment(visits.enter[visit]),
             next=vertex(visit + 1),
-            earlier=names.moment(visits.leave[visit]),
+            earlier=names.say_moment(visits.leave[visit]),
         )
         return reason, Phrase("later visits have later times")
 
@@ -66,10 +66,10 @@ def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> Non
             robot=robot(visit),
             tail=vertex(visit),
             head=vertex(visit + 1),
-            time=names.duration(stay[visit]),
-            least=names.duration(drive),
+            time=names.say_duration(stay[visit]),
+            least=names.say_duration(drive),
         )
-        moment = names.moment(visits.enter[visit] + drive)
+        moment = names.say_moment(visits.enter[visit] + drive)
         return reason, Phrase("enter at {moment} or later", moment=moment)
 
     def report(
@@ -110,17 +110,17 @@ def judge_turns(visits: Visits, names: Names, collector: FaultCollector) -> None
     def fault(position: int) -> Fault:
         visit = int(where[position])
         robot, ends = int(visits.robot[visit]), visits.vertex[visit : visit + 2].tolist()
-        at, to = map(names.vertex, ends)
+        at, to = map(names.name_vertex, ends)
         least = visits.turn[visit] + visits.drive[visit]
         reason = Phrase(
             "{robot} turns {angle} degrees at {vertex} in {time}, it needs {least}",
-            robot=names.robot(robot),
+            robot=names.name_robot(robot),
             angle=decimal(Fraction(int(visits.angle[visit]), MICRO), 6),
             vertex=at,
-            time=names.duration(stay[visit] - visits.drive[visit]),
-            least=names.duration(visits.turn[visit]),
+            time=names.say_duration(stay[visit] - visits.drive[visit]),
+            least=names.say_duration(visits.turn[visit]),
         )
-        moment = names.moment(visits.enter[visit] + least)
+        moment = names.say_moment(visits.enter[visit] + least)
         return Fault(
             kind="turn cut short",
             robots=(robot,),
@@ -147,7 +147,7 @@ def judge_trips(plan: Plan, visits: Visits, names: Names, collector: FaultCollec
             spare=spare[begin:end],
             names=names,
         )
-        for fault in trip.faults():
+        for fault in trip.find_faults():
             collector.add(fault)
         begin = end
 
@@ -170,24 +170,24 @@ class _Trip:
     names: Names
     too_short: dict[Stage, list[tuple[int, int]]] = field(default_factory=dict)
 
-    def faults(self) -> Iterator[Fault]:
+    def find_faults(self) -> Iterator[Fault]:
         yield from self._ends()
         yield from self._work()
 
     def _ends(self) -> Iterator[Fault]:
         home, last = self.itinerary.home, self.itinerary.stages[-1].vertex
-        name, vertex = self._name, self.names.vertex
+        name, vertex = self._name, self.names.name_vertex
         if self.vertices[0] != home or self.enter[0] != 0:
             reason = Phrase(
                 "{robot} starts at {vertex} at {moment}",
                 robot=name,
                 vertex=vertex(self.vertices[0]),
-                moment=self.names.moment(self.enter[0]),
+                moment=self.names.say_moment(self.enter[0]),
             )
             remedy = Phrase(
                 "start at its home, {home}, at {moment}",
                 home=vertex(home),
-                moment=self.names.moment(0),
+                moment=self.names.say_moment(0),
             )
             yield self._fault("wrong home", self.vertices[0], self.enter[0], (reason, remedy))
         if self.vertices[-1] != last:
@@ -235,14 +235,14 @@ class _Trip:
         reason = Phrase(
             "{robot} does not come to {vertex} at {moment} or later",
             robot=self._name,
-            vertex=self.names.vertex(stage.vertex),
-            moment=self.names.moment(self.enter[visit]),
+            vertex=self.names.name_vertex(stage.vertex),
+            moment=self.names.say_moment(self.enter[visit]),
         )
         verdict = (reason, Phrase("visit its stops in their order"))
         return self._fault("stop missed", stage.vertex, self.enter[visit], verdict)
 
     def _cut_short(self, stage: Stage, spare: int, enter: int) -> Fault:
-        duration, needs = self.names.duration, []
+        duration, needs = self.names.say_duration, []
         if stage.work:
             needs.append(Phrase("{time} working", time=duration(stage.work)))
         if stage.turn:
@@ -251,7 +251,7 @@ class _Trip:
             "{robot} has {time} at {vertex}, it needs {need}",
             robot=self._name,
             time=duration(spare),
-            vertex=self.names.vertex(stage.vertex),
+            vertex=self.names.name_vertex(stage.vertex),
             need=joined(needs),
         )
         longer = duration(stage.work + stage.turn - spare)
@@ -260,7 +260,7 @@ class _Trip:
 
     @property
     def _name(self) -> str:
-        return self.names.robot(self.robot)
+        return self.names.name_robot(self.robot)
 
     def _fault(self, kind: FaultKind, vertex: int, tick: int, verdict: Verdict) -> Fault:
         reason, remedy = verdict

@@ -21,7 +21,7 @@ MICRO = 10**6
 """Angles are whole numbers of 1e-6 degrees."""
 
 
-def turns_of(
+def compute_turns(
     plan: Plan, robot: NDArray[np.int64], vertex: NDArray[np.int64], edge: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[Any]]:
     """Return the angle that a robot turns in each visit before its drive, and the ticks for it.

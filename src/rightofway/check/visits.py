@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.turning import turns_of
+from rightofway.check.turning import compute_turns
 from rightofway.model import Plan
 from rightofway.site import Roadmap
 
@@ -40,7 +40,7 @@ class Visits:
     turn: NDArray[Any]  # how long that turn takes [ticks]
 
 
-def visits_of(plan: Plan) -> Visits:
+def lay_out_visits(plan: Plan) -> Visits:
     """Lay out the visits of a plan, however wrong it is."""
     lengths = np.array([len(track) for track in plan.tracks])
     vertex = np.concatenate([track.vertices for track in plan.tracks]).astype(np.int64)
@@ -52,7 +52,7 @@ def visits_of(plan: Plan) -> Visits:
     roadmap = plan.scenario.roadmap
     edge = _edges(roadmap, vertex, np.where(last, -1, np.roll(vertex, -1)))
     drive = _drives(plan, robot, edge, enter.dtype)
-    angle, turn = turns_of(plan, robot, vertex, edge)
+    angle, turn = compute_turns(plan, robot, vertex, edge)
     return Visits(
         robot=robot,
         vertex=vertex,

@@ -86,7 +86,7 @@ def bench(
 
 def _run(cases: Sequence[Case], results: Results, *, jobs: int | None, dask: str | None) -> None:
     """Run the cases that have no row yet."""
-    from rightofway.bench import machine, run_here, run_on_cluster
+    from rightofway.bench import describe_machine, run_here, run_on_cluster
 
     left = {case.key: case for case in cases if case.key not in results.rows}
     done = len(cases) - len(left)
@@ -98,7 +98,7 @@ def _run(cases: Sequence[Case], results: Results, *, jobs: int | None, dask: str
                 number=str(len(cases)),
             )
         )
-        commit = machine()["commit"]
+        commit = describe_machine()["commit"]
         earlier = [results.rows[case.key]["commit"] for case in cases if case.key not in left]
         others = sum(known != commit for known in earlier)
         if others:
@@ -127,9 +127,9 @@ def _ending(row: Row) -> str:
 
 
 def _summarize(rows: Sequence[Row], output: str, *, as_json: bool) -> None:
-    from rightofway.bench import Group, by_planner
+    from rightofway.bench import Group, group_by_planner
 
-    groups = {name: Group.of(planner_rows) for name, planner_rows in by_planner(rows).items()}
+    groups = {name: Group.of(planner_rows) for name, planner_rows in group_by_planner(rows).items()}
     if as_json:
         planners = [{"planner": name, **asdict(group)} for name, group in groups.items()]
         put_json({"results": output, "cases": len(rows), "planners": planners})

@@ -14,7 +14,7 @@ from typing import Any
 import click
 from click.shell_completion import BashComplete, CompletionItem, add_completion_class
 
-from rightofway.planners import Feature, PlannerSpec, registered
+from rightofway.planners import Feature, PlannerSpec, find_all
 
 Completer = Callable[[click.Context, click.Parameter, str], "list[CompletionItem[str]]"]
 
@@ -67,7 +67,7 @@ def planners(*, improving: bool) -> Completer:
     ) -> list[CompletionItem[str]]:
         return [
             CompletionItem(spec.name, help=spec.summary)
-            for spec in registered().values()
+            for spec in find_all().values()
             if spec.name.startswith(incomplete)
             and (not improving or Feature.IMPROVES in spec.features)
         ]
@@ -79,7 +79,7 @@ def planner_options(
     context: click.Context, _parameter: click.Parameter, incomplete: str
 ) -> list[CompletionItem[str]]:
     """Complete ``name=value`` for the planner that stands in the command so far."""
-    spec: PlannerSpec | None = registered().get(str(context.params.get("planner")))
+    spec: PlannerSpec | None = find_all().get(str(context.params.get("planner")))
     return [
         CompletionItem(pair, help=option.summary)
         for option in (spec.options if spec else ())

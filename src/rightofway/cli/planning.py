@@ -34,7 +34,7 @@ from rightofway.cli.terminal import (
 )
 from rightofway.errors import NoPlanExists
 from rightofway.phrases import Phrase
-from rightofway.planners import DEFAULT_PLANNER, IMPROVER, Feature, PlannerSpec, find, registered
+from rightofway.planners import DEFAULT_PLANNER, IMPROVER, Feature, PlannerSpec, find, find_all
 
 if TYPE_CHECKING:
     from rightofway.metrics import ForcedLoss
@@ -73,12 +73,12 @@ def _list_planners(specs: Iterable[PlannerSpec], formatter: click.HelpFormatter)
 
 
 def _list_all(formatter: click.HelpFormatter) -> None:
-    _list_planners(registered().values(), formatter)
+    _list_planners(find_all().values(), formatter)
 
 
 def _list_improvers(formatter: click.HelpFormatter) -> None:
     _list_planners(
-        (spec for spec in registered().values() if Feature.IMPROVES in spec.features), formatter
+        (spec for spec in find_all().values() if Feature.IMPROVES in spec.features), formatter
     )
 
 
@@ -180,13 +180,13 @@ def bound(
     standard input.
     """
     from rightofway.deadline import Deadline
-    from rightofway.metrics import alone_completions, find_forced_losses
+    from rightofway.metrics import compute_alone_completions, find_forced_losses
     from rightofway.planners.bounds import prove_bound
     from rightofway.report.plan import report_bounds
     from rightofway.report.plan_data import measures
 
     problem = read_scenario(scenario, count)
-    alone, names = alone_completions(problem), [robot.name for robot in problem.robots]
+    alone, names = compute_alone_completions(problem), [robot.name for robot in problem.robots]
     proof, is_reached = None, False
     losses: tuple[ForcedLoss, ...] = ()
     if time_limit is not None:

@@ -240,7 +240,7 @@ def clock_data(quantities: Quantities) -> dict[str, Any]:
 
 
 def _events(plan: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> None:
-    from rightofway.metrics import event_columns
+    from rightofway.metrics import make_event_columns
     from rightofway.viz.table import chosen_events, event_list, parquet_of
 
     chosen = chosen_events(
@@ -248,14 +248,14 @@ def _events(plan: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> 
     )
     listing = event_list(plan, chosen, shown.quantities)
     if output and Path(output).suffix.lower() == ".parquet":
-        _write(output, parquet_of(event_columns(plan, chosen)))
+        _write(output, parquet_of(make_event_columns(plan, chosen)))
         say_written(output)
     elif output:
         put_lists([listing], output)
     elif not as_json:
         click.echo(listing.as_text())
     if as_json:
-        columns = event_columns(plan, chosen)
+        columns = make_event_columns(plan, chosen)
         exact = {"enter": "enter_tick", "leave": "leave_tick", "waits": "wait_ticks"}
         keys = [key for key in columns if key not in exact.values()]
         values = zip(*(columns[exact.get(key, key)] for key in keys), strict=True)

@@ -22,7 +22,7 @@ from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Trac
 from rightofway.model.route import drives_along, route_through
 from rightofway.planners.lacam import build_timetable_if_possible
 from rightofway.planners.local_search import LocalSearch
-from rightofway.planners.task import Task, planning_problem
+from rightofway.planners.task import Task, make_planning_problem
 from rightofway.precedence import ReleaseGraph, graph_on
 from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId
@@ -206,7 +206,7 @@ class RestPlanner:
             ]
             for robot in moving
         ]
-        graph = graph_on(planning_problem(whole), visited)
+        graph = graph_on(make_planning_problem(whole), visited)
         if not graph.keeps_order(times):
             return None
         committed = {

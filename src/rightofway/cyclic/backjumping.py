@@ -80,7 +80,7 @@ class RightOfWaySearch:
             If the window ends before the segment.
         """
         window, number = self.window, self.window.number
-        segment = window.fleet.segment_of(meeting)
+        segment = window.fleet.find_segment(meeting)
         if window.is_endless(meeting, segment):
             raise self._deadlock(meeting, meeting.robots)
         waits = rule(window, meeting, segment)

@@ -379,7 +379,9 @@ class _SeamClosing:
             if through is not None:
                 self._book(robot, replace(stretch, through=through))
                 return None
-            for blocker in self._seam.in_the_way(robot, stretch.lap, stretch.begins, stretch.leave):
+            for blocker in self._seam.find_blockers(
+                robot, stretch.lap, stretch.begins, stretch.leave
+            ):
                 other = self._kept[blocker]
                 at_home = self._seam.keeps_out(blocker, other.lap, robot, stretch.lap)
                 if other.through is not None and (other.n_through or at_home):

@@ -81,8 +81,8 @@ def _placed(
         while cycle is None:
             lap = problem.draw.choice(problem.ways[robot])
             bookings.search(lap, 1, problem.draw.randrange(int(bookings.period)), robot=robot)
-            near = sorted(bookings.in_the_way(robot, lap) & cycles.keys())
-            near = near or sorted(bookings.neighbours(robot, lap))
+            near = sorted(bookings.find_blockers(robot, lap) & cycles.keys())
+            near = near or sorted(bookings.find_neighbours(robot, lap))
             if not near:
                 return None
             removed = problem.draw.choice(near)
@@ -188,7 +188,7 @@ def insert_laps(problem: CyclicProblem, candidate: Candidate, params: LnsParams)
         robot = draw.randrange(len(cycles))
         count = cycles[robot].count + (draw.randrange(params.moves_every) > 0)
         if count * problem.alone[robot] <= bookings.period:
-            near = sorted(bookings.neighbours(robot, cycles[robot].lap) - {robot})
+            near = sorted(bookings.find_neighbours(robot, cycles[robot].lap) - {robot})
             others = draw.sample(near, min(len(near), draw.choice(params.neighbours_moved)))
             counts = {robot: count, **{number: cycles[number].count for number in others}}
             _move(problem, bookings, cycles, counts)

@@ -17,9 +17,9 @@ from rightofway.model import BookingRules, Lap, Robot, Route, Scenario, Tick, la
 from rightofway.native import BookedRows, excluded_by
 from rightofway.planners.routing import (
     clear_routes,
-    direct_routes,
-    shortest_route,
-    shortest_routes,
+    find_direct_routes,
+    find_shortest_route,
+    find_shortest_routes,
 )
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from rightofway.search import Distances
@@ -202,14 +202,14 @@ def cyclic_routes(scenario: Scenario, routes: str = "clear") -> list[CyclicRoute
     once, distances = _one_lap_each(scenario)
     if routes == "clear":
         return _repeated(once, avoid_homes(once, clear_routes(once, distances)))
-    return _repeated(once, shortest_routes(once, distances))
+    return _repeated(once, find_shortest_routes(once, distances))
 
 
 def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[CyclicRoute]]:
     """Choose a clear and a direct round trip for each robot; see `cyclic_routes`."""
     once, distances = _one_lap_each(scenario)
     clear = avoid_homes(once, clear_routes(once, distances))
-    direct = avoid_homes(once, direct_routes(once, distances, clear))
+    direct = avoid_homes(once, find_direct_routes(once, distances, clear))
     return _repeated(once, clear), _repeated(once, direct)
 
 
@@ -339,7 +339,7 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
         ends = zip(tails[edges].tolist(), roadmap.heads[edges].tolist(), strict=True)
         distances = Distances(roadmap.exclude((), list(ends)))
         if reaches_its_places(itinerary, distances):
-            avoiding[robot] = shortest_route(roadmap, itinerary, distances)
+            avoiding[robot] = find_shortest_route(roadmap, itinerary, distances)
             booked[robot] = passed(robot)
     return avoiding
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rightofway.execution.progress import Activity, Progress, Times
 from rightofway.model import Route, Tick
-from rightofway.planners.task import planning_problem
+from rightofway.planners.task import make_planning_problem
 from rightofway.precedence import ActionDependencyGraph, PrecedenceGraph, graph_on
 
 
@@ -78,7 +78,7 @@ class Forecast:
     def _graph(self, begun: NDArray[np.bool_]) -> PrecedenceGraph:
         """Return the graph of expected durations, in which closures do not bind what has begun."""
         return graph_on(
-            planning_problem(self.adg.scenario),
+            make_planning_problem(self.adg.scenario),
             [self._route(robot) for robot in range(len(self.adg.routes))],
             begun=begun,
         )

@@ -49,8 +49,8 @@ from rightofway.model import (
 from rightofway.native import clashes, excluded_by
 from rightofway.planners import Deadline, Task
 from rightofway.planners.lacam import build_timetable_if_possible
-from rightofway.planners.moves import tracks_by_moves
-from rightofway.planners.prioritized import fleet_search
+from rightofway.planners.moves import find_tracks_by_moves
+from rightofway.planners.prioritized import make_fleet_search
 from rightofway.precedence import ActionDependencyGraph
 from rightofway.search import Distances, plan_by_lacam
 from rightofway.site import Roadmap, VertexId
@@ -308,16 +308,16 @@ def _by_turns(
     tracks: Sequence[Track] = ()
     ends = [itinerary.last for itinerary in problem.itineraries]
     if not any(clashes(problem.resources, ends)):
-        search = fleet_search(task)
-        turns = sorted(range(len(rest.robots)), key=search.alone().tolist().__getitem__)
+        search = make_fleet_search(task)
+        turns = sorted(range(len(rest.robots)), key=search.compute_alone().tolist().__getitem__)
         searches, limit = SEARCHES * len(turns), deadline.sooner(SHARE).seconds_left()
         if search.prioritize(turns, searches=searches, time_limit=limit):
-            tracks = search.tracks()
+            tracks = search.list_tracks()
     if tracks:
         return tracks
     if problem.resources.are_points:  # its order of visits may keep the closures
         return _together(rest, cut_off, seed, deadline)
-    return tracks_by_moves(task, ends_anywhere=cut_off, most_states=MOST_STATES)
+    return find_tracks_by_moves(task, ends_anywhere=cut_off, most_states=MOST_STATES)
 
 
 def _choices(

@@ -213,14 +213,14 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
 
 def _optimal_lengths(scenario: Scenario) -> Iterator[int]:
     """Yield for each robot the moves on a shortest path from its home to its target."""
-    from rightofway.metrics import alone_completions
+    from rightofway.metrics import compute_alone_completions
 
     robots = [Robot(name=robot.name, home=robot.home, stops=(Stop(at=robot.stops[0].at),))
               for robot in scenario.robots]  # fmt: skip
     there_and_back = Scenario(
         roadmap=scenario.roadmap, robots=tuple(robots), rules=Rules(turn=Fraction(0))
     )
-    return (moves // 2 for moves in alone_completions(there_and_back))
+    return (moves // 2 for moves in compute_alone_completions(there_and_back))
 
 
 def _grid_of(roadmap: Roadmap) -> Grid:

@@ -22,7 +22,7 @@ from typing import Any
 
 from rightofway.arguments import checks_arguments, value_of
 from rightofway.io.text import json_line
-from rightofway.metrics.events import events
+from rightofway.metrics.events import list_events
 from rightofway.model import Plan, Stays, Track
 
 FRAME = "map"
@@ -196,7 +196,7 @@ def _events(plan: Plan) -> str:
     headings = [
         {pose.visit: pose.heading for pose in site.poses(robot)} for robot in range(len(robots))
     ]
-    for event in events(plan):
+    for event in list_events(plan):
         stays, robot, now = site.stays[event.robot], event.robot, int(event.enter)
         dwell, drive = int(stays.dwell[event.visit]), int(stays.drive[event.visit])
         goes = headings[robot][event.visit]

@@ -1,26 +1,26 @@
 """What a plan costs and must cost at least, what robots lose and where, what hurts on a site."""
 
-from rightofway.metrics.alone import alone_completions
-from rightofway.metrics.changes import Change, changes
+from rightofway.metrics.alone import compute_alone_completions
+from rightofway.metrics.changes import Change, find_changes
 from rightofway.metrics.collisions import (
     Collision,
     NamedCollision,
     NearMiss,
     Swap,
-    collisions,
+    find_collisions,
+    find_near_misses,
+    find_swaps,
     free_running,
     name_collisions,
-    near_misses,
-    swaps,
 )
 from rightofway.metrics.comparison import MAX_COMPARED, Comparison, compare
-from rightofway.metrics.events import Event, event_columns, events
+from rightofway.metrics.events import Event, list_events, make_event_columns
 from rightofway.metrics.forced_losses import ForcedLoss, find_forced_losses
 from rightofway.metrics.inspection import inspect
-from rightofway.metrics.lost_time import join_waits, lost_time
+from rightofway.metrics.lost_time import compute_lost_time, join_waits
 from rightofway.metrics.measure import Metrics, measure
-from rightofway.metrics.outcome import outcome_of
-from rightofway.metrics.site import HEADINGS, Finding, Inspection, Site, sentences
+from rightofway.metrics.outcome import derive_outcome
+from rightofway.metrics.site import HEADINGS, Finding, Inspection, Site, describe_site
 from rightofway.metrics.waits import waits
 
 __all__ = [
@@ -38,22 +38,22 @@ __all__ = [
     "NearMiss",
     "Site",
     "Swap",
-    "alone_completions",
-    "changes",
-    "collisions",
     "compare",
-    "event_columns",
-    "events",
+    "compute_alone_completions",
+    "compute_lost_time",
+    "derive_outcome",
+    "describe_site",
+    "find_changes",
+    "find_collisions",
     "find_forced_losses",
+    "find_near_misses",
+    "find_swaps",
     "free_running",
     "inspect",
     "join_waits",
-    "lost_time",
+    "list_events",
+    "make_event_columns",
     "measure",
     "name_collisions",
-    "near_misses",
-    "outcome_of",
-    "sentences",
-    "swaps",
     "waits",
 ]

@@ -9,13 +9,13 @@ import numpy as np
 from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
 from rightofway.model import Scenario, Tick
-from rightofway.search import least_completions
+from rightofway.search import compute_least_completions
 from rightofway.search.missing_ways import find_missing_ways
 
 
 @checks_arguments
 @lru_cache(maxsize=4)
-def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
+def compute_alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
     """Return each robot's least completion time without the others, and without closures.
 
     Parameters
@@ -38,7 +38,7 @@ def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
     The latest answers are kept. A plan that was made in this process brings its own figures, which
     the planner computed.
     """
-    ticks = least_completions(scenario)
+    ticks = compute_least_completions(scenario)
     assert ticks is not None, "no time limit was given"
     stranded = np.flatnonzero(ticks < 0).tolist()
     if stranded:

@@ -62,7 +62,7 @@ class Change:
 
 
 @checks_arguments
-def changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
+def find_changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
     """Return in what a scenario differs from another one.
 
     Parameters

@@ -31,7 +31,7 @@ class BookedPlaces:
     end: NDArray[np.int64]  # [ticks]
 
 
-def bookings_of(
+def list_bookings(
     scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> BookedPlaces:
     """Return what a fleet books under the scenario's rules."""
@@ -83,7 +83,7 @@ class Collision:
 
 
 @checks_arguments
-def collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, ...]:
+def find_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, ...]:
     """Return where bookings of any tracks overlap, by start, then by robots.
 
     Parameters
@@ -98,7 +98,7 @@ def collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, 
     The paper's list counts the ticks of these intervals one by one.
     """
     one_for_each(scenario.robots, tracks=tracks)
-    bookings = bookings_of(scenario, tracks, stays_of(scenario, tracks))
+    bookings = list_bookings(scenario, tracks, stays_of(scenario, tracks))
     columns = (bookings.vertex, bookings.start, bookings.end, bookings.robot)
     collisions_at_vertex: list[Collision] = []
     open_bookings: list[tuple[int, int, int]] = []  # of the vertex, those that have not ended yet
@@ -145,7 +145,7 @@ class Swap:
 
 
 @checks_arguments
-def swaps(tracks: Sequence[Track]) -> tuple[Swap, ...]:
+def find_swaps(tracks: Sequence[Track]) -> tuple[Swap, ...]:
     """Return where two robots of any tracks exchange vertices, by tick, then by robots.
 
     Parameters
@@ -198,7 +198,7 @@ class NearMiss:
 
 
 @checks_arguments
-def near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, ...]:
+def find_near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, ...]:
     """Return where robots of any tracks are too near for their sizes, by start, then by robots.
 
     Parameters
@@ -267,8 +267,11 @@ def name_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NamedC
         One track for each robot.
     """
     name, place = [robot.name for robot in scenario.robots], scenario.roadmap.name
-    meetings: list[Collision | Swap | NearMiss] = [*collisions(scenario, tracks), *swaps(tracks)]
-    meetings += near_misses(scenario, tracks)
+    meetings: list[Collision | Swap | NearMiss] = [
+        *find_collisions(scenario, tracks),
+        *find_swaps(tracks),
+    ]
+    meetings += find_near_misses(scenario, tracks)
     rows = []
     for meeting in meetings:
         i, j = (name[robot] for robot in meeting.robots)

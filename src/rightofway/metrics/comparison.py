@@ -14,7 +14,7 @@ from typing import Any
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
-from rightofway.metrics.changes import Change, changes
+from rightofway.metrics.changes import Change, find_changes
 from rightofway.metrics.measure import measure
 from rightofway.model import Plan
 from rightofway.quantities import Units, decimal
@@ -146,7 +146,7 @@ def compare(plans: Sequence[Plan], titles: Sequence[str] = ()) -> Comparison:
         tick=common,
         scales=tuple(int(tick / common) for tick in ticks),
         robots=tuple(dict.fromkeys(name for plan in plans for name in _names(plan))),
-        changes=tuple(changes(first, plan.scenario) for plan in plans),
+        changes=tuple(find_changes(first, plan.scenario) for plan in plans),
     )
 
 

@@ -40,7 +40,7 @@ class Ways:
     steps: list[list[int]]
     even: int = 0
 
-    def beside(self, vertex: int) -> set[int]:
+    def find_neighbours(self, vertex: int) -> set[int]:
         """Return the vertices that an edge joins to a vertex, in either direction."""
         return {*self.along[vertex], *self.against[vertex]}
 
@@ -206,7 +206,7 @@ class Corridor:
     steps: int
 
 
-def corridors(ways: Ways) -> list[Corridor]:
+def find_corridors(ways: Ways) -> list[Corridor]:
     """Return all corridors, the longest first.
 
     A ring is none, also where one vertex joins it to the rest: robots pass each other on it.

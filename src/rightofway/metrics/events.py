@@ -1,8 +1,8 @@
 """The visits of a plan as a list for people and programs: robot, place, time, purpose.
 
 A visit is one row: a robot enters a place, does there what it came for, perhaps waits for another
-robot, and leaves. `event_columns` is the one table of which `Plan.to_dataframe`, files and reports
-are made.
+robot, and leaves. `make_event_columns` is the one table of which `Plan.to_dataframe`, files and
+reports are made.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
-from rightofway.metrics.lost_time import join_waits, lost_time
+from rightofway.metrics.lost_time import compute_lost_time, join_waits
 from rightofway.model import Loss, Plan, Scenario, Stays, Tick
 from rightofway.site import VertexId
 
@@ -57,7 +57,7 @@ class Event(NamedTuple):
 
 
 @checks_arguments
-def events(plan: Plan) -> tuple[Event, ...]:
+def list_events(plan: Plan) -> tuple[Event, ...]:
     """Return the visits of all robots, by robot and in order.
 
     Parameters
@@ -67,7 +67,7 @@ def events(plan: Plan) -> tuple[Event, ...]:
     """
     stays = plan.stays
     try:
-        losses = [loss for lost in lost_time(plan) for loss in lost.losses]
+        losses = [loss for lost in compute_lost_time(plan) for loss in lost.losses]
     except NoPlanExists:  # a robot has no way, so nothing is known but its waits
         losses = list(join_waits(plan.scenario, plan.tracks, stays))
     of_robot: list[list[Loss]] = [[] for _ in stays]
@@ -137,7 +137,7 @@ def _purposes(scenario: Scenario, robot: int, stay: Stays, n_visits: int) -> dic
 
 
 @checks_arguments
-def event_columns(plan: Plan, chosen: Iterable[Event] | None = None) -> dict[str, list[Any]]:
+def make_event_columns(plan: Plan, chosen: Iterable[Event] | None = None) -> dict[str, list[Any]]:
     """Return visits as named columns, for a data frame or a file.
 
     Parameters
@@ -155,7 +155,7 @@ def event_columns(plan: Plan, chosen: Iterable[Event] | None = None) -> dict[str
         unit]; ``enter_tick``, ``leave_tick`` and ``wait_ticks`` are the exact values [ticks]. A
         last visit has no ``leave``, a visit without a reason to wait no ``waits_for``.
     """
-    rows: Sequence[Event] = tuple(events(plan) if chosen is None else chosen)
+    rows: Sequence[Event] = tuple(list_events(plan) if chosen is None else chosen)
     scenario, tick = plan.scenario, plan.scenario.problem.clock.tick
     names = [robot.name for robot in scenario.robots]
     place = scenario.roadmap.name

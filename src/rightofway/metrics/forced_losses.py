@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import Deadline
-from rightofway.metrics.collisions import collisions, near_misses, swaps
+from rightofway.metrics.collisions import find_collisions, find_near_misses, find_swaps
 from rightofway.model import Objective, Scenario, Tick, Track, checked_time_limit
 from rightofway.model.outcome import minimized
-from rightofway.search import Bookings, ConflictBasedSearch, Distances, earliest_track
+from rightofway.search import Bookings, ConflictBasedSearch, Distances, find_earliest_track
 from rightofway.site import VertexId
 
 MOST_PAIRS = 200
@@ -88,7 +88,7 @@ def _alone(scenario: Scenario) -> list[Track] | None:
     """Return the best track of each robot alone; None if one has none."""
     distances, tracks = Distances(scenario.roadmap), []
     for robot in range(len(scenario.robots)):
-        track = earliest_track(robot, Bookings(scenario.problem), distances)
+        track = find_earliest_track(robot, Bookings(scenario.problem), distances)
         if track is None:
             return None
         tracks.append(track)
@@ -97,10 +97,10 @@ def _alone(scenario: Scenario) -> list[Track] | None:
 
 def _meetings(scenario: Scenario, tracks: list[Track]) -> dict[tuple[int, int], VertexId]:
     """Return the pairs that meet on their tracks, and where they do first, in order of time."""
-    of_points = [(hit.start, hit.robots, hit.vertex) for hit in collisions(scenario, tracks)]
-    head_on = [(swap.tick, swap.robots, swap.vertices[0]) for swap in swaps(tracks)]
+    of_points = [(hit.start, hit.robots, hit.vertex) for hit in find_collisions(scenario, tracks)]
+    head_on = [(swap.tick, swap.robots, swap.vertices[0]) for swap in find_swaps(tracks)]
     of_sizes = [
-        (miss.start, miss.robots, miss.places[0][0]) for miss in near_misses(scenario, tracks)
+        (miss.start, miss.robots, miss.places[0][0]) for miss in find_near_misses(scenario, tracks)
     ]
     first: dict[tuple[int, int], VertexId] = {}
     for _, robots, vertex in sorted([*of_points, *head_on, *of_sizes]):

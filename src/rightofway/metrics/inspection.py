@@ -18,7 +18,7 @@ from rightofway.errors import listed
 from rightofway.metrics.connectivity import (
     Corridor,
     Ways,
-    corridors,
+    find_corridors,
     find_separations,
     find_strong_parts,
     list_ways,
@@ -26,7 +26,7 @@ from rightofway.metrics.connectivity import (
     measure_route_load,
     reach_from,
 )
-from rightofway.metrics.nearness import nearness, round_distance
+from rightofway.metrics.nearness import find_nearness, round_distance
 from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, list_trip
 from rightofway.phrases import Phrase, counted
 from rightofway.quantities import decimal
@@ -88,7 +88,7 @@ def inspect(site: Site) -> Inspection:
     findings = [
         *_impossible_trips(site, ways, parts),
         *_outside(site, ways, parts),
-        *nearness(site),
+        *find_nearness(site),
         *_on_the_way(site, ways, main, apart, load=load, total=total),
         *_corridors(site, ways, main, load, total),
         *_bottlenecks(site, ways, load, total, named=len(places) > 1),
@@ -163,7 +163,7 @@ def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) ->
                         goal=site.name(goal),
                     ),
                     remedy=Phrase("add a lane, or give it another home or stop"),
-                    vertices=site.names((start, goal)),
+                    vertices=site.list_names((start, goal)),
                     robots=(robot.name,),
                 )
 
@@ -182,7 +182,8 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
     for kind, findings_of_kind in kinds:
         pieces, seen = list[list[int]](), set[int]()
         beside = {
-            vertex: ways.beside(vertex) & findings_of_kind for vertex in sorted(findings_of_kind)
+            vertex: ways.find_neighbours(vertex) & findings_of_kind
+            for vertex in sorted(findings_of_kind)
         }
         for vertex in beside:
             if vertex not in seen:
@@ -214,7 +215,7 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
                 remedy=Phrase("make a way wide enough for a cell, or ignore it")
                 if site.roadmap.has_cells
                 else OUTSIDE_REMEDIES[kind][len(piece) > 1],
-                vertices=site.names(piece),
+                vertices=site.list_names(piece),
             )
 
 
@@ -275,7 +276,7 @@ def _on_the_way(
                 others=others,
             ),
             remedy=remedy(vertex),
-            vertices=site.names((vertex, *few)),
+            vertices=site.list_names((vertex, *few)),
         )
     busy = [vertex for vertex in inside if vertex in site.homes and _is_busy(load, total, vertex)]
     for vertex in sorted(busy, key=lambda busy_vertex: (-load[busy_vertex], busy_vertex)):
@@ -290,7 +291,7 @@ def _on_the_way(
                     share=_percent(load[vertex] / total),
                 ),
                 remedy=remedy(vertex),
-                vertices=site.names((vertex,)),
+                vertices=site.list_names((vertex,)),
             )
 
 
@@ -308,7 +309,7 @@ def _corridors(
         return max(load.get(vertex, 0) for vertex in corridor.inside)
 
     long_ones = [
-        corridor for corridor in corridors(ways) if len(corridor.inside) > 1 and use(corridor)
+        corridor for corridor in find_corridors(ways) if len(corridor.inside) > 1 and use(corridor)
     ]
     long_ones = [corridor for corridor in long_ones if main.issuperset(corridor.ends)]
     scale = _length_of_a_step(site.roadmap, ways)
@@ -347,7 +348,7 @@ def _corridors(
                 else Phrase("there is a way round"),
             ),
             remedy=Phrase("add a passing place in the middle, or make it one-way with a way back"),
-            vertices=site.names((ends[0], *corridor.inside, ends[1])),
+            vertices=site.list_names((ends[0], *corridor.inside, ends[1])),
             robots=tuple(using) if is_only else (),
         )
 
@@ -379,7 +380,7 @@ def _bottlenecks(
 ) -> Iterator[Finding]:
     """Yield the busiest vertex of each connected set of vertices that many shortest routes pass."""
     busy = {vertex for vertex in load if _is_busy(load, total, vertex)}
-    beside = {vertex: ways.beside(vertex) & busy for vertex in busy}
+    beside = {vertex: ways.find_neighbours(vertex) & busy for vertex in busy}
     seen = set[int]()
     for vertex in sorted(busy, key=lambda busy_vertex: (-load[busy_vertex], busy_vertex)):
         if vertex in seen:
@@ -418,7 +419,7 @@ def _bottlenecks(
             severity="note",
             fact=fact,
             remedy=Phrase("add a second way, or spread the places"),
-            vertices=site.names((vertex, *sorted(around - {vertex}))),
+            vertices=site.list_names((vertex, *sorted(around - {vertex}))),
         )
 
 

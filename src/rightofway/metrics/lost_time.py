@@ -20,9 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments, one_for_each
-from rightofway.metrics.collisions import BookedPlaces, bookings_of
+from rightofway.metrics.collisions import BookedPlaces, list_bookings
 from rightofway.metrics.measure import measure
-from rightofway.metrics.waits import NOBODY, freed_by
+from rightofway.metrics.waits import NOBODY, find_freeing_visits
 from rightofway.model import (
     Itinerary,
     Loss,
@@ -46,7 +46,7 @@ Bound = tuple[int, int, int]
 possible, and that robot's visit; the last two are `NOBODY` for a wait without a cause."""
 
 
-def lost_time(plan: Plan) -> tuple[LostTime, ...]:
+def compute_lost_time(plan: Plan) -> tuple[LostTime, ...]:
     """Return what each robot loses to others: how much, where and for which robot.
 
     Parameters
@@ -70,7 +70,7 @@ def lost_time(plan: Plan) -> tuple[LostTime, ...]:
 def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
     scenario, tracks, alone = plan.scenario, plan.tracks, measure(plan).alone
     stays = plan.stays
-    bookings = bookings_of(scenario, tracks, stays)
+    bookings = list_bookings(scenario, tracks, stays)
     losses: defaultdict[int, list[Loss]] = defaultdict(list)
     for loss in join_waits(scenario, tracks, stays):
         losses[loss.robot].append(loss)
@@ -128,7 +128,7 @@ def _joined_waits(
     vertex = [
         VertexId(vertex) for vertex in np.concatenate([track.vertices for track in tracks]).tolist()
     ]
-    frees = freed_by(scenario, tracks, stays)
+    frees = find_freeing_visits(scenario, tracks, stays)
     visits = np.flatnonzero(waiting > 0)
     bound = _next_bound(frees, robot)[visits + 1]
     joined: list[Bound] = []  # visits: of the wait, bound by the other robot, its own

@@ -6,7 +6,7 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from rightofway.metrics.alone import alone_completions
+from rightofway.metrics.alone import compute_alone_completions
 from rightofway.model import Plan, Tick
 from rightofway.model.given import checked_plan
 
@@ -80,7 +80,7 @@ def measure(plan: Plan) -> Metrics:
 def _measured(plan: Plan) -> Metrics:
     stays = plan.stays
     completions = tuple(stay.completion for stay in stays)
-    alone = plan.run.alone or alone_completions(plan.scenario)
+    alone = plan.run.alone or compute_alone_completions(plan.scenario)
     return Metrics(
         flowtime=Tick(sum(completions)),
         makespan=max(completions),

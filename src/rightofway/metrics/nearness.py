@@ -28,7 +28,7 @@ MOST_NAMED = 200
 """The most vertices that a finding names."""
 
 
-def nearness(site: Site) -> Iterator[Finding]:
+def find_nearness(site: Site) -> Iterator[Finding]:
     """Yield vertices, lanes and walls nearer than robots are wide, and lanes that cross."""
     yield from _beside_walls(site)
     yield from _near(site)
@@ -56,7 +56,7 @@ def _beside_walls(site: Site) -> Iterator[Finding]:
                 remedy=Phrase(
                     "set walls: strict, so that it keeps out of them, or take larger cells"
                 ),
-                vertices=site.names(reaches[:MOST_NAMED]),
+                vertices=site.list_names(reaches[:MOST_NAMED]),
                 robots=tuple(robot.name for robot in site.robots if robot.radius == radius),
             )
 
@@ -120,12 +120,12 @@ def _near(site: Site) -> Iterator[Finding]:
             else TAKE_TURNS
             if vertex in joints
             else Phrase("a robot on one blocks the other; move one"),
-            vertices=site.names((vertex, tail, head)),
+            vertices=site.list_names((vertex, tail, head)),
         )
     for lanes in pairs.crossings:
         first, other = (
             Phrase("{tail} to {head}", tail=tail, head=head)
-            for tail, head in map(site.names, lanes)
+            for tail, head in map(site.list_names, lanes)
         )
         yield Finding(
             kind="crossing",
@@ -138,7 +138,7 @@ def _near(site: Site) -> Iterator[Finding]:
             else Phrase(
                 "draw a vertex there, or give robots a radius: without one they do not give way"
             ),
-            vertices=site.names(vertex for lane in lanes for vertex in lane),
+            vertices=site.list_names(vertex for lane in lanes for vertex in lane),
         )
 
 
@@ -187,7 +187,7 @@ def _near_vertices(
             else Phrase("move one, or use smaller robots")
             if are_drawn
             else TAKE_TURNS,
-            vertices=site.names((first, other)),
+            vertices=site.list_names((first, other)),
         )
 
 

@@ -9,7 +9,7 @@ from rightofway.model.outcome import classify_cost
 
 
 @checks_arguments
-def outcome_of(plan: Plan) -> Outcome:
+def derive_outcome(plan: Plan) -> Outcome:
     """Return what its planner has proven of a plan, or what the sum of the robots alone proves.
 
     Parameters

@@ -208,13 +208,13 @@ class Site:
         name = self.roadmap.name(vertex)
         return Phrase("{name} ({what})", name=name, what=place) if place else name
 
-    def names(self, vertices: Iterable[int]) -> tuple[str, ...]:
+    def list_names(self, vertices: Iterable[int]) -> tuple[str, ...]:
         """Return the names of vertices."""
         return tuple(map(self.roadmap.name, vertices))
 
 
 @checks_arguments
-def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
+def describe_site(site: Site, inspection: Inspection) -> tuple[str, ...]:
     """Return how large a site is and how it hangs together, in whole sentences.
 
     Parameters
@@ -228,7 +228,7 @@ def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
     if inspection.one_way:
         number = str(inspection.one_way)
         edges = Phrase("{edges}, {number} of them one-way", edges=edges, number=number)
-    across, down = extent(site.roadmap)
+    across, down = compute_extent(site.roadmap)
     size = Phrase(
         "{vertices}, {edges}, {width} x {height}; {places}.",
         vertices=counted(inspection.vertices, "vertex", "vertices"),
@@ -263,7 +263,7 @@ def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
     return tuple(sentences)
 
 
-def extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:
+def compute_extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:
     """Return how wide and high a roadmap is; cells reach beyond their middles [length unit]."""
     if roadmap.grid is not None:
         grid = roadmap.grid

@@ -43,7 +43,7 @@ def waits_in(
     vertex = np.concatenate([track.vertices for track in tracks])
     begin = enter + np.concatenate([stay.dwell for stay in stays])
     robot = np.repeat(np.arange(len(tracks)), lengths)
-    frees = freed_by(scenario, tracks, stays)
+    frees = find_freeing_visits(scenario, tracks, stays)
     visit = np.flatnonzero(waiting > 0)
     visit = visit[np.lexsort((robot[visit], begin[visit]))]
     columns = (
@@ -69,7 +69,9 @@ def waits_in(
     )
 
 
-def freed_by(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]) -> Visits:
+def find_freeing_visits(
+    scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
+) -> Visits:
     """Return, for each visit, the visit of another robot whose right of way binds it.
 
     A right of way binds where the second visit begins to book as soon as the first one, and the
@@ -85,7 +87,7 @@ def freed_by(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
         book_times(scenario.problem, tracks, stays),
     )
     robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
-    first, second = rights_of_way(scenario, tracks, stays).T
+    first, second = list_rights_of_way(scenario, tracks, stays).T
     # Where rotations are forbidden, planners keep one tick between two bookings of a vertex.
     gap = rules.to_plan_with().end(0) - rules.end(0)
     binds = np.isin(start[second] - end[first], (0, gap)) & (robot[first] != robot[second])
@@ -94,7 +96,9 @@ def freed_by(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
     return frees
 
 
-def rights_of_way(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]) -> Pairs:
+def list_rights_of_way(
+    scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
+) -> Pairs:
     """Return which visit goes before which, as the tracks have it, by the second visit.
 
     Returns

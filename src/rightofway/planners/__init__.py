@@ -17,12 +17,12 @@ from rightofway.planners.options import (
     RandomPriorityOptions,
     TwoLevelOptions,
 )
-from rightofway.planners.registry import DEFAULT_PLANNER, IMPROVER, PlannerSpec, find, registered
+from rightofway.planners.registry import DEFAULT_PLANNER, IMPROVER, PlannerSpec, find, find_all
 from rightofway.planners.task import (
     Draft,
     Planner,
     Task,
-    planning_problem,
+    make_planning_problem,
 )
 
 __all__ = [
@@ -49,6 +49,6 @@ __all__ = [
     "Task",
     "TwoLevelOptions",
     "find",
-    "planning_problem",
-    "registered",
+    "find_all",
+    "make_planning_problem",
 ]

@@ -19,11 +19,11 @@ from rightofway.model import Proof, Tick, Track, cost_of
 from rightofway.model.outcome import minimized
 from rightofway.phrases import Phrase, counted
 from rightofway.planners.bounds import SHARE as SHARE_OF_NODES
-from rightofway.planners.bounds import bound_by_prices
+from rightofway.planners.bounds import compute_price_bound
 from rightofway.planners.features import refuse_with_swaps_left
 from rightofway.planners.impossible import find_blocking_set
-from rightofway.planners.lns import improved, lns
-from rightofway.planners.prioritized import fleet_search
+from rightofway.planners.lns import improve_best, lns
+from rightofway.planners.prioritized import make_fleet_search
 from rightofway.planners.task import Draft, Task
 from rightofway.planners.two_level import paper, two_level
 from rightofway.search import ConflictBasedSearch
@@ -59,7 +59,7 @@ def auto(task: Task) -> Draft:
     prover = _Prover(task)
     first = _explained(task)
     if first is not None:
-        first = prover.proven(first, FIRST_NODES, SHARE_OF_FIRST_NODES)
+        first = prover.prove(first, FIRST_NODES, SHARE_OF_FIRST_NODES)
         if _is_optimal(task, first):
             return first
     try:
@@ -67,15 +67,15 @@ def auto(task: Task) -> Draft:
     except GaveUp:
         if len(task.scenario.robots) > FEW:
             raise
-        optimum = prover.searched()
+        optimum = prover.search()
         if optimum is None:
             raise
         return optimum
     is_interrupted = better.improvement is not None and better.improvement.interrupted
     if is_interrupted or _is_optimal(task, better):
         return better
-    better = prover.proven(better, task.options["nodes"], SHARE_OF_NODES)
-    return better if _is_optimal(task, better) else prover.priced(better)
+    better = prover.prove(better, task.options["nodes"], SHARE_OF_NODES)
+    return better if _is_optimal(task, better) else prover.prove_by_prices(better)
 
 
 def _explained(task: Task) -> Draft | None:
@@ -104,7 +104,7 @@ def _improved(task: Task, first: Draft | None) -> Draft:
         return lns(task)
     try:
         if task.start is None:
-            better = improved(task, fleet_search(task), first=first)
+            better = improve_best(task, make_fleet_search(task), first=first)
         else:
             better = replace(lns(replace(task, start=first.tracks)), proof=first.proof)
     except GaveUp:
@@ -122,7 +122,7 @@ class _Prover:
         self._whole = task.deadline.seconds_left()
         self._search: ConflictBasedSearch | None = None
 
-    def proven(self, draft: Draft, nodes: int, share: float = 1.0) -> Draft:
+    def prove(self, draft: Draft, nodes: int, share: float = 1.0) -> Draft:
         """Return a plan with what is proven of it, or the optimum."""
         task = self._task
         search = self._run(nodes, share, upper=_cost(task, draft.tracks))
@@ -141,17 +141,17 @@ class _Prover:
             draft = replace(draft, status=status)
         return replace(draft, proof=proof)
 
-    def priced(self, draft: Draft) -> Draft:
+    def prove_by_prices(self, draft: Draft) -> Draft:
         """Return a plan with a bound by prices of places, where that is higher."""
         task = self._task
         if not self._has_time():
             return draft
-        least = bound_by_prices(task.scenario, task.deadline, task.options["nodes"])
+        least = compute_price_bound(task.scenario, task.deadline, task.options["nodes"])
         if draft.proof is not None and draft.proof.bound >= least:
             return draft
         return replace(draft, proof=Proof(bound=least, objective=minimized(task.scenario)))
 
-    def searched(self) -> Draft | None:
+    def search(self) -> Draft | None:
         """Return the optimum of a fleet of which no plan is known; None if none was found.
 
         Raises

@@ -46,11 +46,11 @@ def prove_bound(
         raise NoPlanExists("the tree of constraints ends without a plan")
     least, is_reached = search.bound, search.tracks is not None
     if not is_reached:
-        least = max(least, bound_by_prices(scenario, deadline, steps))
+        least = max(least, compute_price_bound(scenario, deadline, steps))
     return Proof(bound=least, objective=minimized(scenario)), is_reached
 
 
-def bound_by_prices(scenario: Scenario, deadline: Deadline, steps: int) -> Tick:
+def compute_price_bound(scenario: Scenario, deadline: Deadline, steps: int) -> Tick:
     """Return a lower bound by prices of places."""
     prices = PriceAscent(scenario.problem)
     prices.run(steps=steps or None, time_limit=deadline.seconds_left())

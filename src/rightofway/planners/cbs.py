@@ -36,10 +36,10 @@ from rightofway.model import Proof, Tick, completions_of, cost_of
 from rightofway.model.outcome import Objective, minimized
 from rightofway.phrases import Phrase, counted
 from rightofway.planners.impossible import find_blocking_set
-from rightofway.planners.lns import improved
-from rightofway.planners.prioritized import fleet_search
+from rightofway.planners.lns import improve_best
+from rightofway.planners.prioritized import make_fleet_search
 from rightofway.planners.task import Draft, Task
-from rightofway.search import ConflictBasedSearch, least_completions
+from rightofway.search import ConflictBasedSearch, compute_least_completions
 
 SHARE = 0.25
 """The part of the time for the first plan."""
@@ -153,7 +153,7 @@ def _of_least_makespan(task: Task, first: Draft) -> Draft:
     """
     scenario, factor = task.scenario, Fraction(task.options["suboptimality"])
     tracks, best = first.tracks, max(completions_of(scenario, first.tracks))
-    alone = least_completions(scenario)
+    alone = compute_least_completions(scenario)
     assert alone is not None, "there is no time limit"
     bound = tried = latest = int(alone.max())  # no plan is below the bound; no tick is tried again
     left = task.options["nodes"] or None
@@ -200,6 +200,6 @@ def _first_plan(task: Task) -> Draft | None:
         task, options={"iterations": iterations}, deadline=task.deadline.sooner(SHARE)
     )
     try:
-        return improved(hurried, fleet_search(hurried))
+        return improve_best(hurried, make_fleet_search(hurried))
     except GaveUp:
         return None

@@ -22,9 +22,9 @@ from rightofway.errors import GaveUp
 from rightofway.model import Decision, Reroute, Route, Tick, Track
 from rightofway.phrases import Phrase
 from rightofway.planners.lacam import plan_fleet
-from rightofway.planners.prioritized import fleet_search, plan_in_turn
-from rightofway.planners.routing import shortest_route
-from rightofway.planners.task import Draft, Task, planning_problem
+from rightofway.planners.prioritized import make_fleet_search, plan_in_turn
+from rightofway.planners.routing import find_shortest_route
+from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.precedence import (
     Meeting,
     PrecedenceGraph,
@@ -33,7 +33,7 @@ from rightofway.precedence import (
     graph_of,
     graph_on,
 )
-from rightofway.search import Booking, Bookings, Distances, earliest_track
+from rightofway.search import Booking, Bookings, Distances, find_earliest_track
 
 SHARE = 0.8
 """The part of the time for rights of way; the rest is for planning the whole fleet."""
@@ -89,7 +89,7 @@ class PartialPlan:
         self.deferred: dict[int, str] = {}
         self.decisions: list[Decision] = []
         self.graph = graph or graph_on(
-            planning_problem(task.scenario), routes, forbid_swaps=sees_swaps
+            make_planning_problem(task.scenario), routes, forbid_swaps=sees_swaps
         )
 
     def resolve_all(self, rule: Rule) -> None:
@@ -104,7 +104,7 @@ class PartialPlan:
             self.decisions += resolution.decisions
             self.settled[list(meeting.robots)] = 1
 
-    def segment_of(self, meeting: Meeting) -> Segment:
+    def find_segment(self, meeting: Meeting) -> Segment:
         """Return the visits of which one robot goes first in all."""
         if self.sees_swaps:
             return self.graph.segment(*meeting.visits)
@@ -127,7 +127,7 @@ class PartialPlan:
 
     def explain_deadlock(self, meeting: Meeting) -> str:
         """Name the two robots, and the cycle of robots that one of them would close by waiting."""
-        scenario, segment = self.task.scenario, self.segment_of(meeting)
+        scenario, segment = self.task.scenario, self.find_segment(meeting)
         names = [scenario.robots[robot].name for robot in meeting.robots]
         place = scenario.roadmap.name(self.graph.vertex(meeting.visits[0]))
         mark = self.graph.checkpoint()
@@ -243,7 +243,7 @@ def _plan_together(task: Task, because: str) -> Draft:
     robots, problem = range(len(task.scenario.robots)), task.scenario.problem
     draft = None
     if not problem.resources.are_points or not problem.is_open:
-        draft = plan_in_turn(task, fleet_search(task), "shortest")
+        draft = plan_in_turn(task, make_fleet_search(task), "shortest")
     return replace(
         draft or plan_fleet(task),
         status=Phrase("re-routed all robots together"),
@@ -260,15 +260,15 @@ class _Reservations:
         self.distances = distances
         self.itineraries = scenario.problem.itineraries
         self.tracks = tracks
-        self.bookings = Bookings(planning_problem(scenario))
+        self.bookings = Bookings(make_planning_problem(scenario))
         for robot, track in tracks.items():
             self.bookings.add(robot, track)
 
     def hold_home(self, robot: int) -> None:
         """Book the home of a robot without a track for a while, so that it can leave."""
         itinerary = self.itineraries[robot]
-        row = self.bookings.vertex_row(robot, itinerary.home)
-        booked = [booking for booking in self.bookings.at(row) if booking.robot != robot]
+        row = self.bookings.get_vertex_row(robot, itinerary.home)
+        booked = [booking for booking in self.bookings.list_bookings(row) if booking.robot != robot]
         hold = Tick(START_HOLD * max(itinerary.edge_ticks, default=0))
         end = min([hold, *(booking.start for booking in booked)])
         if end > 0:
@@ -278,7 +278,7 @@ class _Reservations:
         """Give a robot its earliest track among the others, if there is one."""
         self.bookings.release(robot)
         left = self.task.deadline.seconds_left()
-        track = earliest_track(robot, self.bookings, self.distances, time_limit=left)
+        track = find_earliest_track(robot, self.bookings, self.distances, time_limit=left)
         if track is None:
             self.hold_home(robot)
             return False
@@ -294,7 +294,7 @@ class _Reservations:
             self.hold_home(robot)
         return evicted
 
-    def blockers(self, robot: int) -> set[int]:
+    def find_blockers(self, robot: int) -> set[int]:
         """Return the robots in the way of this one on its shortest route without waits.
 
         With closures: on its best track among them.
@@ -303,12 +303,12 @@ class _Reservations:
         track = None
         if self.bookings.problem.closures is not None:
             alone = Bookings(self.bookings.problem)
-            track = earliest_track(robot, alone, self.distances)
+            track = find_earliest_track(robot, alone, self.distances)
         if track is None:
-            route = shortest_route(self.bookings.problem.roadmap, itinerary, self.distances)
+            route = find_shortest_route(self.bookings.problem.roadmap, itinerary, self.distances)
             enter = accumulate(map(route.least, range(len(route) - 1)), initial=0)
             track = Track.of(route.vertices, list(enter))
-        return self.bookings.in_the_way(robot, track)
+        return self.bookings.find_blockers(robot, track)
 
 
 def reroute(
@@ -345,7 +345,7 @@ def reroute(
             continue
         more = draw.sample(sorted(tracks), min(failures[robot], len(tracks)))
         failures[robot] += 1
-        evicted = table.evict(table.blockers(robot).union(more))
+        evicted = table.evict(table.find_blockers(robot).union(more))
         draw.shuffle(evicted)
         made_way = dict.fromkeys(evicted, robot) | made_way
         waiting.extend(evicted if table.place(robot) else [robot, *evicted])

@@ -14,8 +14,8 @@ from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp
 from rightofway.model import Plan, Tick, Track, completions_of
 from rightofway.planners.local_search import LocalSearch
-from rightofway.planners.prioritized import fleet_search
-from rightofway.planners.task import Task, planning_problem
+from rightofway.planners.prioritized import make_fleet_search
+from rightofway.planners.task import Task, make_planning_problem
 from rightofway.precedence import PrecedenceGraph, graph_of
 
 SEARCHES = 100
@@ -38,7 +38,7 @@ class Flipped:
     keeps_routes: bool
 
 
-def flipped(
+def flip_right_of_way(
     plan: Plan, waits: int, goes_first: int, tick: Tick, *, time_limit: float | None = None
 ) -> Flipped:
     """Return the timetable of a plan in which a robot that waits goes first instead.
@@ -61,7 +61,7 @@ def flipped(
         remedy = "plan again with a planner that leaves none"
         raise GaveUp(f"the plan has {judged.summary}: no right of way can be flipped ({remedy})")
     task = Task(scenario=scenario, deadline=Deadline.after(time_limit))
-    graph = graph_of(planning_problem(scenario), plan.tracks)
+    graph = graph_of(make_planning_problem(scenario), plan.tracks)
     rights = [
         (first, second)
         for first, second in graph.rights_of(waits)
@@ -97,7 +97,7 @@ def _on_other_routes(
     task: Task, plan: Plan, waits: int, goes_first: int
 ) -> tuple[Track, ...] | None:
     """Return a plan in which one robot is planned before another; None if it is not home sooner."""
-    search = fleet_search(task)
+    search = make_fleet_search(task)
     old_tracks = [
         None if robot in {waits, goes_first} else track for robot, track in enumerate(plan.tracks)
     ]
@@ -108,7 +108,7 @@ def _on_other_routes(
     limit = task.deadline.seconds_left()
     if not search.repair([waits, goes_first], searches=SEARCHES, time_limit=limit):
         return None
-    tracks = search.tracks()
+    tracks = search.list_tracks()
     before, after = (completions_of(plan.scenario, fleet)[waits] for fleet in (plan.tracks, tracks))
     is_good = after < before and check(replace(plan, tracks=tracks)).ok
     return tracks if is_good else None

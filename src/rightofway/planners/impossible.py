@@ -30,8 +30,8 @@ from rightofway.phrases import Phrase
 from rightofway.search import (
     Bookings,
     Distances,
-    earliest_track,
-    least_completions,
+    compute_least_completions,
+    find_earliest_track,
     plan_by_lacam,
 )
 from rightofway.search.missing_ways import (
@@ -186,7 +186,7 @@ def _has_track_alone(
     scenario: Scenario, robot: int, distances: Distances, deadline: Deadline
 ) -> bool:
     left = deadline.seconds_left()
-    track = earliest_track(robot, Bookings(scenario.problem), distances, time_limit=left)
+    track = find_earliest_track(robot, Bookings(scenario.problem), distances, time_limit=left)
     return track is not None
 
 
@@ -244,7 +244,7 @@ def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -
     """
     parts, groups = RoadmapParts(scenario.roadmap), defaultdict[frozenset[int], list[int]](list)
     for robot, itinerary in enumerate(scenario.problem.itineraries):
-        groups[parts.of(itinerary.home)].append(robot)
+        groups[parts.find_part(itinerary.home)].append(robot)
     for robots in sorted(groups.values(), key=len) if len(groups) > 1 else ():
         effort = EFFORT // len(groups)
         if _is_blocked(scenario, robots, seed=seed, effort=effort, deadline=deadline):
@@ -292,7 +292,7 @@ def find_smallest_set(
     return left
 
 
-def fleet_of(scenario: Scenario, robots: Iterable[int]) -> Scenario:
+def make_fleet_of(scenario: Scenario, robots: Iterable[int]) -> Scenario:
     """Return some of the robots as a fleet of their own, in the same ticks.
 
     Its rules ask no more of them, so that what has no plan here has none in the whole fleet.
@@ -325,7 +325,7 @@ def explain_no_room(scenario: Scenario, robots: Sequence[int]) -> Blockage:
 
 def put_fleet_at_home(scenario: Scenario) -> Plan:
     """Return a fleet that stays at home, to draw where robots block each other."""
-    alone = least_completions(scenario)
+    alone = compute_least_completions(scenario)
     assert alone is not None, "no time limit was given"
     return Plan(
         scenario=scenario,
@@ -346,7 +346,7 @@ def _is_blocked(
     if len(robots) < 2:  # noqa: PLR2004 (a robot alone is never blocked)
         return False
     left = deadline.seconds_left()
-    fleet = fleet_of(scenario, robots)
+    fleet = make_fleet_of(scenario, robots)
     try:
         plan_by_lacam(
             fleet.problem.in_steps(),
@@ -391,7 +391,7 @@ def _narrow_places(scenario: Scenario, robots: Sequence[int]) -> list[VertexId]:
         places = [itinerary.home, *(stage.vertex for stage in itinerary.stages)]
         passed = dict.fromkeys(places)
         for tail, head in dict.fromkeys(pairwise(places)):
-            for vertex in distances.path(tail, head, itinerary.edge_ticks):
+            for vertex in distances.find_path(tail, head, itinerary.edge_ticks):
                 if vertex not in passed and head not in find_reached_vertices(tail, ends, {vertex}):
                     passed[vertex] = None
         common = passed if common is None else dict.fromkeys(v for v in common if v in passed)

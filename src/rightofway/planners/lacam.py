@@ -32,7 +32,7 @@ from rightofway.planners.impossible import (
     refuse_the_impossible,
 )
 from rightofway.planners.moves import plan_by_moves
-from rightofway.planners.task import Draft, Task, planning_problem
+from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.planners.timed_moves import plan_by_timed_moves
 from rightofway.precedence import graph_on
 from rightofway.search import Distances, FleetSearch, plan_by_lacam
@@ -65,7 +65,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         return moved
     if not problem.resources.are_points:
         task.report(Phrase("no end by instants: planning the order of single moves"))
-        search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
+        search = FleetSearch(make_planning_problem(scenario), seed=task.seed, alone=task.alone)
         return plan_by_moves(task, search)
     if problem.is_open:
         task.report(Phrase("no end by instants: planning the order of moves without clocks"))
@@ -87,7 +87,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         raise GaveUp("time ran out in the search for the whole fleet (give a longer time limit)")
     task.has_plan()
     return Draft(
-        tracks=tuple(timetable_of(scenario, tracks)), status=Phrase("order of moves first")
+        tracks=tuple(build_timetable(scenario, tracks)), status=Phrase("order of moves first")
     )
 
 
@@ -108,7 +108,7 @@ def plan_by_instants(
     refuse_stranded(scenario, ())
     try:
         tracks = plan_by_lacam(
-            planning_problem(scenario),
+            make_planning_problem(scenario),
             seed=task.seed,
             most_effort=most_effort if effort is None else min(effort, most_effort),
             time_limit=task.deadline.sooner(share if robots <= MANY else 1).seconds_left(),
@@ -124,7 +124,7 @@ def plan_by_instants(
     return Draft(tracks=tuple(tracks), status=Phrase("instant by instant"))
 
 
-def timetable_of(scenario: Scenario, tracks: Sequence[Track]) -> list[Track]:
+def build_timetable(scenario: Scenario, tracks: Sequence[Track]) -> list[Track]:
     """Return the earliest tracks that keep the routes and the order of visits of other tracks."""
     visited = [track.vertices.tolist() for track in tracks]
     return build_timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
@@ -151,7 +151,7 @@ def build_timetable_if_possible(
         for itinerary, vertices in zip(scenario.problem.itineraries, visited, strict=True)
     ]
     try:
-        graph = graph_on(planning_problem(scenario), routes)
+        graph = graph_on(make_planning_problem(scenario), routes)
     except ValueError:
         return None
     return graph.tracks() if graph.keeps_order(arrivals) else None

@@ -27,8 +27,8 @@ from rightofway.model import Improvement, Tick, Track, cost_of
 from rightofway.model.outcome import minimized
 from rightofway.phrases import Phrase, chain_items, counted
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
-from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
-from rightofway.planners.task import Draft, Task, planning_problem
+from rightofway.planners.prioritized import MOST_ROBOTS, make_fleet_search, plan_in_turn
+from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 
@@ -61,13 +61,13 @@ UNLIMITED = 2**62
 
 def lns(task: Task) -> Draft:
     """Find a plan or take the one given, and improve it till time is up; options: `LnsOptions`."""
-    search = fleet_search(task)
+    search = make_fleet_search(task)
     if task.start is not None:
         return _improve(task, search, Draft(tracks=task.start, status=Phrase("the plan given")))
-    return improved(task, search)
+    return improve_best(task, search)
 
 
-def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> Draft:
+def improve_best(task: Task, search: FleetSearch, *, first: Draft | None = None) -> Draft:
     """Improve the best of several first plans: the given one, one by LaCAM, one by prioritized."""
     problem = task.scenario.problem
     drafts: tuple[Draft | None, ...]
@@ -147,7 +147,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
     deadline = task.deadline.earlier(retiming * sum(map(len, spaced)))
     weights = [itinerary.weight for itinerary in task.scenario.problem.itineraries]
-    alone, before = int(np.dot(weights, search.alone())), search.cost
+    alone, before = int(np.dot(weights, search.compute_alone())), search.cost
     bound = alone if first.proof is None else max(alone, first.proof.bound)
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED
@@ -163,7 +163,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
             )
             rate = (done - done_before) / (time.perf_counter() - began)
             if search.cost < cost:
-                task.better(search.tracks)
+                task.better(search.list_tracks)
             task.report(_progress(task, search.cost, bound, rate))
             if search.idle >= patience or deadline.seconds_left() == 0:
                 break
@@ -215,7 +215,7 @@ def _found(
 ) -> tuple[Track, ...]:
     """Return what the search found, with the tracks given wherever these are as good."""
     if not is_better:
-        return search.tracks() if task.start is None else first
+        return search.list_tracks() if task.start is None else first
     if task.start is not None:
         search.restore(first)
     return _retimed(task, search)
@@ -229,8 +229,8 @@ def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
     problem = task.scenario.problem
     if problem.closures is None:
         search.retime()
-        return search.tracks()
-    graph = graph_of(planning_problem(task.scenario), search.tracks())
+        return search.list_tracks()
+    graph = graph_of(make_planning_problem(task.scenario), search.list_tracks())
     return tuple(graph.tracks())
 
 
@@ -239,7 +239,7 @@ def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track] | None:
 
     None where a closure begins too soon for it.
     """
-    problem = planning_problem(task.scenario)
+    problem = make_planning_problem(task.scenario)
     if problem is task.scenario.problem:
         return tracks
     try:

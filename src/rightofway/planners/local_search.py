@@ -29,7 +29,7 @@ from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick
 from rightofway.phrases import Phrase, chain_items
 from rightofway.planners.conflict_resolution import list_rights_if_waits
-from rightofway.planners.task import Draft, Task, planning_problem
+from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.planners.two_level import two_level
 from rightofway.precedence import Meeting, PrecedenceGraph, graph_of
 
@@ -56,7 +56,7 @@ def local_search(task: Task) -> Draft:
     task.has_plan()
     task.better(lambda: first.tracks)
     before = graph_of(task.scenario.problem, first.tracks)
-    graph = graph_of(planning_problem(task.scenario), first.tracks)
+    graph = graph_of(make_planning_problem(task.scenario), first.tracks)
     LocalSearch(task, graph).run(rounds=int(task.options["rounds"]))
     if graph.flowtime() > before.flowtime():  # the headway of planning costs more than flips gain
         graph = before
@@ -114,7 +114,7 @@ class LocalSearch:
 
     def perturb(self) -> None:
         """Take two robots of which one delays the other; favour or disfavour one everywhere."""
-        graph, critical = self.graph, list(self.critical_rights())
+        graph, critical = self.graph, list(self.list_critical_rights())
         if not critical:
             return
         first, second = (graph.place(visit)[0] for visit in self.draw.choice(critical))
@@ -130,13 +130,13 @@ class LocalSearch:
         improved = True
         while improved:
             improved = False
-            critical = list(self.critical_rights())
+            critical = list(self.list_critical_rights())
             self.draw.shuffle(critical)
             for first, second in critical:
                 self.task.deadline.check("flipping rights of way")
                 improved |= self.flip(first, second)
 
-    def critical_rights(self) -> Iterator[tuple[int, int]]:
+    def list_critical_rights(self) -> Iterator[tuple[int, int]]:
         """Yield each right of way that makes a robot late, once."""
         late = (r for r, alone in enumerate(self.alone) if self.graph.completion(r) > alone)
         rights = chain.from_iterable(self.graph.critical_rights(robot) for robot in late)

@@ -34,8 +34,8 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Tick, Track, least_dwell
 from rightofway.native import excluded_by
 from rightofway.phrases import Phrase
-from rightofway.planners.impossible import explain_no_room, find_smallest_set, fleet_of
-from rightofway.planners.task import Draft, Task, planning_problem
+from rightofway.planners.impossible import explain_no_room, find_smallest_set, make_fleet_of
+from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.search import Distances, FleetSearch
 from rightofway.site import VertexId
 
@@ -82,10 +82,12 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
     search.start(_in_sequence(task, moves))
     search.retime()
     task.has_plan()
-    return Draft(tracks=search.tracks(), status=Phrase("order of moves first"))
+    return Draft(tracks=search.list_tracks(), status=Phrase("order of moves first"))
 
 
-def tracks_by_moves(task: Task, *, ends_anywhere: Collection[int], most_states: int) -> list[Track]:
+def find_tracks_by_moves(
+    task: Task, *, ends_anywhere: Collection[int], most_states: int
+) -> list[Track]:
     """Return tracks in which robots with a size make one move after another.
 
     Raises
@@ -108,7 +110,7 @@ def _moves(task: Task, floor: SingleMoves, most_states: int) -> list[Move]:
         raise GaveUp(f"{message} (choose occupancy: both, or give robots more room)")
 
     def is_blocked(robots: Sequence[int]) -> bool:
-        fleet = fleet_of(task.scenario, robots)
+        fleet = make_fleet_of(task.scenario, robots)
         return _search(SingleMoves(fleet), MOST_STATES_OF_FEWER, task.deadline) is None
 
     everybody = range(len(task.scenario.robots))
@@ -118,7 +120,7 @@ def _moves(task: Task, floor: SingleMoves, most_states: int) -> list[Move]:
 
 def _search(floor: SingleMoves, most_states: int, deadline: Deadline) -> list[Move] | None:
     """Return moves that bring all robots through their trips; None if no order of moves exists."""
-    start = floor.served(State(tuple(trip.home for trip in floor.itineraries), floor.no_stage))
+    start = floor.serve(State(tuple(trip.home for trip in floor.itineraries), floor.no_stage))
     came_from: dict[State, tuple[State, Move] | None] = {start: None}
     order = count()  # of equally near states, the latest first
     waiting = [(floor.to_go(start), 0, start)]
@@ -132,7 +134,7 @@ def _search(floor: SingleMoves, most_states: int, deadline: Deadline) -> list[Mo
         to_go, _, state = heappop(waiting)
         if to_go == 0:
             return _path(came_from, state)
-        for move, after in floor.successors(state):
+        for move, after in floor.make_successors(state):
             if after not in came_from:
                 came_from[after] = state, move
                 heappush(waiting, (floor.to_go(after), -next(order), after))
@@ -177,7 +179,7 @@ class SingleMoves:
             for itinerary, ways in zip(self.itineraries, self._ways, strict=True)
         ]
 
-    def served(self, state: State) -> State:
+    def serve(self, state: State) -> State:
         """Return the state after each robot has served its stages where it stands."""
         stages = list(state.stages)
         for robot, (itinerary, place) in enumerate(
@@ -199,7 +201,7 @@ class SingleMoves:
             )
         )
 
-    def successors(self, state: State) -> Iterator[tuple[Move, State]]:
+    def make_successors(self, state: State) -> Iterator[tuple[Move, State]]:
         """Yield every move that the places of all other robots allow, and the state after it."""
         rows = map(self.resources.vertex_row, range(len(state.places)), state.places)
         excluded = [self._mask_of(row) for row in rows]
@@ -221,7 +223,7 @@ class SingleMoves:
                 if needed & by_others or is_useless:
                     continue
                 places = (*state.places[:robot], head, *state.places[robot + 1 :])
-                after_move = self.served(State(places, state.stages))
+                after_move = self.serve(State(places, state.stages))
                 yield Move(robot, head, edge), after_move
 
     def _mask_of(self, row: int) -> int:
@@ -235,7 +237,10 @@ def _in_sequence(task: Task, moves: list[Move]) -> list[Track]:
     """Return tracks in which the robots make their moves one after another."""
     roadmap, itineraries = task.scenario.roadmap, task.scenario.problem.itineraries
     vertices = [[itinerary.home] for itinerary in itineraries]
-    enter, rules = [[Tick(0)] for _ in itineraries], planning_problem(task.scenario).booking_rules
+    enter, rules = (
+        [[Tick(0)] for _ in itineraries],
+        make_planning_problem(task.scenario).booking_rules,
+    )
     stages, now, edges = [0] * len(itineraries), 0, [-1] * len(itineraries)
     for robot, head, edge in moves:
         itinerary, place = itineraries[robot], vertices[robot][-1]

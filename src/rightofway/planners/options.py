@@ -134,7 +134,7 @@ class PlannerOptions:
         known = [field.name for field in fields(cls)]
         for name in given:
             if name not in known:
-                raise InputError.at(("options", name), unknown(name, cls.__name__, known))
+                raise InputError.at(("options", name), describe_unknown(name, cls.__name__, known))
         return object.__new__(cls)
 
     def __post_init__(self) -> None:
@@ -168,7 +168,7 @@ class PlannerOptions:
         return asdict(self)
 
 
-def unknown(name: str, owner: str, known: list[str]) -> str:
+def describe_unknown(name: str, owner: str, known: list[str]) -> str:
     """Return a sentence on a name that is not known, with the nearest one that is."""
     near = nearest(name, known)
     hint = f"did you mean {near!r}? " if near else ""

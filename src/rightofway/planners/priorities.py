@@ -45,7 +45,7 @@ from rightofway.planners.conflict_resolution import (
     list_rights_if_waits,
     plan_by_rule,
 )
-from rightofway.planners.routing import chosen_routes
+from rightofway.planners.routing import choose_routes
 from rightofway.planners.task import Draft, Task
 from rightofway.precedence import Meeting
 
@@ -55,7 +55,7 @@ Order = Sequence[int]
 
 def fixed_priority(task: Task) -> Draft:
     """Plan with the robots' numbers as priorities, the first robot's the highest."""
-    distances, routes = chosen_routes(task)
+    distances, routes = choose_routes(task)
     return plan_by_rule(task, distances, routes, plan_by_priority(range(len(routes))))
 
 
@@ -109,7 +109,7 @@ def _if_waits(
     plan: PartialPlan, meeting: Meeting, waits: int, level: Literal["priority", "only"]
 ) -> Resolution | None:
     """Let one of the two robots (0: i, 1: j) wait; None if impossible."""
-    graph, segment = plan.graph, plan.segment_of(meeting)
+    graph, segment = plan.graph, plan.find_segment(meeting)
     rights = list_rights_if_waits(graph, meeting, segment, waits)
     enters = rights[0][1]
     mark, planned = graph.checkpoint(), graph.enter(enters)
@@ -129,7 +129,7 @@ def _best_of(
     The search gets the function that plans by an order and returns the flowtime [ticks], the robots
     in the order of the scenario, and a source of random numbers.
     """
-    distances, routes = chosen_routes(task)
+    distances, routes = choose_routes(task)
     tried, best, least = 0, None, 0
 
     def flowtime(order: Order) -> int:

@@ -23,8 +23,8 @@ from rightofway.deadline import Deadline
 from rightofway.model import Scenario, Stop, cost_of
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import refuse_stranded
-from rightofway.planners.lacam import plan_fleet, timetable_of
-from rightofway.planners.task import Draft, Task, planning_problem
+from rightofway.planners.lacam import build_timetable, plan_fleet
+from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 
@@ -54,7 +54,7 @@ HEADWAYS_PER_EDGE = 8
 
 def prioritized(task: Task) -> Draft:
     """Plan one robot after another; options: `PrioritizedOptions`."""
-    draft = plan_in_turn(task, fleet_search(task), task.options["order"])
+    draft = plan_in_turn(task, make_fleet_search(task), task.options["order"])
     if draft is not None:
         return draft
     task.deadline.check("planning robots one after another")
@@ -62,11 +62,11 @@ def prioritized(task: Task) -> Draft:
     return replace(plan_fleet(task), status=status)
 
 
-def fleet_search(task: Task) -> FleetSearch:
+def make_fleet_search(task: Task) -> FleetSearch:
     """Return the search for a fleet; `NoPlanExists` if a robot cannot do its trip alone."""
     scenario = task.scenario
-    search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
-    refuse_stranded(scenario, np.flatnonzero(search.alone() < 0).tolist())
+    search = FleetSearch(make_planning_problem(scenario), seed=task.seed, alone=task.alone)
+    refuse_stranded(scenario, np.flatnonzero(search.compute_alone() < 0).tolist())
     return search
 
 
@@ -114,10 +114,10 @@ def _part(deadline: Deadline, share: float) -> float | None:
 
 
 def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
-    tracks = search.tracks()
+    tracks = search.list_tracks()
     problem = task.scenario.problem
     if problem.closures is not None:  # a robot may have waited for a kept home
-        tracks = tuple(graph_of(planning_problem(task.scenario), tracks).tracks())
+        tracks = tuple(graph_of(make_planning_problem(task.scenario), tracks).tracks())
     task.has_plan()
     return Draft(tracks=tracks, status=Phrase("one after another"))
 
@@ -132,7 +132,7 @@ def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
     limit = _part(task.deadline, SHARE_AT_ONE_PACE)
     if not search.prioritize(turns, searches=searches, time_limit=limit):
         return None
-    tracks = timetable_of(task.scenario, search.tracks())
+    tracks = build_timetable(task.scenario, search.list_tracks())
     task.has_plan()
     status = Phrase("one after another at one pace, each then at its own")
     return Draft(tracks=tuple(tracks), status=status)
@@ -165,6 +165,6 @@ def _in_order(scenario: Scenario, search: FleetSearch, order: str, seed: int) ->
     elif order == "slowest":
         robots.sort(key=lambda robot: scenario.robots[robot].speed)
     elif order != "file":
-        alone = search.alone()
+        alone = search.compute_alone()
         robots.sort(key=lambda robot: alone[robot], reverse=order == "longest")
     return robots

@@ -68,7 +68,7 @@ class PlannerSpec:
         known = [option.name for option in self.options]
         for name in given:
             if name not in known:
-                message = options.unknown(str(name), self.name, known)
+                message = options.describe_unknown(str(name), self.name, known)
                 raise InputError.at(("options", name), message)
         return self.options_type(**given).as_dict()
 
@@ -160,7 +160,7 @@ IMPROVER = "lns"
 
 
 @checks_arguments
-def registered() -> dict[str, PlannerSpec]:
+def find_all() -> dict[str, PlannerSpec]:
     """Return every planner by name: ours, then those of other packages.
 
     Notes
@@ -185,9 +185,9 @@ def _of_other_packages(_path: tuple[str, ...]) -> dict[str, PlannerSpec]:
     return specs
 
 
-def able(feature: Feature) -> str:
+def name_able(feature: Feature) -> str:
     """Return the names of all planners that have a feature, joined by "or"."""
-    return " or ".join(name for name, spec in registered().items() if feature in spec.features)
+    return " or ".join(name for name, spec in find_all().items() if feature in spec.features)
 
 
 @checks_arguments
@@ -208,8 +208,8 @@ def find(name: str) -> PlannerSpec:
     ours = next((spec for spec in PLANNERS if is_text and spec.name == name), None)
     if ours is not None:
         return ours
-    specs = registered()
+    specs = find_all()
     if not is_text or name not in specs:
-        message = options.unknown(str(name), "rightofway", list(specs))
+        message = options.describe_unknown(str(name), "rightofway", list(specs))
         raise InputError.at("planner", message)
     return specs[name]

@@ -9,18 +9,18 @@ from itertools import accumulate, pairwise
 from rightofway.errors import GaveUp
 from rightofway.model import Itinerary, Route, Scenario, Track, route_along, route_of
 from rightofway.planners.impossible import refuse_the_impossible
-from rightofway.planners.task import Task, planning_problem
-from rightofway.search import Bookings, Congestion, Distances, earliest_track
+from rightofway.planners.task import Task, make_planning_problem
+from rightofway.search import Bookings, Congestion, Distances, find_earliest_track
 from rightofway.site import Roadmap, VertexId
 
 
-def chosen_routes(task: Task) -> tuple[Distances, list[Route]]:
+def choose_routes(task: Task) -> tuple[Distances, list[Route]]:
     """Return the tables of a roadmap, and the routes of the fleet as the option ``routes`` asks."""
     checkpoint = partial(task.deadline.check, "choosing routes")
     distances = Distances(task.scenario.roadmap, checkpoint=checkpoint)
     if task.scenario.problem.closures is not None:
         return distances, choose_routes_among_closures(task, distances)
-    choose = clear_routes if task.options["routes"] == "clear" else shortest_routes
+    choose = clear_routes if task.options["routes"] == "clear" else find_shortest_routes
     return distances, choose(task.scenario, distances)
 
 
@@ -31,10 +31,10 @@ def choose_routes_among_closures(task: Task, distances: Distances) -> list[Route
     `GaveUp` where a robot finds none with the headway of planning.
     """
     refuse_the_impossible(task.scenario, distances)
-    bookings, routes = Bookings(planning_problem(task.scenario)), list[Route]()
+    bookings, routes = Bookings(make_planning_problem(task.scenario)), list[Route]()
     for robot, itinerary in enumerate(task.scenario.problem.itineraries):
         left = task.deadline.seconds_left()
-        track = earliest_track(robot, bookings, distances, time_limit=left)
+        track = find_earliest_track(robot, bookings, distances, time_limit=left)
         if track is None:
             name = task.scenario.robots[robot].name
             message = f"{name} finds no way among closures with the headway of planning"
@@ -43,14 +43,14 @@ def choose_routes_among_closures(task: Task, distances: Distances) -> list[Route
     return routes
 
 
-def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
+def find_shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
     """Return a shortest route for each robot, as if it were alone.
 
     Raises `NoPlanExists` as `refuse_the_impossible`.
     """
     refuse_the_impossible(scenario, distances)
     itineraries, roadmap = scenario.problem.itineraries, scenario.roadmap
-    return [shortest_route(roadmap, itinerary, distances) for itinerary in itineraries]
+    return [find_shortest_route(roadmap, itinerary, distances) for itinerary in itineraries]
 
 
 def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
@@ -61,7 +61,7 @@ def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
     NoPlanExists
         As `refuse_the_impossible`.
     """
-    routes = shortest_routes(scenario, Distances(scenario.roadmap))
+    routes = find_shortest_routes(scenario, Distances(scenario.roadmap))
     return tuple(
         Track.of(
             route.vertices, list(accumulate(map(route.least, range(len(route) - 1)), initial=0))
@@ -70,7 +70,7 @@ def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
     )
 
 
-def shortest_route(roadmap: Roadmap, itinerary: Itinerary, distances: Distances) -> Route:
+def find_shortest_route(roadmap: Roadmap, itinerary: Itinerary, distances: Distances) -> Route:
     """Return the route of the paper: shortest paths to the stops, and home as it would come.
 
     Distances may be those of a part of the roadmap; how the robot turns is known on the roadmap.
@@ -79,10 +79,10 @@ def shortest_route(roadmap: Roadmap, itinerary: Itinerary, distances: Distances)
     """
     ticks, legs = itinerary.edge_costs, []
     for place, stage in _trips(itinerary):
-        leg = distances.path(place, stage, ticks)
+        leg = distances.find_path(place, stage, ticks)
         if stage == itinerary.home:
-            back = distances.path(stage, place, ticks)[::-1]
-            if distances.cost(back, ticks) == distances.cost(leg, ticks):
+            back = distances.find_path(stage, place, ticks)[::-1]
+            if distances.compute_cost(back, ticks) == distances.compute_cost(leg, ticks):
                 leg = back
         legs.append(leg)
     return route_along(roadmap, itinerary, legs)
@@ -99,7 +99,9 @@ def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
     return [_clear(scenario, traffic, robot) for robot in range(len(scenario.robots))]
 
 
-def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Route]) -> list[Route]:
+def find_direct_routes(
+    scenario: Scenario, distances: Distances, routes: Sequence[Route]
+) -> list[Route]:
     """Return shorter routes for robots that make their trips again and again.
 
     A route that keeps clear of all others is longer in every lap. Each robot whose route is not a
@@ -125,7 +127,7 @@ def _clear(scenario: Scenario, traffic: Congestion, robot: int) -> Route:
     """Return a robot's route through the traffic, and add the route to the traffic."""
     itinerary = scenario.problem.itineraries[robot]
     trips = _trips(itinerary)
-    legs = [traffic.path(robot, place, stage) for place, stage in trips]
+    legs = [traffic.find_path(robot, place, stage) for place, stage in trips]
     for leg in legs:
         traffic.add(robot, leg)
     return route_along(scenario.roadmap, itinerary, legs)

@@ -93,7 +93,7 @@ Raises `NoPlanExists` if it is proven that there is no plan, and `GaveUp` if non
 
 
 @checks_arguments
-def planning_problem(scenario: Scenario) -> Problem:
+def make_planning_problem(scenario: Scenario) -> Problem:
     """Return the problem with the booking rules that planners keep.
 
     Where rotations are forbidden their headway is at least one tick.

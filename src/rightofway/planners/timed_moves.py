@@ -23,9 +23,9 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import NEVER, Scenario, Tick, Track, least_dwell
 from rightofway.native import excluded_by
 from rightofway.phrases import Phrase
-from rightofway.planners.impossible import explain_no_room, find_smallest_set, fleet_of
+from rightofway.planners.impossible import explain_no_room, find_smallest_set, make_fleet_of
 from rightofway.planners.moves import Move, SingleMoves, State
-from rightofway.planners.task import Draft, Task, planning_problem
+from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.site import VertexId
 
 MOST_STATES, FEW_ROBOTS = 10_000, 4
@@ -52,7 +52,7 @@ def plan_by_timed_moves(task: Task) -> Draft | None:
         return None
 
     def is_blocked(robots: Sequence[int]) -> bool:
-        return _search(_TimedMoves(fleet_of(scenario, robots)), deadline) is None
+        return _search(_TimedMoves(make_fleet_of(scenario, robots)), deadline) is None
 
     moves = _TimedMoves(scenario)
     try:
@@ -61,7 +61,7 @@ def plan_by_timed_moves(task: Task) -> Draft | None:
         return None
     if last is None:
         raise NoPlanExists([explain_no_room(scenario, find_smallest_set(everybody, is_blocked))])
-    if planning_problem(scenario) is not scenario.problem:
+    if make_planning_problem(scenario) is not scenario.problem:
         return None  # its robots might rotate
     task.has_plan()
     return Draft(tracks=tuple(_at_times(moves, last)), status=Phrase("order of moves"))
@@ -70,8 +70,8 @@ def plan_by_timed_moves(task: Task) -> Draft | None:
 def _search(moves: _TimedMoves, deadline: Deadline) -> _Timed | None:
     """Return the last state of the order of moves of least flowtime; None if no order exists."""
     order = count()
-    begins = moves.starts()
-    waiting = [(moves.least_flowtime(start), -next(order), start) for start in begins]
+    begins = moves.make_starts()
+    waiting = [(moves.compute_least_flowtime(start), -next(order), start) for start in begins]
     heapify(waiting)
     known: dict[State, list[_Timed]] = {}
     for start in begins:
@@ -86,13 +86,13 @@ def _search(moves: _TimedMoves, deadline: Deadline) -> _Timed | None:
             continue  # another one is as early
         if moves.to_go(node.state) == 0 and min(node.leave_by) == NEVER:
             return node
-        for after in moves.timed_successors(node):
+        for after in moves.make_timed_successors(node):
             others = known.setdefault(after.state, [])
             if any(other.is_as_early_as(after) for other in others):
                 continue
             others[:] = [other for other in others if not after.is_as_early_as(other)]
             others.append(after)
-            heappush(waiting, (moves.least_flowtime(after), -next(order), after))
+            heappush(waiting, (moves.compute_least_flowtime(after), -next(order), after))
     raise GaveUp("no order of moves among closures in the states and the time that it may take")
 
 
@@ -147,10 +147,10 @@ class _TimedMoves(SingleMoves):
     def _closed_along(self, robot: int, edge: int) -> list[tuple[Tick, Tick]]:
         return [] if self._closures is None else self._closures.along_edge(robot, edge)
 
-    def starts(self) -> list[_Timed]:
+    def make_starts(self) -> list[_Timed]:
         """Return the fleet at home; a robot may work there at once, or later."""
         home = State(tuple(trip.home for trip in self.itineraries), self.no_stage)
-        all_served = self.served(home)
+        all_served = self.serve(home)
         leave_by = tuple(
             min((start for start, _ in self._closed_at(robot, place)), default=NEVER)
             for robot, place in enumerate(home.places)
@@ -171,19 +171,19 @@ class _TimedMoves(SingleMoves):
             begins.append(_Timed(state, ready, {}, leave_by, (), (), (-1,) * len(ready)))
         return begins
 
-    def least_flowtime(self, timed: _Timed) -> int:
+    def compute_least_flowtime(self, timed: _Timed) -> int:
         """Return a lower bound of the flowtime of plans that begin with some moves [ticks]."""
         to_come = zip(self._dwells, timed.state.stages, strict=True)
         dwells = sum(dwells[stage] for dwells, stage in to_come)
         return sum(timed.ready) + dwells + self.to_go(timed.state)
 
-    def timed_successors(self, timed: _Timed) -> Iterator[_Timed]:
+    def make_timed_successors(self, timed: _Timed) -> Iterator[_Timed]:
         """Yield what comes of every move that takes place as early as it can.
 
         Between any two closures of the vertex that it leads to, and with any number of stages
         served there that closures may leave time for.
         """
-        for move, state in self.successors(timed.state):
+        for move, state in self.make_successors(timed.state):
             for enter, leave_by in self._enters(timed, move):
                 robot, all_served = move.robot, state.stages[move.robot]
                 before = timed.state.stages  # others that have passed a stop have not served it

@@ -40,7 +40,7 @@ from rightofway.planners.conflict_resolution import (
     plan_on_routes,
 )
 from rightofway.planners.features import refuse_with_swaps_left
-from rightofway.planners.routing import chosen_routes
+from rightofway.planners.routing import choose_routes
 from rightofway.planners.task import Draft, Task
 from rightofway.precedence import Meeting, Segment
 from rightofway.search import Distances
@@ -71,7 +71,7 @@ def two_level(task: Task) -> Draft:
     if task.options.get("swaps") == "leave":
         refuse_with_swaps_left(task.scenario.problem)
         return paper(task)
-    distances, routes = chosen_routes(task)
+    distances, routes = choose_routes(task)
     return plan_by_rule(task, distances, routes, plan_by_two_levels)
 
 
@@ -83,7 +83,7 @@ def paper(task: Task) -> Draft:
 
 def _as_published(task: Task) -> tuple[Distances, PartialPlan]:
     """Return a fleet on shortest routes, in which swaps are no conflicts."""
-    distances, routes = chosen_routes(replace(task, options={"routes": "shortest"}))
+    distances, routes = choose_routes(replace(task, options={"routes": "shortest"}))
     return distances, PartialPlan(task, routes, sees_swaps=False)
 
 
@@ -157,7 +157,7 @@ def replay_movement_groups(
     if plan.run.name == "paper" or options["swaps"] == "leave":
         _, replayed = _as_published(task)
     else:
-        _, routes = chosen_routes(task)
+        _, routes = choose_routes(task)
         replayed = PartialPlan(task, routes)
     replayed.resolve_all(by_two_levels_again)
     if not groups:
@@ -189,7 +189,7 @@ def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup
     decisions: list[Decision] = []
     rights: list[Right] = []
     while (meeting := graph.next_meeting_of(i, j)) is not None:
-        segment = plan.segment_of(meeting)
+        segment = plan.find_segment(meeting)
         options = [_attempt(plan, meeting, segment, waits) for waits in (0, 1)]
         chosen = _node_level(options, on_tie)
         if chosen is None:

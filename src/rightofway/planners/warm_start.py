@@ -46,7 +46,7 @@ from rightofway.model import (
     route_of,
 )
 from rightofway.planners.impossible import refuse_closed_ways
-from rightofway.planners.prioritized import fleet_search
+from rightofway.planners.prioritized import make_fleet_search
 from rightofway.planners.task import Task
 from rightofway.precedence import graph_on
 from rightofway.search import FleetSearch
@@ -74,7 +74,7 @@ class _Kept:
     has_changed: bool  # whether its times, or what it books, may be others than before
 
 
-def first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
+def make_first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
     """Return a valid plan that keeps what it can of the old one; None if the repair found none.
 
     Raises
@@ -88,7 +88,7 @@ def first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
     others = [robot for robot in range(len(task.scenario.robots)) if robot not in old_routes]
     refuse_closed_ways(task.scenario, task.deadline, others)
     hurried = replace(task, deadline=task.deadline.sooner(SHARE))
-    search = fleet_search(hurried)
+    search = make_fleet_search(hurried)
     drafts = [_repaired(hurried, search, old_routes, [*unchanged, *changed])]
     if changed and hurried.deadline.seconds_left() != 0:
         drafts.append(_repaired(hurried, search, old_routes, unchanged))
@@ -226,7 +226,7 @@ def _repaired(
     left = [robot for robot, track in enumerate(tracks) if track is None]
     if not left:
         return tuple(in_time[robot] for robot in range(len(tracks)))
-    alone = search.alone()
+    alone = search.compute_alone()
     try:
         search.start(tracks)
     except ValueError:
@@ -236,7 +236,7 @@ def _repaired(
         searches=SEARCHES * (len(left) + len(tracks) // 10),
         time_limit=task.deadline.seconds_left(),
     )
-    return search.tracks() if is_repaired else None
+    return search.list_tracks() if is_repaired else None
 
 
 def _in_old_order(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
-from rightofway.metrics import HEADINGS, Inspection, Site, sentences
+from rightofway.metrics import HEADINGS, Inspection, Site, describe_site
 from rightofway.phrases import Phrase
 from rightofway.report.lines import Paragraph, Part
 
@@ -28,7 +28,7 @@ def report_inspection(
         yield ""
         if name:
             yield Phrase("Level {name}", name=name)
-        yield from sentences(site, inspection)
+        yield from describe_site(site, inspection)
         yield from _findings(inspection, limit)
 
 

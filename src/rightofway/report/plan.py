@@ -11,13 +11,13 @@ from rightofway.languages import ENGLISH
 from rightofway.metrics import (
     ForcedLoss,
     Metrics,
-    alone_completions,
-    collisions,
+    compute_alone_completions,
+    compute_lost_time,
+    derive_outcome,
+    find_collisions,
+    find_swaps,
     free_running,
-    lost_time,
     measure,
-    outcome_of,
-    swaps,
 )
 from rightofway.model import Loss, LostTime, Objective, Plan, Proof, Scenario
 from rightofway.model.place_names import PlaceNames
@@ -57,7 +57,7 @@ HEADINGS = (
 def summary(plan: Plan, quantities: Quantities, language: str = ENGLISH) -> str:
     """Return the costs of a plan, and where and to which others robots lose time."""
     words = Words(plan=plan, quantities=quantities)
-    metrics, lost = measure(plan), lost_time(plan)
+    metrics, lost = measure(plan), compute_lost_time(plan)
     costs = [
         (Phrase("planner"), planning(plan, quantities)),
         (Phrase("flowtime"), _flowtime(words, metrics)),
@@ -100,7 +100,7 @@ def planning(plan: Plan, quantities: Quantities) -> str:
 
 
 def _flowtime(words: Words, metrics: Metrics) -> str:
-    outcome, flowtime = outcome_of(words.plan), words.time(metrics.flowtime)
+    outcome, flowtime = derive_outcome(words.plan), words.time(metrics.flowtime)
     bound = int(metrics.lower_bound)
     if outcome.objective is Objective.FLOWTIME and outcome.bound is not None:
         bound = max(bound, outcome.bound)
@@ -267,7 +267,7 @@ def _decisions(words: Words) -> Iterator[Part]:
     if plan.run.decisions or plan.run.reroutes:
         return
     tracks = free_running(plan)
-    if not collisions(plan.scenario, tracks) and not swaps(tracks):
+    if not find_collisions(plan.scenario, tracks) and not find_swaps(tracks):
         yield Phrase("No decision was needed: no two robots meet.")
         return
     yield Phrase(
@@ -289,7 +289,7 @@ def report_bounds(
 
     ``proof`` is of a higher bound, which a plan may have reached; ``losses`` say why it is higher.
     """
-    alone = alone_completions(scenario)
+    alone = compute_alone_completions(scenario)
 
     def at_least(ticks: int) -> Phrase:
         return Phrase("at least {time}", time=quantities.duration(ticks))

@@ -7,7 +7,7 @@ from typing import Any
 
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.io.plan.writer import outcome_document
-from rightofway.metrics import lost_time, measure, outcome_of, waits
+from rightofway.metrics import compute_lost_time, derive_outcome, measure, waits
 from rightofway.model import Plan, Scenario
 from rightofway.model.outcome import classify_error
 from rightofway.values import written
@@ -32,13 +32,13 @@ def summary_data(plan: Plan) -> dict[str, Any]:
             "seconds": _rounded(run.seconds),
             "first_plan_seconds": _rounded(run.first_plan_seconds),
             **({} if run.start is None else {"start": asdict(run.start)}),
-            "outcome": outcome_document(outcome_of(plan)),
+            "outcome": outcome_document(derive_outcome(plan)),
         },
         **measures(plan.scenario),
         "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},
         "robots": [
             {"name": names[lost.robot], **lost.as_dict(names.__getitem__, place)}
-            for lost in lost_time(plan)
+            for lost in compute_lost_time(plan)
         ],
         "waits": [
             {

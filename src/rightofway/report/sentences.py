@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from math import ceil, floor
 
-from rightofway.metrics import measure, outcome_of
+from rightofway.metrics import derive_outcome, measure
 from rightofway.model import (
     Closure,
     Decision,
@@ -91,7 +91,7 @@ class Words:
 
 def describe_proof(plan: Plan) -> str:
     """Return what is proven of a plan, beside its lower bound; empty if that is nothing."""
-    outcome, metrics = outcome_of(plan), measure(plan)
+    outcome, metrics = derive_outcome(plan), measure(plan)
     if outcome.kind is OutcomeKind.OPTIMAL:
         if metrics.flowtime == metrics.lower_bound:
             return Phrase("optimal, no robot loses time")

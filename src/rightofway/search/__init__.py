@@ -4,10 +4,10 @@ from rightofway.search.bounds import PriceAscent
 from rightofway.search.cbs import ConflictBasedSearch
 from rightofway.search.congestion import Congestion
 from rightofway.search.distances import Distances, Path
-from rightofway.search.fleet import FleetSearch, least_completions
+from rightofway.search.fleet import FleetSearch, compute_least_completions
 from rightofway.search.lacam import plan_by_lacam
 from rightofway.search.periodic_bookings import PeriodicBookings, RoundTrip, RowsOfLaps
-from rightofway.search.sipp import Booking, Bookings, earliest_track
+from rightofway.search.sipp import Booking, Bookings, find_earliest_track
 
 __all__ = [
     "Booking",
@@ -21,7 +21,7 @@ __all__ = [
     "PriceAscent",
     "RoundTrip",
     "RowsOfLaps",
-    "earliest_track",
-    "least_completions",
+    "compute_least_completions",
+    "find_earliest_track",
     "plan_by_lacam",
 ]

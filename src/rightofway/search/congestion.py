@@ -100,7 +100,7 @@ class Congestion:
             oncoming.append(OFTEN_ONCOMING * FINE_SHARES // lap)
         return cls(problem, distances, shares=FINE_SHARES, station=station, oncoming=oncoming)
 
-    def path(self, robot: int, start: VertexId, target: VertexId) -> Path:
+    def find_path(self, robot: int, start: VertexId, target: VertexId) -> Path:
         """Return a cheapest path; the target can be reached.
 
         Of several cheapest paths, it takes the one that leaves each vertex by the first edge; if no
@@ -122,7 +122,7 @@ def _edges_of_trip(distances: Distances, itinerary: Itinerary) -> float:
     """Return about how many edges it is from home to the first stop."""
     ticks = itinerary.edge_ticks
     ticks_to_stop = int(distances.to(itinerary.stages[0].vertex, ticks)[itinerary.home])
-    all_ticks = distances.ticks_of_edges(ticks)
+    all_ticks = distances.compute_edge_ticks(ticks)
     return ticks_to_stop / float(all_ticks[all_ticks > 0].mean()) if ticks_to_stop else 0.0
 
 

@@ -61,21 +61,21 @@ class Distances:
         key = (target, edge_ticks)
         if key not in self._tables:
             self.checkpoint()
-            self._tables[key] = self._kernel.to(target, self.ticks_of_edges(edge_ticks))
+            self._tables[key] = self._kernel.to(target, self.compute_edge_ticks(edge_ticks))
         return self._tables[key]
 
     def prepare(self, wanted: Iterable[tuple[VertexId, tuple[Tick, ...]]]) -> None:
         """Compute tables that will be asked for, on all cores: targets and ticks as for `to`."""
         missing = dict.fromkeys(key for key in wanted if key not in self._tables)
         for _, edge_ticks in missing:
-            self.ticks_of_edges(edge_ticks)
+            self.compute_edge_ticks(edge_ticks)
         assert self._kernel, "made once, before threads ask for it"
         from concurrent.futures import ThreadPoolExecutor
 
         with ThreadPoolExecutor() as pool:
             list(pool.map(lambda key: self.to(*key), missing))
 
-    def ticks_of_edges(self, edge_ticks: tuple[Tick, ...]) -> NDArray[np.int32]:
+    def compute_edge_ticks(self, edge_ticks: tuple[Tick, ...]) -> NDArray[np.int32]:
         """Return the ticks of every edge, given those of each edge class; shape (E,)."""
         if edge_ticks not in self._edges:
             if len(edge_ticks) != len(self.roadmap.edge_classes):
@@ -85,18 +85,18 @@ class Distances:
             self._edges[edge_ticks] = by_class[self.roadmap.class_of_edge]
         return self._edges[edge_ticks]
 
-    def cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int | None:
+    def compute_cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int | None:
         """Return what it takes to drive a path [ticks]; None where an edge is missing."""
         vertices = np.array(path, np.int32)
         if len(path) and not 0 <= vertices.min() <= vertices.max() < self.roadmap.n_vertices:
             k = int(np.argmax((vertices < 0) | (vertices >= self.roadmap.n_vertices)))
             require_index(("path", k), path[k], self.roadmap.n_vertices)
         edges = self.roadmap.find_edges(vertices[:-1], vertices[1:])
-        ticks = self.ticks_of_edges(edge_ticks)[edges]
+        ticks = self.compute_edge_ticks(edge_ticks)[edges]
         is_open = min(edges.min(initial=0), ticks.min(initial=0)) >= 0
         return int(ticks.sum()) if is_open else None
 
-    def path(self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]) -> Path:
+    def find_path(self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]) -> Path:
         """Return a shortest path; a ValueError says that the target cannot be reached.
 
         At each vertex it goes on by the first edge that brings it nearer; on grids edges are in
@@ -104,7 +104,7 @@ class Distances:
         """
         self.checkpoint()
         indptr, heads = self.roadmap.indptr, self.roadmap.heads
-        table, ticks = self.to(target, edge_ticks), self.ticks_of_edges(edge_ticks)
+        table, ticks = self.to(target, edge_ticks), self.compute_edge_ticks(edge_ticks)
         require_index("start", start, self.roadmap.n_vertices)
         if table[start] < 0:
             raise InputError.at("target", f"{target} cannot be reached from vertex {start}")

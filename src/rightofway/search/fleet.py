@@ -18,7 +18,7 @@ from rightofway.native import bound, tracks_of
 
 
 @checks_arguments
-def least_completions(
+def compute_least_completions(
     scenario: Scenario, *, time_limit: float | None = None
 ) -> NDArray[np.int64] | None:
     """Return each robot's least completion without the others.
@@ -51,7 +51,7 @@ class FleetSearch:
     threads
         How many threads improve the plan; the plan does not depend on it. None or 0: all cores.
     alone
-        What `least_completions` returned for the same trips [ticks], where that is known.
+        What `compute_least_completions` returned for the same trips [ticks], where that is known.
     """
 
     def __init__(
@@ -68,7 +68,7 @@ class FleetSearch:
         )
         self._n_robots = len(problem.itineraries)
 
-    def alone(self) -> NDArray[np.int64]:
+    def compute_alone(self) -> NDArray[np.int64]:
         """Return each robot's least completion without the others [ticks], -1 for no way."""
         alone = self._core.alone()
         assert alone is not None, "there is no time limit"
@@ -177,7 +177,7 @@ class FleetSearch:
         """Shift every visit to the earliest time that keeps the order at each vertex."""
         self._core.retime()
 
-    def tracks(self) -> tuple[Track, ...]:
+    def list_tracks(self) -> tuple[Track, ...]:
         """Return the tracks."""
         return tuple(tracks_of(*self._core.tracks()))
 

@@ -37,7 +37,7 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
     name_of = scenario.roadmap.name
     for robot in stranded:
         name, itinerary = scenario.robots[robot].name, scenario.problem.itineraries[robot]
-        home_part = parts.of(itinerary.home)
+        home_part = parts.find_part(itinerary.home)
         stages = dict.fromkeys(stage.vertex for stage in itinerary.stages)
         elsewhere = [vertex for vertex in stages if vertex not in home_part]
         if elsewhere:
@@ -58,7 +58,7 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
                 kind = str(scenario.robots[robot].type)
                 why = Phrase("edges are barred for robots of type {type}", type=kind)
                 remedy = Phrase("open one, or give the robot other places")
-            elif opening := parts.opening(tail, head):
+            elif opening := parts.find_opening(tail, head):
                 first, last = map(place, opening)
                 why = Phrase("the edge from {first} to {last} is one way", first=first, last=last)
                 remedy = Phrase("let robots drive it both ways, or give the robot other places")
@@ -90,7 +90,7 @@ class RoadmapParts:
         self.searches = 0
         self._of: dict[int, frozenset[int]] = {}
 
-    def of(self, vertex: int) -> frozenset[int]:
+    def find_part(self, vertex: int) -> frozenset[int]:
         """Return the part that holds a vertex."""
         if vertex not in self._of:
             ends = [*self.ends, *((head, tail) for tail, head in self.ends)]
@@ -105,7 +105,7 @@ class RoadmapParts:
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         return list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
 
-    def opening(self, tail: int, head: int) -> tuple[int, int] | None:
+    def find_opening(self, tail: int, head: int) -> tuple[int, int] | None:
         """Return a one-way edge that, driven both ways, would lead from ``tail`` to ``head``.
 
         None if there is none, or after as many searches as a message has lines.

@@ -118,7 +118,7 @@ class RowsOfLaps:
     resources: Resources
     robots: tuple[int, ...]
 
-    def of_lap(self, robot: int, lap: Lap) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    def find_rows(self, robot: int, lap: Lap) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Return the rows of a lap's vertices, and of the edges driven into them."""
         bookings_of_robot = self.robots[robot]
         vertices, edges = self.resources.rows_of_lap(self.roadmap, bookings_of_robot, lap.vertices)
@@ -167,7 +167,7 @@ class PeriodicBookings:
         vertex, dwell, drive = visits_of_laps(lap, count)
         if self._rows is None:
             return (vertex, dwell, drive), None
-        vertices, edges = self._rows.of_lap(robot, lap)
+        vertices, edges = self._rows.find_rows(robot, lap)
         return (np.tile(vertices, count), dwell, drive), np.tile(edges, count)
 
     def add(self, robot: int, lap: Lap, count: int, enter: NDArray[np.int64]) -> None:
@@ -287,10 +287,10 @@ class PeriodicBookings:
         if self._rows is None:
             return self._kernel.connect(vertex, dwell, drive, *ticks)
         place = np.append(np.arange(len(lap) * count) % len(lap), 0)
-        vertices, edges = self._rows.of_lap(robot, lap)
+        vertices, edges = self._rows.find_rows(robot, lap)
         return self._kernel.connect(vertices[place], dwell, drive, *ticks, edges[place])
 
-    def in_the_way(
+    def find_blockers(
         self, robot: int, lap: Lap, begins: int = -NEVER, until: int = NEVER
     ) -> set[int]:
         """Return the robots that have booked what the last search, for this lap, could not."""
@@ -301,7 +301,7 @@ class PeriodicBookings:
         needed = self._not_reached(robot, lap)
         if self._rows is None:
             return bool(needed[0] == home_of.vertices[0])
-        row = int(self._rows.of_lap(other, home_of)[0][0])
+        row = int(self._rows.find_rows(other, home_of)[0][0])
         return bool(np.isin(needed, excluded_by(self._rows.resources, row)).any())
 
     def _not_reached(self, robot: int, lap: Lap) -> NDArray[np.int32]:
@@ -309,13 +309,13 @@ class PeriodicBookings:
         visit = (self._kernel.reached + 1) % len(lap)
         if self._rows is None:
             return np.array([lap.vertices[visit]], np.int32)
-        return np.array([rows[visit] for rows in self._rows.of_lap(robot, lap)], np.int32)
+        return np.array([rows[visit] for rows in self._rows.find_rows(robot, lap)], np.int32)
 
-    def neighbours(self, robot: int, lap: Lap) -> set[int]:
+    def find_neighbours(self, robot: int, lap: Lap) -> set[int]:
         """Return the robots that have booked anything that a lap needs."""
         if self._rows is None:
             return self._users(np.array(lap.vertices, np.int32))
-        return self._users(np.concatenate(self._rows.of_lap(robot, lap)))
+        return self._users(np.concatenate(self._rows.find_rows(robot, lap)))
 
     def _users(self, rows: NDArray[np.int32], begins: int = -NEVER, until: int = NEVER) -> set[int]:
         return set(self._kernel.users(rows, begins, until).tolist())

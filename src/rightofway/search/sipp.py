@@ -65,18 +65,18 @@ class Bookings:
                 self.table.mark(row, start, end, NOBODY)
         self._of: defaultdict[int, list[tuple[int, Tick]]] = defaultdict(list)
 
-    def at(self, row: int) -> list[Booking]:
+    def list_bookings(self, row: int) -> list[Booking]:
         """Return the bookings of a vertex in order of time; with sizes, the marks of a row."""
         return [Booking(Tick(s), Tick(e), robot) for s, e, robot in self.table.at(row)]
 
-    def vertex_row(self, robot: int, vertex: int) -> int:
+    def get_vertex_row(self, robot: int, vertex: int) -> int:
         """Return the row that a robot books at a vertex; for points the vertex itself."""
         return self.resources.vertex_row(robot, vertex)
 
     def add(self, robot: int, track: Track) -> None:
         """Book all vertices of a track."""
         require_index("robot", robot, len(self.problem.itineraries))
-        for row, booking in self.of_track(robot, track):
+        for row, booking in self.make_bookings(robot, track):
             self.book(row, booking)
 
     def book(self, row: int, booking: Booking) -> None:
@@ -90,10 +90,10 @@ class Bookings:
         for row, start in self._of.pop(robot, ()):
             self.table.erase(row, start, robot)
 
-    def of_track(self, robot: int, track: Track) -> Iterator[tuple[int, Booking]]:
+    def make_bookings(self, robot: int, track: Track) -> Iterator[tuple[int, Booking]]:
         """Yield what a track would book, visit by visit."""
         problem, rules, enter = self.problem, self.problem.booking_rules, track.enter
-        vertices, first_row = track.vertices.tolist(), self.vertex_row(robot, 0)
+        vertices, first_row = track.vertices.tolist(), self.get_vertex_row(robot, 0)
         drives = drives_along(problem.roadmap, problem.itineraries[robot], vertices)
         drives_in = np.array([0, *drives], np.int64)
         starts, ends = rules.start(enter, drives_in).tolist(), rules.end(enter[1:]).tolist()
@@ -106,12 +106,12 @@ class Bookings:
         for edge, start, end in zip(edges, begins, ends, strict=True):
             yield first_row + self._n_vertices + edge, Booking(start, end, robot)
 
-    def in_the_way(self, robot: int, track: Track) -> set[int]:
+    def find_blockers(self, robot: int, track: Track) -> set[int]:
         """Return the other robots whose bookings a track would overlap."""
         return {
             other.robot
-            for row, own in self.of_track(robot, track)
-            for other in self.at(row)
+            for row, own in self.make_bookings(robot, track)
+            for other in self.list_bookings(row)
             if other.robot not in {robot, NOBODY}
             and other.start < own.end
             and own.start < other.end
@@ -119,7 +119,7 @@ class Bookings:
 
 
 @checks_arguments
-def earliest_track(
+def find_earliest_track(
     robot: int,
     bookings: Bookings,
     distances: Distances,

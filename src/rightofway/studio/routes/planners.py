@@ -7,7 +7,7 @@ from typing import Any
 
 from fastapi import APIRouter
 
-from rightofway.planners import DEFAULT_PLANNER, IMPROVER, registered
+from rightofway.planners import DEFAULT_PLANNER, IMPROVER, find_all
 from rightofway.studio.routes.models import (
     InStudio,
 )
@@ -40,7 +40,7 @@ def list_planners() -> dict[str, Any]:
                     for option in spec.options
                 ],
             }
-            for spec in registered().values()
+            for spec in find_all().values()
         ],
     }
 

@@ -8,10 +8,10 @@ from typing import Any
 from rightofway.check import check
 from rightofway.errors import InputError, InvalidPlan, nearest
 from rightofway.io import plan_text
-from rightofway.metrics import lost_time
+from rightofway.metrics import compute_lost_time
 from rightofway.model import Loss, Plan, Tick
 from rightofway.phrases import Phrase, parts_of
-from rightofway.planners.flip import flipped
+from rightofway.planners.flip import flip_right_of_way
 from rightofway.report.sentences import Words, describe_decision, describe_losses, explain_decision
 from rightofway.studio.messages import Blobs, Emit, zipped
 from rightofway.studio.tasks.documents import figures
@@ -28,7 +28,7 @@ def losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
     wanted = None if robot is None else _index(plan, "robot", robot)
     answers = [
         _loss_data(words, loss)
-        for lost in lost_time(plan)
+        for lost in compute_lost_time(plan)
         if wanted in {None, lost.robot}
         for loss in lost.losses
     ]
@@ -100,7 +100,7 @@ def flip(
     """Return the plan in which a robot that waits goes first, judged, and what it costs."""
     plan = read(blobs[0])
     pair = _index(plan, "waits", waits), _index(plan, "goes_first", goes_first)
-    answer = flipped(plan, *pair, Tick(tick), time_limit=time_limit)
+    answer = flip_right_of_way(plan, *pair, Tick(tick), time_limit=time_limit)
     status = f"{waits} goes before {goes_first}"
     if not answer.keeps_routes:
         status = f"{status}; both planned again"

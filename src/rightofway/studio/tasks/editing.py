@@ -17,7 +17,7 @@ from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.picture import with_picture
 from rightofway.io.sites import sites_of
-from rightofway.metrics import Inspection, Site, inspect, sentences
+from rightofway.metrics import Inspection, Site, describe_site, inspect
 from rightofway.phrases import parts_of
 from rightofway.quantities import Units
 from rightofway.studio.messages import Blobs, Emit, fault_data, zipped
@@ -83,7 +83,7 @@ def surveyed(
         answer["site"] = {**drawn, "closures": closures}
     if site is not None and inspects:
         inspection = _inspected(site)
-        said = sentences(site, inspection)
+        said = describe_site(site, inspection)
         answer |= {
             "findings": [
                 {

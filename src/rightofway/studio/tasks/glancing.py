@@ -9,7 +9,7 @@ from rightofway.errors import InputError
 from rightofway.io import dump_scenario, is_layout, load_either, load_with_notes
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.sites import Choice, Sites, read_sites, sites_of
-from rightofway.metrics.site import extent
+from rightofway.metrics.site import compute_extent
 from rightofway.model import Plan
 from rightofway.quantities import decimal
 from rightofway.report.examples import find_examples_folder
@@ -33,7 +33,7 @@ def glanced(
         "kind": kind,
         "description": glance.description,
         "robots": len(site.robots) if kind != "layout" else None,
-        "extent": [decimal(length) for length in extent(site.roadmap)],
+        "extent": [decimal(length) for length in compute_extent(site.roadmap)],
         "unit": site.units.length,
     }
     return (about, preview_of(site, theme=DARK if dark else LIGHT))

@@ -13,7 +13,7 @@ from rightofway.errors import InputError
 from rightofway.io import FOREIGN_FORMATS, foreign_text, plan_of, write_plan
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.text import parse_json
-from rightofway.metrics import changes, compare
+from rightofway.metrics import compare, find_changes
 from rightofway.model import Plan
 from rightofway.report.plan_data import summary_data
 from rightofway.studio.messages import Blobs, Emit, zipped
@@ -143,5 +143,5 @@ def compared(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
 def changed(_emit: Emit, blobs: Blobs) -> Result:
     """Return in what the scenario of a plan differs from that of the plan before."""
     before, after = (read_scenario(parse_json(blob.decode())["scenario"], None) for blob in blobs)
-    differences = changes(before.scenario, after.scenario)
+    differences = find_changes(before.scenario, after.scenario)
     return ({"changes": [change.as_dict() for change in differences]},)

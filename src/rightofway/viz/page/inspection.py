@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from rightofway.arguments import checks_arguments
 from rightofway.files import write_whole
-from rightofway.metrics import HEADINGS, Inspection, Site, sentences
+from rightofway.metrics import HEADINGS, Inspection, Site, describe_site
 from rightofway.metrics.site import SEVERITY_NAMES
 from rightofway.phrases import parts_of
 from rightofway.viz.page.background import Background
@@ -148,7 +148,7 @@ def _level(
     robot_of = {robot.name: index for index, robot in enumerate(site.robots)}
     return {
         "name": name,
-        "sentences": [parts_of(sentence) for sentence in sentences(site, inspection)],
+        "sentences": [parts_of(sentence) for sentence in describe_site(site, inspection)],
         **site_data(site, background),
         "findings": [
             {

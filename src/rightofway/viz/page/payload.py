@@ -19,7 +19,7 @@ from rightofway.check import Report
 from rightofway.check.faults import FAULT_NAMES
 from rightofway.cyclic import list_pieces_of_plan
 from rightofway.errors import InputError, NoPlanExists, shown
-from rightofway.metrics import Metrics, compare, join_waits, lost_time, measure
+from rightofway.metrics import Metrics, compare, compute_lost_time, join_waits, measure
 from rightofway.model import (
     Decision,
     ExecutionTrace,
@@ -111,7 +111,7 @@ def payload_of(
     _refuse_other_kinds(steady, actual, no_plan, background, others)
     trips, steady = trips_of(plan), steady or plan.steady
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
-    tick, lost = scenario.problem.clock.tick, lost_time(plan)
+    tick, lost = scenario.problem.clock.tick, compute_lost_time(plan)
     words, book = Words(plan=plan, quantities=scenario.quantities), PhraseBook()
     payload: Payload = {
         "title": title,

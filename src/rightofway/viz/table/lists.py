@@ -8,11 +8,11 @@ from rightofway.errors import InputError
 from rightofway.metrics import (
     Event,
     NamedCollision,
-    collisions,
-    event_columns,
-    events,
+    find_collisions,
+    find_swaps,
     free_running,
-    swaps,
+    list_events,
+    make_event_columns,
 )
 from rightofway.model import Decision, Plan, Tick
 from rightofway.quantities import Quantities
@@ -49,7 +49,7 @@ def chosen_events(
     shown = set(chosen_robots(plan.scenario, robots))
     return tuple(
         event
-        for event in events(plan)
+        for event in list_events(plan)
         if event.robot in shown
         and (last_tick is None or event.enter <= last_tick)
         and (event.leave is None or event.leave > first_tick)
@@ -70,7 +70,7 @@ def event_list(
     quantities
         How times are written; by default as the scenario does.
     """
-    columns, quantities = event_columns(plan, chosen), quantities or plan.scenario.quantities
+    columns, quantities = make_event_columns(plan, chosen), quantities or plan.scenario.quantities
     ticks = (
         ()
         if quantities.in_ticks
@@ -192,10 +192,10 @@ def conflicts_before(plan: Plan) -> list[int | None]:
     if plan.run.reroutes or not plan.scenario.problem.resources.are_points:
         return [None] * len(plan.run.decisions)
     tracks = free_running(plan)
-    overlaps = collisions(plan.scenario, tracks)
+    overlaps = find_collisions(plan.scenario, tracks)
     overlap = [conflict.end - conflict.start for conflict in overlaps if conflict.end is not None]
     leaves_swaps = plan.run.name == "paper" or plan.run.options.get("swaps") == "leave"
-    counted = sum(overlap) + (0 if leaves_swaps else len(swaps(tracks)))
+    counted = sum(overlap) + (0 if leaves_swaps else len(find_swaps(tracks)))
     first = counted if len(overlap) == len(overlaps) else None
     return [first, *map(conflicts_left, plan.run.decisions)][: len(plan.run.decisions)]
 

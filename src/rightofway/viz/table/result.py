@@ -12,7 +12,7 @@ from typing import Any
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.extras import needed
 from rightofway.files import archive_of, write_whole
-from rightofway.metrics import free_running, lost_time, measure, name_collisions
+from rightofway.metrics import compute_lost_time, free_running, measure, name_collisions
 from rightofway.model import Plan
 from rightofway.viz.motion import Phase, trips_of
 from rightofway.viz.palette import robot_colours
@@ -143,7 +143,7 @@ def _robots(plan: Plan) -> Listing:
     names = [robot.name for robot in plan.scenario.robots]
     times = {"completes": list(plan.completions)}
     try:
-        lost = lost_time(plan)
+        lost = compute_lost_time(plan)
     except NoPlanExists:  # a robot has no way, so there is nothing to compare with
         lost = ()
     if lost:

@@ -14,7 +14,7 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 
 from rightofway.errors import InputError, InputFault
-from rightofway.metrics import collisions, free_running, near_misses, swaps
+from rightofway.metrics import find_collisions, find_near_misses, find_swaps, free_running
 from rightofway.metrics.waits import waits_in
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, completions_of, stays_of
 from rightofway.quantities import DIGITS, Quantities, decimal
@@ -366,14 +366,14 @@ def _marks(
 ) -> dict[Mark, dict[int, Spans]]:
     """Return when robots collide, swap or wait, by mark and robot."""
     spans: dict[Mark, dict[int, Spans]] = {mark: {} for mark in MARKS}
-    for collision in collisions(scenario, tracks):
+    for collision in find_collisions(scenario, tracks):
         end = NEVER if collision.end is None else collision.end
         for robot in collision.robots:
             spans["collision"].setdefault(robot, []).append((collision.start, end))
-    for swap in swaps(tracks):
+    for swap in find_swaps(tracks):
         for robot in swap.robots:
             spans["swap"].setdefault(robot, []).append((swap.tick - 1, swap.tick + 1))
-    for miss in near_misses(scenario, tracks):
+    for miss in find_near_misses(scenario, tracks):
         end = NEVER if miss.end is None else miss.end
         for robot in miss.robots:
             spans["near"].setdefault(robot, []).append((miss.start, end))
