@@ -8,7 +8,7 @@ from dataclasses import replace
 from hypothesis import strategies as st
 
 from rightofway.check import check
-from rightofway.model import Scenario
+from rightofway.model import Scenario, Track
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, planned
@@ -63,3 +63,21 @@ def test_robots_released_part_by_part_hold_nothing_together_and_come_to_their_en
         else:
             released[robot] += 1
             assert floor.held_together(arrived, released) == []
+
+
+@law(any_fleet(), planners)
+def test_only_the_order_of_arrivals_counts(fleet: Scenario, planner: str) -> None:
+    """Numbers of arrivals in the place of times give the same graph, however long drives take."""
+    tracks = planned(fleet, planner).tracks
+    graph = ReleaseGraph.of(fleet, tracks)
+    instants = sorted({tick for track in tracks for tick in track.enter.tolist()})
+    number = {tick: 2 * k for k, tick in enumerate(instants)}
+    numbered = [
+        Track.of(track.vertices.tolist(), [number[tick] for tick in track.enter.tolist()])
+        for track in tracks
+    ]
+    by_order = ReleaseGraph.of(fleet, numbered)
+    parts = {*graph.waiting_parts(), *by_order.waiting_parts()}
+    assert {part: graph.waits(part) for part in parts} == {
+        part: by_order.waits(part) for part in parts
+    }

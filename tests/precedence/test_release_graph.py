@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rightofway import FleetBuilder
 from rightofway.model import Robot, Rules, Scenario, Stop, Tick, Track
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 from rightofway.site import VertexId, make_grid_roadmap
@@ -33,3 +34,19 @@ def test_robots_that_move_round_a_square_at_one_instant_are_a_cycle() -> None:
     tracks = [Track.of(way, [0, Tick(1)]) for way in ways]
     cycle = ReleaseGraph.of(scenario, tracks).rotation()
     assert cycle == (Part(0, 1), Part(1, 1), Part(2, 1), Part(3, 1))
+
+
+def test_robots_wait_in_the_order_of_their_arrivals_however_long_a_drive_takes() -> None:
+    """R1 drives along a lane, then slow R2 along one that crosses it; times only number arrivals.
+
+    R2 drives for 10 ticks, R1 for 1: by the begins of drives of these lengths, R2 would go first.
+    """
+    fleet = FleetBuilder(ends="none", turn=0, spacing="whole")
+    for name, x, y in (("A", 0, 5), ("B", 10, 5), ("C", 5, 0), ("D", 5, 10)):
+        fleet = fleet.add_vertex(name, x, y)
+    fleet = fleet.add_edge("A", "B").add_edge("C", "D")
+    fleet = fleet.add_robot("R1", home="A", target="B", speed=10, radius=1)
+    fleet = fleet.add_robot("R2", home="C", target="D", speed=1, radius=1)
+    tracks = [Track.of((0, 1), (0, 2)), Track.of((2, 3), (0, 4))]
+    graph = ReleaseGraph.of(fleet.scenario(), tracks)
+    assert (graph.waits(Part(0, 1)), graph.waits(Part(1, 1))) == ((), (Arrival(0, 1),))

@@ -20,7 +20,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from rightofway.model import Scenario, Track
-from rightofway.model.route import drives_along
 from rightofway.native import excluded_by
 
 
@@ -80,7 +79,8 @@ class ReleaseGraph:
         scenario
             The problem.
         tracks
-            A plan that keeps the rules. Its times say which robot goes first, and nothing else.
+            A plan that keeps the rules. Its times say which robot goes first, and nothing else: any
+            times in which robots arrive in the same order, two ticks apart, give the same graph.
         firsts
             The number of the first visit of each track, 0 if left out.
         """
@@ -197,7 +197,7 @@ class ReleaseGraph:
 class _Use(NamedTuple):
     """A robot books a row; sorted by begin, the uses of a vertex are in their order in the plan."""
 
-    begin: int  # of a time in which it surely books it [ticks]
+    begin: int  # a tick in which it surely books it
     row: int
     robot: int
     part: int
@@ -215,10 +215,13 @@ def _uses_of(scenario: Scenario, robot: int, track: Track) -> list[_Use]:
         for k, vertex in enumerate(vertices)
     ]
     edges = roadmap.find_edges(track.vertices[:-1], track.vertices[1:]).tolist()
-    drives = drives_along(roadmap, scenario.problem.itineraries[robot], vertices)
+    if -1 in edges:
+        raise KeyError(tuple(vertices[edges.index(-1) :][:2]))
+    # The last tick of a drive, not its first one: so the order of arrivals is all that counts, and
+    # times that are no timetable, as those of routes in a journal, give the order that they say.
     uses += (
-        _Use(enter[k] - ticks, resources.edge_row(robot, edge), robot, k, k, is_vertex=False)
-        for k, (edge, ticks) in enumerate(zip(edges, drives, strict=True), 1)
+        _Use(enter[k] - 1, resources.edge_row(robot, edge), robot, k, k, is_vertex=False)
+        for k, edge in enumerate(edges, 1)
     )
     return uses
 
