@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 import rightofway
+from rightofway import viz
 from tests.builders.fleets import PAPER, paper_scenario
 
 
@@ -49,6 +50,14 @@ def test_an_earlier_name_works_and_warns_of_the_new_one() -> None:
         assert rightofway.save_plan is rightofway.write_plan
     assert warned[0].filename == __file__
     assert "save_plan" not in dir(rightofway)
+
+
+@pytest.mark.parametrize("earlier", viz._EARLIER)
+def test_an_earlier_name_of_the_views_works_and_warns(earlier: str) -> None:
+    with pytest.warns(DeprecationWarning, match=f"{earlier} is now make_") as warned:
+        assert getattr(viz, earlier) is getattr(viz, viz._EARLIER[earlier])
+    assert warned[0].filename == __file__
+    assert earlier not in viz.__all__
 
 
 def test_what_is_not_there_is_said_as_usual() -> None:

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
 from rightofway.figures import PackageFigures as _PackageFigures
 from rightofway.provision import provided as _provided
+from rightofway.provision import warn_of_rename as _warn_of_rename
 
 if _TYPE_CHECKING:
     from rightofway.check import (
@@ -291,10 +292,7 @@ def __getattr__(name: str) -> object:
     if name in _ROOMS:
         return _import_module(f"{__name__}.{name}")
     if name in _EARLIER:
-        from warnings import warn
-
-        message = f"{__name__}.{name} is now {_EARLIER[name]} (use that name)"
-        warn(message, DeprecationWarning, stacklevel=2)
+        _warn_of_rename(__name__, name, _EARLIER[name])
         return getattr(_sys.modules[__name__], _EARLIER[name])
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 

@@ -40,9 +40,9 @@ class PackageFigures:
 
     def plan_html(self, plan: Plan) -> str:
         """Return the page of a plan in a frame."""
-        from rightofway.viz import frame_of
+        from rightofway.viz import make_frame
 
-        return frame_of(plan)
+        return make_frame(plan)
 
     def plan_bundle(self, plan: Plan) -> dict[str, Any]:
         """Return the page of a plan as a live part of a notebook."""
@@ -52,6 +52,6 @@ class PackageFigures:
 
     def scenario_html(self, scenario: Scenario) -> str:
         """Return the map and the robots of a scenario."""
-        from rightofway.viz import scenario_html
+        from rightofway.viz import make_scenario_html
 
-        return scenario_html(scenario)
+        return make_scenario_html(scenario)

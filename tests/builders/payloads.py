@@ -20,11 +20,11 @@ from rightofway.io import scenario_of
 from rightofway.model import ExecutionTrace, Plan, PlannerRun, Tick, Track
 from rightofway.quantities import Quantities, Units
 from rightofway.solve import solve
-from rightofway.viz.motion import trips_of
-from rightofway.viz.page.document import compact_json
-from rightofway.viz.page.payload import payload_of
+from rightofway.viz.motion import make_trips
+from rightofway.viz.page.document import as_compact_json
+from rightofway.viz.page.payload import make_payload
 from rightofway.viz.page.schema import Payload
-from rightofway.viz.placement import plane_of
+from rightofway.viz.placement import lay_out_roadmap
 from tests.builders.plans import counter, counter_late, counter_steady, crowd, door, loop, yard
 
 __all__ = [
@@ -96,7 +96,7 @@ def in_metres(plan: Plan) -> Plan:
 def _aisle() -> object:
     """Two lanes that cross, one of them in a zone."""
     zones = [{"name": "aisle", "vertices": ["C"], "edges": [["C", "D"]]}]
-    return payload_of(cross(zones=zones))
+    return make_payload(cross(zones=zones))
 
 
 def _packed() -> object:
@@ -107,7 +107,7 @@ def _packed() -> object:
     ]
     document = {"format": "rightofway-scenario/1", "map": {"grid": ["." * 7] * 7}, "robots": robots}
     plan = solve(scenario_of(document), time_limit=None, planner="prioritized")
-    return payload_of(plan)
+    return make_payload(plan)
 
 
 def _corner() -> Plan:
@@ -121,7 +121,7 @@ def _corner_late() -> object:
     """The same robot, twice as slow in all."""
     plan = _corner()
     trace = rightofway.simulate(plan, "slow:R1x2", runs=1).trace(0)
-    return payload_of(plan, actual=trace)
+    return make_payload(plan, actual=trace)
 
 
 def _rerouted() -> object:
@@ -133,7 +133,7 @@ def _rerouted() -> object:
         completion=(None, None),
         stoppages=((), ((Tick(3), None),)),
     )
-    return payload_of(door(), actual=actual)
+    return make_payload(door(), actual=actual)
 
 
 def _closed() -> object:
@@ -144,24 +144,24 @@ def _closed() -> object:
         "robots": [{"name": "R1", "home": "A", "target": "B"}],
         "closures": [{"edge": ["C", "D"], "from": 8, "until": 24, "radius": 1}],
     }
-    return payload_of(solve(scenario_of(document), time_limit=None))
+    return make_payload(solve(scenario_of(document), time_limit=None))
 
 
 def _positions() -> object:
     """Where the pictures of the package have robots: x, y [units] and activity, at some ticks."""
     found = {}
     for name, plan in {"door": door(), "loop": loop(), "crowd": crowd(6)}.items():
-        plane = plane_of(plan.scenario.roadmap)
+        plane = lay_out_roadmap(plan.scenario.roadmap)
         moments = []
         for tick in (0, 0.5, 3, 4.25, 9, 12.5, 40, 200):
             robots: list[tuple[float, float, str]] = []
-            for trip in trips_of(plan):
-                moment = trip.at(tick)
+            for trip in make_trips(plan):
+                moment = trip.locate(tick)
                 tail, head = plane.points[moment.tail], plane.points[moment.head]
                 x, y = (tail + (head - tail) * moment.share).tolist()
                 robots.append((round(x, 6), round(y, 6), moment.activity.value))
             moments.append({"tick": tick, "robots": robots})
-        found[name] = {"payload": payload_of(plan), "moments": moments}
+        found[name] = {"payload": make_payload(plan), "moments": moments}
     return found
 
 
@@ -185,17 +185,17 @@ def _times() -> object:
 
 
 MADE: dict[str, Callable[[], object]] = {
-    "door": lambda: payload_of(door()),
-    "measured": lambda: payload_of(in_metres(door())),
-    "yard": lambda: payload_of(yard()),
-    "loop": lambda: payload_of(loop()),
-    "laps": lambda: payload_of(counter(), steady=[counter_steady()]),
-    "late": lambda: payload_of(counter(), actual=counter_late()),
-    "late_laps": lambda: payload_of(counter(), steady=[counter_steady()], actual=counter_late()),
-    "cross": lambda: payload_of(cross()),
+    "door": lambda: make_payload(door()),
+    "measured": lambda: make_payload(in_metres(door())),
+    "yard": lambda: make_payload(yard()),
+    "loop": lambda: make_payload(loop()),
+    "laps": lambda: make_payload(counter(), steady=[counter_steady()]),
+    "late": lambda: make_payload(counter(), actual=counter_late()),
+    "late_laps": lambda: make_payload(counter(), steady=[counter_steady()], actual=counter_late()),
+    "cross": lambda: make_payload(cross()),
     "aisle": _aisle,
     "packed": _packed,
-    "corner": lambda: payload_of(_corner()),
+    "corner": lambda: make_payload(_corner()),
     "corner_late": _corner_late,
     "closed": _closed,
     "rerouted": _rerouted,
@@ -207,7 +207,7 @@ MADE: dict[str, Callable[[], object]] = {
 
 def written(name: str) -> str:
     """Return what a file has to hold."""
-    return f"{compact_json({'made': MADE[name]()})}\n"
+    return f"{as_compact_json({'made': MADE[name]()})}\n"
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ from rightofway.studio.app import create_app
 from rightofway.studio.connections import Connection
 from rightofway.studio.guard import Access
 from rightofway.studio.runs import Runs
-from rightofway.studio.serve import bound
+from rightofway.studio.serve import bind_socket
 from rightofway.studio.session import Studio
 from tests.builders.suites import soon
 
@@ -111,7 +111,7 @@ class Client(httpx.Client):
 @contextmanager
 def running(folder: Path, access: Access | None = None, **settings: Any) -> Iterator[Client]:
     """Serve a folder, and yield a client of version 1 of the API."""
-    with closing(bound("127.0.0.1", 0)) as listener:
+    with closing(bind_socket("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
         studio = Studio(folder, **settings)
         app = create_app(studio, access or Access.on("127.0.0.1", port))

@@ -8,7 +8,7 @@ from rightofway.cyclic import excerpt, run_laps
 from rightofway.io import load
 from rightofway.model import Robot, Scenario, Stop
 from rightofway.site import VertexId, make_grid_roadmap
-from rightofway.viz import payload_of
+from rightofway.viz import make_payload
 from tests.builders.plans import counter
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -59,7 +59,7 @@ def test_who_waits_for_ever_is_shown_waiting() -> None:
     plan, (steady,) = excerpt(run_laps(counter().scenario, "fixed-order"))
     assert steady.robots == (0,)
     assert len(plan.tracks[1]) == 1
-    robots = payload_of(plan, steady=[steady])["robots"]
+    robots = make_payload(plan, steady=[steady])["robots"]
     assert ["stands" in robot for robot in robots] == [False, True]
 
 
@@ -73,4 +73,4 @@ def test_a_deadlock_is_shown_to_its_end() -> None:
     )
     plan, steady = excerpt(run_laps(Scenario(roadmap=roadmap, robots=robots)))
     assert steady == ()
-    assert all(robot["stands"] for robot in payload_of(plan)["robots"])
+    assert all(robot["stands"] for robot in make_payload(plan)["robots"])

@@ -20,7 +20,7 @@ from rightofway.model.outcome import classify_cost
 from rightofway.phrases import parts_of
 from rightofway.report.plan import planning
 from rightofway.report.sentences import describe_proof
-from rightofway.viz.page.payload import payload_of
+from rightofway.viz.page.payload import make_payload
 from tests.builders.fleets import grid_fleet
 
 CLAIMANT = """
@@ -97,7 +97,7 @@ def test_a_factor_holds_only_where_the_bound_proves_it(factor: str, kind: Outcom
     assert plan.run.options == {"bound": 4, "factor": factor}
     is_said = "at most 5/4 times the least flowtime" in planning(plan, plan.scenario.quantities)
     assert is_said == (kind is OutcomeKind.BOUNDED)
-    page = payload_of(plan)["planner"].get("proven", "")
+    page = make_payload(plan)["planner"].get("proven", "")
     assert page == parts_of(describe_proof(plan))
 
 

@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from rightofway.cli.main import commands, run
 from rightofway.errors import InputError
 from rightofway.studio.guard import Access, is_loopback
-from rightofway.studio.serve import bound, folder_and_file, refuse_certificate
+from rightofway.studio.serve import bind_socket, refuse_certificate, split_folder_and_file
 from tests.builders.studios import command
 
 
@@ -34,15 +34,15 @@ def test_a_path_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str])
 
 def test_a_file_is_opened_in_its_folder(tmp_path: Path) -> None:
     (tmp_path / "door.yaml").touch()
-    assert folder_and_file(tmp_path / "door.yaml") == (tmp_path, "door.yaml")
-    assert folder_and_file(tmp_path) == (tmp_path, None)
+    assert split_folder_and_file(tmp_path / "door.yaml") == (tmp_path, "door.yaml")
+    assert split_folder_and_file(tmp_path) == (tmp_path, None)
 
 
 def test_a_port_that_is_taken_is_refused_and_a_free_one_is_found_by_itself() -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         with pytest.raises(InputError, match="cannot be listened on"):
-            bound("127.0.0.1", taken.getsockname()[1])
-        with bound("127.0.0.1", None) as one, bound("127.0.0.1", None) as other:
+            bind_socket("127.0.0.1", taken.getsockname()[1])
+        with bind_socket("127.0.0.1", None) as one, bind_socket("127.0.0.1", None) as other:
             assert one.getsockname()[1] != other.getsockname()[1]
 
 

@@ -11,7 +11,7 @@ from rightofway import load, solve
 from rightofway.io import plan_of, plan_text
 from rightofway.io.text import parse_json
 from rightofway.studio.tasks.drawings import Origin, as_drawn
-from rightofway.viz.page.payload import payload_of
+from rightofway.viz.page.payload import make_payload
 
 
 def test_a_plan_on_a_ros_map_is_shown_over_its_picture(
@@ -35,9 +35,9 @@ def test_a_plan_on_a_ros_map_is_shown_over_its_picture(
     monkeypatch.chdir(tmp_path)
     plan = solve(load(tmp_path / "site.json"), time_limit=1)
     bare = plan_of(parse_json(plan_text(plan)))
-    assert "background" not in payload_of(bare)["map"]
+    assert "background" not in make_payload(bare)["map"]
     drawn = as_drawn(bare, Origin(document=document, folder="."))
-    assert payload_of(drawn)["map"]["background"]["href"].startswith("data:image/png")
+    assert make_payload(drawn)["map"]["background"]["href"].startswith("data:image/png")
     assert as_drawn(bare, None) is bare
     gone = {**document, "map": {"layout": "gone.yaml"}}
     assert as_drawn(bare, Origin(document=gone, folder=".")) is bare

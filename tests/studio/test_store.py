@@ -23,9 +23,12 @@ def test_what_is_kept_is_there_when_the_file_is_opened_again(tmp_path: Path) -> 
     store.close()
     again = Store(tmp_path)
     assert again.is_kept
-    assert again.runs() == [(number, {"name": "two"})]
-    assert (again.blob(number, "plan"), again.blob(number, "report")) == (b"second", b"{}")
-    found = again.draft("hall")
+    assert again.list_runs() == [(number, {"name": "two"})]
+    assert (again.read_blob(number, "plan"), again.read_blob(number, "report")) == (
+        b"second",
+        b"{}",
+    )
+    found = again.read_draft("hall")
     assert found
     assert found["document"] == {"map": {}}
     again.close()
@@ -49,8 +52,8 @@ def test_a_deleted_run_takes_its_blobs_along_and_is_not_put_back(tmp_path: Path)
     store.put_run(number, {}, [("plan", b"plan")])
     store.delete_run(number)
     store.put_run(number, {}, [("plan", b"late")])
-    assert store.runs() == []
-    assert store.blob(number, "plan") is None
+    assert store.list_runs() == []
+    assert store.read_blob(number, "plan") is None
     store.close()
 
 
@@ -69,7 +72,7 @@ def test_a_folder_that_cannot_be_written_is_served_from_memory(tmp_path: Path) -
     store = Store(tmp_path / "nowhere")
     assert not store.is_kept
     store.put_draft("hall", {})
-    assert [each["name"] for each in store.drafts()] == ["hall"]
+    assert [each["name"] for each in store.list_drafts()] == ["hall"]
     store.close()
 
 
@@ -81,10 +84,10 @@ def test_a_folder_that_cannot_be_written_is_served_from_memory(tmp_path: Path) -
 def test_a_name_that_is_no_plain_path_is_refused(tmp_path: Path, name: str) -> None:
     workspace = Workspace(tmp_path)
     if name == "~":  # a plain name: nothing expands it
-        assert workspace.path(name) == tmp_path / "~"
+        assert workspace.find_path(name) == tmp_path / "~"
         return
     with pytest.raises(Refused):
-        workspace.path(name)
+        workspace.find_path(name)
 
 
 def test_a_path_that_leads_through_a_link_is_refused(tmp_path: Path) -> None:
@@ -114,7 +117,7 @@ def test_a_list_of_a_large_folder_has_what_is_near_and_says_that_it_is_cut(
         path = tmp_path / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.touch()
-    entries, is_whole = Workspace(tmp_path).files()
+    entries, is_whole = Workspace(tmp_path).list_files()
     assert ([entry.path for entry in entries], is_whole) == (["b/near.yaml", "top.yaml"], False)
 
 
@@ -125,7 +128,7 @@ def test_a_full_disk_is_refused_with_words_and_leaves_what_was_there(tmp_path: P
     with pytest.raises(Refused, match="disk is full") as refused:
         store.put_draft("hall", {"walls": "x" * 10**6})
     assert refused.value.status == 507
-    found = store.draft("hall")
+    found = store.read_draft("hall")
     assert found
     assert found["document"] == {"walls": 1}
     store.close()

@@ -51,10 +51,12 @@ def test_more_memory_than_its_part_is_an_error_and_not_the_end_of_the_machine() 
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is counted otherwise")
 def test_the_memory_of_whoever_starts_a_worker_is_not_its_own() -> None:
     """A worker that seems large is replaced after each job."""
-    counted = "from rightofway.studio.worker import most_memory; print(most_memory())"
+    counted = (
+        "from rightofway.studio.worker import measure_most_memory; print(measure_most_memory())"
+    )
     started = f"import subprocess; subprocess.run([sys.executable, '-c', {counted!r}])"
     assert int(ran(f"whole = bytearray(LARGE); {started}")) < LARGE / 2
-    assert int(ran("whole = bytearray(LARGE); print(most_memory())")) > LARGE
+    assert int(ran("whole = bytearray(LARGE); print(measure_most_memory())")) > LARGE
 
 
 @pytest.mark.parametrize(

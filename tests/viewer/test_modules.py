@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from rightofway.io.sites import Choice, read_sites
-from rightofway.viz import site_data
+from rightofway.viz import make_site_data
 from rightofway.viz.page import document
-from rightofway.viz.page.document import style_sheet
+from rightofway.viz.page.document import make_style_sheet
 from tests.builders.canvases import Canvases
 
 if TYPE_CHECKING:
@@ -58,8 +58,10 @@ def address(tmp_path: Path) -> Iterator[str]:
 
 def test_a_site_alone_is_drawn(browser: Browser, tmp_path: Path, address: str) -> None:
     ((_, site),) = read_sites(LAYOUTS / "plant.xml", Choice()).sites
-    (tmp_path / "site.json").write_text(json.dumps(site_data(site)), encoding="utf-8")
-    (tmp_path / "index.html").write_text(PAGE.replace("STYLE", style_sheet()), encoding="utf-8")
+    (tmp_path / "site.json").write_text(json.dumps(make_site_data(site)), encoding="utf-8")
+    (tmp_path / "index.html").write_text(
+        PAGE.replace("STYLE", make_style_sheet()), encoding="utf-8"
+    )
     (tmp_path / "favicon.ico").write_bytes(b"")
     context = browser.new_context()
     viewer = Canvases(context.new_page())

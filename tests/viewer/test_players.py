@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import pytest
 
 from rightofway.metrics import Site, inspect
-from rightofway.viz import inspection_page
-from rightofway.viz.page.document import payload_text, style_sheet
-from rightofway.viz.page.scripts import classic_script, scripts_of
+from rightofway.viz import make_inspection_page
+from rightofway.viz.page.document import make_payload_text, make_style_sheet
+from rightofway.viz.page.scripts import make_classic_script, order_scripts
 from rightofway.viz.page.widget import WIDGET_STYLE
 from tests.builders.browsers import expect
 from tests.builders.payloads import payload_text_in
@@ -46,10 +46,10 @@ def page(browser: Browser) -> Iterator[Page]:
     page.on("console", lambda message: complaints.append(message.text))
     page.on("pageerror", lambda error: complaints.append(str(error)))
     parts = {
-        "STYLE": re.sub(r":root|\bbody\b", ".page", style_sheet()) + WIDGET_STYLE,
-        "MODULES": "\n".join(classic_script(name) for name in scripts_of("player")),
-        "FIRST": json.dumps(json.loads(payload_text(door()))),
-        "SECOND": json.dumps(json.loads(payload_text(loop()))),
+        "STYLE": re.sub(r":root|\bbody\b", ".page", make_style_sheet()) + WIDGET_STYLE,
+        "MODULES": "\n".join(make_classic_script(name) for name in order_scripts("player")),
+        "FIRST": json.dumps(json.loads(make_payload_text(door()))),
+        "SECOND": json.dumps(json.loads(make_payload_text(loop()))),
     }
     page.set_content(re.sub("|".join(parts), lambda found: parts[found[0]], PAGE))
     yield page
@@ -114,10 +114,10 @@ document.querySelector("button").addEventListener("click", () => first.destroy()
 def test_an_inspection_is_a_part_too(browser: Browser) -> None:
     scenario = door().scenario
     site = Site(roadmap=scenario.roadmap, robots=scenario.robots, rules=scenario.rules)
-    text = inspection_page([("", site, inspect(site))], title="door")
+    text = make_inspection_page([("", site, inspect(site))], title="door")
     parts = {
-        "STYLE": re.sub(r":root|\bbody\b", ".page", style_sheet()) + WIDGET_STYLE,
-        "MODULES": "\n".join(classic_script(name) for name in scripts_of("inspection")),
+        "STYLE": re.sub(r":root|\bbody\b", ".page", make_style_sheet()) + WIDGET_STYLE,
+        "MODULES": "\n".join(make_classic_script(name) for name in order_scripts("inspection")),
         "PAYLOAD": payload_text_in(text),
     }
     context = browser.new_context(viewport={"width": 1200, "height": 1500})

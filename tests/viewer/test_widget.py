@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rightofway.viz.page.document import payload_text
-from rightofway.viz.page.widget import widget_module
+from rightofway.viz.page.document import make_payload_text
+from rightofway.viz.page.widget import make_widget_module
 from tests.builders.browsers import expect
 from tests.builders.plans import door
 
@@ -32,7 +32,7 @@ def notebook(browser: Browser) -> Iterator[Page]:
     complaints: list[str] = []
     page.on("console", lambda message: complaints.append(message.text))
     page.on("pageerror", lambda error: complaints.append(str(error)))
-    page.evaluate(RENDER, [widget_module(), payload_text(door())])
+    page.evaluate(RENDER, [make_widget_module(), make_payload_text(door())])
     page.wait_for_selector(".row:has-text('R2') >> nth=0")
     yield page
     assert complaints == []

@@ -9,12 +9,12 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.model import ExecutionTrace, Tick, Track
-from rightofway.viz import payload_of
+from rightofway.viz import make_payload
 from tests.builders.plans import counter, counter_late, door
 
 
 def told(actual: ExecutionTrace | None = None) -> Any:
-    payload = payload_of(counter(), actual=actual or counter_late())
+    payload = make_payload(counter(), actual=actual or counter_late())
     return json.loads(json.dumps(payload))["floor"]
 
 
@@ -28,7 +28,7 @@ def test_what_happened_is_told_on_the_way_of_the_plan() -> None:
 
 def test_the_plan_itself_is_told_as_ever() -> None:
     said = {"floor", "phrases", "translations"}  # of the execution there are more
-    payload, planned = payload_of(counter(), actual=counter_late()), payload_of(counter())
+    payload, planned = make_payload(counter(), actual=counter_late()), make_payload(counter())
     assert {key: payload[key] for key in payload.keys() - said} == {  # type: ignore[literal-required]
         key: planned[key]  # type: ignore[literal-required]
         for key in planned.keys() - said
@@ -66,7 +66,7 @@ def test_a_run_as_planned_ends_with_the_plan() -> None:
         drive=(np.array([0, *[1] * 8]),) * 2,
         completion=(Tick(10), Tick(9)),
     )
-    payload = payload_of(plan, actual=actual)
+    payload = make_payload(plan, actual=actual)
     assert payload["floor"]["end"] == payload["end"] == 10
     assert payload["floor"]["losses"] == payload["losses"]
 
@@ -81,7 +81,7 @@ def test_another_way_is_told_with_its_vertices() -> None:
         completion=(None, None),
         stoppages=((), ((Tick(3), None),)),
     )
-    one, two = payload_of(plan, actual=actual)["floor"]["robots"]
+    one, two = make_payload(plan, actual=actual)["floor"]["robots"]
     assert one["vertices"] == [0, 1, -1]
     assert [visit for *_, visit in one["stages"]] == [-1, -1]
     assert "vertices" not in two
@@ -96,7 +96,7 @@ def test_every_robot_needs_a_track() -> None:
         completion=(None,),
     )
     with pytest.raises(InputError, match=r"actual.tracks: 1 for 2 robots \(give one for each\)"):
-        payload_of(counter(), actual=half)
+        make_payload(counter(), actual=half)
 
 
 @pytest.mark.parametrize(

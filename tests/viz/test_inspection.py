@@ -8,7 +8,7 @@ from rightofway.metrics import Site, inspect
 from rightofway.model import Robot, Stop
 from rightofway.quantities import Units
 from rightofway.site import Edge, VertexId, make_roadmap
-from rightofway.viz import inspection_page, site_data
+from rightofway.viz import make_inspection_page, make_site_data
 from tests.builders.payloads import payload_in
 
 EVIL = '</script><img src="x" onerror="alert(1)">'
@@ -24,7 +24,7 @@ def yard() -> Site:
 
 def test_a_level_has_its_map_its_robots_and_its_findings() -> None:
     site = yard()
-    (level,) = payload_in(inspection_page([("", site, inspect(site))], title="yard"))["levels"]
+    (level,) = payload_in(make_inspection_page([("", site, inspect(site))], title="yard"))["levels"]
     (robot,) = level["robots"]
     assert (robot["name"], robot["radius"], robot["vertices"]) == ("R1", 0.5, [0])
     assert robot["stages"] == [[1, 0, 0, -1]]
@@ -33,7 +33,7 @@ def test_a_level_has_its_map_its_robots_and_its_findings() -> None:
 
 
 def test_a_map_needs_no_plan() -> None:
-    data = site_data(Site(roadmap=yard().roadmap))
+    data = make_site_data(Site(roadmap=yard().roadmap))
     assert (data["robots"], data["map"]["width"], data["units"]) == (
         [], 2.0, {"length": None, "time": None},
     )  # fmt: skip
@@ -41,7 +41,7 @@ def test_a_map_needs_no_plan() -> None:
 
 def test_names_bring_no_element_with_them() -> None:
     site = yard()
-    page = inspection_page(
+    page = make_inspection_page(
         [(EVIL, site, inspect(site))], title=EVIL, description=EVIL, notes=[EVIL]
     )
     assert "<img" not in page

@@ -12,7 +12,7 @@ from rightofway.cyclic import excerpt, run_laps
 from rightofway.errors import InputError
 from rightofway.model import SteadyState, Tick
 from rightofway.phrases import names_in
-from rightofway.viz import page_of, payload_of
+from rightofway.viz import make_page, make_payload
 from tests.builders.fleets import grid_fleet
 from tests.builders.payloads import template_in
 from tests.builders.plans import counter, counter_steady, door
@@ -21,11 +21,11 @@ from tests.builders.plans import counter, counter_steady, door
 def test_what_a_plan_says_itself_is_told() -> None:
     group = counter_steady()
     plan = replace(counter(4), steady=(group,))
-    assert payload_of(plan) == payload_of(counter(4), steady=[group])
+    assert make_payload(plan) == make_payload(counter(4), steady=[group])
 
 
 def told(*groups: SteadyState, laps: int = 4) -> Any:
-    return json.loads(json.dumps(payload_of(counter(laps), steady=groups)))
+    return json.loads(json.dumps(make_payload(counter(laps), steady=groups)))
 
 
 def test_a_group_is_told_with_its_circuit() -> None:
@@ -87,9 +87,9 @@ def test_laps_are_told_and_the_page_ends_with_them() -> None:
 
 
 def test_a_page_without_them_is_told_nothing() -> None:
-    assert payload_of(counter()).keys() == payload_of(door()).keys()
-    assert {"steady", "laps", "floor"}.isdisjoint(payload_of(counter()))
-    assert page_of(door()) == page_of(door(), steady=(), actual=None)
+    assert make_payload(counter()).keys() == make_payload(door()).keys()
+    assert {"steady", "laps", "floor"}.isdisjoint(make_payload(counter()))
+    assert make_page(door()) == make_page(door(), steady=(), actual=None)
 
 
 @pytest.mark.parametrize(
@@ -107,7 +107,7 @@ def test_a_page_without_them_is_told_nothing() -> None:
 )
 def test_strangers_are_refused(group: SteadyState, message: str) -> None:
     with pytest.raises(InputError, match=message):
-        payload_of(counter(), steady=[group])
+        make_payload(counter(), steady=[group])
 
 
 @pytest.mark.parametrize(
@@ -133,8 +133,8 @@ def test_an_excerpt_of_laps_has_no_faults_and_a_plan_of_whole_laps_has() -> None
     trips = [("N0", "N6"), ("N2", "N8")]
     scenario = grid_fleet(["...", "@.@", "..."], trips, speeds=[Fraction(1, 2), Fraction(1, 3)])
     plan, steady = excerpt(run_laps(scenario, "fixed-order", routes="shortest"))
-    assert payload_of(plan, steady=steady)["faults"]["count"] == 0
+    assert make_payload(plan, steady=steady)["faults"]["count"] == 0
     whole = replace(plan, run=replace(plan.run, status="whole laps"))
-    payload = payload_of(whole, steady=steady)
+    payload = make_payload(whole, steady=steady)
     [(kind, count)] = payload["faults"]["kinds"]
     assert (template_in(payload, kind), count) == ("stop missed", 1)

@@ -18,14 +18,14 @@ from rightofway.quantities import Units
 from rightofway.viz.table import (
     ListColumn,
     Listing,
-    chosen_events,
-    collision_list,
-    collision_ticks,
-    conflicts_before,
-    decision_list,
-    event_list,
+    choose_events,
+    count_conflicts_before,
+    tabulate_collision_ticks,
+    tabulate_collisions,
+    tabulate_decisions,
+    tabulate_events,
 )
-from rightofway.viz.table.workbook import sheets_of
+from rightofway.viz.table.workbook import make_sheets
 from tests.builders.fleets import PAPER, paper_scenario, random_fleet
 
 CASES = {case["name"]: case for case in PAPER}
@@ -43,7 +43,7 @@ def in_seconds() -> Plan:
 
 
 def test_events_for_people_have_the_unit_under_the_heading() -> None:
-    lines = event_list(in_seconds()).as_text().splitlines()
+    lines = tabulate_events(in_seconds()).as_text().splitlines()
     assert lines[:4] == [
         "robot  place  purpose        enter  leave  waits  waits for  to leave",
         "                               [s]    [s]    [s]",
@@ -53,7 +53,7 @@ def test_events_for_people_have_the_unit_under_the_heading() -> None:
 
 
 def test_events_for_programs_have_times_in_the_unit_and_in_ticks() -> None:
-    lines = event_list(in_seconds()).as_csv().splitlines()
+    lines = tabulate_events(in_seconds()).as_csv().splitlines()
     assert lines[0] == (
         "robot,visit,place,purpose,enter [s],leave [s],waits [s],waits for,to leave,"
         "enter [ticks],leave [ticks],waits [ticks]"
@@ -64,7 +64,7 @@ def test_events_for_programs_have_times_in_the_unit_and_in_ticks() -> None:
 def test_a_window_keeps_the_visits_that_have_a_part_in_it() -> None:
     """Table 4: R2 is in N1 in [1, 2), in N4 in [2, 3), in N7 in [3, 4)."""
     plan = published("door-1")
-    chosen = chosen_events(plan, first_tick=2, last_tick=3, robots=["R2"])
+    chosen = choose_events(plan, first_tick=2, last_tick=3, robots=["R2"])
     assert [plan.scenario.roadmap.name(each.vertex) for each in chosen] == ["N4", "N7"]
 
 
@@ -84,14 +84,14 @@ def test_the_paper_lists_a_collision_for_each_tick() -> None:
         NamedCollision("R2", "R3", Tick(5), Tick(5), ("N1", "N4"), "swap"),
     ]
     quantities = paper_scenario(CASES["door-1"]).quantities
-    assert list(collision_ticks(found, quantities, Tick(6)).rows()) == [
+    assert list(tabulate_collision_ticks(found, quantities, Tick(6)).list_rows()) == [
         ("R1", "R2", 3, "N7", "collision"),
         ("R1", "R2", 4, "N7", "collision"),
         ("R1", "R3", 5, "N4", "collision"),
         ("R2", "R3", 5, "N1 and N4", "swap"),
         ("R1", "R3", 6, "N4", "collision"),
     ]
-    assert "for ever" in collision_list(found, quantities).as_text()
+    assert "for ever" in tabulate_collisions(found, quantities).as_text()
 
 
 def test_the_swap_that_the_published_method_leaves_is_listed() -> None:
@@ -106,8 +106,10 @@ def test_conflicts_before_the_first_decision_are_counted_tick_by_tick(case: dict
     plan = published(case["name"])
     scenario, tracks = plan.scenario, free_running_tracks(plan.scenario)
     end = max(completions_of(scenario, tracks))
-    listed = collision_ticks(name_collisions(scenario, tracks), scenario.quantities, end)
-    assert conflicts_before(plan)[0] == [row[4] for row in listed.rows()].count("collision")
+    listed = tabulate_collision_ticks(name_collisions(scenario, tracks), scenario.quantities, end)
+    assert count_conflicts_before(plan)[0] == [row[4] for row in listed.list_rows()].count(
+        "collision"
+    )
 
 
 def test_the_published_method_does_not_count_the_swaps_that_it_does_not_see() -> None:
@@ -115,7 +117,7 @@ def test_the_published_method_does_not_count_the_swaps_that_it_does_not_see() ->
     found = name_collisions(plan.scenario, free_running(plan))
     assert "swap" in [each.kind for each in found]
     ticks = [each.until - each.start for each in found if each.until is not None]
-    assert conflicts_before(plan)[0] == sum(ticks)
+    assert count_conflicts_before(plan)[0] == sum(ticks)
 
 
 def test_a_list_of_too_many_ticks_is_refused() -> None:
@@ -123,12 +125,12 @@ def test_a_list_of_too_many_ticks_is_refused() -> None:
     with pytest.raises(
         InputError, match=r"--each-tick: the collisions last 1000000000 ticks, more"
     ):
-        collision_ticks(found, in_seconds().scenario.quantities, Tick(6))
+        tabulate_collision_ticks(found, in_seconds().scenario.quantities, Tick(6))
 
 
 def test_each_decision_goes_on_from_what_the_one_before_has_left() -> None:
     """door-2: R2 waits, which leaves one conflict (three if R1 waited); then none is left."""
-    rows = list(decision_list(published("door-2")).rows())
+    rows = list(tabulate_decisions(published("door-2")).list_rows())
     assert [row[9:13] for row in rows] == [(rows[0][9], 3, 1, 1), (1, 0, 0, 0)]
 
 
@@ -145,7 +147,7 @@ def test_a_long_list_is_cut_and_says_so() -> None:
 
 
 def test_a_sheet_has_numbers_a_heading_that_stays_and_filters() -> None:
-    workbook = openpyxl.load_workbook(io.BytesIO(sheets_of([event_list(in_seconds())])))
+    workbook = openpyxl.load_workbook(io.BytesIO(make_sheets([tabulate_events(in_seconds())])))
     sheet = workbook["events"]
     assert [cell.value for cell in sheet[3]][:6] == ["R1", 1, "N1", "drive through", 2.5, 5]
     assert (sheet.freeze_panes, sheet.auto_filter.ref) == ("A2", "A1:L6")

@@ -4,18 +4,18 @@ import pytest
 
 from rightofway.fleet_builder import FleetBuilder
 from rightofway.model import Plan, PlannerRun, Track
-from rightofway.viz.motion import Moment, Phase, Trip, end_of, trips_of
+from rightofway.viz.motion import Moment, Phase, Trip, end_of, make_trips
 from tests.builders.plans import door, loop
 
 
 @pytest.fixture
 def cart() -> Trip:
-    return trips_of(loop())[0]
+    return make_trips(loop())[0]
 
 
 def test_a_visit_is_work_then_turning_then_waiting_then_the_drive(cart: Trip) -> None:
     # c is held from 4 to 14: 4 of work, 2 of turning, 3 of driving; 1 is left to wait
-    assert list(cart.phases(2)) == [
+    assert list(cart.trace_phases(2)) == [
         (4, 8, Phase.WORK),
         (8, 10, Phase.TURN),
         (10, 11, Phase.WAIT),
@@ -28,8 +28,8 @@ def test_a_turn_between_two_edges_comes_before_the_wait() -> None:
     fleet = FleetBuilder(grid=["..", "@."], turn_rate=45, ends="none")
     scenario = fleet.add_robot("R", home="N0", target="N3").scenario()
     tracks = (Track.of([0, 1, 2], [0, 1, 5]),)
-    (trip,) = trips_of(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
-    assert list(trip.phases(1)) == [
+    (trip,) = make_trips(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
+    assert list(trip.trace_phases(1)) == [
         (1, 3, Phase.TURN),
         (3, 4, Phase.WAIT),
         (4, 5, Phase.DRIVE),
@@ -41,7 +41,7 @@ def test_the_drive_takes_the_ticks_of_its_edge(cart: Trip) -> None:
 
 
 def test_the_last_visit_needs_no_turning(cart: Trip) -> None:
-    assert list(cart.phases(4)) == []
+    assert list(cart.trace_phases(4)) == []
 
 
 def test_each_stage_is_served_by_the_visit_that_is_long_enough(cart: Trip) -> None:
@@ -51,7 +51,7 @@ def test_each_stage_is_served_by_the_visit_that_is_long_enough(cart: Trip) -> No
 def test_a_stage_that_is_left_out_is_served_nowhere() -> None:
     plan = loop()
     track = type(plan.tracks[0]).of([0, 1, 0], [0, 2, 4])
-    trip = trips_of(type(plan)(scenario=plan.scenario, tracks=(track,), run=plan.run))[0]
+    trip = make_trips(type(plan)(scenario=plan.scenario, tracks=(track,), run=plan.run))[0]
     assert trip.served == (-1, -1)
 
 
@@ -70,13 +70,13 @@ def test_a_stage_that_is_left_out_is_served_nowhere() -> None:
     ],
 )
 def test_a_robot_is_where_the_plan_has_it(cart: Trip, tick: float, moment: Moment) -> None:
-    assert cart.at(tick) == moment
+    assert cart.locate(tick) == moment
 
 
 def test_the_robot_that_gives_way_waits_first() -> None:
     # R1 could leave N0 at once; it drives for one tick before it enters N1 at 2
-    assert list(trips_of(door())[0].phases(0)) == [(0, 1, Phase.WAIT), (1, 2, Phase.DRIVE)]
+    assert list(make_trips(door())[0].trace_phases(0)) == [(0, 1, Phase.WAIT), (1, 2, Phase.DRIVE)]
 
 
 def test_the_end_is_when_the_last_robot_is_done() -> None:
-    assert end_of(trips_of(door())) == 10
+    assert end_of(make_trips(door())) == 10

@@ -13,8 +13,8 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.quantities import Units
-from rightofway.viz import frame_of, page_of, payload_of, png_of, write_page
-from rightofway.viz.page.scripts import scripts_of
+from rightofway.viz import make_frame, make_page, make_payload, make_png, write_page
+from rightofway.viz.page.scripts import order_scripts
 from tests.builders.payloads import payload_in, template_in
 from tests.builders.plans import (
     counter,
@@ -49,23 +49,23 @@ class Elements(HTMLParser):
 
 
 def test_the_page_carries_the_payload() -> None:
-    assert payload_in(page_of(door())) == json.loads(json.dumps(payload_of(door())))
+    assert payload_in(make_page(door())) == json.loads(json.dumps(make_payload(door())))
 
 
 def test_a_small_plan_makes_a_small_page() -> None:
     assert (
-        len(page_of(door()).encode()) < 310_000
+        len(make_page(door()).encode()) < 310_000
     )  # 40 kB are texts in two languages; fields and checks for types took 6 kB
 
 
 def test_names_bring_no_element_and_no_attribute_with_them() -> None:
-    harmless, evil = Elements(page_of(hostile("x"))), Elements(page_of(hostile(EVIL)))
+    harmless, evil = Elements(make_page(hostile("x"))), Elements(make_page(hostile(EVIL)))
     assert evil.tags == harmless.tags
     assert [name for name, _ in evil.attributes] == [name for name, _ in harmless.attributes]
 
 
 def test_names_come_through_as_they_are() -> None:
-    payload = payload_in(page_of(hostile(EVIL)))
+    payload = payload_in(make_page(hostile(EVIL)))
     assert payload["robots"][0]["name"] == EVIL
     assert payload["map"]["names"][0] == EVIL
     assert payload["reroutes"][0]["because"] == EVIL
@@ -79,7 +79,7 @@ def test_a_name_that_is_no_valid_unicode_can_be_written(tmp_path: Path) -> None:
 
 
 def test_only_our_own_scripts_and_style_may_run() -> None:
-    page = page_of(door())
+    page = make_page(door())
     policy = dict(re.findall(r"([a-z]+-src) ([^;\"]*)", page))
     scripts = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
     digests = [
@@ -91,7 +91,7 @@ def test_only_our_own_scripts_and_style_may_run() -> None:
 
 
 def test_the_page_names_no_address() -> None:
-    page = page_of(door()).replace("http://www.w3.org/2000/svg", "")  # a name, not an address
+    page = make_page(door()).replace("http://www.w3.org/2000/svg", "")  # a name, not an address
     assert not re.search(r"https?://|//[a-z]+\.|@import|url\(", page)
 
 
@@ -99,9 +99,9 @@ def test_every_script_is_on_a_page_and_short() -> None:
     used = {
         module
         for entry in ("main", "inspect_main", "watch_main", "widget")
-        for module in scripts_of(entry)
+        for module in order_scripts(entry)
     }
-    assets = Path(page_of.__code__.co_filename).parent / "assets"
+    assets = Path(make_page.__code__.co_filename).parent / "assets"
     for script in assets.rglob("*.js"):
         assert script.relative_to(assets).with_suffix("").as_posix() in used
         is_table = script.parent.name == "texts"
@@ -111,45 +111,45 @@ def test_every_script_is_on_a_page_and_short() -> None:
 
 
 def test_long_lists_are_written_as_differences() -> None:
-    robot = payload_of(door())["robots"][0]
+    robot = make_payload(door())["robots"][0]
     assert robot["vertices"] == [0, 1, 2, 2, -1, 1, -2, -2, -1]
     assert robot["enter"] == [0, 2, 1, 1, 1, 2, 1, 1, 1]
 
 
 def test_a_thousand_robots_take_less_than_two_megabytes() -> None:
-    assert len(page_of(crowd(1000)).encode()) < 2_000_000
+    assert len(make_page(crowd(1000)).encode()) < 2_000_000
 
 
 def test_lost_time_has_its_cause() -> None:
     # R1 waits for R2 in vertex 0 to get to 1, which R2 leaves, from tick 0 to 1, for 1 tick
-    payload = payload_of(door())
+    payload = make_payload(door())
     assert [row[:-1] for row in payload["losses"]] == [(0, 0, 1, 0, 0, 1, 1, 0, 1, 1)]
     assert template_in(payload, payload["losses"][0][-1]) == (
         "waits {time} in {here} for {other} to leave {freed}"
     )
-    assert payload_of(door())["robots"][0]["lost"] == (0, 0, 1)
+    assert make_payload(door())["robots"][0]["lost"] == (0, 0, 1)
 
 
 def test_stages_tell_which_visit_serves_them() -> None:
     # vertex, work, turning, visit: the stop c, then the way home
-    assert payload_of(loop())["robots"][0]["stages"] == [(2, 4, 2, 2), (0, 0, 2, 4)]
+    assert make_payload(loop())["robots"][0]["stages"] == [(2, 4, 2, 2), (0, 0, 2, 4)]
 
 
 def test_edges_of_several_lengths_are_told_one_by_one() -> None:
-    assert payload_of(loop())["robots"][0]["drive"] == [0, 2, 2, 3, 2]
-    assert payload_of(door())["robots"][0]["drive"] == 1
+    assert make_payload(loop())["robots"][0]["drive"] == [0, 2, 2, 3, 2]
+    assert make_payload(door())["robots"][0]["drive"] == 1
 
 
 @pytest.mark.parametrize(("occupancy", "ahead"), [("one", False), ("both", True)])
 def test_the_rule_of_occupancy_is_told(occupancy: str, *, ahead: bool) -> None:
-    assert payload_of(loop(occupancy=occupancy))["booksAhead"] is ahead
+    assert make_payload(loop(occupancy=occupancy))["booksAhead"] is ahead
 
 
 def test_a_page_replaces_what_was_there(tmp_path: Path) -> None:
     target = tmp_path / "page.html"
     target.write_text("old")
     write_page(door(), target)
-    assert target.read_text("utf-8") == page_of(door())
+    assert target.read_text("utf-8") == make_page(door())
     assert list(tmp_path.iterdir()) == [target]
 
 
@@ -161,27 +161,27 @@ def test_a_page_that_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
 
 def test_a_notebook_shows_laps_and_late_runs_too() -> None:
     extras: Any = {"steady": [counter_steady()], "actual": counter_late()}
-    frame = Elements(frame_of(counter(), **extras))
-    assert dict(frame.attributes)["srcdoc"] == page_of(counter(), **extras)
+    frame = Elements(make_frame(counter(), **extras))
+    assert dict(frame.attributes)["srcdoc"] == make_page(counter(), **extras)
 
 
 def test_a_notebook_without_frames_still_has_a_picture() -> None:
-    picture = dict(Elements(frame_of(door())).attributes)["src"] or ""
+    picture = dict(Elements(make_frame(door())).attributes)["src"] or ""
     head, data = picture.split(",")
     assert head == "data:image/png;base64"
-    assert base64.b64decode(data) == png_of(door())
+    assert base64.b64decode(data) == make_png(door())
 
 
 def test_a_notebook_shows_the_page_in_a_sandbox() -> None:
-    frame = frame_of(hostile(EVIL))
+    frame = make_frame(hostile(EVIL))
     elements = Elements(frame)
     assert elements.tags == ["div", "img", "iframe"]
     assert dict(elements.attributes)["sandbox"] == "allow-scripts"
-    assert dict(elements.attributes)["srcdoc"] == page_of(hostile(EVIL))
+    assert dict(elements.attributes)["srcdoc"] == make_page(hostile(EVIL))
 
 
 def test_plans_of_different_scenarios_have_maps_of_their_own() -> None:
-    payload = payload_of(door(), others=[(door_shifted(1), "B.json"), (loop(), "C.json")])
+    payload = make_payload(door(), others=[(door_shifted(1), "B.json"), (loop(), "C.json")])
     same, different = payload["others"]
     assert "map" not in same
     assert different["map"] != payload["map"]
@@ -193,4 +193,4 @@ def test_times_in_a_unit_and_in_none_are_not_compared() -> None:
     plan = door()
     timed = replace(plan, scenario=replace(plan.scenario, units=Units(time="s")))
     with pytest.raises(InputError, match=r"B.json: its times are in s, those of .* in no unit"):
-        page_of(plan, others=[(timed, "B.json")])
+        make_page(plan, others=[(timed, "B.json")])

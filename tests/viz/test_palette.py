@@ -7,7 +7,7 @@ from dataclasses import fields
 
 import pytest
 
-from rightofway.viz.palette import DARK, LIGHT, Theme, ink_on, mix, robot_colours
+from rightofway.viz.palette import DARK, LIGHT, Theme, choose_colours, choose_ink, mix
 
 
 def luminance(colour: str) -> float:
@@ -46,15 +46,15 @@ def test_what_goes_wrong_on_the_floor_stands_out(theme: Theme) -> None:
 @pytest.mark.parametrize("theme", [LIGHT, DARK])
 def test_every_robot_shows_on_the_floor(theme: Theme) -> None:
     # WCAG asks 3 to 1 of graphical objects; the lightest hues come close to it, none vanishes.
-    assert min(contrast(colour, theme.floor) for colour in robot_colours(1000)) > 2.4
+    assert min(contrast(colour, theme.floor) for colour in choose_colours(1000)) > 2.4
 
 
 def test_a_name_is_readable_on_every_robot() -> None:
-    assert min(contrast(ink_on(colour), colour) for colour in robot_colours(1000)) > 3
+    assert min(contrast(choose_ink(colour), colour) for colour in choose_colours(1000)) > 3
 
 
 def test_the_first_ten_robots_are_far_apart() -> None:
-    pairs = itertools.combinations(robot_colours(10), 2)
+    pairs = itertools.combinations(choose_colours(10), 2)
     assert min(distance(one, other) for one, other in pairs) > 55
 
 
@@ -65,11 +65,11 @@ def distance(one: str, other: str) -> float:
 
 
 def test_a_robot_keeps_its_colour_however_many_there_are() -> None:
-    assert robot_colours(1000)[:7] == robot_colours(7)
+    assert choose_colours(1000)[:7] == choose_colours(7)
 
 
 def test_a_thousand_robots_have_nearly_a_thousand_colours() -> None:
-    assert len(set(robot_colours(1000))) > 950
+    assert len(set(choose_colours(1000))) > 950
 
 
 def test_mix_goes_from_one_colour_to_the_other() -> None:
@@ -82,7 +82,7 @@ def test_mix_goes_from_one_colour_to_the_other() -> None:
 
 
 def test_a_theme_becomes_css_properties_of_the_same_names() -> None:
-    found = dict(re.findall(r"--([a-z-]+):(#[0-9a-f]{6});", LIGHT.css()))
+    found = dict(re.findall(r"--([a-z-]+):(#[0-9a-f]{6});", LIGHT.as_css()))
     assert found == {
         field.name.replace("_", "-"): getattr(LIGHT, field.name) for field in fields(LIGHT)
     }

@@ -18,14 +18,14 @@ from rightofway.site import Edge, VertexId, make_roadmap
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.solve import solve
 from rightofway.viz import Film, write_gif, write_png
-from rightofway.viz.palette import DARK, LIGHT, robot_colours
+from rightofway.viz.palette import DARK, LIGHT, choose_colours
 from rightofway.viz.raster.canvas import Pen, Scene
 from rightofway.viz.raster.map import draw_robots, to_the_right
 from rightofway.viz.raster.names import MapNames
-from rightofway.viz.raster.sizes import sizes_of
+from rightofway.viz.raster.sizes import compute_sizes
 from tests.builders.plans import crowd, door, door_shifted, hostile, loop, yard
 
-BLUE, CORAL = robot_colours(2)
+BLUE, CORAL = choose_colours(2)
 MARGIN = 24
 
 
@@ -58,7 +58,7 @@ def test_no_name_covers_another_or_leaves_the_picture(plan: Plan, scale: float) 
     size = round(scene.plane.width * scale), round(scene.plane.height * scale)
     pen = Pen(Image.new("RGB", size), origin=(scale / 2, scale / 2), scale=scale, fineness=1)
     bounds = (-scale / 2, -scale / 2, size[0] - scale / 2, size[1] - scale / 2)
-    sizes = sizes_of(scene, scale)
+    sizes = compute_sizes(scene, scale)
     names = MapNames(scene, sizes, scale, bounds)
     for tick in (0, 3.5, 9):
         found = draw_robots(pen, scene, sizes, names, tick)
@@ -213,7 +213,7 @@ def test_a_zone_lies_below_its_lanes(tmp_path: Path) -> None:
     }
     scene = Scene(solve(scenario_of(document)), LIGHT)
     write_png(scene.plan, tmp_path / "a.png", scale=40)
-    tint = scene.faint(LIGHT.zone, 0.35)
+    tint = scene.fade(LIGHT.zone, 0.35)
     assert tint in {colour_at(tmp_path / "a.png", 0.5, 0.01 * y) for y in range(20, 50)}
 
 

@@ -13,7 +13,7 @@ import pytest
 
 import rightofway
 from rightofway.model import Plan, Rules
-from rightofway.viz.table.result import result_of, write_result
+from rightofway.viz.table.result import make_result, write_result
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: case for case in PAPER}
@@ -33,7 +33,7 @@ def door(tmp_path: Path) -> Any:
 
 def test_it_does_not_hold_when_it_was_written() -> None:
     """So the same plan gives the same bytes."""
-    data = result_of(rightofway.solve(paper_scenario(CASES["door-1"])))
+    data = make_result(rightofway.solve(paper_scenario(CASES["door-1"])))
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         assert {part.date_time[:3] for part in archive.infolist()} == {(1980, 1, 1)}
         core = archive.read("docProps/core.xml")

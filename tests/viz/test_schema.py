@@ -15,8 +15,8 @@ from rightofway.errors import NoPlanExists
 from rightofway.io.sites import Choice, read_sites
 from rightofway.metrics import inspect
 from rightofway.planners.impossible import put_fleet_at_home
-from rightofway.viz import Background, inspection_page, payload_of
-from rightofway.viz.page.document import compact_json
+from rightofway.viz import Background, make_inspection_page, make_payload
+from rightofway.viz.page.document import as_compact_json
 from rightofway.viz.page.schema import InspectionPayload, Payload
 from tests.builders.closures import closed_fleet
 from tests.builders.fleets import grid_fleet
@@ -41,19 +41,19 @@ INSPECTION = TypeAdapter(InspectionPayload)
 
 def validate(payload: Payload) -> None:
     """Raise `ValidationError` for a key or a value that the types do not have."""
-    PAYLOAD.validate_json(compact_json(payload), strict=True, extra="forbid")
+    PAYLOAD.validate_json(as_compact_json(payload), strict=True, extra="forbid")
 
 
 PLANS: dict[str, Callable[[], Payload]] = {
-    "decisions": lambda: payload_of(door()),
-    "curves": lambda: payload_of(loop()),
-    "sizes": lambda: payload_of(yard()),
-    "laps": lambda: payload_of(counter(), steady=[counter_steady()]),
-    "floor": lambda: payload_of(counter(), actual=counter_late()),
-    "compared": lambda: payload_of(door(), others=[(door_shifted(2), "B"), (loop(), "C")]),
-    "closures": lambda: payload_of(solve(closed_fleet(1), "prioritized")),
-    "zones": lambda: payload_of(solve(zoned(1))),
-    "lanes": lambda: payload_of(solve(sized_on_lanes(1))),
+    "decisions": lambda: make_payload(door()),
+    "curves": lambda: make_payload(loop()),
+    "sizes": lambda: make_payload(yard()),
+    "laps": lambda: make_payload(counter(), steady=[counter_steady()]),
+    "floor": lambda: make_payload(counter(), actual=counter_late()),
+    "compared": lambda: make_payload(door(), others=[(door_shifted(2), "B"), (loop(), "C")]),
+    "closures": lambda: make_payload(solve(closed_fleet(1), "prioritized")),
+    "zones": lambda: make_payload(solve(zoned(1))),
+    "lanes": lambda: make_payload(solve(sized_on_lanes(1))),
 }
 
 
@@ -66,31 +66,31 @@ def test_the_payload_of_every_kind_of_plan_has_the_declared_types(
 
 @pytest.mark.parametrize("name", ["bay", "crossroad", "door", "floor", "warehouse"])
 def test_the_payload_of_every_example_has_the_declared_types(name: str) -> None:
-    validate(payload_of(solve(load(EXAMPLES / f"{name}.yaml"), "prioritized")))
+    validate(make_payload(solve(load(EXAMPLES / f"{name}.yaml"), "prioritized")))
 
 
 def test_the_payload_with_a_picture_has_the_declared_types(tmp_path: Path) -> None:
     Image.new("L", (60, 30), 200).save(tmp_path / "hall.png")
-    validate(payload_of(door(), background=Background(picture=tmp_path / "hall.png", yaw=1)))
+    validate(make_payload(door(), background=Background(picture=tmp_path / "hall.png", yaw=1)))
 
 
 def test_the_payload_of_a_fleet_without_a_plan_has_the_declared_types() -> None:
     scenario = grid_fleet(["...", "@@@", "..."], [("N0", "N2"), ("N2", "N0"), ("N6", "N8")])
     with pytest.raises(NoPlanExists) as caught:
         solve(scenario)
-    validate(payload_of(put_fleet_at_home(scenario), no_plan=caught.value))
+    validate(make_payload(put_fleet_at_home(scenario), no_plan=caught.value))
 
 
 @pytest.mark.parametrize("name", ["edges.csv", "hall.building.yaml", "two-rooms.map"])
 def test_the_payload_of_every_inspection_has_the_declared_types(name: str) -> None:
     sites = read_sites(TESTS / "data" / "layouts" / name, Choice())
     levels = [(level, site, inspect(site)) for level, site in sites.sites]
-    page = inspection_page(levels, title=name, description="a hall", notes=["one"])
+    page = make_inspection_page(levels, title=name, description="a hall", notes=["one"])
     INSPECTION.validate_json(payload_text_in(page), strict=True, extra="forbid")
 
 
 def test_a_key_that_no_type_has_is_found() -> None:
-    payload = payload_of(door())
+    payload = make_payload(door())
     cast("dict[str, Any]", payload["robots"][0])["age"] = 3
     with pytest.raises(ValidationError, match=r"robots.0.age"):
         validate(payload)

@@ -11,8 +11,8 @@ import rightofway
 from rightofway.model import Plan, Robot, Rules, Scenario, Stop
 from rightofway.site import VertexId
 from rightofway.site.quadtree import build_roadmap_of_squares
-from rightofway.viz import payload_of
-from rightofway.viz.placement import plane_of
+from rightofway.viz import make_payload
+from rightofway.viz.placement import lay_out_roadmap
 
 
 @pytest.fixture(name="plan")
@@ -28,10 +28,10 @@ def _plan() -> Plan:
 
 def test_a_unit_of_the_drawing_is_the_smallest_square(plan: Plan) -> None:
     """The left square reaches from -0.5 to 1.5, so its middle is at (0.5, 0.5)."""
-    plane = plane_of(plan.scenario.roadmap)
+    plane = lay_out_roadmap(plan.scenario.roadmap)
     assert (plane.unit, plane.width, plane.height) == (0.5, 4, 2)
     assert plane.points.tolist() == [[0.5, 0.5], [2, 0], [3, 0], [2, 1]]
 
 
 def test_the_page_is_given_the_sides_of_squares(plan: Plan) -> None:
-    assert dict(payload_of(plan)["map"])["sides"] == [2, 1, 1, 1]
+    assert dict(make_payload(plan)["map"])["sides"] == [2, 1, 1, 1]

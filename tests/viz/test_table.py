@@ -13,7 +13,7 @@ from rightofway.errors import InputError
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
 from rightofway.site import Edge, VertexId, make_roadmap
 from rightofway.solve import solve
-from rightofway.viz.table import Row, TimeSpaceTable, as_csv, as_text, table_of
+from rightofway.viz.table import Row, TimeSpaceTable, as_csv, as_text, make_table
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: case for case in PAPER}
@@ -59,7 +59,7 @@ def marked(row: Row, mark: str) -> list[int]:
 @pytest.mark.parametrize("case", PAPER, ids=list(CASES))
 def test_planned_rows_are_the_published_ones(case: dict[str, Any]) -> None:
     """All eight tables; some are printed in part, so the printed ticks are compared."""
-    found, first = rows(table_of(leisurely(case)), "planned"), case["first_tick"]
+    found, first = rows(make_table(leisurely(case)), "planned"), case["first_tick"]
     for robot, row in case["planned"].items():
         assert found[robot].places[first : first + len(row)] == row
 
@@ -69,13 +69,13 @@ def test_both_rows_of_a_whole_table_are_the_published_ones(name: str) -> None:
     plan = published(name)
     assert check(plan).ok
     for kind in ("planned", "final"):
-        found = {robot: row.places for robot, row in rows(table_of(plan), kind).items()}
+        found = {robot: row.places for robot, row in rows(make_table(plan), kind).items()}
         assert found == CASES[name][kind]
 
 
 def test_collisions_are_marked_in_planned_rows_and_waits_in_final_ones() -> None:
     """Table 4: the door both ways; R1 waits at home in tick 0."""
-    table = table_of(published("door-1"))
+    table = make_table(published("door-1"))
     for row in rows(table, "planned").values():
         assert marked(row, "collision") == [1, 2, 3, 6, 7, 8]
         assert marked(row, "wait") == []
@@ -86,14 +86,14 @@ def test_collisions_are_marked_in_planned_rows_and_waits_in_final_ones() -> None
 def test_a_conflict_left_in_the_plan_is_marked_in_its_final_row() -> None:
     scenario = grid_fleet(["...", "..."], [("N0", "N1"), ("N2", "N4")], rules=Rules(ends="none"))
     # R2 passes N1 in [2, 3), where R1 is from tick 1 on for ever.
-    table = table_of(plan_of(scenario, ([0, 1], [0, 1]), ([2, 1, 4], [0, 2, 3])))
+    table = make_table(plan_of(scenario, ([0, 1], [0, 1]), ([2, 1, 4], [0, 2, 3])))
     assert marked(rows(table, "final")["R2"], "collision") == [2]
 
 
 def test_a_collision_outdoes_a_wait() -> None:
     scenario = grid_fleet(["...", "..."], [("N0", "N1"), ("N2", "N4")], rules=Rules(ends="none"))
     # R2 waits in N1 in [2, 4), which is R1's for ever.
-    table = table_of(plan_of(scenario, ([0, 1], [0, 1]), ([2, 1, 4], [0, 2, 5])))
+    table = make_table(plan_of(scenario, ([0, 1], [0, 1]), ([2, 1, 4], [0, 2, 5])))
     final = rows(table, "final")["R2"]
     assert (marked(final, "collision"), marked(final, "wait")) == ([2, 3, 4], [0])
 
@@ -101,43 +101,43 @@ def test_a_collision_outdoes_a_wait() -> None:
 def test_a_row_ends_at_the_completion() -> None:
     # One way: in N1 from tick 1, and 3 of work.
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"), work=[3])
-    table = table_of(plan_of(scenario, ([0, 1], [0, 1])))
+    table = make_table(plan_of(scenario, ([0, 1], [0, 1])))
     assert table.last_tick == 4
     assert table.rows[0].places == [0, 1, 1, 1, 1]
 
 
 def test_a_window_shows_only_its_ticks() -> None:
-    table = table_of(published("door-1"), first_tick=3, last_tick=5)
+    table = make_table(published("door-1"), first_tick=3, last_tick=5)
     assert list(table.ticks) == [3, 4, 5]
     assert [row.places for row in table.rows] == [[7, 6, 6], [4, 7, 6], [7, 8, 8], [7, 8, 8]]
 
 
 def test_a_window_after_the_end_has_empty_rows() -> None:
-    table = table_of(published("door-1"), first_tick=10, last_tick=12)
+    table = make_table(published("door-1"), first_tick=10, last_tick=12)
     assert [row.places for row in table.rows] == [[], [0], [], []]
 
 
 def test_a_swap_is_marked_at_both_robots_before_and_after_it() -> None:
     """Door-5 as published: R1 goes from N7 to N4 and R2 from N4 to N7 at tick 7."""
     plan = solve(paper_scenario(CASES["door-5"]), "two-level", swaps="leave")
-    final = rows(table_of(plan), "final")
+    final = rows(make_table(plan), "final")
     assert [marked(final[name], "swap") for name in ("R1", "R2")] == [[6, 7], [6, 7]]
-    assert "7!  4!" in as_text(table_of(plan))
-    assert "R1,final marks,,,,,,,swap,swap,,\n" in as_csv(table_of(plan))
+    assert "7!  4!" in as_text(make_table(plan))
+    assert "R1,final marks,,,,,,,swap,swap,,\n" in as_csv(make_table(plan))
 
 
 def test_a_table_just_fits_where_there_is_room_for_its_ticks() -> None:
-    table = table_of(published("door-1"))
+    table = make_table(published("door-1"))
     table.refuse_more_than(11)
     with pytest.raises(InputError, match="11 columns, room is for 10"):
         table.refuse_more_than(10)
 
 
 def test_chosen_robots_come_in_the_scenarios_order_with_all_their_collisions() -> None:
-    table = table_of(published("door-1"), robots=["R2"])
+    table = make_table(published("door-1"), robots=["R2"])
     assert [(row.robot, row.kind) for row in table.rows] == [("R2", "planned"), ("R2", "final")]
     assert marked(table.rows[0], "collision") == [1, 2, 3, 6, 7, 8]
-    both = table_of(published("door-1"), robots=["R2", "R1"])
+    both = make_table(published("door-1"), robots=["R2", "R1"])
     assert [row.robot for row in both.rows] == ["R1", "R1", "R2", "R2"]
 
 
@@ -158,7 +158,7 @@ def test_chosen_robots_come_in_the_scenarios_order_with_all_their_collisions() -
 )
 def test_what_cannot_be_shown_is_refused(window: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError) as raised:
-        table_of(published("door-1"), **window)
+        make_table(published("door-1"), **window)
     assert str(raised.value) == message
 
 
@@ -173,7 +173,7 @@ R2 final     2   1   4   7   8   8   7   4   1   2
 
 
 def test_the_text_of_table_4() -> None:
-    assert as_text(table_of(published("door-1"))) == TABLE_4
+    assert as_text(make_table(published("door-1"))) == TABLE_4
 
 
 IN_BLOCKS = """\
@@ -190,13 +190,13 @@ R1 final     0
 
 
 def test_text_comes_in_blocks_that_fit_without_rows_that_have_ended() -> None:
-    text = as_text(table_of(published("door-1"), first_tick=8), width=19)
+    text = as_text(make_table(published("door-1"), first_tick=8), width=19)
     assert text == IN_BLOCKS
-    assert "time         8\n" in as_text(table_of(published("door-1"), first_tick=8), width=18)
+    assert "time         8\n" in as_text(make_table(published("door-1"), first_tick=8), width=18)
 
 
 def test_a_terminal_too_narrow_for_a_tick_still_gets_one() -> None:
-    text = as_text(table_of(published("door-1"), first_tick=9, last_tick=10), width=1)
+    text = as_text(make_table(published("door-1"), first_tick=9, last_tick=10), width=1)
     assert [line for line in text.splitlines() if "R1 final" in line] == [
         "R1 final     1",
         "R1 final     0",
@@ -218,12 +218,12 @@ def named() -> Plan:
 
 
 def test_vertices_with_names_are_shown_by_name() -> None:
-    assert table_of(named()).rows[0].places == ["dock", "dock", "棚", "棚", "棚", "dock"]
+    assert make_table(named()).rows[0].places == ["dock", "dock", "棚", "棚", "棚", "dock"]
 
 
 def test_wide_letters_take_two_columns_and_a_tick_of_its_own_length_is_reported() -> None:
     """Drives 2 and 3 ticks; the plan waits one tick in between."""
-    assert as_text(table_of(named())) == (
+    assert as_text(make_table(named())) == (
         "time            0   0.5     1   1.5     2   2.5     3\n"
         "Zoë planned  dock  dock    棚    棚    棚  dock\n"
         "Zoë final    dock  dock    棚=   棚    棚    棚  dock\n"
@@ -234,18 +234,18 @@ def test_wide_letters_take_two_columns_and_a_tick_of_its_own_length_is_reported(
 
 def test_a_table_of_a_thousand_years_is_made_but_not_written_out() -> None:
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
-    table = table_of(plan_of(scenario, ([0, 1], [0, 10**11])))
+    table = make_table(plan_of(scenario, ([0, 1], [0, 10**11])))
     assert table.last_tick == 10**11
     with pytest.raises(InputError, match=r"choose fewer with --from and --to"):
         as_text(table, max_lines=None)
-    short = as_text(table_of(plan_of(scenario, ([0, 1], [0, 10**11])), last_tick=2))
+    short = as_text(make_table(plan_of(scenario, ([0, 1], [0, 10**11])), last_tick=2))
     assert "left out" not in short
 
 
 def test_a_long_text_is_cut_and_says_where_and_how_to_see_the_rest() -> None:
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
     enter = [10**6 + k for k in range(100)]
-    text = as_text(table_of(plan_of(scenario, ([0, 1] * 50, [0, *enter[1:]]))), max_lines=8)
+    text = as_text(make_table(plan_of(scenario, ([0, 1] * 50, [0, *enter[1:]]))), max_lines=8)
     # Columns of "1000099" and a sign, 80 - 12 - 2 + 1 over 9: 7 columns in each of two blocks.
     assert text.splitlines()[-3:] == [
         "… columns after 13, up to 1000099 are left out",
@@ -257,14 +257,14 @@ def test_a_long_text_is_cut_and_says_where_and_how_to_see_the_rest() -> None:
 
 def test_a_table_of_many_robots_says_that_rows_are_left_out() -> None:
     scenario = grid_fleet(["." * 60], [(f"N{k}", f"N{k}") for k in range(60)])
-    table = table_of(plan_of(scenario, *(([k], [0]) for k in range(60))), last_tick=1)
+    table = make_table(plan_of(scenario, *(([k], [0]) for k in range(60))), last_tick=1)
     assert "… rows are left out\n" in as_text(table, max_lines=20)
     assert "left out" not in as_text(table, max_lines=121)
 
 
 def test_a_long_text_leaves_out_columns_without_a_change() -> None:
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
-    table = table_of(plan_of(scenario, ([0, 1], [0, 10**6])))
+    table = make_table(plan_of(scenario, ([0, 1], [0, 10**6])))
     assert as_text(table).splitlines() == [
         "time              0        1   999999  1000000",
         "R1 planned        0        1",
@@ -276,7 +276,7 @@ def test_a_long_text_leaves_out_columns_without_a_change() -> None:
 
 def test_a_table_of_too_many_robots_is_not_written_out() -> None:
     scenario = grid_fleet(["." * 60], [(f"N{k}", f"N{k}") for k in range(60)])
-    table = table_of(plan_of(scenario, *(([k], [0]) for k in range(60))), last_tick=20_000)
+    table = make_table(plan_of(scenario, *(([k], [0]) for k in range(60))), last_tick=20_000)
     with pytest.raises(InputError) as raised:
         as_text(table, max_lines=None)
     assert str(raised.value) == (
@@ -287,22 +287,22 @@ def test_a_table_of_too_many_robots_is_not_written_out() -> None:
 
 def test_columns_may_be_several_ticks_apart() -> None:
     """Table 4, R1 planned: 0 1* 4* 7* 6 6 7* 4* 1* 0; a mark within a step is shown."""
-    table = table_of(published("door-1"), robots=["R1"], step=4)
+    table = make_table(published("door-1"), robots=["R1"], step=4)
     planned, final = table.rows
     assert list(table.ticks) == [0, 4, 8, 10]
-    cells = planned.cells_at(table.ticks, table.step)
+    cells = planned.list_cells_at(table.ticks, table.step)
     assert [(cell.place, cell.mark) for cell in cells] == [
         (0, "collision"), (6, "collision"), (1, "collision"), (0, None),
     ]  # fmt: skip
-    places = [cell.place for cell in final.cells_at(table.ticks, table.step)]
+    places = [cell.place for cell in final.list_cells_at(table.ticks, table.step)]
     assert places == [0, 7, 4, 0]
 
 
 def test_a_long_text_of_short_ticks_has_round_columns() -> None:
     """A tick is 1/2, and 4 lines are one block of 4 columns; steps go up to one time unit."""
     plan = named()
-    text = as_text(table_of(plan), width=40, max_lines=4)
+    text = as_text(make_table(plan), width=40, max_lines=4)
     assert text.splitlines()[0] == "time            0     1     2     3"
     assert text.splitlines()[-1] == "= waits"
-    assert table_of(plan).with_fewer(3).step == 4
-    assert table_of(plan).with_fewer(3, Fraction(1)).step == 2
+    assert make_table(plan).limit_columns(3).step == 4
+    assert make_table(plan).limit_columns(3, Fraction(1)).step == 2

@@ -13,7 +13,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
 from rightofway.site import Edge, VertexId, make_roadmap
-from rightofway.viz.table import table_of, write_csv, write_xlsx
+from rightofway.viz.table import make_table, write_csv, write_xlsx
 from tests.builders.fleets import grid_fleet
 
 
@@ -31,7 +31,7 @@ def crossing() -> Plan:
 def test_comma_separated_values_are_bare_places_and_marks_in_rows_of_their_own(
     tmp_path: Path,
 ) -> None:
-    write_csv(table_of(crossing()), tmp_path / "table.csv")
+    write_csv(make_table(crossing()), tmp_path / "table.csv")
     assert (tmp_path / "table.csv").read_bytes() == (
         b"robot,row,0,1,2,3\n"
         b"R1,planned,3,4,5\nR1,planned marks,,collision,\nR1,final,3,4,5\n"
@@ -42,7 +42,7 @@ def test_comma_separated_values_are_bare_places_and_marks_in_rows_of_their_own(
 
 @pytest.fixture
 def workbook(tmp_path: Path) -> Any:
-    write_xlsx(table_of(crossing()), tmp_path / "table.xlsx")
+    write_xlsx(make_table(crossing()), tmp_path / "table.xlsx")
     return openpyxl.load_workbook(tmp_path / "table.xlsx")
 
 
@@ -79,7 +79,7 @@ def test_robots_and_ticks_stay_in_sight(workbook: Any) -> None:
 
 
 def test_columns_are_as_wide_as_their_text(tmp_path: Path) -> None:
-    write_xlsx(table_of(named("Loading dock")), tmp_path / "table.xlsx")
+    write_xlsx(make_table(named("Loading dock")), tmp_path / "table.xlsx")
     columns = openpyxl.load_workbook(tmp_path / "table.xlsx")["time and space"].column_dimensions
     # "Shuttle 1", "planned" and "Loading dock", with room for two letters more.
     assert [columns[letter].width for letter in "ABC"] == [11, 9, 14]
@@ -102,7 +102,7 @@ def named(place: str) -> Plan:
 )
 def test_names_are_text_whatever_they_look_like(tmp_path: Path, name: str, shown: str) -> None:
     """No formula, no number, no character that a workbook may not hold."""
-    write_xlsx(table_of(named(name)), tmp_path / "table.xlsx")
+    write_xlsx(make_table(named(name)), tmp_path / "table.xlsx")
     cell = openpyxl.load_workbook(tmp_path / "table.xlsx")["time and space"]["C2"]
     assert (cell.value, cell.data_type) == (shown, "s")
 
@@ -111,7 +111,7 @@ def test_a_plan_longer_than_a_sheet_is_refused_and_nothing_written(tmp_path: Pat
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
     plan = plan_of(scenario, ([0, 1], [0, 16_382]))
     with pytest.raises(InputError) as raised:
-        write_xlsx(table_of(plan), tmp_path / "table.xlsx")
+        write_xlsx(make_table(plan), tmp_path / "table.xlsx")
     assert str(raised.value) == (
         "table: 16383 columns, room is for 16382 (choose fewer with --from and --to,"
         " or longer ones with --step; --events has no such limit)"
@@ -124,6 +124,6 @@ def test_a_table_that_is_refused_leaves_the_old_file_alone(tmp_path: Path) -> No
     old.write_text("old", encoding="utf-8")
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
     with pytest.raises(InputError):
-        write_csv(table_of(plan_of(scenario, ([0, 1], [0, 10**9]))), old)
+        write_csv(make_table(plan_of(scenario, ([0, 1], [0, 10**9]))), old)
     assert old.read_text(encoding="utf-8") == "old"
     assert list(tmp_path.iterdir()) == [old]

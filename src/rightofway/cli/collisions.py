@@ -70,7 +70,11 @@ def collisions(
     from rightofway.model import Scenario, completions_of
     from rightofway.planners.routing import free_running_tracks
     from rightofway.solve import solve
-    from rightofway.viz.table import collision_list, collision_ticks, decision_list
+    from rightofway.viz.table import (
+        tabulate_collision_ticks,
+        tabulate_collisions,
+        tabulate_decisions,
+    )
 
     opened = read_either(source, count)
     if isinstance(opened, Scenario) and planner:
@@ -83,11 +87,11 @@ def collisions(
     listed = name_collisions(scenario, tracks)
     if each_tick:
         end = max(completions_of(scenario, tracks))
-        lists = [collision_ticks(listed, quantities, end)]
+        lists = [tabulate_collision_ticks(listed, quantities, end)]
     else:
-        lists = [collision_list(listed, quantities)]
+        lists = [tabulate_collisions(listed, quantities)]
     if plan is not None and plan.run.decisions:
-        lists.append(decision_list(plan, quantities))
+        lists.append(tabulate_decisions(plan, quantities))
     if output:
         put_lists(lists, output)
     if as_json:
@@ -100,7 +104,7 @@ def collisions(
         if plan is not None:
             left = name_collisions(scenario, plan.tracks)
             parts.append(Phrase("Left in the plan: {collisions}.", collisions=_counted(left)))
-            parts += _texts([collision_list(left, quantities)])
+            parts += _texts([tabulate_collisions(left, quantities)])
         click.echo("\n\n".join(translate(part, language()) for part in parts))
 
 
@@ -132,7 +136,7 @@ def _collision_data(
 ) -> dict[str, Any]:
     """Return collisions and decisions for programs; times in ticks."""
     from rightofway.metrics import name_collisions
-    from rightofway.viz.table import conflicts_before
+    from rightofway.viz.table import count_conflicts_before
 
     data = {**clock_data(quantities), "collisions": [_pair_data(collision) for collision in listed]}
     if plan is not None:
@@ -149,7 +153,9 @@ def _collision_data(
                 "conflicts_left": collision.conflicts_left,
                 "completion_sums": collision.completion_sums,
             }
-            for collision, before in zip(plan.run.decisions, conflicts_before(plan), strict=True)
+            for collision, before in zip(
+                plan.run.decisions, count_conflicts_before(plan), strict=True
+            )
         ]
         left = name_collisions(plan.scenario, plan.tracks)
         data["left"] = [_pair_data(collision) for collision in left]

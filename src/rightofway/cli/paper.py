@@ -95,15 +95,15 @@ def _total(tables: Sequence[_Table], equal: int) -> str:
 def _table(entry: dict[str, Any]) -> _Table:
     from rightofway.io import load
     from rightofway.solve import solve
-    from rightofway.viz.table import table_of
+    from rightofway.viz.table import make_table
 
     plan = solve(load(find_examples_folder() / "paper" / f"{entry['name']}.yaml"), "paper")
-    first, table = entry.get("first_tick", 0), table_of(plan)
+    first, table = entry.get("first_tick", 0), make_table(plan)
     rows = []
     for row in table.rows:
         published = entry.get(row.kind, {}).get(row.robot)
         last = table.last_tick if published is None else first + len(published) - 1
-        ours = [cell.place for cell in row.cells(first, last)]
+        ours = [cell.place for cell in row.list_cells(first, last)]
         rows.append(_Row(robot=row.robot, kind=row.kind, published=published, ours=ours))
     return _Table(
         number=entry["table"],

@@ -316,6 +316,6 @@ def _report(plan: Plan, quantities: Quantities, *, log: bool, table: bool, as_js
     if log:
         put_report("\n" + report_decisions(plan, quantities, language()))
     if table:
-        from rightofway.viz.table import as_text, table_of
+        from rightofway.viz.table import as_text, make_table
 
-        put_report("\n" + as_text(table_of(plan), width()))
+        put_report("\n" + as_text(make_table(plan), width()))

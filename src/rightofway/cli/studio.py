@@ -58,11 +58,11 @@ def studio(
     if not (find_spec("fastapi") and find_spec("uvicorn")):
         message = "needs packages that are not installed (pip install 'rightofway[studio]')"
         raise InputError.at("studio", message)
-    from rightofway.studio.serve import folder_and_file, serve
+    from rightofway.studio.serve import serve, split_folder_and_file
     from rightofway.studio.session import Studio
 
     refuse_missing_example(path)
-    folder, file = folder_and_file(Path(path))
+    folder, file = split_folder_and_file(Path(path))
     serve(
         Studio(folder, file=file, planners=planners, keeps=not no_history),
         host=host,

@@ -165,9 +165,9 @@ def _write_all(plan: Plan, path: str, given: dict[str, Any]) -> None:
 
 
 def _time_space_table(plan: Plan, shown: _Shown) -> TimeSpaceTable:
-    from rightofway.viz.table import table_of
+    from rightofway.viz.table import make_table
 
-    return table_of(
+    return make_table(
         plan,
         first_tick=shown.first_tick,
         last_tick=shown.last_tick,
@@ -241,14 +241,14 @@ def clock_data(quantities: Quantities) -> dict[str, Any]:
 
 def _events(plan: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> None:
     from rightofway.metrics import make_event_columns
-    from rightofway.viz.table import chosen_events, event_list, parquet_of
+    from rightofway.viz.table import as_parquet, choose_events, tabulate_events
 
-    chosen = chosen_events(
+    chosen = choose_events(
         plan, first_tick=shown.first_tick, last_tick=shown.last_tick, robots=shown.robots
     )
-    listing = event_list(plan, chosen, shown.quantities)
+    listing = tabulate_events(plan, chosen, shown.quantities)
     if output and Path(output).suffix.lower() == ".parquet":
-        _write(output, parquet_of(make_event_columns(plan, chosen)))
+        _write(output, as_parquet(make_event_columns(plan, chosen)))
         say_written(output)
     elif output:
         put_lists([listing], output)
@@ -265,14 +265,14 @@ def _events(plan: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> 
 
 def put_lists(lists: Sequence[Listing], output: str) -> None:
     """Write lists by the ending of the file: all as sheets or text, the first one as CSV."""
-    from rightofway.viz.table.workbook import sheets_of
+    from rightofway.viz.table.workbook import make_sheets
 
     if output == "-":
         click.echo(lists[0].as_csv(), nl=False)
         return
     match Path(output).suffix.lower():
         case ".xlsx":
-            _write(output, sheets_of(lists))
+            _write(output, make_sheets(lists))
         case ".csv":
             _write(output, lists[0].as_csv())
         case _:
@@ -285,7 +285,7 @@ def _groups(
 ) -> tuple[TimeSpaceTable, list[str], Sequence[tuple[int, int] | None]]:
     """Return the table of both movement groups of a decision, words, and their W(i) and W(j)."""
     from rightofway.planners.two_level import replay_movement_groups
-    from rightofway.viz.table import chosen_robots, table_of_groups
+    from rightofway.viz.table import choose_robots, make_table_of_groups
 
     decisions = plan.run.decisions
     if number > len(decisions):
@@ -296,9 +296,9 @@ def _groups(
     groups = replay_movement_groups(plan, decision)
     shown = _shown(plan, **given)
     names = shown.robots
-    group_table = table_of_groups(
+    group_table = make_table_of_groups(
         plan,
-        decision.robots if names is None else chosen_robots(plan.scenario, names),
+        decision.robots if names is None else choose_robots(plan.scenario, names),
         [None if group is None else group.tracks for group in groups],
         first_tick=shown.first_tick,
         last_tick=shown.last_tick,

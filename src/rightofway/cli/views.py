@@ -190,9 +190,9 @@ def show(
     if page:
         _write(opened, page, extras)
     if output == "-":
-        from rightofway.viz import page_of
+        from rightofway.viz import make_page
 
-        click.echo(page_of(opened, **extras), nl=False)
+        click.echo(make_page(opened, **extras), nl=False)
     elif is_picture:
         from rightofway.viz import write_png
 

@@ -14,7 +14,7 @@ from rightofway import __version__
 from rightofway.errors import InputError
 from rightofway.io.faults import validate
 from rightofway.studio.errors import StudioError
-from rightofway.studio.guard import Access, Guard, error_body
+from rightofway.studio.guard import Access, Guard, make_error_body
 from rightofway.studio.messages import as_error
 from rightofway.studio.routes import (
     documents,
@@ -26,7 +26,7 @@ from rightofway.studio.routes import (
     questions,
     runs,
 )
-from rightofway.studio.routes.models import kind_of
+from rightofway.studio.routes.models import get_kind
 from rightofway.studio.session import Studio
 from rightofway.studio.watching import Watched
 
@@ -97,7 +97,7 @@ def _guarded(app: FastAPI, access: Access) -> FastAPI:
 
 
 def _answer(status: int, error: dict[str, Any]) -> Response:
-    return Response(error_body(status, error), status, media_type="application/json")
+    return Response(make_error_body(status, error), status, media_type="application/json")
 
 
 def _refused(_request: Request, error: Exception) -> Response:
@@ -141,6 +141,6 @@ def _model_of(request: Request, body: Any) -> Any:
         return wanted
     for kind in get_args(wanted):  # each is annotated with the kind that it is for
         model, tag = get_args(kind)
-        if tag.tag == kind_of(body):
+        if tag.tag == get_kind(body):
             return model
     return None

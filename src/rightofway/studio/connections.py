@@ -38,7 +38,7 @@ class Connection(H11Protocol):
     def connection_made(self, transport: Any) -> None:
         """Begin to wait for the first request."""
         super().connection_made(transport)
-        if len(self.connections) > most_connections():
+        if len(self.connections) > count_connections_allowed():
             transport.abort()
         else:
             self._wait()
@@ -66,7 +66,7 @@ class Connection(H11Protocol):
             self._late = None
 
 
-def most_connections() -> int:
+def count_connections_allowed() -> int:
     """Return how many connections there may be: `MOST`, or fewer where descriptors are few."""
     with contextlib.suppress(ImportError):
         import resource

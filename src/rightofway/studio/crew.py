@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.studio.errors import Busy, TaskFailed
-from rightofway.studio.messages import LENGTH, Blobs, packed
+from rightofway.studio.messages import LENGTH, Blobs, pack
 
 MAX_MESSAGE = 2**29
 """The longest message of a worker [bytes]."""
@@ -99,7 +99,7 @@ class Worker:
         """Send a message; one that is dead does not hear it."""
         assert self._process.stdin is not None, "it is a pipe"
         with contextlib.suppress(OSError, RuntimeError):
-            self._process.stdin.write(packed(message, blobs))
+            self._process.stdin.write(pack(message, blobs))
 
     async def receive(self) -> tuple[dict[str, Any], list[bytes]]:
         """Return the next message; `asyncio.IncompleteReadError` of one that is dead."""
@@ -130,7 +130,7 @@ class Worker:
         self._complaints.close()
         return next((line.strip() for line in reversed(lines) if line.strip()), "")
 
-    async def why_dead(self) -> str:
+    async def describe_end(self) -> str:
         """Return how the process ended, in words."""
         code = await self._process.wait()
         if code >= 0:
@@ -210,7 +210,7 @@ class Crew:
             message = f"this took longer than {job.limit:g} s (give a smaller problem)"
             raise TaskFailed({"kind": "too_long", "message": message}) from None
         except asyncio.IncompleteReadError:
-            error = {"kind": "died", "message": f"no result: {await worker.why_dead()}"}
+            error = {"kind": "died", "message": f"no result: {await worker.describe_end()}"}
             raise TaskFailed(error) from None
         finally:
             job.worker = None

@@ -136,15 +136,15 @@ class _Request:
     @property
     def is_large(self) -> bool:
         """Whether its body is large, or may be."""
-        length = self.header("content-length")
-        return bool(self.header("transfer-encoding")) or int(length or 0) > LARGE_BODY
+        length = self.get_header("content-length")
+        return bool(self.get_header("transfer-encoding")) or int(length or 0) > LARGE_BODY
 
     @property
     def length_of_head(self) -> int:
         """How long its headers are [bytes]."""
         return sum(len(name) + len(value) for name, value in self.scope["headers"])
 
-    def header(self, name: str) -> str:
+    def get_header(self, name: str) -> str:
         """Return a header, empty where there is none."""
         return self.headers.get(name.encode(), b"").decode("latin-1")
 
@@ -203,13 +203,13 @@ class Guard:
             raise Refused(f"the headers are longer than {LONGEST_HEAD} bytes (send fewer)", 431)
         if CLIMBS.search(unquote_to_bytes(raw)):
             raise Refused("the path has a part that climbs, or a control code (give plain names)")
-        host, origin = request.header("host"), request.header("origin")
+        host, origin = request.get_header("host"), request.get_header("origin")
         if self._access.hosts is not None and host.lower() not in self._access.hosts:
             names = " or ".join(sorted(self._access.hosts)[:2])
             raise Refused(f"{host[:100]!r} is no name of this studio (call it {names})", 421)
         if origin and origin.lower() not in {f"http://{host}".lower(), f"https://{host}".lower()}:
             raise Refused("a page of another origin asks (open the studio itself)", 403)
-        site, mode = request.header("sec-fetch-site"), request.header("sec-fetch-mode")
+        site, mode = request.get_header("sec-fetch-site"), request.get_header("sec-fetch-mode")
         is_opened = method in READS and mode == "navigate" and scope["path"] == "/"
         if site in {"cross-site", "same-site"} and not is_opened:
             raise Refused("a page of another site asks (open the studio itself)", 403)
@@ -217,16 +217,16 @@ class Guard:
 
     @staticmethod
     def _judge_body(request: _Request, method: str) -> None:
-        length = request.header("content-length")
-        if length and request.header("transfer-encoding"):
+        length = request.get_header("content-length")
+        if length and request.get_header("transfer-encoding"):
             # A proxy before the studio may go by the other one, and see another request after it.
             raise Refused("the body has a length and comes in chunks (give one of them)")
         if length and not (length.isascii() and length.isdecimal()):
             raise Refused(f"{length[:20]!r} is no length of a body (give a whole number)")
         if length and int(length[:20]) > MAX_BODY:
             raise Refused(f"the body has {length[:20]} bytes (give at most {MAX_BODY})", 413)
-        has_body = length not in {"", "0"} or bool(request.header("transfer-encoding"))
-        kind = request.header("content-type").partition(";")[0].strip().lower()
+        has_body = length not in {"", "0"} or bool(request.get_header("transfer-encoding"))
+        kind = request.get_header("content-type").partition(";")[0].strip().lower()
         wanted = {"application/json"}
         if (
             method == "PUT"
@@ -265,9 +265,9 @@ class Guard:
     def _ask_token(self, request: _Request) -> None:
         if not self._access.token:
             return
-        shown = request.header("authorization").removeprefix("Bearer ")
+        shown = request.get_header("authorization").removeprefix("Bearer ")
         try:
-            cookie = SimpleCookie(request.header("cookie")).get(COOKIE)
+            cookie = SimpleCookie(request.get_header("cookie")).get(COOKIE)
         except CookieError:
             cookie = None
         wanted = self._access.token.encode()
@@ -340,7 +340,7 @@ class _Answer:
         """Answer with an error, where the answer has not begun."""
         if self._has_begun:
             return
-        body = error_body(status, error)
+        body = make_error_body(status, error)
         headers = [
             (b"content-type", b"application/json"),
             (b"content-length", str(len(body)).encode()),
@@ -351,7 +351,7 @@ class _Answer:
         await self.send({"type": "http.response.body", "body": body})
 
 
-def error_body(status: int, error: dict[str, Any]) -> bytes:
+def make_error_body(status: int, error: dict[str, Any]) -> bytes:
     """Return the one form of all errors."""
     return json.dumps(
         {"error": {"status": status, "kind": "refused", "faults": [], **error}}

@@ -23,13 +23,13 @@ Emit = Callable[..., None]
 """Sends an event of the current job: ``emit({"flowtime": 3}, b"a plan")``."""
 
 
-def packed(message: dict[str, Any], blobs: Blobs = ()) -> bytes:
+def pack(message: dict[str, Any], blobs: Blobs = ()) -> bytes:
     """Return a message as it is sent."""
     text = json.dumps({**message, "sizes": list(map(len, blobs))}, allow_nan=False).encode()
     return b"".join([LENGTH.pack(len(text)), text, *blobs])
 
 
-def zipped(text: str) -> bytes:
+def zip_text(text: str) -> bytes:
     """Return a large answer as browsers take it: the worker compresses it, not the server."""
     return gzip.compress(text.encode(), 1, mtime=0)
 
@@ -38,7 +38,7 @@ def as_error(error: BaseException) -> dict[str, Any]:
     """Return what went wrong as plain data: ``kind``, ``message``, and details by kind."""
     match error:
         case InputError():
-            listed = [fault_data(fault) for fault in error.faults]
+            listed = [as_fault_data(fault) for fault in error.faults]
             message = "\n".join(str(fault.in_file("")) for fault in error.faults)
             return {"kind": "input", "message": message, "faults": listed}
         case NoPlanExists():
@@ -55,7 +55,7 @@ def as_error(error: BaseException) -> dict[str, Any]:
             return {"kind": "defect", "message": f"unexpected {summary} (please report it)"}
 
 
-def fault_data(fault: InputFault) -> dict[str, Any]:
+def as_fault_data(fault: InputFault) -> dict[str, Any]:
     """Return a fault as plain data."""
     inner = str(fault.location.inner or "")
     return {

@@ -135,7 +135,7 @@ class Runs:
     async def start(self) -> None:
         """Take up what was left when the server went down, and begin to work."""
         known = {run_field.name for run_field in fields(Run)}
-        for number, data in await asyncio.to_thread(self._store.runs):
+        for number, data in await asyncio.to_thread(self._store.list_runs):
             run = Run(**{key: value for key, value in data.items() if key in known})
             run.number = number
             self._runs[number] = run
@@ -164,7 +164,7 @@ class Runs:
         """End all streams of events."""
         self._listeners.hang_up()
 
-    def all(self) -> list[Run]:
+    def list_all(self) -> list[Run]:
         """Return all runs, the latest first."""
         return [self._runs[number] for number in sorted(self._runs, reverse=True)]
 
@@ -174,10 +174,10 @@ class Runs:
             raise Refused(f"there is no run {number} (see the list of runs)", 404)
         return self._runs[number]
 
-    async def blob(self, number: int, kind: str) -> bytes:
+    async def read_blob(self, number: int, kind: str) -> bytes:
         """Return the ``plan``, the ``report``, the ``payload`` or the ``document`` of a run."""
         run = self.get(number)
-        blob = await asyncio.to_thread(self._store.blob, number, kind)
+        blob = await asyncio.to_thread(self._store.read_blob, number, kind)
         if blob is None:
             raise Refused(f"run {number} is {run.state} and has no {kind}", 404)
         return blob
@@ -200,7 +200,7 @@ class Runs:
         self._queue_of(run).put_nowait(run.number)
         return run
 
-    async def again(self, number: int) -> Run:
+    async def repeat(self, number: int) -> Run:
         """Queue the same as a new run.
 
         Raises
@@ -213,8 +213,8 @@ class Runs:
         old = self.get(number)
         if old.kind in {"opened", "flip"}:
             raise Refused(f"run {number} was not planned here (improve it instead)", 409)
-        arguments = json.loads(await self.blob(number, "arguments"))
-        given = await asyncio.to_thread(self._store.blob, number, "given")
+        arguments = json.loads(await self.read_blob(number, "arguments"))
+        given = await asyncio.to_thread(self._store.read_blob, number, "given")
         run = Run(
             name=old.name,
             kind=old.kind,
@@ -322,8 +322,8 @@ class Runs:
 
     async def _finish(self, run: Run, work: _Work, crew: Crew) -> None:
         """Have the task of a run done, and note how it ended."""
-        arguments = json.loads(await self.blob(run.number, "arguments"))
-        given = await asyncio.to_thread(self._store.blob, run.number, "given")
+        arguments = json.loads(await self.read_blob(run.number, "arguments"))
+        given = await asyncio.to_thread(self._store.read_blob, run.number, "given")
         limit = run.request.get("time_limit") or 0.0
         work.job = Job(
             run.kind,
@@ -412,4 +412,6 @@ class Runs:
 
     def listen_to_all(self) -> AsyncGenerator[Event | None]:
         """Yield the events of all runs for ever: first the list of runs."""
-        return self._listeners.listen(None, ("runs", {"runs": list(map(self.data, self.all()))}))
+        return self._listeners.listen(
+            None, ("runs", {"runs": list(map(self.data, self.list_all()))})
+        )

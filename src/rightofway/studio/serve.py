@@ -69,7 +69,7 @@ def serve(
     """
     refuse_certificate(certificate, key)
     allow_descriptors()
-    listener = bound(host, port)
+    listener = bind_socket(host, port)
     actual = listener.getsockname()[1]
     access = Access.on(host, actual)
     query = f"?token={access.token}" if access.token else ""
@@ -114,7 +114,7 @@ def serve_watch(
     InputError
         If the address cannot be listened on.
     """
-    listener = bound(host, port)
+    listener = bind_socket(host, port)
     actual = listener.getsockname()[1]
     access = Access.on(host, actual)
     query = f"?token={access.token}" if access.token else ""
@@ -151,7 +151,7 @@ def refuse_certificate(certificate: str | None, key: str | None) -> None:
         raise InputError.at("--certificate", message) from None
 
 
-def bound(host: str, port: int | None) -> socket.socket:
+def bind_socket(host: str, port: int | None) -> socket.socket:
     """Return a socket that listens on an address; on a free port where none is given."""
     for candidate in (PORT, 0) if port is None else (port,):
         family = socket.AF_INET6 if ":" in host else socket.AF_INET
@@ -182,7 +182,7 @@ def _called(host: str) -> str:
     return f"[{host}]" if ":" in host and not host.startswith("[") else host
 
 
-def folder_and_file(given: Path) -> tuple[Path, str | None]:
+def split_folder_and_file(given: Path) -> tuple[Path, str | None]:
     """Return the folder that a studio is for, and the file in it that is opened first.
 
     Raises

@@ -81,7 +81,7 @@ class Studio:
         """Return a folder of a document as workers know it; `Refused` if it climbs out."""
         if not folder:
             return "."
-        self.workspace.path(folder)
+        self.workspace.find_path(folder)
         return folder
 
     async def ask(self, task: str, *blobs: bytes, **arguments: Any) -> tuple[Any, list[bytes]]:
@@ -94,11 +94,11 @@ class Studio:
         TaskFailed, Busy
             As `Crew.do`.
         """
-        checked_json(arguments)
+        check_json(arguments)
         return await self.desk.do(Job(task, arguments, blobs, limit=DESK_LIMIT))
 
 
-def checked_json(data: Any) -> bytes:
+def check_json(data: Any) -> bytes:
     """Return data as JSON; InputError for what JSON has no place for."""
     check_depth(data)
     try:

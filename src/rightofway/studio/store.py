@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.studio.errors import Refused
-from rightofway.studio.workspace import revision_of
+from rightofway.studio.workspace import compute_revision
 
 FILE = ".rightofway-studio.sqlite"
 """The name of the file in the folder of the studio."""
@@ -97,7 +97,7 @@ class Store:
             self._is_still(database, name, revision)
             row = (name, saved, text)
             database.execute("INSERT OR REPLACE INTO drafts VALUES (?, ?, ?)", row)
-        return saved, revision_of(text.encode())
+        return saved, compute_revision(text.encode())
 
     @staticmethod
     def _is_still(database: sqlite3.Connection, name: str, revision: str | None) -> None:
@@ -105,11 +105,11 @@ class Store:
         if revision is None:
             return
         row = database.execute("SELECT document FROM drafts WHERE name = ?", (name,)).fetchone()
-        if revision != (revision_of(row[0].encode()) if row else ""):
+        if revision != (compute_revision(row[0].encode()) if row else ""):
             was = "was changed on another page" if row else "is not kept any more"
             raise Refused(f"the draft {name!r} {was} (open it again, or take another name)", 412)
 
-    def draft(self, name: str) -> dict[str, Any] | None:
+    def read_draft(self, name: str) -> dict[str, Any] | None:
         """Return a draft with its revision and when it was kept, or None."""
         with self._work() as database:
             query = "SELECT saved, document FROM drafts WHERE name = ?"
@@ -117,11 +117,11 @@ class Store:
         if not row:
             return None
         saved, text = row
-        revision = revision_of(text.encode())
+        revision = compute_revision(text.encode())
         document = json.loads(text)
         return {"name": name, "saved": saved, "revision": revision, "document": document}
 
-    def drafts(self) -> list[dict[str, Any]]:
+    def list_drafts(self) -> list[dict[str, Any]]:
         """Return name, time and size of all drafts, the latest first."""
         with self._work() as database:
             query = "SELECT name, saved, length(document) FROM drafts ORDER BY saved DESC"
@@ -161,13 +161,13 @@ class Store:
         packed = [(number, kind, zlib.compress(content, 1)) for kind, content in blobs]
         database.executemany("INSERT OR REPLACE INTO blobs VALUES (?, ?, ?)", packed)
 
-    def runs(self) -> list[tuple[int, dict[str, Any]]]:
+    def list_runs(self) -> list[tuple[int, dict[str, Any]]]:
         """Return all runs, the earliest first."""
         with self._work() as database:
             rows = database.execute("SELECT id, data FROM runs ORDER BY id").fetchall()
         return [(number, json.loads(data)) for number, data in rows]
 
-    def blob(self, number: int, kind: str) -> bytes | None:
+    def read_blob(self, number: int, kind: str) -> bytes | None:
         """Return a blob of a run, or None."""
         with self._work() as database:
             query = "SELECT content FROM blobs WHERE run = ? AND kind = ?"

@@ -16,28 +16,28 @@ NAME_IN_FILE = 40
 """Characters of a run's name in the name of a file."""
 
 
-def shown_of(runs: Sequence[Run]) -> list[dict[str, Any]]:
+def describe_shown(runs: Sequence[Run]) -> list[dict[str, Any]]:
     """Return what a page says of runs: titles, different for each of several, and seconds."""
     if len(runs) == 1:
-        titles = [runs[0].name or f"{file_of(runs[0])} #{runs[0].number}".lstrip()]
+        titles = [runs[0].name or f"{find_file(runs[0])} #{runs[0].number}".lstrip()]
     else:
         titles = [run.name or f"#{run.number}" for run in runs]
         if len(set(titles)) < len(titles):
             titles = [f"#{run.number} {run.name}".rstrip() for run in runs]
     return [
-        {"title": title, "seconds": seconds_of(run)}
+        {"title": title, "seconds": measure_seconds(run)}
         for title, run in zip(titles, runs, strict=True)
     ]
 
 
-def file_of(run: Run) -> str:
+def find_file(run: Run) -> str:
     """Return the file that a run was made from; empty for a draft, whose name has no ending."""
     return run.source if PurePosixPath(run.source).suffix else ""
 
 
-def file_name(runs: Sequence[Run], ending: str) -> str:
+def make_file_name(runs: Sequence[Run], ending: str) -> str:
     """Return how a file of plans is called: ``floor-plan-3-first-try.html``."""
-    stem = PurePosixPath(file_of(runs[0])).name.split(".")[0]
+    stem = PurePosixPath(find_file(runs[0])).name.split(".")[0]
     numbers = "-".join(str(run.number) for run in runs)
     name = runs[0].name if len(runs) == 1 else ""
     words = (re.sub(r"[^A-Za-z0-9_]+", "-", part).strip("-") for part in (stem, name))
@@ -46,20 +46,20 @@ def file_name(runs: Sequence[Run], ending: str) -> str:
     return f"{'-'.join(filter(None, parts))}.{ending}"
 
 
-def seconds_of(run: Run) -> float | None:
+def measure_seconds(run: Run) -> float | None:
     """Return how long a run took; None for what was not planned here."""
     if run.started is None or run.ended is None or run.ended <= run.started:
         return None
     return round(run.ended - run.started, 3)
 
 
-def command_of(run: Run) -> str:
+def make_command(run: Run) -> str:
     """Return the command line of a run."""
     request, words = run.request, ["rightofway", run.kind]
     if run.kind in {"opened", "flip"}:
         raise Refused(f"run {run.number} was not made by a command (export its plan)", 404)
     unnamed = "scenario.yaml" if run.kind in {"plan", "laps"} else "plan.json"
-    source = file_of(run) or unnamed
+    source = find_file(run) or unnamed
     words.append(f"./{source}" if source.startswith("-") else source)
     if run.kind in {"plan", "improve"}:
         default = DEFAULT_PLANNER if run.kind == "plan" else IMPROVER

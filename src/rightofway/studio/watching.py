@@ -20,10 +20,10 @@ from rightofway.errors import InputError
 from rightofway.languages import read_tables
 from rightofway.model import Plan
 from rightofway.studio.errors import Busy, Refused
-from rightofway.viz.page.document import compact_json, document_of
-from rightofway.viz.page.payload import payload_of
+from rightofway.viz.page.document import as_compact_json, make_document
+from rightofway.viz.page.payload import make_payload
 from rightofway.viz.page.schema import FeedData
-from rightofway.viz.page.translations import translations_for
+from rightofway.viz.page.translations import find_translations
 
 __all__ = ["ORDERS", "Watched"]
 
@@ -89,13 +89,13 @@ class Watched:
             feed["stream"] = f"{self._address}stream"
             if self._takes_orders:
                 feed["orders"] = f"{self._address}orders"
-        payload = payload_of(self._plan, title=self._title)
+        payload = make_payload(self._plan, title=self._title)
         payload["driven"] = feed
-        said = translations_for(feed["frame"]["rows"]) if is_whole else read_tables()
+        said = find_translations(feed["frame"]["rows"]) if is_whole else read_tables()
         for language, own in said.items():
             payload["translations"][language] |= own
         about = f"{self._title}: {len(self._plan.scenario.robots)} robots"
-        return document_of(about, payload, "watch_main", connects=not is_whole)
+        return make_document(about, payload, "watch_main", connects=not is_whole)
 
     async def stream_frames(self, known: str) -> AsyncGenerator[str]:
         """Yield what happens as server-sent events.
@@ -123,7 +123,7 @@ class Watched:
                 said = frame["number"], frame["now"], frame["runs"]
                 silence += EVERY
                 if said != last or silence > HEARTBEAT:
-                    yield f"id: {self._token}-{frame['number']}\ndata: {compact_json(frame)}\n\n"
+                    yield f"id: {self._token}-{frame['number']}\ndata: {as_compact_json(frame)}\n\n"
                     last, after, silence = said, frame["number"], 0.0
                 await asyncio.sleep(EVERY)
         finally:

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from rightofway.report.examples import find_examples_folder
-from rightofway.studio.messages import LENGTH, Blobs, as_error, packed
+from rightofway.studio.messages import LENGTH, Blobs, as_error, pack
 
 SHARE_OF_MEMORY = 0.5
 """The part of the machine's memory that a worker may take."""
@@ -78,10 +78,10 @@ class WorkerLoop:
         finally:
             self._current = None
         message, parts = answer
-        self._send({**message, "is_large": most_memory() > LARGE}, parts)
+        self._send({**message, "is_large": measure_most_memory() > LARGE}, parts)
 
     def _send(self, message: dict[str, Any], blobs: Blobs) -> None:
-        data = packed(message, blobs)
+        data = pack(message, blobs)
         with self._lock:
             self._answers.write(data)
             self._answers.flush()
@@ -124,7 +124,7 @@ def confine(*folders: str) -> None:
     sys.addaudithook(watch)
 
 
-def most_memory() -> int:
+def measure_most_memory() -> int:
     """Return the most memory that this process had at once [bytes]; 0 where nobody counts it.
 
     Linux counts for `getrusage` what the process had that has started this one, too: beside a large

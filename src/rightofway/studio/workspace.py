@@ -75,7 +75,7 @@ class Workspace:
         self.folder = folder.resolve(strict=True)
         self._writing = threading.Lock()
 
-    def path(self, name: str) -> Path:
+    def find_path(self, name: str) -> Path:
         """Return where a file is.
 
         Raises
@@ -97,15 +97,15 @@ class Workspace:
             raise Refused(f"{name!r} leads through a symbolic link (give the file itself)")
         return path
 
-    def existing(self, name: str) -> Path:
+    def find_existing(self, name: str) -> Path:
         """Return where a file is that can be read.
 
         Raises
         ------
         Refused
-            As `path`, or if there is no such file, or it is too large.
+            As `find_path`, or if there is no such file, or it is too large.
         """
-        path = self.path(name)
+        path = self.find_path(name)
         if not path.is_file():
             raise Refused(f"there is no file {name!r} in the folder (see the list)", 404)
         size = path.stat().st_size
@@ -114,8 +114,8 @@ class Workspace:
         return path
 
     def read(self, name: str) -> bytes:
-        """Return the content of a file; refused as by `existing`."""
-        return self.existing(name).read_bytes()
+        """Return the content of a file; refused as by `find_existing`."""
+        return self.find_existing(name).read_bytes()
 
     def write(self, name: str, content: bytes, *, revision: str | None = None) -> str:
         """Write a file whole, and return its revision.
@@ -123,27 +123,27 @@ class Workspace:
         Raises
         ------
         Refused
-            As `path`; or if the file holds something else by now.
+            As `find_path`; or if the file holds something else by now.
         InputError
             If it cannot be written.
         """
-        path = self.path(name)
+        path = self.find_path(name)
         with self._writing:
-            if revision is not None and revision != (self.revision(name) or ""):
+            if revision is not None and revision != (self.compute_revision(name) or ""):
                 was = "was changed by another program" if revision else "is there already"
                 raise Refused(f"{name!r} {was} (open it again, or save under another name)", 412)
             try:
                 write_whole(path, content)
             except InputError as error:
                 raise InputError(fault.in_file(name) for fault in error.faults) from None
-        return revision_of(content)
+        return compute_revision(content)
 
-    def revision(self, name: str) -> str | None:
+    def compute_revision(self, name: str) -> str | None:
         """Return a text that changes with the content of a file; None where there is none."""
-        path = self.path(name)
-        return revision_of(path.read_bytes()) if path.is_file() else None
+        path = self.find_path(name)
+        return compute_revision(path.read_bytes()) if path.is_file() else None
 
-    def files(self) -> tuple[list[Entry], bool]:
+    def list_files(self) -> tuple[list[Entry], bool]:
         """Return the files that may be opened, in the order of their paths, and whether all.
 
         Folders near the top come first; a list that is not whole lacks files far inside.
@@ -185,6 +185,6 @@ def _resolved(path: Path) -> Path | None:
         return None
 
 
-def revision_of(content: bytes) -> str:
+def compute_revision(content: bytes) -> str:
     """Return a text that changes with the content."""
     return hashlib.sha256(content).hexdigest()[:16]

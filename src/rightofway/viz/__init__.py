@@ -9,47 +9,68 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from rightofway.provision import warn_of_rename
+
 if TYPE_CHECKING:
-    from rightofway.viz.notebook import scenario_html
+    from rightofway.viz.notebook import make_scenario_html
     from rightofway.viz.page.background import Background
-    from rightofway.viz.page.document import frame_of, page_of, write_page
-    from rightofway.viz.page.inspection import inspection_page, site_data, write_inspection
-    from rightofway.viz.page.payload import payload_of
+    from rightofway.viz.page.document import make_frame, make_page, write_page
+    from rightofway.viz.page.inspection import (
+        make_inspection_page,
+        make_site_data,
+        write_inspection,
+    )
+    from rightofway.viz.page.payload import make_payload
     from rightofway.viz.page.widget import bundle_of
-    from rightofway.viz.raster.picture import Film, png_of, write_gif, write_png
-    from rightofway.viz.raster.preview import preview_of
+    from rightofway.viz.raster.picture import Film, make_png, write_gif, write_png
+    from rightofway.viz.raster.preview import make_preview
 
 _MODULES = {
     "page.background": ("Background",),
-    "page.document": ("frame_of", "page_of", "write_page"),
-    "page.inspection": ("inspection_page", "site_data", "write_inspection"),
-    "page.payload": ("payload_of",),
+    "page.document": ("make_frame", "make_page", "write_page"),
+    "page.inspection": ("make_inspection_page", "make_site_data", "write_inspection"),
+    "page.payload": ("make_payload",),
     "page.widget": ("bundle_of",),
-    "raster.picture": ("Film", "png_of", "write_gif", "write_png"),
-    "raster.preview": ("preview_of",),
-    "notebook": ("scenario_html",),
+    "raster.picture": ("Film", "make_png", "write_gif", "write_png"),
+    "raster.preview": ("make_preview",),
+    "notebook": ("make_scenario_html",),
 }
 
 __all__ = [
     "Background",
     "Film",
     "bundle_of",
-    "frame_of",
-    "inspection_page",
-    "page_of",
-    "payload_of",
-    "png_of",
-    "preview_of",
-    "scenario_html",
-    "site_data",
+    "make_frame",
+    "make_inspection_page",
+    "make_page",
+    "make_payload",
+    "make_png",
+    "make_preview",
+    "make_scenario_html",
+    "make_site_data",
     "write_gif",
     "write_inspection",
     "write_page",
     "write_png",
 ]
 
+_EARLIER = {
+    "frame_of": "make_frame",
+    "inspection_page": "make_inspection_page",
+    "page_of": "make_page",
+    "payload_of": "make_payload",
+    "png_of": "make_png",
+    "preview_of": "make_preview",
+    "scenario_html": "make_scenario_html",
+    "site_data": "make_site_data",
+}
+"""Earlier names, which work and warn (docs/promises.md)."""
+
 
 def __getattr__(name: str) -> Any:
+    if name in _EARLIER:
+        warn_of_rename(__name__, name, _EARLIER[name])
+        name = _EARLIER[name]
     for module, names in _MODULES.items():
         if name in names:
             return getattr(import_module(f"{__name__}.{module}"), name)

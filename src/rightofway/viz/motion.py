@@ -45,18 +45,18 @@ class Trip:
     served: tuple[int, ...]  # the visit that serves each stage, -1 for one that is left out
     turns: tuple[Tick, ...] = ()  # on the spot in each visit [ticks]; empty if that takes no time
 
-    def at(self, tick: float) -> Moment:
+    def locate(self, tick: float) -> Moment:
         """Return where the robot is at an instant."""
         visit = max(bisect_right(self.enter, tick) - 1, 0)
         vertex = self.vertices[visit]
-        for begin, end, activity in self.phases(visit):
+        for begin, end, activity in self.trace_phases(visit):
             if tick < end:
                 head = self.vertices[visit + 1] if activity is Phase.DRIVE else vertex
                 share = (tick - begin) / (end - begin)
                 return Moment(tail=vertex, head=head, activity=activity, share=share)
         return Moment(tail=vertex, head=vertex, activity=Phase.DONE, share=1.0)
 
-    def phases(self, visit: int) -> Iterator[tuple[int, int, Phase]]:
+    def trace_phases(self, visit: int) -> Iterator[tuple[int, int, Phase]]:
         """Yield (begin, end, activity) of a visit, in order, without empty ones."""
         now, last = self.enter[visit], visit == len(self.vertices) - 1
         leave = NEVER if last else self.enter[visit + 1]
@@ -80,14 +80,14 @@ class Trip:
         if not last and leave > departure:
             yield departure, leave, Phase.DRIVE
 
-    def all_phases(self) -> Iterator[tuple[int, int, int, Phase]]:
+    def trace_all_phases(self) -> Iterator[tuple[int, int, int, Phase]]:
         """Yield (visit, begin, end, activity) of the whole trip, in order."""
         for visit in range(len(self.vertices)):
-            for begin, end, activity in self.phases(visit):
+            for begin, end, activity in self.trace_phases(visit):
                 yield visit, begin, end, activity
 
 
-def trips_of(plan: Plan) -> tuple[Trip, ...]:
+def make_trips(plan: Plan) -> tuple[Trip, ...]:
     """Return the trip of each robot."""
     trips = []
     stays_of_all = plan.stays
@@ -108,5 +108,5 @@ def trips_of(plan: Plan) -> tuple[Trip, ...]:
 
 def end_of(trips: Sequence[Trip]) -> int:
     """Return the tick from which on nothing happens any more."""
-    ends = (end for trip in trips for _, end, _ in trip.phases(len(trip.vertices) - 1))
+    ends = (end for trip in trips for _, end, _ in trip.trace_phases(len(trip.vertices) - 1))
     return max([*(trip.enter[-1] for trip in trips), *ends])

@@ -11,8 +11,8 @@ import numpy as np
 from rightofway.arguments import checks_arguments
 from rightofway.model import Robot, Scenario
 from rightofway.model.place_names import PlaceNames
-from rightofway.viz.palette import LIGHT, robot_colours
-from rightofway.viz.placement import Plane, plane_of
+from rightofway.viz.palette import LIGHT, choose_colours
+from rightofway.viz.placement import Plane, lay_out_roadmap
 
 MOST_VERTICES = 20_000
 """A larger map is not drawn."""
@@ -32,7 +32,7 @@ SMALLEST_RADIUS = 3
 
 
 @checks_arguments
-def scenario_html(scenario: Scenario) -> str:
+def make_scenario_html(scenario: Scenario) -> str:
     """Return HTML that shows a scenario: map, homes (discs), stops (rings) and robots.
 
     Parameters
@@ -62,7 +62,7 @@ def _row(scenario: Scenario, robot: Robot) -> str:
 
 
 def _drawing(scenario: Scenario) -> str:
-    plane = plane_of(scenario.roadmap)
+    plane = lay_out_roadmap(scenario.roadmap)
     scale = min(LARGEST / max(plane.width, plane.height), LARGEST_UNIT)
     width, height = (round(side * scale) for side in (plane.width, plane.height))
     box = f"-0.5 -0.5 {plane.width:.6g} {plane.height:.6g}"
@@ -99,7 +99,7 @@ def _map_shapes(scenario: Scenario, plane: Plane) -> Iterator[str]:
 
 def _robot_shapes(scenario: Scenario, plane: Plane, radius: float) -> Iterator[str]:
     """Yield a disc for the home and a ring for each stop of each robot, with its name."""
-    colours = robot_colours(len(scenario.robots))
+    colours = choose_colours(len(scenario.robots))
     for robot, colour in zip(scenario.robots, colours, strict=True):
         title = f"<title>{escape(robot.name)}</title>"
         for stop in robot.stops:

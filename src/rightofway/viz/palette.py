@@ -74,7 +74,7 @@ class Theme:
     lit_edge: str
     zone: str
 
-    def css(self) -> str:
+    def as_css(self) -> str:
         """Return the colours as CSS custom properties."""
         names = (field.name for field in fields(self))
         return "".join(f"--{name.replace('_', '-')}:{getattr(self, name)};" for name in names)
@@ -98,7 +98,7 @@ DARK = Theme(
 
 
 @lru_cache(maxsize=8)
-def robot_colours(count: int) -> tuple[str, ...]:
+def choose_colours(count: int) -> tuple[str, ...]:
     """Return a colour for each robot; a robot's colour does not depend on how many there are."""
     return tuple(
         _hex_of_oklch(LIGHTNESS[index % len(LIGHTNESS)], CHROMA, FIRST_HUE + index * GOLDEN_ANGLE)
@@ -112,7 +112,7 @@ def mix(low: str, high: str, share: float) -> str:
     return _hex(tuple(round(start + (end - start) * share) for start, end in ends))
 
 
-def ink_on(colour: str) -> str:
+def choose_ink(colour: str) -> str:
     """Return white or near-black, whichever reads better on a colour."""
     red, green, blue = ((channel / 255) ** 2.2 for channel in _channels(colour))
     luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue

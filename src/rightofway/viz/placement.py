@@ -30,7 +30,7 @@ class Plane:
     corner: tuple[float, float]  # of the roadmap's plane, drawn at (0, 0) [length unit]
 
 
-def plane_of(roadmap: Roadmap) -> Plane:
+def lay_out_roadmap(roadmap: Roadmap) -> Plane:
     """Lay out a roadmap; one unit is a (smallest) cell, or a short edge of the roadmap."""
     grid = roadmap.grid
     if grid is not None:
@@ -70,7 +70,7 @@ def plane_of(roadmap: Roadmap) -> Plane:
     )
 
 
-def edge_length(roadmap: Roadmap) -> Callable[[int, int], float]:
+def make_edge_length(roadmap: Roadmap) -> Callable[[int, int], float]:
     """Return the function from the ends of an edge to its length [length unit]; 0 without one."""
 
     def length(tail: int, head: int) -> float:
@@ -80,7 +80,7 @@ def edge_length(roadmap: Roadmap) -> Callable[[int, int], float]:
     return length
 
 
-def vertices_in_line(
+def order_in_line(
     routes: Sequence[Sequence[int]], distance: Callable[[int, int], float]
 ) -> dict[int, float]:
     """Order the vertices of all routes so that every robot passes its own nearly in order.

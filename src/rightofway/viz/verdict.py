@@ -12,7 +12,7 @@ LISTED_FAULTS = 1000
 """The most faults that a page lists; all are counted."""
 
 
-def verdict_on(plan: Plan) -> Report:
+def give_verdict(plan: Plan) -> Report:
     """Return the faults of a plan; none of an excerpt of laps, which no floor is to carry out.
 
     In an excerpt, robots may stand still for ever, and others stay at home in their way at its end.
@@ -22,9 +22,9 @@ def verdict_on(plan: Plan) -> Report:
     return plan.once("verdict", lambda: check(plan, limit=LISTED_FAULTS))
 
 
-def compared_data(comparison: Comparison) -> dict[str, Any]:
+def make_comparison_data(comparison: Comparison) -> dict[str, Any]:
     """Return a comparison as plain data, with how many ``faults`` the judge finds in each plan."""
     data = comparison.as_dict()
     for figures, plan in zip(data["plans"], comparison.plans, strict=True):
-        figures["faults"] = verdict_on(plan).total
+        figures["faults"] = give_verdict(plan).total
     return data

@@ -22,11 +22,11 @@ from rightofway.studio.routes.models import (
     Save,
     Survey,
     ToText,
-    unzipped,
+    answer_zipped,
 )
 from rightofway.studio.runs import Run, Runs
-from rightofway.studio.session import Studio, checked_json
-from rightofway.studio.workspace import KINDS, revision_of
+from rightofway.studio.session import Studio, check_json
+from rightofway.studio.workspace import KINDS, compute_revision
 
 MAX_DRAFTS = 200
 """Drafts that are kept."""
@@ -45,10 +45,10 @@ def free_name(studio: Studio, path: str) -> str:
     """Return the name of a scenario beside a file: one that no other file has."""
     stem = path.removesuffix(PurePosixPath(path).suffix)
     names = (f"{stem}{number}.yaml" for number in chain([""], count_from(2)))
-    return next(name for name in names if studio.workspace.revision(name) is None)
+    return next(name for name in names if studio.workspace.compute_revision(name) is None)
 
 
-def folder_of(path: str) -> str:
+def find_folder(path: str) -> str:
     """Return the folder of a path, empty for the studio's own."""
     parent = PurePosixPath(path).parent.as_posix()
     return "" if parent == "." else parent
@@ -57,7 +57,7 @@ def folder_of(path: str) -> str:
 @router.get("/files", tags=["files"])
 def list_files(studio: InStudio) -> dict[str, Any]:
     """List the files that may be opened."""
-    entries, is_whole = studio.workspace.files()
+    entries, is_whole = studio.workspace.list_files()
     return {"files": [asdict(entry) for entry in entries], "is_whole": is_whole}
 
 
@@ -101,14 +101,14 @@ async def open_document(
     """
     content = studio.workspace.read(path)
     result, blobs = await studio.ask("open", path=path, count=count)
-    answer = {"path": path, "folder": folder_of(path), **result}
+    answer = {"path": path, "folder": find_folder(path), **result}
     if result["kind"] == "scenario" and PurePosixPath(path).suffix.lower() in SAVED:
-        return {**answer, "save_as": path, "revision": revision_of(content)}
+        return {**answer, "save_as": path, "revision": compute_revision(content)}
     if result["kind"] != "plan":
         return {**answer, "save_as": free_name(studio, path), "revision": ""}
     name = PurePosixPath(path).name
-    request = {"revision": revision_of(content)}
-    for run in studio.runs.all():
+    request = {"revision": compute_revision(content)}
+    for run in studio.runs.list_all():
         if run.kind == "opened" and run.source == path and run.request == request:
             return {**answer, "run": Runs.data(run)}
     run = Run(kind="opened", name=name, source=path, request=request, figures=result["figures"])
@@ -118,7 +118,7 @@ async def open_document(
 @router.put("/documents/{path:path}", tags=["documents"])
 async def save_document(studio: InStudio, path: FilePath, save: Save) -> dict[str, Any]:
     """Save a document as a .yaml, .yml, .json or .xlsx file; .yaml and .json also with faults."""
-    studio.workspace.path(path)
+    studio.workspace.find_path(path)
     _, blobs = await studio.ask(
         "write", document=save.document, folder=studio.place(save.folder), name=path
     )
@@ -150,7 +150,7 @@ async def survey(studio: InStudio, request: Request, survey: Survey) -> Response
     """Return what an editor shows at each change: faults, notes, map, robots, findings."""
     arguments = survey.model_dump() | {"folder": studio.place(survey.folder)}
     _, blobs = await studio.ask("survey", **arguments)
-    return unzipped(request, blobs[0])
+    return answer_zipped(request, blobs[0])
 
 
 @router.post("/inline", tags=["documents"])
@@ -185,13 +185,13 @@ async def convert(studio: InStudio, text: ToText) -> Response:
 @router.get("/drafts", tags=["drafts"])
 def list_drafts(studio: InStudio) -> dict[str, Any]:
     """List the drafts, the latest first."""
-    return {"drafts": studio.store.drafts(), "are_kept": studio.store.is_kept}
+    return {"drafts": studio.store.list_drafts(), "are_kept": studio.store.is_kept}
 
 
 @router.get("/drafts/{name:path}", tags=["drafts"])
 def get_draft(studio: InStudio, name: str) -> dict[str, Any]:
     """Return a draft."""
-    draft = studio.store.draft(name)
+    draft = studio.store.read_draft(name)
     if draft is None:
         raise Refused(f"there is no draft {name!r} (see the list of drafts)", 404)
     return draft
@@ -203,10 +203,10 @@ def put_draft(studio: InStudio, name: str, draft: DraftBody) -> dict[str, Any]:
     if not (0 < len(name) <= 500 and name.isprintable()):  # noqa: PLR2004
         remedy = "give from 1 to 500 characters that can be printed"
         raise Refused(f"{name[:50]!r} is no name of a draft ({remedy})")
-    known = studio.store.drafts()
+    known = studio.store.list_drafts()
     if len(known) >= MAX_DRAFTS and all(draft["name"] != name for draft in known):
         raise Busy(f"{len(known)} drafts are kept already (delete some)")
-    checked_json(draft.document)
+    check_json(draft.document)
     saved, revision = studio.store.put_draft(name, draft.document, revision=draft.revision)
     return {"name": name, "saved": saved, "revision": revision}
 

@@ -19,7 +19,7 @@ Source = Literal["files", "drafts", "examples"]
 Named = Annotated[str, Path(description="path of a file, name of a draft or of an example")]
 
 
-def scenario_examples() -> dict[str, str]:
+def list_scenario_examples() -> dict[str, str]:
     """Return the examples to begin with: their names, and what they show, in a sentence."""
     names = [name for name in list_example_names() if "/" not in name]
     files = {name: find_examples_folder() / f"{name}.yaml" for name in names}
@@ -29,19 +29,19 @@ def scenario_examples() -> dict[str, str]:
 @router.get("/examples", tags=["files"])
 def list_examples() -> dict[str, Any]:
     """List the examples of the package."""
-    examples = scenario_examples()
+    examples = list_scenario_examples()
     return {"examples": [{"name": name, "sentence": text} for name, text in examples.items()]}
 
 
 @router.get("/examples/{name}", tags=["files"])
-async def example(studio: InStudio, name: Named) -> dict[str, Any]:
+async def get_example(studio: InStudio, name: Named) -> dict[str, Any]:
     """Return an example as a document that names no other file."""
     result, _ = await studio.ask("example", name=_known(name))
     return {"kind": "scenario", **result}
 
 
 @router.get("/glances/{source}/{name:path}", tags=["files"], response_class=Response)
-async def glance(
+async def get_glance(
     studio: InStudio,
     source: Source,
     name: Named,
@@ -72,10 +72,10 @@ async def glance(
 def _asked(studio: Studio, source: Source, name: str) -> tuple[dict[str, Any], object]:
     """Return the arguments of the task, and what changes with what is looked at."""
     if source == "files":
-        stat = studio.workspace.existing(name).stat()
+        stat = studio.workspace.find_existing(name).stat()
         return {"path": name}, (stat.st_mtime_ns, stat.st_size)
     if source == "drafts":
-        draft = studio.store.draft(name)
+        draft = studio.store.read_draft(name)
         if draft is None:
             raise Refused(f"there is no draft {name!r} (see the list of drafts)", 404)
         return {"document": draft["document"]}, draft["saved"]
@@ -83,7 +83,7 @@ def _asked(studio: Studio, source: Source, name: str) -> tuple[dict[str, Any], o
 
 
 def _known(name: str) -> str:
-    known = scenario_examples()
+    known = list_scenario_examples()
     if name not in known:
         raise Refused(f"there is no example {name!r} (there are {', '.join(known)})", 404)
     return name

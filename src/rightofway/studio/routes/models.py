@@ -12,13 +12,13 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 from rightofway.studio.session import Studio
 
 
-def studio_of(request: Request) -> Studio:
+def get_studio(request: Request) -> Studio:
     """Return the studio that a request is for."""
     studio: Studio = request.app.state.studio
     return studio
 
 
-InStudio = Annotated[Studio, Depends(studio_of)]
+InStudio = Annotated[Studio, Depends(get_studio)]
 RunNumber = Annotated[int, Path(ge=1, le=2**53, description="number of a run")]
 FilePath = Annotated[str, Path(description="path in the folder, with / between names")]
 Document = Annotated[dict[str, Any], Field(description="a scenario, as in a YAML or JSON file")]
@@ -36,7 +36,7 @@ GZIP = b"\x1f\x8b"
 """What compressed bytes begin with."""
 
 
-def unzipped(
+def answer_zipped(
     request: Request,
     content: bytes,
     media: str = "application/json",
@@ -121,7 +121,7 @@ class Search(Model):
     time_limit: float = Field(10, gt=0, le=MAX_SECONDS, description="seconds, up to 3600")
     seed: int = Field(0, ge=0, lt=2**32, description="a whole number from 0 to 4294967295")
 
-    def settings(self) -> dict[str, Any]:
+    def list_settings(self) -> dict[str, Any]:
         """Return the settings that are given, as `solve` takes them."""
         chosen = {} if self.planner is None else {"planner": self.planner}
         return {
@@ -183,7 +183,7 @@ class NewSimulation(Model):
     time_limit: float = Field(60, gt=0, le=MAX_SECONDS, description="seconds, up to 3600")
 
 
-def kind_of(body: Any) -> Any:
+def get_kind(body: Any) -> Any:
     """Return the kind of run that a body asks for: a plan where it names none."""
     return body.get("kind", "plan") if isinstance(body, dict) else getattr(body, "kind", "plan")
 
@@ -193,7 +193,7 @@ NewRun = Annotated[
     | Annotated[NewImprovement, Tag("improve")]
     | Annotated[NewLaps, Tag("laps")]
     | Annotated[NewSimulation, Tag("simulate")],
-    Discriminator(kind_of),
+    Discriminator(get_kind),
 ]
 
 

@@ -20,8 +20,8 @@ from rightofway.languages import read_tables
 from rightofway.studio.errors import Refused
 from rightofway.studio.guard import MAX_BODY
 from rightofway.studio.routes.models import MAX_SECONDS, InStudio
-from rightofway.viz.page.document import compact_json, style_sheet
-from rightofway.viz.page.scripts import scripts_of
+from rightofway.viz.page.document import as_compact_json, make_style_sheet
+from rightofway.viz.page.scripts import order_scripts
 
 MEDIA = {
     ".css": "text/css; charset=utf-8",
@@ -43,19 +43,19 @@ about = APIRouter()
 
 
 @router.get("/")
-async def index(request: Request) -> Response:
+async def get_index(request: Request) -> Response:
     """Return the page."""
     return _file(request, "studio/assets/index.html")
 
 
 @router.get("/studio/assets/{path:path}")
-async def asset(request: Request, path: str) -> Response:
+async def get_asset(request: Request, path: str) -> Response:
     """Return a file of the page."""
     return _file(request, f"studio/assets/{path}")
 
 
 @router.get("/viz/page/assets/{path:path}")
-async def viewer_asset(request: Request, path: str) -> Response:
+async def get_viewer_asset(request: Request, path: str) -> Response:
     """Return a file of the viewer."""
     return _file(request, f"viz/page/assets/{path}")
 
@@ -68,7 +68,7 @@ async def send_languages(request: Request) -> Response:
 
 def _file(request: Request, path: str) -> Response:
     """Return a file, or that the browser has it already."""
-    content = page_file(path)
+    content = read_page_file(path)
     headers = {"cache-control": "no-cache", "etag": f'"{crc32(content):08x}-{__version__}"'}
     if request.headers.get("if-none-match") == headers["etag"]:
         return Response(status_code=304, headers=headers)
@@ -76,15 +76,15 @@ def _file(request: Request, path: str) -> Response:
 
 
 @cache
-def page_file(path: str) -> bytes:
+def read_page_file(path: str) -> bytes:
     """Return a file of the page; `Refused` if there is none."""
     if path == STYLE:
-        return style_sheet().encode()
+        return make_style_sheet().encode()
     if path == "languages.json":
-        return compact_json(read_tables()).encode()
+        return as_compact_json(read_tables()).encode()
     text = _text(path)
     if path == "studio/assets/index.html":  # else a browser asks for modules one after another
-        modules = scripts_of("studio/assets/main", _text)
+        modules = order_scripts("studio/assets/main", _text)
         links = (f'<link rel="modulepreload" href="/{module}.js">' for module in modules)
         text = text.replace("</head>", "\n".join([*links, "</head>"]))
     return text.encode()
@@ -118,6 +118,6 @@ def describe(studio: InStudio) -> dict[str, Any]:
 
 
 @about.get("/schema", tags=["studio"])
-def scenario_schema() -> dict[str, Any]:
+def get_scenario_schema() -> dict[str, Any]:
     """Return the JSON Schema of scenarios, as `rightofway schema scenario` prints it."""
     return schema("scenario")

@@ -15,11 +15,11 @@ from rightofway.studio.errors import Refused
 from rightofway.studio.routes.models import (
     InStudio,
     RunNumber,
-    unzipped,
+    answer_zipped,
 )
 from rightofway.studio.runs import Run
 from rightofway.studio.session import Studio
-from rightofway.studio.titles import command_of, file_name, shown_of
+from rightofway.studio.titles import describe_shown, make_command, make_file_name
 
 EXPORTS = {
     "json": "application/json",
@@ -47,7 +47,7 @@ router = APIRouter()
 
 
 @router.get("/runs/{number}/payload", tags=["plans"], response_class=Response)
-async def run_payload(
+async def get_run_payload(
     studio: InStudio,
     request: Request,
     number: RunNumber,
@@ -61,10 +61,10 @@ async def run_payload(
     if replay is not None:
         content = await _replayed(studio, run, replay)
     elif run.has_payload and not other:
-        content = await studio.runs.blob(number, "payload")
+        content = await studio.runs.read_blob(number, "payload")
     else:
         content = await _played(studio, "payload", run, other)
-    return unzipped(request, content)
+    return answer_zipped(request, content)
 
 
 async def _replayed(studio: Studio, run: Run, replay: int) -> bytes:
@@ -72,14 +72,14 @@ async def _replayed(studio: Studio, run: Run, replay: int) -> bytes:
     most = run.request.get("runs", 0)
     if replay >= most:
         raise Refused(f"run {run.number} has no run {replay} to play (it made {most})", 404)
-    plan = await studio.runs.blob(run.number, "plan")
+    plan = await studio.runs.read_blob(run.number, "plan")
     asked = {key: run.request[key] for key in ("delays", "seed", "switch", "replan")}
     _, blobs = await studio.ask("replay", plan, run=replay, **asked)
     return blobs[0]
 
 
 @router.get("/runs/{number}/page", tags=["plans"], response_class=Response)
-async def run_page(
+async def get_run_page(
     studio: InStudio,
     request: Request,
     number: RunNumber,
@@ -88,17 +88,17 @@ async def run_page(
     """Return the page of the plan, perhaps beside others, as `rightofway show` writes it."""
     content = await _played(studio, "page", studio.runs.get(number), other)
     headers = {"content-security-policy": ALONE}
-    return unzipped(request, content, "text/html; charset=utf-8", headers)
+    return answer_zipped(request, content, "text/html; charset=utf-8", headers)
 
 
 async def _played(studio: Studio, task: str, run: Run, others: Sequence[int]) -> bytes:
     """Return the payload or the page of the plan that a run has now, perhaps beside others."""
     runs = [run, *map(studio.runs.get, others)]
-    shown = shown_of(runs)
+    shown = describe_shown(runs)
 
     async def make() -> bytes:
-        plans = [await studio.runs.blob(run.number, "plan") for run in runs]
-        origins = [await origin_of(studio, run) for run in runs]
+        plans = [await studio.runs.read_blob(run.number, "plan") for run in runs]
+        origins = [await find_origin(studio, run) for run in runs]
         drawn = [{**data, "origin": origin} for data, origin in zip(shown, origins, strict=True)]
         _, blobs = await studio.ask(task, *plans, shown=drawn)
         return blobs[0]
@@ -108,7 +108,7 @@ async def _played(studio: Studio, task: str, run: Run, others: Sequence[int]) ->
     return await studio.played.get(key, make)
 
 
-async def origin_of(studio: Studio, run: Run) -> dict[str, Any] | None:
+async def find_origin(studio: Studio, run: Run) -> dict[str, Any] | None:
     """Return the document that a plan was made from, where it draws more than a plan file does."""
     while run.kind not in {"plan", "laps"}:
         if run.based_on is None:
@@ -117,7 +117,7 @@ async def origin_of(studio: Studio, run: Run) -> dict[str, Any] | None:
             run = studio.runs.get(run.based_on)
         except Refused:  # it was deleted
             return None
-    arguments = json.loads(await studio.runs.blob(run.number, "arguments"))
+    arguments = json.loads(await studio.runs.read_blob(run.number, "arguments"))
     shape = arguments["document"].get("map")
     if not isinstance(shape, dict) or not shape.keys() & DRAWN_BY:
         return None
@@ -144,46 +144,46 @@ async def export_run(
     if form == "html":
         content = await _played(studio, "page", studio.runs.get(number), other)
     else:
-        plan = await studio.runs.blob(number, "plan")
-        origin = await origin_of(studio, studio.runs.get(number))
+        plan = await studio.runs.read_blob(number, "plan")
+        origin = await find_origin(studio, studio.runs.get(number))
         content = (await studio.ask("export", plan, form=form, origin=origin))[1][0]
     runs = list(map(studio.runs.get, [number, *other]))
-    name = file_name(runs, form if form in EXPORTS else f"{form}.txt")
+    name = make_file_name(runs, form if form in EXPORTS else f"{form}.txt")
     headers = {
         "content-disposition": f'attachment; filename="{name}"',
         "content-security-policy": ALONE,
     }
     media = EXPORTS.get(form, "text/plain; charset=utf-8")
-    return unzipped(request, content, media, headers)
+    return answer_zipped(request, content, media, headers)
 
 
 @router.get("/runs/{number}/document", tags=["plans"])
-async def run_document(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+async def get_run_document(studio: InStudio, number: RunNumber) -> dict[str, Any]:
     """Return the document that a run was made from, so that it can be changed."""
     if studio.runs.get(number).kind in {"plan", "laps"}:
-        arguments = json.loads(await studio.runs.blob(number, "arguments"))
+        arguments = json.loads(await studio.runs.read_blob(number, "arguments"))
     else:  # made from a plan, in which the scenario is whole
-        plan = json.loads(await studio.runs.blob(number, "plan"))
+        plan = json.loads(await studio.runs.read_blob(number, "plan"))
         arguments = {"document": plan["scenario"], "folder": "."}
     return {"document": arguments["document"], "folder": arguments["folder"].removeprefix(".")}
 
 
 @router.get("/runs/{number}/report", tags=["plans"], response_class=Response)
-async def run_report(studio: InStudio, number: RunNumber) -> Response:
+async def get_run_report(studio: InStudio, number: RunNumber) -> Response:
     """Return the report of `plan`, `laps` or `simulate` with ``--json``."""
     run = studio.runs.get(number)
     if run.has_report:
-        content = await studio.runs.blob(number, "report")
+        content = await studio.runs.read_blob(number, "report")
     else:
-        result, _ = await studio.ask("summary", await studio.runs.blob(number, "plan"))
+        result, _ = await studio.ask("summary", await studio.runs.read_blob(number, "plan"))
         content = json.dumps(result).encode()
     return Response(content, media_type="application/json")
 
 
 @router.get("/runs/{number}/command", tags=["plans"])
-async def run_command(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+async def get_run_command(studio: InStudio, number: RunNumber) -> dict[str, Any]:
     """Return the command line that gives the same."""
-    return {"command": command_of(studio.runs.get(number))}
+    return {"command": make_command(studio.runs.get(number))}
 
 
 @router.get("/compare", tags=["plans"])
@@ -195,13 +195,13 @@ async def compare(
     Robots are the same where their names are. ``comparison`` counts all times in one tick.
     """
     runs = list(map(studio.runs.get, run))
-    plans = await asyncio.gather(*(studio.runs.blob(number, "plan") for number in run))
-    result, _ = await studio.ask("compare", *plans, shown=shown_of(runs))
+    plans = await asyncio.gather(*(studio.runs.read_blob(number, "plan") for number in run))
+    result, _ = await studio.ask("compare", *plans, shown=describe_shown(runs))
     return {"runs": run, **result}
 
 
 @router.get("/runs/{number}/changes", tags=["plans"])
-async def run_changes(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+async def get_run_changes(studio: InStudio, number: RunNumber) -> dict[str, Any]:
     """Return in what the scenario of a run differs from that of the run ``before``.
 
     That is the run that it was made from, or the last one before it of the same file; null without
@@ -214,7 +214,8 @@ async def run_changes(studio: InStudio, number: RunNumber) -> dict[str, Any]:
 
     async def make() -> bytes:
         plans = [
-            await studio.runs.blob(run_number, "plan") for run_number in (before.number, number)
+            await studio.runs.read_blob(run_number, "plan")
+            for run_number in (before.number, number)
         ]
         result, _ = await studio.ask("changes", *plans)
         return json.dumps({"before": before.number, **result}).encode()
@@ -223,7 +224,9 @@ async def run_changes(studio: InStudio, number: RunNumber) -> dict[str, Any]:
 
 
 def _before(studio: Studio, run: Run) -> Run | None:
-    earlier = [other for other in studio.runs.all() if other.number < run.number and other.revision]
+    earlier = [
+        other for other in studio.runs.list_all() if other.number < run.number and other.revision
+    ]
     made_from = [other for other in earlier if other.number == run.based_on]
     same_file = [other for other in earlier if other.source == run.source]
     return next(iter([*made_from, *same_file]), None)

@@ -13,7 +13,7 @@ from rightofway.studio.routes.models import (
     InStudio,
     OtherLaps,
     RunNumber,
-    unzipped,
+    answer_zipped,
 )
 from rightofway.studio.runs import Run, Runs
 
@@ -21,25 +21,25 @@ router = APIRouter()
 
 
 @router.get("/runs/{number}/losses", tags=["questions"], response_class=Response)
-async def run_losses(
+async def get_run_losses(
     studio: InStudio,
     request: Request,
     number: RunNumber,
     robot: Annotated[str | None, Query(max_length=200)] = None,
 ) -> Response:
     """Tell why robots lose time: each wait in a sentence, with the decision behind it."""
-    plan = await studio.runs.blob(number, "plan")
+    plan = await studio.runs.read_blob(number, "plan")
     _, blobs = await studio.ask("losses", plan, robot=robot)
-    return unzipped(request, blobs[0])
+    return answer_zipped(request, blobs[0])
 
 
 @router.post("/runs/{number}/laps", tags=["questions"])
-async def other_laps(studio: InStudio, number: RunNumber, asked: OtherLaps) -> dict[str, Any]:
+async def change_laps(studio: InStudio, number: RunNumber, asked: OtherLaps) -> dict[str, Any]:
     """Let robots repeat their trips in a new order, with another speed, work time or headway."""
     run = studio.runs.get(number)
     if run.kind != "laps":
         raise Refused(f"run {number} has no laps (queue a run of the kind laps)", 404)
-    arguments = json.loads(await studio.runs.blob(number, "arguments"))
+    arguments = json.loads(await studio.runs.read_blob(number, "arguments"))
     settings = {**run.request, **arguments, **asked.model_dump(), "value": str(asked.value)}
     result, _ = await studio.ask("laps_if", **settings)
     return dict(result)
@@ -48,7 +48,7 @@ async def other_laps(studio: InStudio, number: RunNumber, asked: OtherLaps) -> d
 @router.post("/runs/{number}/flip", tags=["questions"])
 async def flip(studio: InStudio, number: RunNumber, flipped: Flip) -> dict[str, Any]:
     """Let a robot that waits go first, and keep the timetable that follows as a run."""
-    plan = await studio.runs.blob(number, "plan")
+    plan = await studio.runs.read_blob(number, "plan")
     request = flipped.model_dump(exclude={"name"})
     result, blobs = await studio.ask("flip", plan, **request)
     name = flipped.name or f"{flipped.waits} before {flipped.goes_first}"

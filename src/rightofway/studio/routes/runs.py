@@ -24,7 +24,7 @@ from rightofway.studio.routes.models import (
     RunNumber,
 )
 from rightofway.studio.runs import Run, Runs
-from rightofway.studio.session import checked_json
+from rightofway.studio.session import check_json
 
 router = APIRouter()
 
@@ -32,7 +32,10 @@ router = APIRouter()
 @router.get("/runs", tags=["runs"])
 async def list_runs(studio: InStudio) -> dict[str, Any]:
     """List the runs, the latest first."""
-    return {"runs": [Runs.data(run) for run in studio.runs.all()], "are_kept": studio.store.is_kept}
+    return {
+        "runs": [Runs.data(run) for run in studio.runs.list_all()],
+        "are_kept": studio.store.is_kept,
+    }
 
 
 @router.post("/runs", tags=["runs"], status_code=202)
@@ -40,12 +43,12 @@ async def create_run(studio: InStudio, new: Annotated[NewRun, Body()]) -> dict[s
     """Queue a run: a plan, an improvement, laps, or a simulation."""
     match new:
         case NewPlan():
-            request = new.settings()
+            request = new.list_settings()
             if new.start is not None:
                 request["start"] = new.start
             run = Run(kind="plan", source=new.source, based_on=new.based_on, request=request)
         case NewImprovement():
-            run = Run(kind="improve", based_on=new.based_on, request=new.settings())
+            run = Run(kind="improve", based_on=new.based_on, request=new.list_settings())
         case NewLaps():
             request = new.model_dump(include={"rule", "routes", "time_limit", "seed"})
             run = Run(kind="laps", source=new.source, request=request)
@@ -60,10 +63,10 @@ async def create_run(studio: InStudio, new: Annotated[NewRun, Body()]) -> dict[s
     given_by = new.start if isinstance(new, NewPlan) else None
     if isinstance(new, NewPlan | NewLaps):
         arguments = {"document": new.document, "folder": studio.place(new.folder)}
-        checked_json(arguments)
+        check_json(arguments)
     else:
         given_by = new.based_on
-    blobs = {} if given_by is None else {"given": await studio.runs.blob(given_by, "plan")}
+    blobs = {} if given_by is None else {"given": await studio.runs.read_blob(given_by, "plan")}
     return Runs.data(await studio.runs.submit(run, arguments, blobs))
 
 
@@ -101,11 +104,11 @@ async def cancel_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
 @router.post("/runs/{number}/again", tags=["runs"], status_code=202)
 async def repeat_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
     """Queue the same as a new run, for example after the studio went down."""
-    return Runs.data(await studio.runs.again(number))
+    return Runs.data(await studio.runs.repeat(number))
 
 
 @router.get("/runs/{number}/events", tags=["runs"], response_class=StreamingResponse)
-async def run_events(studio: InStudio, number: RunNumber) -> StreamingResponse:
+async def stream_run_events(studio: InStudio, number: RunNumber) -> StreamingResponse:
     """Send the events of a run as they come, as server-sent events.
 
     ``run``: the run, at first and whenever its state changes. ``progress``: seconds, flowtime,
@@ -116,7 +119,7 @@ async def run_events(studio: InStudio, number: RunNumber) -> StreamingResponse:
 
 
 @router.get("/events", tags=["runs"], response_class=StreamingResponse)
-async def all_events(studio: InStudio) -> StreamingResponse:
+async def stream_all_events(studio: InStudio) -> StreamingResponse:
     """Send the events of all runs, each with the ``number`` of its run, for ever.
 
     First come ``runs``, the list; then ``run``, ``progress`` and ``plan`` as for one run, and

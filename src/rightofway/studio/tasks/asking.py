@@ -13,15 +13,15 @@ from rightofway.model import Loss, Plan, Tick
 from rightofway.phrases import Phrase, parts_of
 from rightofway.planners.flip import flip_right_of_way
 from rightofway.report.sentences import Words, describe_decision, describe_losses, explain_decision
-from rightofway.studio.messages import Blobs, Emit, zipped
-from rightofway.studio.tasks.documents import figures
+from rightofway.studio.messages import Blobs, Emit, zip_text
+from rightofway.studio.tasks.documents import compute_figures
 from rightofway.studio.tasks.views import read
-from rightofway.viz.page.document import compact_json
+from rightofway.viz.page.document import as_compact_json
 
 Result = tuple[Any, ...]
 
 
-def losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
+def explain_losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
     """Return each cause of lost time in a sentence, with the decisions that it follows from."""
     plan = read(blobs[0])
     words = Words(plan=plan, quantities=plan.scenario.quantities)
@@ -32,7 +32,7 @@ def losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
         if wanted in {None, lost.robot}
         for loss in lost.losses
     ]
-    return (None, zipped(compact_json({"losses": answers})))
+    return (None, zip_text(as_compact_json({"losses": answers})))
 
 
 def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
@@ -109,7 +109,11 @@ def flip(
     report = check(flipped_plan)
     if not report.ok:
         raise InvalidPlan(f"a flipped right of way made a plan with {report}")
-    result = {"figures": figures(flipped_plan), "before": figures(plan), "status": run.status}
+    result = {
+        "figures": compute_figures(flipped_plan),
+        "before": compute_figures(plan),
+        "status": run.status,
+    }
     return (result, plan_text(flipped_plan).encode())
 
 

@@ -23,7 +23,7 @@ from rightofway.studio.messages import Blobs, Emit
 Result = tuple[Any, ...]
 
 
-def dealt(
+def deal_robots(
     _emit: Emit,
     _blobs: Blobs,
     *,

@@ -30,13 +30,13 @@ from rightofway.io.sites import sites_of
 from rightofway.io.text import json_text, parse_yaml
 from rightofway.metrics import inspect, measure
 from rightofway.model import Plan, Scenario
-from rightofway.studio.messages import Blobs, Emit, fault_data
-from rightofway.viz.verdict import verdict_on
+from rightofway.studio.messages import Blobs, Emit, as_fault_data
+from rightofway.viz.verdict import give_verdict
 
 Result = tuple[Any, ...]
 
 
-def opened(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None) -> Result:
+def open_file(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None) -> Result:
     """Open a file: a scenario as its document, faults and all; a layout as the map of a new one.
 
     Robots of a new one are for the user to place. A plan is a blob, with what it costs.
@@ -46,7 +46,9 @@ def opened(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None) -
         document = parse_yaml(example_of_layout(file, file.with_suffix(".yaml")))
         layout = read_layout(file)
         notes = [*getattr(layout, "notes", ()), f"a new scenario on {describe_layout(layout)}"]
-        return ({"kind": "layout", "document": {**plain(document), "robots": []}, "notes": notes},)
+        return (
+            {"kind": "layout", "document": {**as_plain(document), "robots": []}, "notes": notes},
+        )
     if file.suffix.lower() in {".scen", *WORKBOOKS}:
         return (_of_loaded("scenario", load_with_notes(file, count)),)
     try:
@@ -54,12 +56,12 @@ def opened(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None) -
     except InputError:
         return (_with_faults(file),)
     if isinstance(loaded, Plan):
-        return ({"kind": "plan", "figures": figures(loaded)}, plan_text(loaded).encode())
-    return ({**_of_loaded("scenario", loaded), "document": raw_document(file)},)
+        return ({"kind": "plan", "figures": compute_figures(loaded)}, plan_text(loaded).encode())
+    return ({**_of_loaded("scenario", loaded), "document": read_document(file)},)
 
 
 def _of_loaded(kind: str, loaded: Loaded) -> dict[str, Any]:
-    document = plain(dump_scenario(loaded.scenario))
+    document = as_plain(dump_scenario(loaded.scenario))
     return {"kind": kind, "document": document, "notes": list(loaded.notes)}
 
 
@@ -67,28 +69,28 @@ def _with_faults(file: Path) -> dict[str, Any]:
     """Return a scenario that has faults, to be mended in the studio; what is none is refused."""
     with document_of(file) as document:
         if isinstance(document, dict) and isinstance(document.get("map"), dict):
-            return {"kind": "scenario", "document": plain(document), "notes": []}
+            return {"kind": "scenario", "document": as_plain(document), "notes": []}
     load_either(file)
     raise AssertionError("a file with faults is refused")
 
 
-def raw_document(file: Path) -> Any:
+def read_document(file: Path) -> Any:
     """Return what stands in a YAML or JSON file, as plain data."""
     with document_of(file) as document:
-        return plain(document)
+        return as_plain(document)
 
 
-def plain(value: Any) -> Any:
+def as_plain(value: Any) -> Any:
     """Return a document for JSON; a decimal that no float stands for exactly becomes text."""
     if isinstance(value, Decimal):
         number = float(value)
         return number if Decimal(repr(number)) == value else str(value)
     if isinstance(value, dict):
-        return {key: plain(item) for key, item in value.items()}
-    return [plain(item) for item in value] if isinstance(value, list) else value
+        return {key: as_plain(item) for key, item in value.items()}
+    return [as_plain(item) for item in value] if isinstance(value, list) else value
 
 
-def loaded_of(document: Any, folder: str) -> Loaded:
+def load_document(document: Any, folder: str) -> Loaded:
     """Return the scenario of a document that would stand in a folder, with names in its faults."""
     try:
         return read_scenario(document, Path(folder))
@@ -102,20 +104,20 @@ def _named(faults: Sequence[InputFault], document: Any) -> list[InputFault]:
     return [fault.at(replace(fault.location, line=None)) for fault in located]
 
 
-def validated(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
+def validate_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
     """Return the faults of a document, or what its reader notes."""
     try:
-        loaded = loaded_of(document, folder)
+        loaded = load_document(document, folder)
     except InputError as error:
         return (
-            {"ok": False, "faults": [fault_data(fault) for fault in error.faults], "notes": []},
+            {"ok": False, "faults": [as_fault_data(fault) for fault in error.faults], "notes": []},
         )
     return ({"ok": True, "faults": [], "notes": list(loaded.notes)},)
 
 
-def inspected(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
+def inspect_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
     """Return what will hurt on the floor of a document, as `rightofway inspect --json` has it."""
-    loaded = loaded_of(document, folder)
+    loaded = load_document(document, folder)
     sites = sites_of(loaded.scenario, loaded.notes)
     results = [(site, inspect(site)) for _, site in sites.sites]
     (result,) = (inspected for _, inspected in results)
@@ -131,7 +133,7 @@ def inspected(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Resu
     )
 
 
-def written(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, name: str) -> Result:
+def write_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, name: str) -> Result:
     """Return the text of a document as a file of some name has it: .yaml, .yml, .json or .xlsx."""
     suffix = Path(name).suffix.lower()
     if suffix in {".yaml", ".yml"}:
@@ -141,7 +143,7 @@ def written(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, name: str
     if suffix == ".xlsx":
         from rightofway.io.workbook.writer import workbook_of
 
-        return (None, workbook_of(dump_scenario(loaded_of(document, folder).scenario)))
+        return (None, workbook_of(dump_scenario(load_document(document, folder).scenario)))
     message = f"{name!r} does not end in .yaml, .yml, .json or .xlsx (give a name that does)"
     raise InputError.at("path", message)
 
@@ -149,7 +151,7 @@ def written(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, name: str
 _digests: list[tuple[Scenario, str]] = []  # of the last scenario: a search makes many plans of one
 
 
-def digest_of(scenario: Scenario) -> str:
+def compute_digest(scenario: Scenario) -> str:
     """Return a digest that scenarios of the same content share, whatever file they stand in."""
     for known, digest in _digests:
         if known is scenario:
@@ -159,7 +161,7 @@ def digest_of(scenario: Scenario) -> str:
     return _digests[0][1]
 
 
-def figures(plan: Plan) -> dict[str, Any]:
+def compute_figures(plan: Plan) -> dict[str, Any]:
     """Return what a plan costs, in ticks and as people read it, and what it kept of an old plan.
 
     ``scenario`` is the digest of the scenario that it is of, ``faults`` how many the judge finds.
@@ -178,8 +180,8 @@ def figures(plan: Plan) -> dict[str, Any]:
         "text": text,
         "tick": tick.as_integer_ratio(),
         "units": asdict(units),
-        "scenario": digest_of(plan.scenario),
-        "faults": verdict_on(plan).total,
+        "scenario": compute_digest(plan.scenario),
+        "faults": give_verdict(plan).total,
     }
     if plan.run.start is None:
         return data

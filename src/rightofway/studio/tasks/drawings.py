@@ -14,7 +14,7 @@ from typing import TypedDict
 from rightofway.errors import InputError
 from rightofway.model import Plan
 from rightofway.site import Roadmap
-from rightofway.studio.tasks.documents import loaded_of
+from rightofway.studio.tasks.documents import load_document
 
 
 class Origin(TypedDict):
@@ -43,6 +43,6 @@ def as_drawn(plan: Plan, origin: Origin | None) -> Plan:
 @lru_cache(maxsize=4)
 def _roadmap_of(document: str, folder: str) -> Roadmap | None:
     try:
-        return loaded_of(json.loads(document), folder).scenario.roadmap
+        return load_document(json.loads(document), folder).scenario.roadmap
     except InputError:  # a file that it names is gone
         return None

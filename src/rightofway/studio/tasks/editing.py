@@ -20,14 +20,14 @@ from rightofway.io.sites import sites_of
 from rightofway.metrics import Inspection, Site, describe_site, inspect
 from rightofway.phrases import parts_of
 from rightofway.quantities import Units
-from rightofway.studio.messages import Blobs, Emit, fault_data, zipped
-from rightofway.studio.tasks.documents import digest_of, loaded_of, plain
-from rightofway.viz import site_data
-from rightofway.viz.page.background import background_of, background_place
-from rightofway.viz.page.document import compact_json
-from rightofway.viz.page.payload import closure_data
+from rightofway.studio.messages import Blobs, Emit, as_fault_data, zip_text
+from rightofway.studio.tasks.documents import as_plain, compute_digest, load_document
+from rightofway.viz import make_site_data
+from rightofway.viz.page.background import find_background, place_background
+from rightofway.viz.page.document import as_compact_json
+from rightofway.viz.page.payload import make_closure_data
 from rightofway.viz.page.schema import ClosureData, SiteData
-from rightofway.viz.palette import robot_colours
+from rightofway.viz.palette import choose_colours
 
 Result = tuple[Any, ...]
 
@@ -40,7 +40,7 @@ KEPT = 8
 _findings: OrderedDict[Hashable, Inspection] = OrderedDict()
 
 
-def surveyed(
+def survey_document(
     _emit: Emit,
     _blobs: Blobs,
     *,
@@ -57,16 +57,16 @@ def surveyed(
     """
     notes = tuple[str, ...]()
     site, closures = None, list[ClosureData]()
-    loaded, kept_robots, faults = readable(document, folder)
+    loaded, kept_robots, faults = read_readable(document, folder)
     if loaded is not None:
         scenario, notes = loaded.scenario, loaded.notes
         ((_, site),) = sites_of(scenario, notes).sites
-        closures = [closure_data(closure, scenario) for closure in scenario.closures]
+        closures = [make_closure_data(closure, scenario) for closure in scenario.closures]
     else:
-        site = drawn_map(document, folder)
+        site = read_map(document, folder)
     answer: dict[str, Any] = {
         "ok": not faults,
-        "faults": [fault_data(fault) for fault in faults],
+        "faults": [as_fault_data(fault) for fault in faults],
         "notes": list(notes),
         "site": None,
         "findings": [],
@@ -74,10 +74,10 @@ def surveyed(
         "phrases": [],
     }
     if identifies:
-        answer["scenario"] = None if loaded is None or faults else digest_of(loaded.scenario)
+        answer["scenario"] = None if loaded is None or faults else compute_digest(loaded.scenario)
     if site is not None:
         drawn = _drawn(site)
-        colours = robot_colours(1 + max(kept_robots, default=0))
+        colours = choose_colours(1 + max(kept_robots, default=0))
         for robot, index in zip(drawn["robots"], kept_robots, strict=False):
             robot |= {"index": index, "colour": colours[index]}
         answer["site"] = {**drawn, "closures": closures}
@@ -96,7 +96,7 @@ def surveyed(
             "sentences": list(said),
             "phrases": [parts_of(sentence) for sentence in said],
         }
-    return (None, zipped(compact_json(answer)))
+    return (None, zip_text(as_compact_json(answer)))
 
 
 def _inspected(site: Site) -> Inspection:
@@ -110,7 +110,7 @@ def _inspected(site: Site) -> Inspection:
     return _findings[gist]
 
 
-def readable(
+def read_readable(
     document: dict[str, Any], folder: str
 ) -> tuple[Loaded | None, list[int], Sequence[InputFault]]:
     """Return the scenario of a document, which robots it has, and the faults of the document.
@@ -118,7 +118,7 @@ def readable(
     It is without what has faults, and None where the map has some.
     """
     try:
-        return loaded_of(document, folder), list(_robots(document)), ()
+        return load_document(document, folder), list(_robots(document)), ()
     except InputError as error:
         return *_without(document, folder, error.faults), error.faults
 
@@ -126,12 +126,12 @@ def readable(
 def _drawn(site: Site) -> SiteData:
     """Return a site for the editor, which has the picture of a scenario in its own memory."""
     roadmap = site.roadmap
-    picture, background = roadmap.drawing.picture, background_of(roadmap)
+    picture, background = roadmap.drawing.picture, find_background(roadmap)
     if background is None or picture is None or not picture.name.lower().endswith(SHOWN):
-        return site_data(site)
+        return make_site_data(site)
     bare = replace(roadmap, drawing=replace(roadmap.drawing, picture=None))
-    drawn = site_data(replace(site, roadmap=bare))
-    drawn["map"]["background"] = background_place(roadmap, background)
+    drawn = make_site_data(replace(site, roadmap=bare))
+    drawn["map"]["background"] = place_background(roadmap, background)
     return drawn
 
 
@@ -162,7 +162,7 @@ def _without(
         kept_robots = [index for index, robot in enumerate(robots) if robot is not None]
         if kept_robots:
             try:
-                return loaded_of(
+                return load_document(
                     {**rest, "robots": [robots[at] for at in kept_robots]}, folder
                 ), kept_robots
             except InputError:
@@ -183,7 +183,7 @@ def _mended(robot: Any, wrong: set[str]) -> Any:
     return read_values
 
 
-def drawn_map(document: dict[str, Any], folder: str) -> Site | None:
+def read_map(document: dict[str, Any], folder: str) -> Site | None:
     """Return the map of a document whose robots cannot be read; None if it cannot either.
 
     A picture that has a fault is left out.
@@ -209,12 +209,12 @@ def drawn_map(document: dict[str, Any], folder: str) -> Site | None:
     return Site(roadmap=loaded.roadmap, units=units)
 
 
-def inlined(_emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: str) -> Result:
+def inline_document(_emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: str) -> Result:
     """Return a document whose map and robots are in it, not in other files; a map may be alone."""
-    site = drawn_map(document, folder) if document.get("robots") == [] else None
+    site = read_map(document, folder) if document.get("robots") == [] else None
     if site is None:
-        return ({"document": plain(dump_scenario(loaded_of(document, folder).scenario))},)
+        return ({"document": as_plain(dump_scenario(load_document(document, folder).scenario))},)
     place = site.roadmap.name(0)  # a scenario has a robot; this one stands there until it is dumped
     stands = {**document, "robots": [{"name": "R1", "home": place, "target": place}]}
-    whole = plain(dump_scenario(loaded_of(stands, folder).scenario))
+    whole = as_plain(dump_scenario(load_document(stands, folder).scenario))
     return ({"document": {**whole, "robots": []}},)

@@ -14,13 +14,13 @@ from rightofway.model import Plan
 from rightofway.quantities import decimal
 from rightofway.report.examples import find_examples_folder
 from rightofway.studio.messages import Blobs, Emit
-from rightofway.studio.tasks.documents import Result, plain, raw_document
-from rightofway.studio.tasks.editing import drawn_map, readable
-from rightofway.viz import preview_of
+from rightofway.studio.tasks.documents import Result, as_plain, read_document
+from rightofway.studio.tasks.editing import read_map, read_readable
+from rightofway.viz import make_preview
 from rightofway.viz.palette import DARK, LIGHT
 
 
-def glanced(
+def glance_at(
     _emit: Emit, _blobs: Blobs, *, path: str = "", document: Any = None, dark: bool = False
 ) -> Result:
     """Return what is at a path of the folder, or in a document; its picture is a blob.
@@ -36,7 +36,7 @@ def glanced(
         "extent": [decimal(length) for length in compute_extent(site.roadmap)],
         "unit": site.units.length,
     }
-    return (about, preview_of(site, theme=DARK if dark else LIGHT))
+    return (about, make_preview(site, theme=DARK if dark else LIGHT))
 
 
 def _file(file: Path) -> tuple[str, Sites]:
@@ -47,7 +47,7 @@ def _file(file: Path) -> tuple[str, Sites]:
     except InputError:
         if file.suffix.lower() not in {".yaml", ".yml", ".json"}:
             raise
-        document = raw_document(file)
+        document = read_document(file)
         if not isinstance(document, dict) or "map" not in document:
             raise
         return "scenario", _document(document, str(file.parent))
@@ -57,21 +57,21 @@ def _file(file: Path) -> tuple[str, Sites]:
 
 
 def _document(document: dict[str, Any], folder: str) -> Sites:
-    loaded, _, faults = readable(document, folder)
+    loaded, _, faults = read_readable(document, folder)
     if loaded is not None:
         return sites_of(loaded.scenario, loaded.notes)
-    site = drawn_map(document, folder)
+    site = read_map(document, folder)
     if site is None:
         raise InputError(faults)
     return Sites(description="", notes=(), sites=(("", site),))
 
 
-def example(_emit: Emit, _blobs: Blobs, *, name: str) -> Result:
+def read_example(_emit: Emit, _blobs: Blobs, *, name: str) -> Result:
     """Return an example of the package as a document that names no other file."""
     file = find_examples_folder() / f"{name}.yaml"
-    document = raw_document(file)
+    document = read_document(file)
     try:
         read_scenario(document, None)
     except InputError:
-        document = plain(dump_scenario(load_with_notes(file).scenario))
+        document = as_plain(dump_scenario(load_with_notes(file).scenario))
     return ({"document": document},)

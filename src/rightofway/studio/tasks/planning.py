@@ -13,8 +13,8 @@ from rightofway.model import Plan
 from rightofway.solve import improve as improved
 from rightofway.solve import solve
 from rightofway.studio.messages import Blobs, Emit
-from rightofway.studio.tasks.documents import figures, loaded_of
-from rightofway.viz.verdict import verdict_on
+from rightofway.studio.tasks.documents import compute_figures, load_document
+from rightofway.viz.verdict import give_verdict
 
 Result = tuple[Any, ...]
 
@@ -41,9 +41,9 @@ class PlanningProgress:
         """Send a sentence."""
         self._emit({"message": message, "seconds": self._seconds()})
 
-    def on_plan(self, plan: Plan) -> None:
+    def take_plan(self, plan: Plan) -> None:
         """Send what a plan costs, and the plan too where that does not take too much time."""
-        if not verdict_on(plan).ok:
+        if not give_verdict(plan).ok:
             return  # only plans that the judge has passed are shown
         self.best, seconds = plan, self._seconds()
         event = {
@@ -54,7 +54,7 @@ class PlanningProgress:
         if seconds < self._next:
             self._emit(event)
             return
-        self._emit({**event, "figures": figures(plan)}, plan_text(plan).encode())
+        self._emit({**event, "figures": compute_figures(plan)}, plan_text(plan).encode())
         ended = self._seconds()
         self._next = ended + (ended - seconds) * (1 / SHARE_OF_SENDING - 1)
 
@@ -72,7 +72,7 @@ def plan(
     **settings: Any,
 ) -> Result:
     """Plan a document; ``start`` is the run whose plan, a blob, it starts from."""
-    scenario = loaded_of(document, folder).scenario
+    scenario = load_document(document, folder).scenario
     old = None if start is None else plan_of(parse_json(blobs[0].decode()))
     return _searched(emit, lambda progress: solve(scenario, start=old, **settings, **progress))
 
@@ -86,7 +86,7 @@ def improve(emit: Emit, blobs: Blobs, **settings: Any) -> Result:
 def _searched(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
     """Return the plan of a search; a stop returns the best plan of any planner."""
     progress = PlanningProgress(emit)
-    keep = {"report": progress.report, "on_plan": progress.on_plan, "keep_best": True}
+    keep = {"report": progress.report, "on_plan": progress.take_plan, "keep_best": True}
     try:
         best = search(keep)
     except KeyboardInterrupt:
@@ -95,10 +95,10 @@ def _searched(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
         ended = "interrupted: the best plan that was made"
         best = replace(progress.best, run=replace(progress.best.run, status=ended))
     status = {"status": best.run.status, "seconds": best.run.seconds}
-    return ({"figures": figures(best), **status}, plan_text(best).encode())
+    return ({"figures": compute_figures(best), **status}, plan_text(best).encode())
 
 
-def choices(_emit: Emit, _blobs: Blobs) -> Result:
+def list_choices(_emit: Emit, _blobs: Blobs) -> Result:
     """Return rules of laps, notations of delays, formats of other programs, and what they mean."""
     from rightofway.cyclic import RULES, TIMETABLE
     from rightofway.execution import CAUSES, DEFAULT_DELAYS

@@ -19,11 +19,11 @@ from rightofway.report.laps import report_laps
 from rightofway.report.laps_data import laps_data
 from rightofway.report.plan_data import measures
 from rightofway.studio.messages import Blobs, Emit
-from rightofway.studio.tasks.documents import digest_of, figures, loaded_of
+from rightofway.studio.tasks.documents import compute_digest, compute_figures, load_document
 from rightofway.studio.tasks.planning import PlanningProgress
 from rightofway.values import exact
-from rightofway.viz.page.document import compact_json
-from rightofway.viz.page.payload import payload_of
+from rightofway.viz.page.document import as_compact_json
+from rightofway.viz.page.payload import make_payload
 
 if TYPE_CHECKING:
     from rightofway.cyclic import CyclicResult
@@ -64,7 +64,7 @@ def _repeated(
     return run_laps(scenario, rule, routes=ways, time_limit=time_limit, report=report)
 
 
-def laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: Any) -> Result:
+def make_laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: Any) -> Result:
     """Let robots repeat their trips.
 
     The report is that of `rightofway laps --json`, with the one for people as ``text``.
@@ -72,10 +72,10 @@ def laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: A
     from rightofway.cyclic import excerpt, plan_of_laps
     from rightofway.model.steady_state import within
 
-    scenario = loaded_of(document, folder).scenario
+    scenario = load_document(document, folder).scenario
     run = _repeated(scenario, emit, **settings)
     shown, steady = excerpt(run)
-    payload = compact_json(payload_of(shown, steady=steady)).encode()
+    payload = as_compact_json(make_payload(shown, steady=steady)).encode()
     text = report_laps(run, scenario.quantities)
     report = parts_of({**laps_data(run), "text": text})
     result: dict[str, Any] = {"report": report, "has_payload": True}
@@ -84,11 +84,12 @@ def laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: A
     except GaveUp as reason:  # a robot that is home for ever blocks others: only laps are shown
         return ({**result, "status": str(reason)}, payload)
     whole = replace(whole, steady=within(steady, list(map(len, whole.tracks))))
-    costs = {**figures(whole), "scenario": digest_of(scenario)}  # it says how many laps are shown
+    digest = compute_digest(scenario)  # that of `whole` says how many laps are shown
+    costs = {**compute_figures(whole), "scenario": digest}
     return ({**result, "figures": costs}, payload, plan_text(whole).encode())
 
 
-def laps_if(
+def make_laps_if(
     emit: Emit,
     _blobs: Blobs,
     *,
@@ -105,7 +106,7 @@ def laps_if(
     The answer has the groups of `rightofway laps --json`, without what is computed visit by visit.
     The map stays as it is, also where the cells of a floor depend on the speeds.
     """
-    scenario = loaded_of(document, folder).scenario
+    scenario = load_document(document, folder).scenario
     try:
         wanted = exact(value)
     except ValueError as error:
@@ -162,21 +163,21 @@ def simulate(
     if not played < outcome.runs:
         message = f"{played} is not among the {outcome.runs} runs (0 is the first)"
         raise InputError.at("run", message)
-    payload = compact_json(payload_of(outcome.plan, actual=outcome.trace(played))).encode()
+    payload = as_compact_json(make_payload(outcome.plan, actual=outcome.trace(played))).encode()
     data = {
         **measures(given.scenario),
         **outcome.as_dict(),
         "played": played,
         "text": simulation_report(outcome, given.scenario.quantities),
         "worst": outcome.worst(),
-        "spread": spread_of(outcome),
-        "ranks": ranks_of(outcome),
+        "spread": compute_spread(outcome),
+        "ranks": compute_ranks(outcome),
     }
-    result = {"report": data, "has_payload": True, "figures": figures(outcome.plan)}
+    result = {"report": data, "has_payload": True, "figures": compute_figures(outcome.plan)}
     return (result, payload, plan_text(outcome.plan).encode())
 
 
-def replayed(
+def replay_run(
     _emit: Emit, blobs: Blobs, *, run: int, delays: Sequence[str] = (), seed: int = 0, **policy: Any
 ) -> Result:
     """Return what the viewer plays of one run of a simulation."""
@@ -184,10 +185,10 @@ def replayed(
 
     plan = plan_of(parse_json(blobs[0].decode()))
     trace = replay(plan, list(delays) or [DEFAULT_DELAYS], run, seed, **policy)
-    return (None, compact_json(payload_of(plan, actual=trace)).encode())
+    return (None, as_compact_json(make_payload(plan, actual=trace)).encode())
 
 
-def spread_of(outcome: SimulationResult) -> dict[str, Any] | None:
+def compute_spread(outcome: SimulationResult) -> dict[str, Any] | None:
     """Return how often the flowtime of a run is in each of some classes; None if none completes."""
     whole = outcome.completion[(outcome.completion >= 0).all(axis=1)]
     if not len(whole):
@@ -207,7 +208,7 @@ def spread_of(outcome: SimulationResult) -> dict[str, Any] | None:
     }
 
 
-def ranks_of(outcome: SimulationResult) -> dict[str, Any]:
+def compute_ranks(outcome: SimulationResult) -> dict[str, Any]:
     """Return runs from the best to the worst: the rank, number and flowtime of each [ticks]."""
     order = outcome.ranked()
     ranks = np.unique(np.linspace(0, len(order) - 1, min(len(order), RANKS)).round().astype(int))

@@ -16,13 +16,13 @@ from rightofway.io.text import parse_json
 from rightofway.metrics import compare, find_changes
 from rightofway.model import Plan
 from rightofway.report.plan_data import summary_data
-from rightofway.studio.messages import Blobs, Emit, zipped
-from rightofway.studio.tasks.documents import figures
+from rightofway.studio.messages import Blobs, Emit, zip_text
+from rightofway.studio.tasks.documents import compute_figures
 from rightofway.studio.tasks.drawings import Origin, as_drawn
-from rightofway.viz import page_of, write_gif, write_page, write_png
-from rightofway.viz.page.document import compact_json
-from rightofway.viz.page.payload import payload_of
-from rightofway.viz.verdict import compared_data
+from rightofway.viz import make_page, write_gif, write_page, write_png
+from rightofway.viz.page.document import as_compact_json
+from rightofway.viz.page.payload import make_payload
+from rightofway.viz.verdict import make_comparison_data
 
 Result = tuple[Any, ...]
 
@@ -71,17 +71,17 @@ def read(blob: bytes) -> Plan:
     return plan_of(parse_json(blob.decode()))
 
 
-def payload(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
+def make_plan_payload(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
     """Return what the viewer plays: one plan, or several side by side."""
     plan, *others = _titled(blobs, shown)
-    played = payload_of(plan[0], title=plan[1], others=others)
-    return (None, zipped(compact_json(played)))
+    played = make_payload(plan[0], title=plan[1], others=others)
+    return (None, zip_text(as_compact_json(played)))
 
 
-def page(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
+def make_plan_page(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
     """Return the page that plays a plan, or several."""
     plan, *others = _titled(blobs, shown)
-    return (None, zipped(page_of(plan[0], title=plan[1], others=others)))
+    return (None, zip_text(make_page(plan[0], title=plan[1], others=others)))
 
 
 def _titled(blobs: Blobs, shown: Sequence[Shown]) -> list[tuple[Plan, str]]:
@@ -94,7 +94,7 @@ def _titled(blobs: Blobs, shown: Sequence[Shown]) -> list[tuple[Plan, str]]:
     return payloads
 
 
-def exported(_emit: Emit, blobs: Blobs, *, form: str, origin: Origin | None = None) -> Result:
+def export_plan(_emit: Emit, blobs: Blobs, *, form: str, origin: Origin | None = None) -> Result:
     """Return a plan as a file: an ending of `WRITERS`, or a format of other programs."""
     plan = as_drawn(read(blobs[0]), origin if form in PICTURES else None)
     if form in FOREIGN_FORMATS:
@@ -108,12 +108,12 @@ def exported(_emit: Emit, blobs: Blobs, *, form: str, origin: Origin | None = No
         return (None, file.read_bytes())
 
 
-def summary(_emit: Emit, blobs: Blobs) -> Result:
+def summarize_plan(_emit: Emit, blobs: Blobs) -> Result:
     """Return the report of `rightofway plan --json`."""
     return (summary_data(read(blobs[0])),)
 
 
-def compared(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
+def compare_plans(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
     """Return what plans cost, and each robot's completion time in each of them [time unit].
 
     Costs in ``time`` are in time units, too: the ticks of two scenarios may differ. ``comparison``
@@ -122,7 +122,7 @@ def compared(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
     titled = _titled(blobs, shown)
     plans, titles = [plan for plan, _ in titled], [title for _, title in titled]
     comparison = compare(plans, titles)
-    data = compared_data(comparison)
+    data = make_comparison_data(comparison)
     robots = [
         {
             "name": robot["name"],
@@ -134,13 +134,16 @@ def compared(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
         for robot in data["robots"]
     ]
     costs = [
-        {**figures(plan), "time": {key: float(compared[key] * comparison.tick) for key in TIMES}}
+        {
+            **compute_figures(plan),
+            "time": {key: float(compared[key] * comparison.tick) for key in TIMES},
+        }
         for plan, compared in zip(plans, data["plans"], strict=True)
     ]
     return ({"plans": costs, "robots": robots, "titles": titles, "comparison": data},)
 
 
-def changed(_emit: Emit, blobs: Blobs) -> Result:
+def list_changes(_emit: Emit, blobs: Blobs) -> Result:
     """Return in what the scenario of a plan differs from that of the plan before."""
     before, after = (read_scenario(parse_json(blob.decode())["scenario"], None) for blob in blobs)
     differences = find_changes(before.scenario, after.scenario)

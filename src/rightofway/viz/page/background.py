@@ -16,7 +16,7 @@ from rightofway.site import Roadmap
 from rightofway.site.drawing import Picture
 from rightofway.values import at, coordinate, list_of, one_of, optional
 from rightofway.viz.page.schema import BackgroundData, PlaceData
-from rightofway.viz.placement import plane_of
+from rightofway.viz.placement import lay_out_roadmap
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -98,14 +98,14 @@ class Background:
         )
 
 
-def background_of(roadmap: Roadmap) -> Background | None:
+def find_background(roadmap: Roadmap) -> Background | None:
     """Return the picture that a roadmap is drawn over; None where a scenario's is missing."""
     picture = roadmap.drawing.picture
     is_missing = picture is None or (picture.name and not picture.file.is_file())
     return None if is_missing or picture is None else Background.of(picture)
 
 
-def background_data(roadmap: Roadmap, background: Background) -> BackgroundData:
+def make_background_data(roadmap: Roadmap, background: Background) -> BackgroundData:
     """Return the picture and where it lies in the drawing, as plain data for JSON.
 
     Returns
@@ -126,8 +126,8 @@ def background_data(roadmap: Roadmap, background: Background) -> BackgroundData:
 
 
 def place_of(roadmap: Roadmap, background: Background, columns: int, rows: int) -> PlaceData:
-    """Return where a picture lies in the drawing, as `background_data` has it."""
-    plane, frame = plane_of(roadmap), roadmap.frame
+    """Return where a picture lies in the drawing, as `make_background_data` has it."""
+    plane, frame = lay_out_roadmap(roadmap), roadmap.frame
 
     def drawn(point: tuple[float, float]) -> tuple[float, float]:
         x, y = frame.to_plane((Fraction(point[0]), Fraction(point[1])))
@@ -149,13 +149,13 @@ def place_of(roadmap: Roadmap, background: Background, columns: int, rows: int) 
     return {**place, "turn": turn} if turn else place
 
 
-def background_place(roadmap: Roadmap, background: Background) -> BackgroundData:
+def place_background(roadmap: Roadmap, background: Background) -> BackgroundData:
     """Return where a picture lies in the drawing, for a page that has the picture itself.
 
     Returns
     -------
     dict
-        As from `background_data`, without ``href``.
+        As from `make_background_data`, without ``href``.
 
     Raises
     ------
@@ -168,7 +168,7 @@ def background_place(roadmap: Roadmap, background: Background) -> BackgroundData
         with Image.open(background.picture) as image:
             place = place_of(roadmap, background, *image.size)
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
-        raise unreadable(background.picture) from error
+        raise explain_unreadable(background.picture) from error
     return cast("BackgroundData", {"opacity": background.opacity, **place})
 
 
@@ -189,12 +189,12 @@ def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
             else:
                 content.write(Path(path).read_bytes())
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
-        raise unreadable(path) from error
+        raise explain_unreadable(path) from error
     encoded = base64.b64encode(content.getvalue()).decode()
     return f"data:{kind or 'image/png'};base64,{encoded}", columns, rows
 
 
-def unreadable(path: str | os.PathLike[str]) -> InputError:
+def explain_unreadable(path: str | os.PathLike[str]) -> InputError:
     """Return the error for a file that is not a picture."""
     message = "is no picture that can be read (give a PNG, JPEG or PGM file)"
     return InputError.at(str(path), message)

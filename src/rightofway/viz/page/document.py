@@ -21,8 +21,8 @@ from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.model.given import checked_plan
 from rightofway.values import at, text
 from rightofway.viz.page.background import Background
-from rightofway.viz.page.payload import payload_of
-from rightofway.viz.page.scripts import asset, classic_script, scripts_of
+from rightofway.viz.page.payload import make_payload
+from rightofway.viz.page.scripts import make_classic_script, order_scripts, read_asset
 from rightofway.viz.palette import DARK, LIGHT
 
 FRAME_HEIGHT = 680
@@ -33,7 +33,7 @@ MARKUP = str.maketrans({character: f"\\u{ord(character):04x}" for character in "
 
 
 @checks_arguments
-def page_of(
+def make_page(
     plan: Plan,
     *,
     steady: Sequence[SteadyState] = (),
@@ -79,7 +79,7 @@ def page_of(
     title = at("title", text, title)
     robots = f"{count} robot{'s' * (count != 1)}"
     about = f"{title}: {robots}" if title else f"{robots}, planned by {plan.run.name}"
-    payload = payload_of(
+    payload = make_payload(
         plan,
         steady=steady,
         actual=actual,
@@ -88,10 +88,10 @@ def page_of(
         background=background,
         others=others,
     )
-    return document_of(about, payload, "main")
+    return make_document(about, payload, "main")
 
 
-def document_of(
+def make_document(
     about: str, payload: Mapping[str, object], entry: str, *, connects: bool = False
 ) -> str:
     """Return a page of style, plain data and scripts, as one HTML document.
@@ -100,7 +100,10 @@ def document_of(
     ``connects`` those to the server that it comes from.
     """
     own = "connect-src 'self'; "
-    style, scripts = style_sheet(), [classic_script(name) for name in scripts_of(entry)]
+    style, scripts = (
+        make_style_sheet(),
+        [make_classic_script(name) for name in order_scripts(entry)],
+    )
     parts = {
         "title": html.escape(about).encode("ascii", "xmlcharrefreplace").decode(),
         "policy": f"default-src 'none'; img-src data:; {own * connects}"
@@ -110,7 +113,7 @@ def document_of(
         "scripts": "\n".join(f"<script>{script}</script>" for script in scripts),
     }
     # Each {{name}} is filled once; what is filled in is not looked at again.
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset("template.html"))
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], read_asset("template.html"))
 
 
 def write_page(
@@ -129,16 +132,16 @@ def write_page(
     Parameters
     ----------
     plan, steady, actual, no_plan, title, background, others
-        As for `page_of`.
+        As for `make_page`.
     path
         Where, usually ``….html``.
 
     Raises
     ------
     InputError
-        As for `page_of`, or if the file cannot be written.
+        As for `make_page`, or if the file cannot be written.
     """
-    page = page_of(
+    page = make_page(
         plan,
         steady=steady,
         actual=actual,
@@ -151,7 +154,7 @@ def write_page(
 
 
 @checks_arguments
-def frame_of(
+def make_frame(
     plan: Plan,
     *,
     height: int = FRAME_HEIGHT,
@@ -163,7 +166,7 @@ def frame_of(
     Parameters
     ----------
     plan, steady, actual
-        As for `page_of`.
+        As for `make_page`.
     height
         Height of the frame [pixels].
 
@@ -172,10 +175,10 @@ def frame_of(
     The frame is sandboxed: no name in a plan can reach the notebook. Where frames are taken out of
     notebooks, as code hosts do, the picture below it remains.
     """
-    from rightofway.viz.raster.picture import png_of
+    from rightofway.viz.raster.picture import make_png
 
-    document = html.escape(page_of(plan, steady=steady, actual=actual))
-    picture = base64.b64encode(png_of(plan)).decode()
+    document = html.escape(make_page(plan, steady=steady, actual=actual))
+    picture = base64.b64encode(make_png(plan)).decode()
     all_over = "position:absolute;inset:0;width:100%;height:100%;border:0;border-radius:8px"
     return (
         f'<div style="position:relative;height:{height}px">'
@@ -185,29 +188,29 @@ def frame_of(
     )
 
 
-def payload_text(plan: Plan) -> str:
+def make_payload_text(plan: Plan) -> str:
     """Return what the page needs of a plan as JSON that may stand in a script element."""
-    return as_script(payload_of(plan))
+    return as_script(make_payload(plan))
 
 
 def as_script(payload: Mapping[str, object]) -> str:
     """Return plain data as JSON that may stand in a script element."""
-    return compact_json(payload).translate(MARKUP)
+    return as_compact_json(payload).translate(MARKUP)
 
 
-def compact_json(payload: Mapping[str, object]) -> str:
+def as_compact_json(payload: Mapping[str, object]) -> str:
     """Return plain data as JSON without spaces."""
     return json.dumps(payload, separators=(",", ":"), allow_nan=False)
 
 
 @cache
-def style_sheet() -> str:
+def make_style_sheet() -> str:
     """Return the style of the page, light and dark."""
     themes = (
-        f":root{{{LIGHT.css()}}}",
-        f"@media (prefers-color-scheme:dark){{:root:not(.on-paper){{{DARK.css()}}}}}",
+        f":root{{{LIGHT.as_css()}}}",
+        f"@media (prefers-color-scheme:dark){{:root:not(.on-paper){{{DARK.as_css()}}}}}",
     )
-    return "\n".join([*themes, asset("style.css")])
+    return "\n".join([*themes, read_asset("style.css")])
 
 
 def _hash(text: str) -> str:

@@ -11,18 +11,18 @@ from rightofway.metrics import HEADINGS, Inspection, Site, describe_site
 from rightofway.metrics.site import SEVERITY_NAMES
 from rightofway.phrases import parts_of
 from rightofway.viz.page.background import Background
-from rightofway.viz.page.document import document_of
+from rightofway.viz.page.document import make_document
 from rightofway.viz.page.map_data import map_data
 from rightofway.viz.page.schema import InspectionPayload, LevelData, SiteData
-from rightofway.viz.page.translations import translations_for
-from rightofway.viz.palette import robot_colours
+from rightofway.viz.page.translations import find_translations
+from rightofway.viz.palette import choose_colours
 
 Inspected = tuple[str, Site, Inspection]
 """The name of a level, empty where there is only one, the site, and what was found."""
 
 
 @checks_arguments
-def inspection_page(
+def make_inspection_page(
     levels: Sequence[Inspected],
     *,
     title: str,
@@ -66,9 +66,9 @@ def inspection_page(
     }
     said = [(level["sentences"], level["findings"]) for level in payload["levels"]]
     others = payload["description"], payload["notes"], payload["names"], payload["headings"]
-    payload["translations"] = translations_for(said, others)
+    payload["translations"] = find_translations(said, others)
     about = f"{title}: {description}" if description else title
-    return document_of(about, payload, "inspect_main")
+    return make_document(about, payload, "inspect_main")
 
 
 @checks_arguments
@@ -86,23 +86,23 @@ def write_inspection(
     Parameters
     ----------
     levels, title, description, notes, background
-        As for `inspection_page`.
+        As for `make_inspection_page`.
     path
         Where, usually ``….html``.
 
     Raises
     ------
     InputError
-        As for `inspection_page`, or if the file cannot be written.
+        As for `make_inspection_page`, or if the file cannot be written.
     """
-    page = inspection_page(
+    page = make_inspection_page(
         levels, title=title, description=description, notes=notes, background=background
     )
     write_whole(path, page)
 
 
 @checks_arguments
-def site_data(site: Site, background: Background | None = None) -> SiteData:
+def make_site_data(site: Site, background: Background | None = None) -> SiteData:
     """Return a site as plain data for JSON: the map, and robots at their homes.
 
     Parameters
@@ -117,7 +117,7 @@ def site_data(site: Site, background: Background | None = None) -> SiteData:
     InputError
         If the picture cannot be read.
     """
-    colours = robot_colours(len(site.robots))
+    colours = choose_colours(len(site.robots))
     return {
         "units": {"length": site.units.length, "time": site.units.time},
         "tick": (1, 1),
@@ -149,7 +149,7 @@ def _level(
     return {
         "name": name,
         "sentences": [parts_of(sentence) for sentence in describe_site(site, inspection)],
-        **site_data(site, background),
+        **make_site_data(site, background),
         "findings": [
             {
                 "severity": finding.severity,

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from rightofway.model.resources import close_pairs
 from rightofway.site import Grid, Point, Roadmap
-from rightofway.viz.page.background import Background, background_data, background_of
+from rightofway.viz.page.background import Background, find_background, make_background_data
 from rightofway.viz.page.schema import CloseData, FrameData, MapData, ObstacleRow
-from rightofway.viz.placement import Plane, plane_of
+from rightofway.viz.placement import Plane, lay_out_roadmap
 
 DECIMALS = {"grid": 3, "network": 6}
 """Decimals of a position [units of the drawing]; vertices of a roadmap are right to a micrometre or
@@ -37,7 +37,7 @@ def map_data(
     InputError
         If the picture cannot be read.
     """
-    plane, grid = plane_of(roadmap), roadmap.grid
+    plane, grid = lay_out_roadmap(roadmap), roadmap.grid
     decimals = DECIMALS["network" if grid is None else "grid"]
     data: dict[str, Any] = {
         "width": round(plane.width, decimals),
@@ -51,8 +51,8 @@ def map_data(
         data |= {
             "names": [roadmap.name(vertex) for vertex in range(roadmap.n_vertices)],
             "points": np.round(plane.points, decimals).ravel().tolist(),
-            "tails": differences(tails.tolist()),
-            "heads": differences(roadmap.heads.tolist()),
+            "tails": compute_differences(tails.tolist()),
+            "heads": compute_differences(roadmap.heads.tolist()),
             "lengths": [
                 float(roadmap.get_edge_class(edge).length) for edge in range(roadmap.n_edges)
             ],
@@ -76,13 +76,13 @@ def map_data(
         "close": _close(roadmap, room) if room and grid is None else {},
     }
     data |= {key: value for key, value in marks.items() if value}
-    background = background or background_of(roadmap)
+    background = background or find_background(roadmap)
     if background:
-        data["background"] = background_data(roadmap, background)
+        data["background"] = make_background_data(roadmap, background)
     return cast("MapData", data)
 
 
-def differences(numbers: Iterable[int]) -> list[int]:
+def compute_differences(numbers: Iterable[int]) -> list[int]:
     """Return first differences: those of ``[3, 4, 6]`` are ``[3, 1, 2]``."""
     first_differences: list[int] = np.diff(np.fromiter(numbers, np.int64), prepend=0).tolist()
     return first_differences

@@ -51,9 +51,9 @@ from rightofway.report.sentences import (
     summarize_decision,
 )
 from rightofway.values import at, list_of, one_of, optional, text
-from rightofway.viz.motion import Trip, end_of, trips_of
+from rightofway.viz.motion import Trip, end_of, make_trips
 from rightofway.viz.page.background import Background
-from rightofway.viz.page.map_data import differences, map_data
+from rightofway.viz.page.map_data import compute_differences, map_data
 from rightofway.viz.page.schema import (
     ClosureData,
     ComparisonData,
@@ -70,10 +70,10 @@ from rightofway.viz.page.schema import (
     SteadyData,
     TurnRow,
 )
-from rightofway.viz.page.translations import translations_for
-from rightofway.viz.palette import robot_colours
-from rightofway.viz.placement import edge_length, vertices_in_line
-from rightofway.viz.verdict import LISTED_FAULTS, compared_data, verdict_on
+from rightofway.viz.page.translations import find_translations
+from rightofway.viz.palette import choose_colours
+from rightofway.viz.placement import make_edge_length, order_in_line
+from rightofway.viz.verdict import LISTED_FAULTS, give_verdict, make_comparison_data
 
 Stoppages = Sequence[tuple[Tick, Tick | None]]
 """When each stoppage of a robot begins, and how long it lasts [ticks]."""
@@ -86,7 +86,7 @@ LOSSES = ("waits", "follows", "makes room")
 
 
 @checks_arguments
-def payload_of(
+def make_payload(
     plan: Plan,
     *,
     steady: Sequence[SteadyState] = (),
@@ -109,7 +109,7 @@ def payload_of(
         If ``steady`` or ``actual`` are not of this plan, or the plans cannot be compared.
     """
     _refuse_other_kinds(steady, actual, no_plan, background, others)
-    trips, steady = trips_of(plan), steady or plan.steady
+    trips, steady = make_trips(plan), steady or plan.steady
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
     tick, lost = scenario.problem.clock.tick, compute_lost_time(plan)
     words, book = Words(plan=plan, quantities=scenario.quantities), PhraseBook()
@@ -122,7 +122,7 @@ def payload_of(
         "end": max(end_of(trips), 1),
         "headway": scenario.problem.booking_rules.headway,
         "booksAhead": scenario.problem.booking_rules.books_ahead,
-        "map": map_data(scenario.roadmap, room=room_of(scenario), background=background),
+        "map": map_data(scenario.roadmap, room=measure_room(scenario), background=background),
         "line": _line(plan, [other for other, _ in others]),
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [
@@ -130,7 +130,7 @@ def payload_of(
             for robot_losses in lost
             for loss in robot_losses.losses
         ],
-        "faults": _faults(plan, verdict_on(plan), book),
+        "faults": _faults(plan, give_verdict(plan), book),
         "planner": _planner(plan),
         "decisions": [_decision(decision, words, book) for decision in run.decisions],
         "reroutes": [
@@ -149,7 +149,9 @@ def payload_of(
     if steady and actual is None:
         payload["end"] = _last_tick_of_all(trips, payload["steady"])
     if scenario.closures:
-        payload["closures"] = [closure_data(closure, scenario) for closure in scenario.closures]
+        payload["closures"] = [
+            make_closure_data(closure, scenario) for closure in scenario.closures
+        ]
     if scenario.rules.clearance:
         payload["clearance"] = float(scenario.rules.clearance)
     if actual is not None:
@@ -158,7 +160,7 @@ def payload_of(
         payload["noPlan"] = True
         payload["faults"] = _blockages(scenario, no_plan, book)
     said = book.entries, payload["planner"], payload["reroutes"], payload.get("closures")
-    payload["translations"] = translations_for(*said)
+    payload["translations"] = find_translations(*said)
     if others:
         _compare(plan, title, others, payload)
     return payload
@@ -171,10 +173,10 @@ def _compare(plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload
     """
     plans = [plan, *(other for other, _ in others)]
     comparison = compare(plans, [title, *(name for _, name in others)])
-    colours = dict(zip(comparison.robots, robot_colours(len(comparison.robots)), strict=True))
+    colours = dict(zip(comparison.robots, choose_colours(len(comparison.robots)), strict=True))
     payload["others"] = []
     for other, name in others:
-        data: dict[str, Any] = {**payload_of(other, title=name)}
+        data: dict[str, Any] = {**make_payload(other, title=name)}
         for language, table in data.pop("translations").items():
             payload["translations"][language] |= table
         for robot in data["robots"]:
@@ -183,10 +185,10 @@ def _compare(plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload
             data["line"] = payload["line"]
             del data["map"]
         payload["others"].append(cast(OtherPlan, data))
-    payload["comparison"] = cast(ComparisonData, compared_data(comparison))
+    payload["comparison"] = cast(ComparisonData, make_comparison_data(comparison))
 
 
-def room_of(scenario: Scenario) -> Fraction:
+def measure_room(scenario: Scenario) -> Fraction:
     """Return the distance that the two largest robots need [length unit]; 0 for points."""
     radii = sorted((robot.radius for robot in scenario.robots), reverse=True)[:2]
     return sum(radii) + scenario.rules.clearance if any(radii) else Fraction(0)
@@ -234,7 +236,7 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> F
     }
 
 
-def closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
+def make_closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
     """Return the vertices of a closure, along a lane in order, and when it is."""
     begin, end = read_closed_ticks(closure, scenario)
     return {
@@ -266,10 +268,10 @@ def _line(plan: Plan, others: Sequence[Plan]) -> list[tuple[int, float]]:
     for compared_plan in (plan, *others):
         if compared_plan.scenario.roadmap == roadmap:
             for robot, trip in zip(
-                compared_plan.scenario.robots, trips_of(compared_plan), strict=True
+                compared_plan.scenario.robots, make_trips(compared_plan), strict=True
             ):
                 routes.setdefault(robot.name, []).extend(trip.vertices)
-    places = vertices_in_line([*routes.values()], edge_length(roadmap))
+    places = order_in_line([*routes.values()], make_edge_length(roadmap))
     return [(int(vertex), round(place, DECIMALS)) for vertex, place in places.items()]
 
 
@@ -277,7 +279,7 @@ def _robots(
     plan: Plan, trips: Sequence[Trip], metrics: Metrics, lost: Sequence[LostTime]
 ) -> list[RobotData]:
     edge_ticks = [itinerary.edge_ticks for itinerary in plan.scenario.problem.itineraries]
-    colours, robots = robot_colours(len(trips)), list[RobotData]()
+    colours, robots = choose_colours(len(trips)), list[RobotData]()
     for index, (robot, trip, edges) in enumerate(
         zip(plan.scenario.robots, trips, edge_ticks, strict=True)
     ):
@@ -288,8 +290,8 @@ def _robots(
             "completion": metrics.completions[index],
             "alone": metrics.alone[index],
             "lost": (lost[index].detours, lost[index].making_room, lost[index].waiting),
-            "vertices": differences(trip.vertices),
-            "enter": differences(trip.enter),
+            "vertices": compute_differences(trip.vertices),
+            "enter": compute_differences(trip.enter),
             "drive": edges[0] if len(edges) == 1 else list(trip.drive),
             "stages": [
                 (stage.vertex, stage.work, stage.turn, visit)
@@ -384,7 +386,7 @@ def _execution(
         raise InputError.at(("actual", "tracks"), f"{counts} (give one for each)")
     still = actual.stoppages or ((),) * len(trips)
     stays = tuple(map(_executed_stays, actual.tracks, actual.dwell, actual.drive, still))
-    driven = trips_of(replace(plan, tracks=actual.tracks, steady=()))
+    driven = make_trips(replace(plan, tracks=actual.tracks, steady=()))
     waits = [stay.waits for stay in plan.stays]
 
     def unplanned(loss: Loss) -> int:
@@ -399,7 +401,7 @@ def _execution(
         stages, turns = _executed_duties(planned if is_planned else taken, dwell)
         robot: DrivenData = {
             "stages": stages,
-            "enter": differences(taken.enter),
+            "enter": compute_differences(taken.enter),
             "drive": drive.tolist(),
             "still": list(stoppages),
             "completion": completion,
@@ -407,7 +409,7 @@ def _execution(
         if planned.turns or taken.turns:
             robot["turns"] = turns
         if not is_planned:
-            robot["vertices"] = differences(taken.vertices)
+            robot["vertices"] = compute_differences(taken.vertices)
         robots.append(robot)
     return {
         "end": max(1, *(stay.completion for stay in stays), *filter(None, actual.completion)),

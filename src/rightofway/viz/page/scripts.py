@@ -22,13 +22,13 @@ ASIDES = re.compile(r"(?m)(?<=[;,{}()\]]) // .*$")
 
 
 @cache
-def asset(name: str) -> str:
+def read_asset(name: str) -> str:
     """Return the text of a file under ``assets/``."""
     return files(__package__).joinpath("assets", name).read_text("utf-8")
 
 
 @cache
-def scripts_of(entry: str, text_of: Callable[[str], str] = asset) -> tuple[str, ...]:
+def order_scripts(entry: str, text_of: Callable[[str], str] = read_asset) -> tuple[str, ...]:
     """Return a module and its imports in the order in which a browser runs them: imports first."""
     modules: dict[str, None] = {}
     entered = set[str]()
@@ -45,7 +45,7 @@ def scripts_of(entry: str, text_of: Callable[[str], str] = asset) -> tuple[str, 
 
 
 @cache
-def classic_script(name: str) -> str:
+def make_classic_script(name: str) -> str:
     """Return a module as a classic script, without notes."""
-    text = EXPORT.sub("", IMPORT.sub("", asset(f"{name}.js")))
+    text = EXPORT.sub("", IMPORT.sub("", read_asset(f"{name}.js")))
     return f'"use strict";\n{ASIDES.sub("", NOTES.sub("", text))}'

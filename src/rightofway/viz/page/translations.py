@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from rightofway.languages import read_tables
 
 
-def translations_for(*parts: object) -> dict[str, dict[str, str]]:
+def find_translations(*parts: object) -> dict[str, dict[str, str]]:
     """Return what plain data need of the read_tables."""
     templates = set(_texts(parts))
     return {

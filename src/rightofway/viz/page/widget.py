@@ -13,8 +13,8 @@ from typing import Any
 
 from rightofway.arguments import checks_arguments
 from rightofway.model import Plan
-from rightofway.viz.page.document import FRAME_HEIGHT, payload_text, style_sheet
-from rightofway.viz.page.scripts import classic_script, scripts_of
+from rightofway.viz.page.document import FRAME_HEIGHT, make_payload_text, make_style_sheet
+from rightofway.viz.page.scripts import make_classic_script, order_scripts
 
 WIDGET_STYLE = f".page{{contain:layout;height:{FRAME_HEIGHT}px;min-height:0;overflow:auto}}"
 """A page in a notebook has a height of its own."""
@@ -40,13 +40,13 @@ def bundle_of(plan: Plan) -> dict[str, Any]:
         Without anywidget or a notebook's kernel: IPython then takes the next best, which is
         ``_repr_html_`` in a notebook and ``repr`` in a terminal.
     """
-    if not (in_notebook() and find_spec("anywidget")):
+    if not (is_in_notebook() and find_spec("anywidget")):
         raise NotImplementedError
-    from rightofway.viz.raster.picture import png_of
+    from rightofway.viz.raster.picture import make_png
 
-    shown = _widget_class()(payload=payload_text(plan))._repr_mimebundle_()
+    shown = _widget_class()(payload=make_payload_text(plan))._repr_mimebundle_()
     widget = shown[0] if isinstance(shown, tuple) else shown
-    picture = base64.b64encode(png_of(plan)).decode()
+    picture = base64.b64encode(make_png(plan)).decode()
     return {
         **widget,
         "text/plain": repr(plan),
@@ -55,22 +55,22 @@ def bundle_of(plan: Plan) -> dict[str, Any]:
     }
 
 
-def in_notebook() -> bool:
+def is_in_notebook() -> bool:
     """Return whether this process is the kernel of a notebook."""
     return "ipykernel" in sys.modules
 
 
 @cache
-def widget_module() -> str:
+def make_widget_module() -> str:
     """Return the JavaScript module of the widget: the page's style, its scripts, and `render`."""
-    style = re.sub(r":root|\bbody\b", ".page", style_sheet())
+    style = re.sub(r":root|\bbody\b", ".page", make_style_sheet())
     shell = f'<style>{style}{WIDGET_STYLE}</style><div class="page" tabindex="-1"></div>'
-    scripts = (classic_script(name) for name in scripts_of("widget"))
+    scripts = (make_classic_script(name) for name in order_scripts("widget"))
     return "\n".join([f"const SHELL = {json.dumps(shell)};", *scripts])
 
 
 @cache
 def _widget_class() -> Any:
     widgets, traits = import_module("anywidget"), import_module("traitlets")
-    members = {"_esm": widget_module(), "payload": traits.Unicode().tag(sync=True)}
+    members = {"_esm": make_widget_module(), "payload": traits.Unicode().tag(sync=True)}
     return type("PlanWidget", (widgets.AnyWidget,), members)

@@ -14,11 +14,11 @@ from rightofway.model.given import checked_plan
 from rightofway.model.place_names import PlaceNames
 from rightofway.site import Roadmap
 from rightofway.values import at, one_of
-from rightofway.viz.motion import end_of, trips_of
+from rightofway.viz.motion import end_of, make_trips
 from rightofway.viz.page.schema import PlaceData
-from rightofway.viz.palette import Theme, mix, robot_colours
-from rightofway.viz.placement import plane_of
-from rightofway.viz.verdict import verdict_on
+from rightofway.viz.palette import Theme, choose_colours, mix
+from rightofway.viz.placement import lay_out_roadmap
+from rightofway.viz.verdict import give_verdict
 
 Point = tuple[float, float]
 
@@ -37,13 +37,13 @@ class Ground:
 
     def __init__(self, roadmap: Roadmap, theme: Theme) -> None:
         self.roadmap, self.theme = roadmap, theme
-        self.plane = plane_of(roadmap)
+        self.plane = lay_out_roadmap(roadmap)
         self.points: list[Point] = [(x, y) for x, y in self.plane.points.tolist()]
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         self.edges = list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
         self.ground = theme.floor if roadmap.has_cells else theme.paper
 
-    def faint(self, colour: str, share: float) -> str:
+    def fade(self, colour: str, share: float) -> str:
         """Return a colour as it looks when it covers only a share of the ground."""
         return mix(self.ground, colour, share)
 
@@ -56,10 +56,10 @@ class Scene(Ground):
         super().__init__(checked_plan(plan).scenario.roadmap, theme)
         self.plan = plan
         self.where = PlaceNames(plan.scenario).where
-        self.trips = trips_of(plan)
-        self.colours = robot_colours(len(self.trips))
+        self.trips = make_trips(plan)
+        self.colours = choose_colours(len(self.trips))
         self.end = max(end_of(self.trips), 1)
-        self.verdict = verdict_on(plan)
+        self.verdict = give_verdict(plan)
         self.faulty = sorted({robot for fault in self.verdict.faults for robot in fault.robots})
 
 
@@ -78,16 +78,16 @@ class Pen:
         self.hairline = 1 / scale  # a pixel of the picture [units]
         self.is_small = scale < SMALL_CELL
 
-    def line(self, points: Sequence[Point], colour: str, width: float) -> None:
+    def draw_line(self, points: Sequence[Point], colour: str, width: float) -> None:
         """Draw a line through points."""
         self.draw.line([self._at(point) for point in points], colour, self._thick(width), "curve")
 
-    def box(self, corner: Point, opposite: Point, colour: str) -> None:
+    def fill_box(self, corner: Point, opposite: Point, colour: str) -> None:
         """Fill a rectangle; boxes that share a side neither overlap nor leave a gap."""
         x0, y0, x1, y1 = map(round, (*self._at(corner), *self._at(opposite)))
         self.draw.rectangle((x0, y0, max(x1 - 1, x0), max(y1 - 1, y0)), colour)
 
-    def picture(self, picture: Image.Image, place: PlaceData, opacity: float) -> None:
+    def draw_picture(self, picture: Image.Image, place: PlaceData, opacity: float) -> None:
         """Lay a picture over what is drawn; ``place`` as `place_of` returns it."""
         scale, turn = self.scale * self.fineness, place.get("turn", 0.0)
         left, top = self._at((place["x"], place["y"]))
@@ -104,18 +104,18 @@ class Pen:
         cover = laid.getchannel("A").point([round(opacity * level) for level in range(256)])
         self.image.paste(laid.convert("RGB"), (0, 0), cover)
 
-    def disc(self, middle: Point, radius: float, colour: str) -> None:
+    def fill_disc(self, middle: Point, radius: float, colour: str) -> None:
         """Fill a circle."""
         self.draw.ellipse(self._around(middle, radius), colour)
 
-    def ring(
+    def draw_ring(
         self, middle: Point, radius: float, turns: tuple[float, float], colour: str, width: float
     ) -> None:
         """Draw a part of a circle, clockwise from the top [turns]; the line lies inside."""
         begin, end = (360 * turn - 90 for turn in turns)
         self.draw.arc(self._around(middle, radius), begin, end, colour, self._thick(width))
 
-    def square(
+    def draw_square(
         self,
         middle: Point,
         side: float,
@@ -128,11 +128,11 @@ class Pen:
         thick = self._thick(width) if edge else 0
         self.draw.rounded_rectangle(self._around(middle, side / 2), corner, fill, edge, thick)
 
-    def polygon(self, points: Sequence[Point], colour: str) -> None:
+    def fill_polygon(self, points: Sequence[Point], colour: str) -> None:
         """Fill a polygon."""
         self.draw.polygon([self._at(point) for point in points], colour)
 
-    def text(
+    def write_text(
         self, at: Point, text: str, colour: str, *, size: float, anchor: str, halo: str = ""
     ) -> None:
         """Write; ``size`` in pixels of the picture, ``anchor`` as in Pillow.
@@ -146,7 +146,7 @@ class Pen:
             self._at(at), text, colour, font, anchor, stroke_width=width, stroke_fill=halo or None
         )
 
-    def text_width(self, text: str, size: float) -> float:
+    def measure_text(self, text: str, size: float) -> float:
         """Return how wide a text is [units]."""
         font = _font(round(size * self.fineness))
         return self.draw.textlength(text, font) / self.fineness / self.scale

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rightofway.quantities import Quantities
 from rightofway.viz.motion import Phase, Trip
 from rightofway.viz.palette import mix
-from rightofway.viz.placement import edge_length, vertices_in_line
+from rightofway.viz.placement import make_edge_length, order_in_line
 from rightofway.viz.raster.canvas import Pen, Scene
 
 MOST_ROWS = 60
@@ -60,8 +60,8 @@ class Diagram:
         self.scene = scene
         self.left, self.right = GUTTER, width - PAD
         routes = [trip.vertices for trip in scene.trips]
-        self.distance = edge_length(scene.roadmap)
-        self.line = vertices_in_line(routes, self.distance)
+        self.distance = make_edge_length(scene.roadmap)
+        self.line = order_in_line(routes, self.distance)
         rows = len(self.line) or len(scene.trips)
         self.is_census = rows > MOST_ROWS
         self.bottom = CENSUS_HEIGHT if self.is_census else rows * ROW_HEIGHT
@@ -78,7 +78,7 @@ class Diagram:
             self._draw_robots(pen)
         if tick is not None:
             x = self._x(tick)
-            pen.line([(x, -4), (x, self.bottom)], self.scene.theme.ink, 1.5)
+            pen.draw_line([(x, -4), (x, self.bottom)], self.scene.theme.ink, 1.5)
 
     def _x(self, tick: float) -> float:
         end = self.scene.end
@@ -96,16 +96,16 @@ class Diagram:
         step = _label_step(quantities, LABEL_GAP / (self.right - self.left) * end)
         for tick in range(0, end + 1, step):
             x = self._x(tick)
-            pen.line([(x, 0), (x, self.bottom)], theme.line, 1)
-            pen.text((x, self.bottom + 7), write(tick), theme.muted, size=12, anchor="ma")
-        pen.line([(self.left, self.bottom), (self.right, self.bottom)], theme.wall, 1)
+            pen.draw_line([(x, 0), (x, self.bottom)], theme.line, 1)
+            pen.write_text((x, self.bottom + 7), write(tick), theme.muted, size=12, anchor="ma")
+        pen.draw_line([(self.left, self.bottom), (self.right, self.bottom)], theme.wall, 1)
 
     def _name_rows(self, pen: Pen, rows: Iterable[tuple[str, float]]) -> None:
         """Name rows, each with its height in the picture."""
         for name, y in rows:
             short = name if len(name) <= MOST_CHARACTERS else f"{name[: MOST_CHARACTERS - 1]}…"
-            pen.line([(self.left, y), (self.right, y)], self.scene.theme.line, 1)
-            pen.text((self.left - 10, y), short, self.scene.theme.muted, size=12, anchor="rm")
+            pen.draw_line([(self.left, y), (self.right, y)], self.scene.theme.line, 1)
+            pen.write_text((self.left - 10, y), short, self.scene.theme.muted, size=12, anchor="rm")
 
     def _draw_places(self, pen: Pen) -> None:
         """Draw vertices as rows, bookings as fields and robots as lines."""
@@ -123,17 +123,17 @@ class Diagram:
             visits = zip(trip.vertices, trip.enter, trip.drive, ends, strict=True)
             for vertex, enter, drive, end in visits:
                 left, right = self._x(max(rules.start(enter, drive), 0)), self._x(end) - 1
-                pen.box((left, rows[vertex] - half), (right, rows[vertex] + half), tint)
+                pen.fill_box((left, rows[vertex] - half), (right, rows[vertex] + half), tint)
         for trip, colour in zip(scene.trips, scene.colours, strict=True):
             faint, until = mix(scene.theme.paper, colour, 0.5), trip.enter[-1]
-            for visit, begin, until, activity in trip.all_phases():
+            for visit, begin, until, activity in trip.trace_all_phases():
                 head = trip.vertices[visit + (activity is Phase.DRIVE)]
                 stroke = (self._x(begin), rows[trip.vertices[visit]]), (self._x(until), rows[head])
                 width = BUSY_WIDTH if activity in BUSY else LINE_WIDTH
                 is_faint = activity is Phase.WAIT or not self._is_true(trip.vertices[visit], head)
-                pen.line(stroke, faint if is_faint else colour, 1 if is_faint else width)
+                pen.draw_line(stroke, faint if is_faint else colour, 1 if is_faint else width)
             y = rows[trip.vertices[-1]]
-            pen.line([(self._x(until), y), (self._x(scene.end), y)], faint, LINE_WIDTH)
+            pen.draw_line([(self._x(until), y), (self._x(scene.end), y)], faint, LINE_WIDTH)
 
     def _is_true(self, tail: int, head: int) -> bool:
         """Return whether the line has two vertices about as far apart as they are."""
@@ -146,11 +146,11 @@ class Diagram:
         self._name_rows(pen, ((name, self._y(row)) for row, name in enumerate(names[::-1])))
         for robot, trip in enumerate(self.scene.trips):
             y = self._y(len(names) - 1 - robot)
-            for _, begin, end, activity in trip.all_phases():
+            for _, begin, end, activity in trip.trace_all_phases():
                 half = HALF_HEIGHTS.get(activity, 0) * ROW_HEIGHT
                 if half:
                     corners = (self._x(begin), y - half), (self._x(end), y + half)
-                    pen.box(*corners, self.scene.colours[robot])
+                    pen.fill_box(*corners, self.scene.colours[robot])
 
     def _draw_census(self, pen: Pen) -> None:
         """Draw how many robots work, turn, drive and wait, over time."""
@@ -162,12 +162,12 @@ class Diagram:
             low, x = 0.0, self.left + sample
             for high, colour in zip(heights, colours, strict=True):
                 if high > low:
-                    pen.box((x, self.bottom - high), (x + 1, self.bottom - low), colour)
+                    pen.fill_box((x, self.bottom - high), (x + 1, self.bottom - low), colour)
                 low = high
         for place, (activity, colour) in enumerate(zip(STACK, colours, strict=True)):
             y = self.bottom - 10 - place * 20
-            pen.box((20, y - 5), (30, y + 5), colour)
-            pen.text((37, y), activity.value, theme.muted, size=12, anchor="lm")
+            pen.fill_box((20, y - 5), (30, y + 5), colour)
+            pen.write_text((37, y), activity.value, theme.muted, size=12, anchor="lm")
 
 
 def _row_heights(places: Sequence[float], room: float) -> list[float]:
@@ -203,7 +203,7 @@ def _counts(trips: Sequence[Trip], end: int, samples: int) -> NDArray[np.int64]:
     """Return robots by activity of the stack and sample, in the middle of each sample."""
     changes = np.zeros((len(STACK), samples + 1), np.int64)
     for trip in trips:
-        for _, begin, until, activity in trip.all_phases():
+        for _, begin, until, activity in trip.trace_all_phases():
             for tick, change in ((begin, 1), (until, -1)):
                 first = -((end - 2 * tick * samples) // (2 * end))  # its middle is not before
                 changes[STACK.index(activity), min(max(first, 0), samples)] += change

@@ -28,7 +28,7 @@ class FaultList:
         theme = self.scene.theme
         for number, line in enumerate(self._lines):
             colour = theme.held if number == 0 else theme.ink
-            pen.text((PAD, (number + 0.5) * LINE), line, colour, size=TYPE, anchor="lm")
+            pen.write_text((PAD, (number + 0.5) * LINE), line, colour, size=TYPE, anchor="lm")
 
 
 def _lines(scene: Scene, width: float) -> Iterator[str]:
@@ -49,7 +49,7 @@ def _wrapped(sentence: str, width: float) -> Iterator[str]:
     line = ""
     for word in sentence.split(" "):
         longer = f"{line} {word}" if line else word
-        if line and pen.text_width(longer, TYPE) > width:
+        if line and pen.measure_text(longer, TYPE) > width:
             yield line
             longer = f"    {word}"
         line = longer

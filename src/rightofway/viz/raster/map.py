@@ -14,8 +14,8 @@ from PIL import Image
 
 from rightofway.site import Grid
 from rightofway.viz.motion import Moment, Phase
-from rightofway.viz.page.background import background_of, place_of, unreadable
-from rightofway.viz.palette import ink_on
+from rightofway.viz.page.background import explain_unreadable, find_background, place_of
+from rightofway.viz.palette import choose_ink
 from rightofway.viz.raster.canvas import Ground, Pen, Point, Scene
 from rightofway.viz.raster.names import Label, MapNames
 from rightofway.viz.raster.sizes import MOST_ROUTES, LaneSizes, Sizes
@@ -61,42 +61,44 @@ def draw_roadmap(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
 
 def _picture(pen: Pen, scene: Ground) -> None:
     """Draw the picture of the site; over cells, as these have no gaps."""
-    background = background_of(scene.roadmap)
+    background = find_background(scene.roadmap)
     if background is None:
         return
     try:
         with Image.open(background.picture) as picture:
             place = place_of(scene.roadmap, background, *picture.size)
-            opacity = background.opacity * (0.4 if ink_on(scene.theme.paper) == "#ffffff" else 1)
-            pen.picture(picture, place, opacity)
+            opacity = background.opacity * (
+                0.4 if choose_ink(scene.theme.paper) == "#ffffff" else 1
+            )
+            pen.draw_picture(picture, place, opacity)
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
-        raise unreadable(background.picture) from None
+        raise explain_unreadable(background.picture) from None
 
 
 def _grid(pen: Pen, scene: Ground, grid: Grid) -> None:
     lines, theme, hair = grid.as_lines(), scene.theme, pen.hairline
     right, bottom = len(lines[0]) - 0.5, len(lines) - 0.5
-    pen.box((-0.5, -0.5), (right, bottom), theme.floor)
+    pen.fill_box((-0.5, -0.5), (right, bottom), theme.floor)
     if not pen.is_small:
         for x in range(1, len(lines[0])):
-            pen.line([(x - 0.5, -0.5), (x - 0.5, bottom)], theme.line, hair)
+            pen.draw_line([(x - 0.5, -0.5), (x - 0.5, bottom)], theme.line, hair)
         for y in range(1, len(lines)):
-            pen.line([(-0.5, y - 0.5), (right, y - 0.5)], theme.line, hair)
+            pen.draw_line([(-0.5, y - 0.5), (right, y - 0.5)], theme.line, hair)
     for y, line in enumerate(lines):
         for run in finditer(r"[^.]+", line):
-            pen.box((run.start() - 0.5, y - 0.5), (run.end() - 0.5, y + 0.5), theme.wall)
+            pen.fill_box((run.start() - 0.5, y - 0.5), (run.end() - 0.5, y + 0.5), theme.wall)
     border = [(-0.5, -0.5), (right, -0.5), (right, bottom), (-0.5, bottom), (-0.5, -0.5)]
-    pen.line(border, theme.wall, hair)
+    pen.draw_line(border, theme.wall, hair)
 
 
 def _squares(pen: Pen, scene: Ground, halves: NDArray[np.float64]) -> None:
     """Draw the cells of a quadtree; half their sides are given."""
     corner = (scene.plane.width - 0.5, scene.plane.height - 0.5)
-    pen.box((-0.5, -0.5), corner, scene.theme.wall)
+    pen.fill_box((-0.5, -0.5), corner, scene.theme.wall)
     for (x, y), half in zip(scene.points, halves.tolist(), strict=True):
-        pen.box((x - half, y - half), (x + half, y + half), scene.theme.line)
+        pen.fill_box((x - half, y - half), (x + half, y + half), scene.theme.line)
         inner = half if pen.is_small else half - pen.hairline / 2
-        pen.box((x - inner, y - inner), (x + inner, y + inner), scene.theme.floor)
+        pen.fill_box((x - inner, y - inner), (x + inner, y + inner), scene.theme.floor)
 
 
 def _network(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
@@ -106,25 +108,25 @@ def _network(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
     for tail, head in scene.edges:
         is_one_way = (head, tail) not in edges
         width = sizes.lane * (0.7 if is_one_way else 1) * pen.hairline
-        pen.line([scene.points[tail], scene.points[head]], theme.wall, width)
+        pen.draw_line([scene.points[tail], scene.points[head]], theme.wall, width)
         for end in (tail, head):
-            pen.disc(scene.points[end], width / 2, theme.wall)
+            pen.fill_disc(scene.points[end], width / 2, theme.wall)
     for tail, head in scene.edges:
         if (head, tail) not in edges:
             _arrows(pen, scene, sizes, scene.points[tail], scene.points[head])
     for point in scene.points:
-        pen.disc(point, sizes.vertex * pen.hairline, theme.muted)
-        pen.disc(point, (sizes.vertex - 1.25) * pen.hairline, theme.paper)
+        pen.fill_disc(point, sizes.vertex * pen.hairline, theme.muted)
+        pen.fill_disc(point, (sizes.vertex - 1.25) * pen.hairline, theme.paper)
 
 
 def _zones(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
     """Draw the members of each zone as a band."""
-    colour, width = scene.faint(scene.theme.zone, 0.35), sizes.zone * pen.hairline
+    colour, width = scene.fade(scene.theme.zone, 0.35), sizes.zone * pen.hairline
     for zone in scene.roadmap.zones:
         for tail, head in zone.edges:
-            pen.line([scene.points[tail], scene.points[head]], colour, width)
+            pen.draw_line([scene.points[tail], scene.points[head]], colour, width)
         for vertex in {*zone.vertices, *(end for edge in zone.edges for end in edge)}:
-            pen.disc(scene.points[vertex], width / 2, colour)
+            pen.fill_disc(scene.points[vertex], width / 2, colour)
 
 
 def _arrows(pen: Pen, scene: Ground, sizes: LaneSizes, tail: Point, head: Point) -> None:
@@ -141,7 +143,7 @@ def _arrows(pen: Pen, scene: Ground, sizes: LaneSizes, tail: Point, head: Point)
         back_x, back_y = tip_x - along_x, tip_y - along_y
         wings = [(back_x - along_y, back_y + along_x), (back_x + along_y, back_y - along_x)]
         chevron = [wings[0], (tip_x, tip_y), wings[1]]
-        pen.line(chevron, scene.theme.muted, 1.5 * pen.hairline)
+        pen.draw_line(chevron, scene.theme.muted, 1.5 * pen.hairline)
 
 
 def _route(pen: Pen, scene: Scene, sizes: Sizes, robot: int) -> None:
@@ -150,7 +152,9 @@ def _route(pen: Pen, scene: Scene, sizes: Sizes, robot: int) -> None:
     points = to_the_right([scene.points[vertex] for vertex in scene.trips[robot].vertices], aside)
     if len(points) > 1:
         strength = max(0.55 - len(scene.trips) / 300, 0.12)  # many routes are a backdrop
-        pen.line(points, scene.faint(scene.colours[robot], strength), sizes.route * pen.hairline)
+        pen.draw_line(
+            points, scene.fade(scene.colours[robot], strength), sizes.route * pen.hairline
+        )
 
 
 def to_the_right(points: Sequence[Point], aside: float) -> list[Point]:
@@ -179,7 +183,7 @@ def _home(pen: Pen, scene: Scene, sizes: Sizes, robot: int) -> None:
     half = sizes.homes[robot]
     width, side = min(max(half * 0.1, 1.5), 3) * pen.hairline, 2 * half * pen.hairline
     has_size = scene.plan.scenario.robots[robot].radius > 0  # its true size may cover lanes
-    pen.square(home, side, None if has_size else scene.faint(colour, 0.12), colour, width)
+    pen.draw_square(home, side, None if has_size else scene.fade(colour, 0.12), colour, width)
 
 
 def _stops(pen: Pen, scene: Scene, sizes: Sizes) -> None:
@@ -198,7 +202,7 @@ def _stops(pen: Pen, scene: Scene, sizes: Sizes) -> None:
                 (size, scene.colours[robot]),
             ):
                 corners = [(0, -reach), (reach, 0), (0, reach), (-reach, 0)]
-                pen.polygon([(middle + right, y + down) for right, down in corners], colour)
+                pen.fill_polygon([(middle + right, y + down) for right, down in corners], colour)
 
 
 def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, names: MapNames, tick: float) -> list[Label]:
@@ -207,7 +211,7 @@ def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, names: MapNames, tick: flo
     A disc drives, a ring waits, a filling arc works, two arcs turn, a faint disc is done. A wide
     ring in red is round each robot that has part in a fault.
     """
-    moments = [trip.at(tick) for trip in scene.trips]
+    moments = [trip.locate(tick) for trip in scene.trips]
     middles = [_middle(scene, moment) for moment in moments]
     for robot, (moment, middle) in enumerate(zip(moments, middles, strict=True)):
         has_size = scene.plan.scenario.robots[robot].radius > 0
@@ -217,7 +221,7 @@ def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, names: MapNames, tick: flo
         has_size = scene.plan.scenario.robots[robot].radius > 0
         wide = sizes.robots[robot] + 4 if has_size else sizes.robots[robot] * FAULT_RING
         radius = wide * pen.hairline
-        pen.ring(middles[robot], radius, WHOLE, scene.theme.held, radius * 0.15)
+        pen.draw_ring(middles[robot], radius, WHOLE, scene.theme.held, radius * 0.15)
     return names.draw(pen, moments, middles)
 
 
@@ -242,15 +246,17 @@ def _robot(pen: Pen, scene: Scene, moment: Moment, disc: Disc) -> None:
         max(radius * 0.17, pen.hairline),
     )
     ink = scene.ground if has_size else colour
-    pen.disc(middle, radius + 1.25 * pen.hairline, scene.ground)
+    pen.fill_disc(middle, radius + 1.25 * pen.hairline, scene.ground)
     if activity is Phase.WAIT:
-        pen.ring(middle, radius, WHOLE, colour, max(radius * 0.26, pen.hairline))
+        pen.draw_ring(middle, radius, WHOLE, colour, max(radius * 0.26, pen.hairline))
     else:
-        pen.disc(middle, radius, scene.faint(colour, 0.45 if activity is Phase.DONE else 1))
+        pen.fill_disc(middle, radius, scene.fade(colour, 0.45 if activity is Phase.DONE else 1))
     if activity is Phase.WORK:
-        pen.ring(middle, dial, WHOLE, scene.faint(colour, 0.75 if has_size else 0.25), dial_width)
-        pen.ring(middle, dial, (0, moment.share), ink, dial_width)
+        pen.draw_ring(
+            middle, dial, WHOLE, scene.fade(colour, 0.75 if has_size else 0.25), dial_width
+        )
+        pen.draw_ring(middle, dial, (0, moment.share), ink, dial_width)
     elif activity is Phase.TURN:
         for side in (0, 0.5):
             begin = side + moment.share / 2
-            pen.ring(middle, dial, (begin, begin + 0.14), ink, dial_width)
+            pen.draw_ring(middle, dial, (begin, begin + 0.14), ink, dial_width)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.viz.motion import Moment, Phase
-from rightofway.viz.palette import ink_on
+from rightofway.viz.palette import choose_ink
 from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.sizes import Sizes
 
@@ -68,12 +68,15 @@ class MapNames:
             radius = self.sizes.robots[robot]
             name = _cut(self.scene.plan.scenario.robots[robot].name)
             inside = min(radius * 0.78, 20)
-            if radius >= LEAST_NAMED_INSIDE and pen.text_width(name, inside) * scale < radius * 1.7:
+            if (
+                radius >= LEAST_NAMED_INSIDE
+                and pen.measure_text(name, inside) * scale < radius * 1.7
+            ):
                 self._write_inside(pen, robot, moment, middles[robot], inside)
-                half = pen.text_width(name, inside) * scale / 2
+                half = pen.measure_text(name, inside) * scale / 2
                 written.append((name, (x - half, y - inside / 2, x + half, y + inside / 2)))
                 continue
-            box = self._beside(robot, (x, y), pen.text_width(name, ROBOT_TYPE) * scale, taken)
+            box = self._beside(robot, (x, y), pen.measure_text(name, ROBOT_TYPE) * scale, taken)
             if box is not None:
                 taken.append(box)
                 done = moment.activity is Phase.DONE
@@ -93,14 +96,14 @@ class MapNames:
         self, pen: Pen, robot: int, moment: Moment, middle: Point, size: float
     ) -> None:
         is_hollow = moment.activity in (Phase.WAIT, Phase.DONE)
-        ink = self.scene.theme.ink if is_hollow else ink_on(self.scene.colours[robot])
+        ink = self.scene.theme.ink if is_hollow else choose_ink(self.scene.colours[robot])
         name = self.scene.plan.scenario.robots[robot].name
-        pen.text(middle, name, ink, size=size, anchor="mm")
+        pen.write_text(middle, name, ink, size=size, anchor="mm")
 
     def _write(self, pen: Pen, name: str, box: Box, ink: str, size: float) -> None:
         left, top, _, bottom = box
         at = (left / self.scale, (top + bottom) / 2 / self.scale)
-        pen.text(at, name, ink, size=size, anchor="lm", halo=self.scene.ground)
+        pen.write_text(at, name, ink, size=size, anchor="lm", halo=self.scene.ground)
 
     def _beside(self, robot: int, disc: Point, width: float, taken: Sequence[Box]) -> Box | None:
         """Return the box of a name beside its disc: where it was if that is free."""
@@ -139,7 +142,7 @@ class MapNames:
         for vertex in sorted(named, key=lambda vertex: vertex not in marks):
             x, y = (scale * part for part in scene.points[vertex])
             name = _cut(scene.where(vertex))
-            width = pen.text_width(name, PLACE_TYPE) * scale
+            width = pen.measure_text(name, PLACE_TYPE) * scale
             ink = scene.theme.ink if vertex in marks else scene.theme.muted
             if is_grid:
                 left, top = x - scale * 0.45, y - scale * 0.45

@@ -23,7 +23,7 @@ from rightofway.viz.raster.diagram import Diagram
 from rightofway.viz.raster.faults import FaultList
 from rightofway.viz.raster.map import draw_ground, draw_robots
 from rightofway.viz.raster.names import Box, MapNames
-from rightofway.viz.raster.sizes import sizes_of
+from rightofway.viz.raster.sizes import compute_sizes
 
 MARGIN = 24
 MOST_PIXELS = 60_000_000
@@ -38,7 +38,7 @@ FRAMES_PER_TICK = 8
 
 
 @checks_arguments
-def png_of(
+def make_png(
     plan: Plan,
     tick: int | None = None,
     *,
@@ -86,7 +86,7 @@ def png_of(
     margin = _margin(scene, scale)
     left = (width - map_width) / 2 + margin + scale / 2
     pen = Pen(image, origin=(left, margin + scale / 2), scale=scale, fineness=fineness)
-    sizes = sizes_of(scene, scale)
+    sizes = compute_sizes(scene, scale)
     draw_ground(pen, scene, sizes, routes=True)
     bounds = _bounds(pen.origin, (width, map_height))
     draw_robots(pen, scene, sizes, MapNames(scene, sizes, scale, bounds), tick or 0)
@@ -112,16 +112,16 @@ def write_png(
     Parameters
     ----------
     plan, tick, scale, diagram, theme
-        As for `png_of`.
+        As for `make_png`.
     path
         Where, usually ``….png``; the file is there whole or not at all.
 
     Raises
     ------
     InputError
-        As for `png_of`, or if the file cannot be written.
+        As for `make_png`, or if the file cannot be written.
     """
-    write_whole(path, png_of(plan, tick, scale=scale, diagram=diagram, theme=theme))
+    write_whole(path, make_png(plan, tick, scale=scale, diagram=diagram, theme=theme))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -156,7 +156,7 @@ def write_gif(
     Parameters
     ----------
     plan, theme
-        As for `png_of`.
+        As for `make_png`.
     path
         Where, usually ``….gif``; the file is there whole or not at all.
     max_frames
@@ -205,7 +205,7 @@ def _pictures(scene: Scene, scale: float, ticks: Sequence[float]) -> Iterator[Im
     origin = (margin + scale / 2, margin + scale / 2)
     ground = _blank(scene, _map_size(scene, scale), FILM_FINENESS)
     pen = Pen(ground, origin=origin, scale=scale, fineness=FILM_FINENESS)
-    sizes = sizes_of(scene, scale)
+    sizes = compute_sizes(scene, scale)
     bounds = _bounds(origin, _map_size(scene, scale))
     names = MapNames(scene, sizes, scale, bounds)
     draw_ground(pen, scene, sizes, routes=False)

@@ -9,7 +9,7 @@ from PIL import Image
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.metrics import Site
-from rightofway.viz.palette import LIGHT, Theme, robot_colours
+from rightofway.viz.palette import LIGHT, Theme, choose_colours
 from rightofway.viz.raster.canvas import Ground, Pen
 from rightofway.viz.raster.map import draw_roadmap
 from rightofway.viz.raster.sizes import LaneSizes
@@ -32,7 +32,7 @@ MOST_TRIPS = 12
 
 
 @checks_arguments
-def preview_of(site: Site, *, theme: Theme = LIGHT) -> bytes:
+def make_preview(site: Site, *, theme: Theme = LIGHT) -> bytes:
     """Return a small picture of a site as PNG: cells or lanes, homes, stops and stations.
 
     Parameters
@@ -70,20 +70,20 @@ def _draw_places(pen: Pen, ground: Ground, site: Site) -> None:
     """Draw stations as diamonds and homes as discs; of few robots with a line between them."""
     least = 3.5 if len(site.robots) <= MOST_TRIPS else 2.5
     radius = min(max(pen.scale * 0.36, least), 8) * pen.hairline
-    colours = robot_colours(len(site.robots))
+    colours = choose_colours(len(site.robots))
     trips = [
         (colour, ground.points[robot.home], [ground.points[stop.at] for stop in robot.stops])
         for colour, robot in zip(colours, site.robots, strict=True)
     ]
     for colour, home, stops in trips if len(trips) <= MOST_TRIPS else ():
-        pen.line([home, *stops], ground.faint(colour, 0.35), 1.25 * pen.hairline)
+        pen.draw_line([home, *stops], ground.fade(colour, 0.35), 1.25 * pen.hairline)
     ink = ground.theme.muted
     marks = [*((ink, ground.points[at]) for at in site.stations.values())]
     marks += [(colour, stop) for colour, _, stops in trips for stop in stops]
     for colour, (x, y) in marks:
         reach = 0.85 * radius
         corners = [(x, y - reach), (x + reach, y), (x, y + reach), (x - reach, y)]
-        pen.polygon(corners, colour)
+        pen.fill_polygon(corners, colour)
     for colour, home, _ in trips:
-        pen.disc(home, radius + pen.hairline, ground.ground)
-        pen.disc(home, radius, colour)
+        pen.fill_disc(home, radius + pen.hairline, ground.ground)
+        pen.fill_disc(home, radius, colour)

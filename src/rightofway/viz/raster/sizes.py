@@ -76,7 +76,7 @@ class Sizes(LaneSizes):
     apart: float
 
 
-def sizes_of(scene: Scene, scale: float) -> Sizes:
+def compute_sizes(scene: Scene, scale: float) -> Sizes:
     """Return the sizes at a scale [pixels for a unit]; they grow with the cells of a fine scale.
 
     Where cells are small, what moves stays large enough to be seen, as far as there is room.

@@ -1,23 +1,23 @@
 """The paper's table, a row for a robot and a column for a tick; lists of events and collisions."""
 
-from rightofway.viz.table.listing import ListColumn, Listing, parquet_of
+from rightofway.viz.table.listing import ListColumn, Listing, as_parquet
 from rightofway.viz.table.lists import (
-    chosen_events,
-    collision_list,
-    collision_ticks,
-    conflicts_before,
-    decision_list,
-    event_list,
+    choose_events,
+    count_conflicts_before,
+    tabulate_collision_ticks,
+    tabulate_collisions,
+    tabulate_decisions,
+    tabulate_events,
 )
 from rightofway.viz.table.timespace import (
     Cell,
     CellRun,
     Row,
     TimeSpaceTable,
-    chosen_robots,
+    choose_robots,
     end_of,
-    table_of,
-    table_of_groups,
+    make_table,
+    make_table_of_groups,
 )
 from rightofway.viz.table.writing import as_csv, as_text, write_csv, write_xlsx
 
@@ -29,18 +29,18 @@ __all__ = [
     "Row",
     "TimeSpaceTable",
     "as_csv",
+    "as_parquet",
     "as_text",
-    "chosen_events",
-    "chosen_robots",
-    "collision_list",
-    "collision_ticks",
-    "conflicts_before",
-    "decision_list",
+    "choose_events",
+    "choose_robots",
+    "count_conflicts_before",
     "end_of",
-    "event_list",
-    "parquet_of",
-    "table_of",
-    "table_of_groups",
+    "make_table",
+    "make_table_of_groups",
+    "tabulate_collision_ticks",
+    "tabulate_collisions",
+    "tabulate_decisions",
+    "tabulate_events",
     "write_csv",
     "write_xlsx",
 ]

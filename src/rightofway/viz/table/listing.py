@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from rightofway.extras import needed
 from rightofway.quantities import Quantities
-from rightofway.viz.table.terminal import MAX_LINES, text_width
+from rightofway.viz.table.terminal import MAX_LINES, measure_text
 
 MAX_CELL = 40
 """Columns of a terminal that a cell of text may take."""
@@ -62,14 +62,14 @@ class Listing:
     def __len__(self) -> int:
         return len(self.columns[0].values)
 
-    def headings(self) -> list[str]:
+    def list_headings(self) -> list[str]:
         """Return the headings, times with their unit."""
         return [
             self.quantities.heading(column.heading) if column.kind == "time" else column.heading
             for column in self.columns
         ]
 
-    def rows(self) -> Iterator[tuple[Value, ...]]:
+    def list_rows(self) -> Iterator[tuple[Value, ...]]:
         """Yield the rows as numbers and text, times in the unit of their heading."""
         yield from zip(*(self._numbers(column) for column in self.columns), strict=True)
 
@@ -92,7 +92,7 @@ class Listing:
         """
         columns = [
             self._cells(column, heading, max_lines)
-            for column, heading in zip(self.columns, self.headings(), strict=True)
+            for column, heading in zip(self.columns, self.list_headings(), strict=True)
             if column.for_people
         ]
         lines = [
@@ -109,8 +109,8 @@ class Listing:
         words, _, unit = heading.partition(" [")
         values = (self._written(value, column.kind) for value in column.values[:max_lines])
         cells = [words, f"[{unit}" if unit else "", *values]
-        width = max(map(text_width, cells))
-        gaps = [" " * (width - text_width(cell)) for cell in cells]
+        width = max(map(measure_text, cells))
+        gaps = [" " * (width - measure_text(cell)) for cell in cells]
         if column.kind == "text":
             return [cell + gap for cell, gap in zip(cells, gaps, strict=True)]
         return [gap + cell for cell, gap in zip(cells, gaps, strict=True)]
@@ -125,12 +125,12 @@ class Listing:
         """Return the list as comma-separated values, with a header."""
         text = io.StringIO(newline="")
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(self.headings())
-        writer.writerows(self.rows())
+        writer.writerow(self.list_headings())
+        writer.writerows(self.list_rows())
         return text.getvalue()
 
 
-def parquet_of(columns: dict[str, list[Any]]) -> bytes:
+def as_parquet(columns: dict[str, list[Any]]) -> bytes:
     """Return columns as a Parquet file.
 
     Parameters

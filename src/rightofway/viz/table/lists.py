@@ -17,13 +17,13 @@ from rightofway.metrics import (
 from rightofway.model import Decision, Plan, Tick
 from rightofway.quantities import Quantities
 from rightofway.viz.table.listing import ListColumn, Listing
-from rightofway.viz.table.timespace import chosen_robots
+from rightofway.viz.table.timespace import choose_robots
 
 MAX_TICKS = 1_000_000
 """Rows of a list that has one for each tick, at most."""
 
 
-def chosen_events(
+def choose_events(
     plan: Plan,
     *,
     first_tick: int = 0,
@@ -46,7 +46,7 @@ def chosen_events(
     InputError
         For a robot that is not in the plan.
     """
-    shown = set(chosen_robots(plan.scenario, robots))
+    shown = set(choose_robots(plan.scenario, robots))
     return tuple(
         event
         for event in list_events(plan)
@@ -56,7 +56,7 @@ def chosen_events(
     )
 
 
-def event_list(
+def tabulate_events(
     plan: Plan, chosen: Sequence[Event] | None = None, quantities: Quantities | None = None
 ) -> Listing:
     """Return visits as a list.
@@ -99,7 +99,7 @@ def event_list(
     )
 
 
-def collision_list(
+def tabulate_collisions(
     collisions: Sequence[NamedCollision], quantities: Quantities, title: str = "collisions"
 ) -> Listing:
     """Return collisions and swaps as a list of intervals.
@@ -128,7 +128,7 @@ def collision_list(
     )
 
 
-def collision_ticks(
+def tabulate_collision_ticks(
     collisions: Sequence[NamedCollision], quantities: Quantities, end: Tick
 ) -> Listing:
     """Return the paper's list, Collision(i, j, t) = n: a row for each tick of each collision.
@@ -174,7 +174,7 @@ def collision_ticks(
     )
 
 
-def conflicts_before(plan: Plan) -> list[int | None]:
+def count_conflicts_before(plan: Plan) -> list[int | None]:
     """Return the conflicts in the whole system before each decision of a plan's planner.
 
     Parameters
@@ -197,15 +197,15 @@ def conflicts_before(plan: Plan) -> list[int | None]:
     leaves_swaps = plan.run.name == "paper" or plan.run.options.get("swaps") == "leave"
     counted = sum(overlap) + (0 if leaves_swaps else len(find_swaps(tracks)))
     first = counted if len(overlap) == len(overlaps) else None
-    return [first, *map(conflicts_left, plan.run.decisions)][: len(plan.run.decisions)]
+    return [first, *map(count_conflicts_left, plan.run.decisions)][: len(plan.run.decisions)]
 
 
-def conflicts_left(decision: Decision) -> int | None:
+def count_conflicts_left(decision: Decision) -> int | None:
     """Return the conflicts in the whole system after a decision; None if they were not counted."""
     return decision.conflicts_left[decision.robots.index(decision.waits)]
 
 
-def decision_list(plan: Plan, quantities: Quantities | None = None) -> Listing:
+def tabulate_decisions(plan: Plan, quantities: Quantities | None = None) -> Listing:
     """Return the decisions of a plan as a list: which robot waits, conflicts before and after.
 
     Parameters
@@ -240,10 +240,12 @@ def decision_list(plan: Plan, quantities: Quantities | None = None) -> Listing:
                 heading="delay", values=[decision.ticks for decision in decisions], kind="time"
             ),
             ListColumn(heading="level", values=[decision.level for decision in decisions]),
-            ListColumn(heading="before", values=conflicts_before(plan), kind="number"),
+            ListColumn(heading="before", values=count_conflicts_before(plan), kind="number"),
             ListColumn(heading="if i", values=[counts[0] for counts in left_if], kind="number"),
             ListColumn(heading="if j", values=[counts[1] for counts in left_if], kind="number"),
-            ListColumn(heading="left", values=list(map(conflicts_left, decisions)), kind="number"),
+            ListColumn(
+                heading="left", values=list(map(count_conflicts_left, decisions)), kind="number"
+            ),
             ListColumn(
                 heading="sum if i", values=[pair[0] for pair in sums], kind="time", for_people=False
             ),

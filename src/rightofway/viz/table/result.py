@@ -14,23 +14,23 @@ from rightofway.extras import needed
 from rightofway.files import archive_of, write_whole
 from rightofway.metrics import compute_lost_time, free_running, measure, name_collisions
 from rightofway.model import Plan
-from rightofway.viz.motion import Phase, trips_of
-from rightofway.viz.palette import robot_colours
-from rightofway.viz.placement import edge_length, vertices_in_line
+from rightofway.viz.motion import Phase, make_trips
+from rightofway.viz.palette import choose_colours
+from rightofway.viz.placement import make_edge_length, order_in_line
 from rightofway.viz.table.listing import ListColumn, Listing
-from rightofway.viz.table.lists import collision_list, decision_list, event_list
-from rightofway.viz.table.timespace import MAX_CELLS, table_of
+from rightofway.viz.table.lists import tabulate_collisions, tabulate_decisions, tabulate_events
+from rightofway.viz.table.timespace import MAX_CELLS, make_table
 from rightofway.viz.table.workbook import (
     BOLD,
     WRONG,
-    cell_of,
+    make_cell,
     widen,
     write_legend,
     write_list,
     write_table,
 )
 from rightofway.viz.table.writing import MAX_TICKS_OF_SHEET
-from rightofway.viz.verdict import verdict_on
+from rightofway.viz.verdict import give_verdict
 
 openpyxl, charts = (needed(name, "a workbook") for name in ("openpyxl", "openpyxl.chart"))
 
@@ -61,17 +61,17 @@ def write_result(plan: Plan, path: str | os.PathLike[str]) -> None:
     -----
     A sheet that would be too large is left out, and the summary says so.
     """
-    write_whole(path, result_of(plan))
+    write_whole(path, make_result(plan))
 
 
-def result_of(plan: Plan) -> bytes:
+def make_result(plan: Plan) -> bytes:
     """Return the workbook of `write_result`."""
     workbook = openpyxl.Workbook(write_only=True)
     summary = _sheet(workbook, "summary")
     diagram, left_out = _sheet(workbook, "diagram"), list[tuple[str, str]]()
     try:
-        table = table_of(plan)
-        table = table.with_fewer(min(MAX_TICKS_OF_SHEET, MAX_CELLS // len(table.rows)))
+        table = make_table(plan)
+        table = table.limit_columns(min(MAX_TICKS_OF_SHEET, MAX_CELLS // len(table.rows)))
         write_table(_sheet(workbook, "time and space"), table)
         write_legend(_sheet(workbook, "legend"), table)
     except InputError as error:
@@ -80,10 +80,10 @@ def result_of(plan: Plan) -> bytes:
     free = name_collisions(plan.scenario, free_running(plan))
     left = name_collisions(plan.scenario, plan.tracks)
     for listing in (
-        event_list(plan),
-        collision_list(free, quantities),
-        collision_list(left, quantities, "left in the plan"),
-        decision_list(plan),
+        tabulate_events(plan),
+        tabulate_collisions(free, quantities),
+        tabulate_collisions(left, quantities, "left in the plan"),
+        tabulate_decisions(plan),
     ):
         try:
             write_list(_sheet(workbook, listing.title), listing)
@@ -108,20 +108,20 @@ def _sheet(workbook: Any, title: str) -> Any:
 def _write_summary(sheet: Any, plan: Plan, more: Sequence[tuple[str, str]]) -> None:
     """Write what the plan costs, then a row for each robot: where its completion time goes."""
     rows, robots = [*_figures(plan), *more], _robots(plan)
-    headings = robots.headings()
+    headings = robots.list_headings()
     widen(sheet, 1, 1, {*(key for key, _ in rows), *map(str, robots.columns[0].values)})
     for number, heading in enumerate(headings[1:], 2):
         widen(sheet, number, number, {heading})
-    if faults := verdict_on(plan).total:
+    if faults := give_verdict(plan).total:
         words = f"{faults} fault{'s' if faults > 1 else ''}: do not run this plan"
-        sheet.append([cell_of(sheet, words, font=WRONG)])
+        sheet.append([make_cell(sheet, words, font=WRONG)])
         sheet.append([])
     for key, text in rows:
-        sheet.append([cell_of(sheet, key, font=BOLD), cell_of(sheet, text)])
+        sheet.append([make_cell(sheet, key, font=BOLD), make_cell(sheet, text)])
     sheet.append([])
-    sheet.append([cell_of(sheet, heading, font=BOLD) for heading in headings])
-    for row in robots.rows():
-        sheet.append([None if value is None else cell_of(sheet, value) for value in row])
+    sheet.append([make_cell(sheet, heading, font=BOLD) for heading in headings])
+    for row in robots.list_rows():
+        sheet.append([None if value is None else make_cell(sheet, value) for value in row])
 
 
 def _figures(plan: Plan) -> Iterator[tuple[str, str]]:
@@ -163,9 +163,9 @@ def _robots(plan: Plan) -> Listing:
 
 def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
     """Write a chart into a sheet, and the points of each robot's line into another one."""
-    trips, scenario = trips_of(plan)[:MOST_LINES], plan.scenario
+    trips, scenario = make_trips(plan)[:MOST_LINES], plan.scenario
     routes = [trip.vertices for trip in trips]
-    line = list(vertices_in_line(routes, edge_length(scenario.roadmap)))
+    line = list(order_in_line(routes, make_edge_length(scenario.roadmap)))
     rows = {vertex: row for row, vertex in enumerate(line)}
     grid = scenario.roadmap.grid
     cells = grid.cells.tolist() if grid is not None and scenario.roadmap.labels is None else None
@@ -194,7 +194,9 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
         chart.y_axis.number_format = '"N"0'
     tick = scenario.quantities.tick
     columns: list[list[float | str]] = []
-    for trip, robot, colour in zip(trips, scenario.robots, robot_colours(len(trips)), strict=False):
+    for trip, robot, colour in zip(
+        trips, scenario.robots, choose_colours(len(trips)), strict=False
+    ):
         points = [
             (float(at * tick), rows.get(vertex, cells[vertex] if cells else vertex))
             for at, vertex in _line(trip)
@@ -210,7 +212,7 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
     height = max(map(len, columns))
     for row in range(height):
         data.append(
-            [cell_of(data, column[row]) if row < len(column) else None for column in columns]
+            [make_cell(data, column[row]) if row < len(column) else None for column in columns]
         )
     chart.legend.position = "t"
     sheet.add_chart(chart, "A2")
@@ -222,7 +224,7 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
 def _line(trip: Any) -> Iterator[tuple[int, int]]:
     """Yield the corners of a robot's line: when, and at which vertex."""
     yield trip.enter[0], trip.vertices[0]
-    for visit, begin, end, activity in trip.all_phases():
+    for visit, begin, end, activity in trip.trace_all_phases():
         if activity is Phase.DRIVE:
             yield begin, trip.vertices[visit]
             yield end, trip.vertices[visit + 1]

@@ -78,7 +78,7 @@ class Row:
     kind: RowKind
     runs: tuple[CellRun, ...]
 
-    def cells(self, first: int, last: int) -> list[Cell]:
+    def list_cells(self, first: int, last: int) -> list[Cell]:
         """Return the cells of these ticks, both included; fewer where the row ends before."""
         return [
             run.cell
@@ -86,14 +86,14 @@ class Row:
             for _ in range(max(run.start, first), min(run.end, last + 1))
         ]
 
-    def cells_at(self, ticks: Sequence[int], step: int) -> list[Cell]:
+    def list_cells_at(self, ticks: Sequence[int], step: int) -> list[Cell]:
         """Return the cells of ticks some steps apart; fewer where the row ends before.
 
         A cell has the place at its tick, and the first of all marks within a step. A robot that is
         done between two ticks is in its last place at the second one.
         """
         if not self.runs or (step == 1 and ticks[-1] - ticks[0] == len(ticks) - 1):
-            return self.cells(ticks[0], ticks[-1])
+            return self.list_cells(ticks[0], ticks[-1])
         cells, begins = list[Cell](), [run.start for run in self.runs]
         done = self.runs[-1].end - 1
         for tick in ticks:
@@ -144,7 +144,7 @@ class TimeSpaceTable:
         ticks = range(self.first_tick, self.last_tick + 1, self.step)
         return ticks if ticks[-1] == self.last_tick else (*ticks, self.last_tick)
 
-    def with_fewer(self, columns: int, longest: Fraction | None = None) -> TimeSpaceTable:
+    def limit_columns(self, columns: int, longest: Fraction | None = None) -> TimeSpaceTable:
         """Return the table with at most that number of columns, each a round step long.
 
         Parameters
@@ -167,7 +167,7 @@ class TimeSpaceTable:
             table = replace(self, step=max(int(length / tick), 1))
         return table
 
-    def with_changes_only(self) -> TimeSpaceTable:
+    def keep_changes(self) -> TimeSpaceTable:
         """Return the table without the columns in which each robot has the cell of the one before.
 
         Between two columns of the result no robot moves, and no mark begins or ends.
@@ -180,7 +180,7 @@ class TimeSpaceTable:
         """What stands before the times of the columns: ``time [s]``."""
         return "tick" if self.quantities.in_ticks else self.quantities.heading("time")
 
-    def time(self, tick: int) -> str:
+    def describe_time(self, tick: int) -> str:
         """Return the time of a column, with as many decimals as tell two columns apart."""
         step = min((after - at for at, after in pairwise(self.changes)), default=self.step)
         length, digits = step * self.quantities.tick, DIGITS
@@ -207,7 +207,7 @@ class TimeSpaceTable:
             raise InputError.at("table", message)
 
 
-def table_of(
+def make_table(
     plan: Plan,
     *,
     first_tick: int = 0,
@@ -237,14 +237,14 @@ def table_of(
     InputError
         For ticks in the wrong order or after the end, or a robot that is not in the plan.
     """
-    shown = chosen_robots(plan.scenario, robots)
+    shown = choose_robots(plan.scenario, robots)
     fleets: Fleets = (("planned", free_running(plan)), ("final", plan.tracks))
     order = [(robot, fleet) for robot in shown for fleet in fleets]
     table = _table(plan.scenario, order, (first_tick, last_tick), quantities)
     return replace(table, step=step)
 
 
-def table_of_groups(
+def make_table_of_groups(
     plan: Plan,
     robots: Sequence[int],
     groups: Sequence[Sequence[Track] | None],
@@ -265,7 +265,7 @@ def table_of_groups(
     groups
         The tracks of the fleet in both groups; None for a group that found no way.
     first_tick, last_tick, quantities, step
-        As for `table_of`.
+        As for `make_table`.
 
     Raises
     ------
@@ -288,9 +288,9 @@ def end_of(plan: Plan, robots: Sequence[str] | None = None) -> Tick:
     Parameters
     ----------
     plan, robots
-        As for `table_of`.
+        As for `make_table`.
     """
-    shown = chosen_robots(plan.scenario, robots)
+    shown = choose_robots(plan.scenario, robots)
     fleets = (free_running(plan), plan.tracks)
     ends = [completions_of(plan.scenario, tracks) for tracks in fleets]
     return max(end[robot] for end in ends for robot in shown)
@@ -322,7 +322,7 @@ def _table(
     )
 
 
-def chosen_robots(scenario: Scenario, names: Sequence[str] | None) -> list[int]:
+def choose_robots(scenario: Scenario, names: Sequence[str] | None) -> list[int]:
     """Return the robots of these names, by index and in the order of the scenario.
 
     Parameters

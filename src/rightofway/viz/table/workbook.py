@@ -47,7 +47,7 @@ UNPRINTABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 """Characters that no workbook may hold."""
 
 
-def workbook_of(table: TimeSpaceTable) -> bytes:
+def make_workbook(table: TimeSpaceTable) -> bytes:
     """Return the workbook of a table that fits into a sheet."""
     workbook = openpyxl.Workbook(write_only=True)
     write_table(workbook.create_sheet("time and space"), table)
@@ -55,7 +55,7 @@ def workbook_of(table: TimeSpaceTable) -> bytes:
     return archive_of(workbook.save)
 
 
-def sheets_of(lists: Sequence[Listing]) -> bytes:
+def make_sheets(lists: Sequence[Listing]) -> bytes:
     """Return a workbook with a sheet for each list, named by its title.
 
     Raises
@@ -77,7 +77,7 @@ def write_list(sheet: Any, listing: Listing) -> None:
             " (choose fewer with --from, --to and --robots, or write .csv)"
         )
         raise InputError.at(listing.title, message)
-    headings = listing.headings()
+    headings = listing.list_headings()
     sheet.freeze_panes = "A2"
     sheet.auto_filter.ref = (
         f"A1:{openpyxl.utils.get_column_letter(len(headings))}{len(listing) + 1}"
@@ -85,9 +85,9 @@ def write_list(sheet: Any, listing: Listing) -> None:
     for number, (heading, column) in enumerate(zip(headings, listing.columns, strict=True), 1):
         texts = {str(value) for value in column.values if isinstance(value, str)}
         widen(sheet, number, number, {heading, *texts})
-    sheet.append([cell_of(sheet, heading, font=BOLD) for heading in headings])
-    for row in listing.rows():
-        sheet.append([None if value is None else cell_of(sheet, value) for value in row])
+    sheet.append([make_cell(sheet, heading, font=BOLD) for heading in headings])
+    for row in listing.list_rows():
+        sheet.append([None if value is None else make_cell(sheet, value) for value in row])
 
 
 def write_table(sheet: Any, table: TimeSpaceTable) -> None:
@@ -96,15 +96,15 @@ def write_table(sheet: Any, table: TimeSpaceTable) -> None:
     places = {str(run.cell.place) for row in table.rows for run in row.runs}
     widen(sheet, 1, 1, {"robot", *(row.robot for row in table.rows)})
     widen(sheet, 2, 2, set(FONTS))
-    widen(sheet, 3, len(table.ticks) + 2, {table.time(table.last_tick), *places})
-    times = (_number(table.time(tick)) for tick in table.ticks)
-    sheet.append([cell_of(sheet, title, font=BOLD) for title in ("robot", "row", *times)])
+    widen(sheet, 3, len(table.ticks) + 2, {table.describe_time(table.last_tick), *places})
+    times = (_number(table.describe_time(tick)) for tick in table.ticks)
+    sheet.append([make_cell(sheet, title, font=BOLD) for title in ("robot", "row", *times)])
     for row in table.rows:
         font = FONTS[row.kind]
-        names = [cell_of(sheet, row.robot, font=BOLD), cell_of(sheet, row.kind, font=font)]
+        names = [make_cell(sheet, row.robot, font=BOLD), make_cell(sheet, row.kind, font=font)]
         cells = (
-            cell_of(sheet, place, font=None if mark else font, mark=mark)
-            for place, mark in row.cells_at(table.ticks, table.step)
+            make_cell(sheet, place, font=None if mark else font, mark=mark)
+            for place, mark in row.list_cells_at(table.ticks, table.step)
         )
         sheet.append([*names, *cells])
 
@@ -115,7 +115,7 @@ def write_legend(sheet: Any, table: TimeSpaceTable) -> None:
     widen(sheet, 2, 2, {meaning for _, meaning, *_ in LEGEND})
     kinds = {"", *(row.kind for row in table.rows)}
     for name, meaning, font, mark in (entry for entry in LEGEND if entry[0] in kinds):
-        sheet.append([cell_of(sheet, name, font=font, mark=mark), meaning])
+        sheet.append([make_cell(sheet, name, font=font, mark=mark), meaning])
     lasts = replace(table.quantities, in_ticks=False).duration(table.step)
     sheet.append([table.heading, f"the first row; a column lasts {lasts}"])
 
@@ -124,7 +124,9 @@ def _number(text: str) -> int | float:
     return float(text) if "." in text else int(text)
 
 
-def cell_of(sheet: Any, value: Place | float, *, font: Any = None, mark: Mark | None = None) -> Any:
+def make_cell(
+    sheet: Any, value: Place | float, *, font: Any = None, mark: Mark | None = None
+) -> Any:
     """Return a cell of a sheet that is written row by row; text is never a formula."""
     text = UNPRINTABLE.sub("\ufffd", value) if isinstance(value, str) else value
     cell = openpyxl.cell.WriteOnlyCell(sheet, text)

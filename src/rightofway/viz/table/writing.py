@@ -10,7 +10,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.files import write_whole
-from rightofway.viz.table.terminal import MAX_LINES, text_width
+from rightofway.viz.table.terminal import MAX_LINES, measure_text
 from rightofway.viz.table.timespace import MAX_CELLS, Cell, Mark, TimeSpaceTable
 
 MAX_TICKS_OF_SHEET = 16_384 - 2
@@ -63,7 +63,7 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
     if max_lines is None:
         table.refuse_more_than(MAX_CELLS)
     labels = [f"{row.robot} {row.kind}" for row in table.rows]
-    names = max(map(text_width, (table.heading, *labels)))
+    names = max(map(measure_text, (table.heading, *labels)))
     room = width - names - len(GAP) + 1
     size = _column(table)
     if max_lines is not None and table.step == 1:
@@ -90,31 +90,33 @@ def _shorter(table: TimeSpaceTable, columns: int) -> TimeSpaceTable:
     if len(table.ticks) <= columns:
         return table
     has_short_ticks = table.quantities.tick < 1 and not table.quantities.in_ticks
-    longer = table.with_fewer(columns, LONGEST_STEP) if has_short_ticks else table
-    return min(longer, table.with_changes_only(), key=lambda candidate: len(candidate.ticks))
+    longer = table.limit_columns(columns, LONGEST_STEP) if has_short_ticks else table
+    return min(longer, table.keep_changes(), key=lambda candidate: len(candidate.ticks))
 
 
 def _column(table: TimeSpaceTable) -> int:
     """Return how wide places and times are."""
     places = {str(run.cell.place) for row in table.rows for run in row.runs}
-    times = {table.time(tick) for tick in table.ticks[-2:]}
-    return max(map(text_width, (*places, *times)))
+    times = {table.describe_time(tick) for tick in table.ticks[-2:]}
+    return max(map(measure_text, (*places, *times)))
 
 
 def _block(
     table: TimeSpaceTable, labels: list[str], ticks: Sequence[int], names: int, size: int
 ) -> Iterator[str]:
-    yield _line(table.heading, [Cell(table.time(tick), None) for tick in ticks], names, size)
+    yield _line(
+        table.heading, [Cell(table.describe_time(tick), None) for tick in ticks], names, size
+    )
     for label, row in zip(labels, table.rows, strict=True):
-        cells = row.cells_at(ticks, table.step)
+        cells = row.list_cells_at(ticks, table.step)
         if cells:
             yield _line(label, cells, names, size)
 
 
 def _line(label: str, cells: list[Cell], names: int, size: int) -> str:
     texts = ((str(cell.place), SIGNS[cell.mark]) for cell in cells)
-    columns = " ".join(" " * (size - text_width(place)) + place + sign for place, sign in texts)
-    return f"{label}{' ' * (names - text_width(label))}{GAP}{columns}".rstrip()
+    columns = " ".join(" " * (size - measure_text(place)) + place + sign for place, sign in texts)
+    return f"{label}{' ' * (names - measure_text(label))}{GAP}{columns}".rstrip()
 
 
 def _legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
@@ -132,7 +134,7 @@ def _legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
         notes.append(f"{number}: the cell N{number} of reports")
     lines: list[str] = []
     for note in notes:
-        if lines and text_width(lines[-1]) + len("   ") + text_width(note) <= width:
+        if lines and measure_text(lines[-1]) + len("   ") + measure_text(note) <= width:
             lines[-1] += f"   {note}"
         else:
             lines.append(note)
@@ -144,7 +146,10 @@ def _hints(table: TimeSpaceTable, ticks: int, *, rows_are_cut: bool) -> Iterator
     """Yield what a cut text leaves out, and how to see it."""
     missing = ["rows"] if rows_are_cut else []
     if ticks < len(table.ticks):
-        shown, last = table.time(table.ticks[ticks - 1]), table.time(table.last_tick)
+        shown, last = (
+            table.describe_time(table.ticks[ticks - 1]),
+            table.describe_time(table.last_tick),
+        )
         missing.append(f"columns after {shown}, up to {last}")
     if missing:
         yield (
@@ -177,9 +182,9 @@ def as_csv(table: TimeSpaceTable) -> str:
     table.refuse_more_than(MAX_CELLS)
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["robot", "row", *map(table.time, table.ticks)])
+    writer.writerow(["robot", "row", *map(table.describe_time, table.ticks)])
     for row in table.rows:
-        cells = row.cells_at(table.ticks, table.step)
+        cells = row.list_cells_at(table.ticks, table.step)
         writer.writerow([row.robot, row.kind, *(cell.place for cell in cells)])
         if any(cell.mark for cell in cells):
             writer.writerow([row.robot, f"{row.kind} marks", *(cell.mark or "" for cell in cells)])
@@ -219,6 +224,6 @@ def write_xlsx(table: TimeSpaceTable, path: str | os.PathLike[str]) -> None:
         As for `write_csv`, or if the table is too large for a sheet.
     """
     table.refuse_more_than(MAX_TICKS_OF_SHEET)
-    from rightofway.viz.table.workbook import workbook_of
+    from rightofway.viz.table.workbook import make_workbook
 
-    write_whole(path, workbook_of(table))
+    write_whole(path, make_workbook(table))

@@ -37,7 +37,7 @@ import { Words } from "./words.js";
  * Play a plan in an element, which the player fills; any number of them in a page.
  *
  * @param {HTMLElement} element `document.body` where the player is the page
- * @param {Payload} payload what `payload_of` returns
+ * @param {Payload} payload what `make_payload` returns
  * @param {typeof import("./watching.js").WATCHING | null} [watching] for a fleet that is driven
  * @returns {PlayerHandle}
  */
