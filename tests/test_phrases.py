@@ -14,7 +14,7 @@ import pytest
 
 from rightofway.errors import listed
 from rightofway.languages import read_tables
-from rightofway.phrases import Phrase, counted, joined, parts_of
+from rightofway.phrases import Phrase, join_items, say_count, to_parts
 
 SOURCES = Path(__file__).parents[1] / "src" / "rightofway"
 VALUE = re.compile(r"\{(\w+)\}")
@@ -34,7 +34,7 @@ def _templates() -> Iterator[str]:
             texts = [str(each.value) for each in node.args if isinstance(each, ast.Constant)]
             if node.func.id in {"Phrase", "chain_items"}:
                 yield from texts
-            elif node.func.id == "counted" and len(texts) > 1:
+            elif node.func.id == "say_count" and len(texts) > 1:
                 yield from (f"{{number}} {text}" for text in texts)
 
 
@@ -55,10 +55,10 @@ def test_a_translation_has_the_values_of_its_template(language: str) -> None:
 
 
 def test_a_phrase_is_its_text_and_keeps_template_and_values() -> None:
-    phrase = Phrase("{place} holds {robots}", place="{N1}", robots=counted(2, "robot", "robots"))
+    phrase = Phrase("{place} holds {robots}", place="{N1}", robots=say_count(2, "robot", "robots"))
     assert phrase == "{N1} holds 2 robots"
     assert json.loads(json.dumps(phrase)) == "{N1} holds 2 robots"
-    assert parts_of(phrase) == [
+    assert to_parts(phrase) == [
         "{place} holds {robots}",
         {"place": "{N1}", "robots": ["{number} robots", {"number": "2"}]},
     ]
@@ -66,7 +66,7 @@ def test_a_phrase_is_its_text_and_keeps_template_and_values() -> None:
 
 def test_a_copy_of_a_phrase_keeps_its_values() -> None:
     phrase = Phrase("station {name}", name="Dock")
-    assert parts_of(copy.deepcopy(phrase)) == parts_of(phrase)
+    assert to_parts(copy.deepcopy(phrase)) == to_parts(phrase)
 
 
 @pytest.mark.parametrize(
@@ -74,11 +74,11 @@ def test_a_copy_of_a_phrase_keeps_its_values() -> None:
     [(["A"], "A"), (["A", "B"], "A and B"), (["A", "B", "C"], "A, B and C")],
 )
 def test_items_are_joined_as_in_a_sentence(items: list[str], text: str) -> None:
-    assert joined(items) == listed(items) == text
+    assert join_items(items) == listed(items) == text
 
 
 def test_plain_text_has_no_parts() -> None:
-    assert parts_of("D1") == "D1"
+    assert to_parts("D1") == "D1"
 
 
 WORDS = re.compile(r"[A-Za-z]{2,} [A-Za-z]{2,}")
@@ -122,7 +122,7 @@ def is_exempt(node: ast.AST) -> bool:
         case ast.Assign(targets=[ast.Name(id=name)]):
             return name in REFUSED
         case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name)):
-            return name in NOT_SAID or name in {"Phrase", "counted", "chain_items"}
+            return name in NOT_SAID or name in {"Phrase", "say_count", "chain_items"}
         case _:
             return False
 

@@ -21,7 +21,7 @@ from fractions import Fraction
 from itertools import takewhile
 from typing import TYPE_CHECKING
 
-from rightofway.phrases import Phrase, joined
+from rightofway.phrases import Phrase, join_items
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
@@ -456,8 +456,10 @@ def listed(names: Sequence[str]) -> str:
     """Return names as a sentence has them: ``R1, R2 and R3``, long lists cut."""
     most = 2 * FEW
     if len(names) <= most:
-        return joined(names) if names else ""
-    return joined([*names[: most - 1], Phrase("{number} more", number=str(len(names) - most + 1))])
+        return join_items(names) if names else ""
+    return join_items(
+        [*names[: most - 1], Phrase("{number} more", number=str(len(names) - most + 1))]
+    )
 
 
 def printable(text: str) -> str:

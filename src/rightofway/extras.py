@@ -12,7 +12,7 @@ from typing import Any
 from rightofway.arguments import checks_arguments, value_of
 from rightofway.errors import InputError
 
-__all__ = ["EXTRAS", "need", "needed"]
+__all__ = ["EXTRAS", "load_library", "need"]
 
 EXTRAS = {
     "distributed": "dask",
@@ -40,7 +40,7 @@ def need(library: str, purpose: str) -> None:
         raise InputError.at("", f"{purpose} needs {library} ({remedy})")
 
 
-def needed(module: str, purpose: str) -> Any:
+def load_library(module: str, purpose: str) -> Any:
     """Return a module of an optional library, or refuse as `need`."""
     need(module.partition(".")[0], purpose)
     return import_module(module)

@@ -14,43 +14,43 @@ if TYPE_CHECKING:
 class PackageFigures:
     """`rightofway.model.figures.Figures` by the rooms of this package."""
 
-    def alone_completions(self, scenario: Scenario) -> tuple[Tick, ...]:
+    def compute_alone_completions(self, scenario: Scenario) -> tuple[Tick, ...]:
         """Return the least completion of each robot without the others [ticks]."""
         from rightofway.metrics import compute_alone_completions
 
         return compute_alone_completions(scenario)
 
-    def waits(self, plan: Plan) -> tuple[Wait, ...]:
+    def list_waits(self, plan: Plan) -> tuple[Wait, ...]:
         """Return all waits of a plan."""
         from rightofway.metrics import waits
 
         return waits(plan)
 
-    def lost_time(self, plan: Plan) -> tuple[LostTime, ...]:
+    def compute_lost_time(self, plan: Plan) -> tuple[LostTime, ...]:
         """Return what each robot of a plan loses to others."""
         from rightofway.metrics import compute_lost_time
 
         return compute_lost_time(plan)
 
-    def event_columns(self, plan: Plan) -> dict[str, list[Any]]:
+    def make_event_columns(self, plan: Plan) -> dict[str, list[Any]]:
         """Return the columns of the table of all visits of a plan."""
         from rightofway.metrics import make_event_columns
 
         return make_event_columns(plan)
 
-    def plan_html(self, plan: Plan) -> str:
+    def draw_plan_html(self, plan: Plan) -> str:
         """Return the page of a plan in a frame."""
         from rightofway.viz import make_frame
 
         return make_frame(plan)
 
-    def plan_bundle(self, plan: Plan) -> dict[str, Any]:
+    def bundle_plan(self, plan: Plan) -> dict[str, Any]:
         """Return the page of a plan as a live part of a notebook."""
         from rightofway.viz import bundle_of
 
         return bundle_of(plan)
 
-    def scenario_html(self, scenario: Scenario) -> str:
+    def draw_scenario_html(self, scenario: Scenario) -> str:
         """Return the map and the robots of a scenario."""
         from rightofway.viz import make_scenario_html
 

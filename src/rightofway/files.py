@@ -11,7 +11,7 @@ from pathlib import Path
 
 from rightofway.errors import InputError, shown
 
-__all__ = ["archive_of", "path_of", "write_whole"]
+__all__ = ["as_path", "make_archive", "write_whole"]
 
 NO_DATE = (1980, 1, 1, 0, 0, 0)
 """The first date that a zip archive can hold."""
@@ -20,7 +20,7 @@ SAVED = re.compile(rb"(<dcterms:(?:created|modified)[^>]*>)[^<]*")
 """When a workbook was written, by its own account."""
 
 
-def archive_of(save: Callable[[BytesIO], object]) -> bytes:
+def make_archive(save: Callable[[BytesIO], object]) -> bytes:
     """Return a workbook, which is a zip archive, without the dates at which it was written.
 
     Parameters
@@ -39,7 +39,7 @@ def archive_of(save: Callable[[BytesIO], object]) -> bytes:
     return undated.getvalue()
 
 
-def path_of(given: str | os.PathLike[str], place: str = "path") -> Path:
+def as_path(given: str | os.PathLike[str], place: str = "path") -> Path:
     """Return what a caller gave as the path of a file.
 
     Parameters
@@ -75,7 +75,7 @@ def write_whole(path: str | os.PathLike[str], content: bytes | str) -> None:
     InputError
         If it cannot be written; a file that was there before is untouched.
     """
-    target = path_of(path)
+    target = as_path(path)
     try:
         data = content.encode() if isinstance(content, str) else content
         if target.exists() and not target.is_file():

@@ -14,7 +14,15 @@ from typing import Any, Self
 MAX_TEXT = 100_000
 """Characters of a text that is read as template and values: values may be phrases of phrases."""
 
-__all__ = ["Phrase", "PhraseBook", "chain_items", "counted", "joined", "parts_of", "phrase_of"]
+__all__ = [
+    "Phrase",
+    "PhraseBook",
+    "chain_items",
+    "join_items",
+    "join_parts",
+    "say_count",
+    "to_parts",
+]
 
 
 class Phrase(str):
@@ -32,7 +40,7 @@ class Phrase(str):
     >>> phrase = Phrase("{place} cannot be reached", place=Phrase("station {name}", name="Dock"))
     >>> phrase
     'station Dock cannot be reached'
-    >>> parts_of(phrase)
+    >>> to_parts(phrase)
     ['{place} cannot be reached', {'place': ['station {name}', {'name': 'Dock'}]}]
     """
 
@@ -45,7 +53,7 @@ class Phrase(str):
         """Return the text, with its values in their places."""
         phrase = super().__new__(cls, template.format(**values))
         phrase.template = template
-        phrase.values = {name: values[name] for name in names_in(template)}
+        phrase.values = {name: values[name] for name in list_names(template)}
         return phrase
 
     def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, str]]:
@@ -54,13 +62,13 @@ class Phrase(str):
 
 
 @cache
-def names_in(template: str) -> tuple[str, ...]:
+def list_names(template: str) -> tuple[str, ...]:
     """Return the names of the values of a template, each once, in their order."""
     names = (name for _, name, _, _ in Formatter().parse(template) if name is not None)
     return tuple(dict.fromkeys(names))
 
 
-def parts_of(data: Any) -> Any:
+def to_parts(data: Any) -> Any:
     """Return plain data for JSON with each phrase as its template and its values.
 
     Parameters
@@ -69,14 +77,14 @@ def parts_of(data: Any) -> Any:
         Text for people, or lists and mappings with such text; all else stays as it is.
     """
     if isinstance(data, Phrase):
-        return [data.template, parts_of(data.values)]
+        return [data.template, to_parts(data.values)]
     if isinstance(data, dict):
-        return {key: parts_of(value) for key, value in data.items()}
-    return [parts_of(value) for value in data] if isinstance(data, list) else data
+        return {key: to_parts(value) for key, value in data.items()}
+    return [to_parts(value) for value in data] if isinstance(data, list) else data
 
 
-def phrase_of(data: Any) -> str:
-    """Return the text that `parts_of` turned into plain data.
+def join_parts(data: Any) -> str:
+    """Return the text that `to_parts` turned into plain data.
 
     Parameters
     ----------
@@ -92,7 +100,7 @@ def phrase_of(data: Any) -> str:
         return data
     match data:
         case [str(template), dict(values)]:
-            texts = {str(name): phrase_of(value) for name, value in values.items()}
+            texts = {str(name): join_parts(value) for name, value in values.items()}
         case _:
             remedy = "give text, or a template and a mapping of its values"
             raise ValueError(f"{data!r:.60} is no text ({remedy})")
@@ -152,7 +160,7 @@ class PhraseBook:
         return self._index[entry]
 
 
-def counted(number: int | str, singular: str, plural: str) -> Phrase:
+def say_count(number: int | str, singular: str, plural: str) -> Phrase:
     """Return how many things there are: ``1 vertex``, ``2 vertices``.
 
     Parameters
@@ -182,7 +190,7 @@ def chain_items(items: Sequence[str], template: str = "{first}, {second}") -> st
     return first
 
 
-def joined(items: Sequence[str]) -> str:
+def join_items(items: Sequence[str]) -> str:
     """Return items as a sentence has them: ``R1, R2 and R3``.
 
     Parameters

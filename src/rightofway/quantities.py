@@ -13,7 +13,7 @@ from typing import Literal, get_args
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault, shown
-from rightofway.phrases import Phrase, counted
+from rightofway.phrases import Phrase, say_count
 
 __all__ = ["Quantities", "Units", "decimal"]
 
@@ -83,7 +83,7 @@ class Units:
         return (
             f"{number} {self.length}"
             if self.length
-            else counted(number, "length unit", "length units")
+            else say_count(number, "length unit", "length units")
         )
 
 
@@ -168,11 +168,11 @@ class Quantities:
     def duration(self, ticks: Value) -> str:
         """Return how long a number of ticks lasts: ``6 min 23 s``, ``2 time units``."""
         if self.in_ticks:
-            return counted(decimal(ticks), "tick", "ticks")
+            return say_count(decimal(ticks), "tick", "ticks")
         time = self._time(ticks)
         seconds = self.units.seconds
         if seconds is None:
-            return counted(decimal(time), "time unit", "time units")
+            return say_count(decimal(time), "time unit", "time units")
         return self._clock(time * seconds)
 
     @checks_arguments

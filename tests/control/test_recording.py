@@ -16,7 +16,7 @@ from rightofway.control.notices import make_notice
 from rightofway.control.recording import Recording
 from rightofway.errors import InputError
 from rightofway.model import Plan
-from rightofway.phrases import Phrase, parts_of, phrase_of
+from rightofway.phrases import Phrase, join_parts, to_parts
 from tests.builders.pages import ROOT
 from tests.builders.plans import door
 from tests.builders.warehouses import warehouse
@@ -56,7 +56,7 @@ def test_a_recording_says_where_robots_are_what_they_hold_and_whom_they_wait_for
         (0, "arrived", 0), (0, "released", 0), (1, "arrived", 0), (1, "released", 4),
     ]  # fmt: skip
     (wait,) = [row for row in frame["rows"] if row[2] == "says" and row[3] == "wait"]
-    assert phrase_of(list(wait[4])) == "R1 waits at N0 until R2 is at N4"
+    assert join_parts(list(wait[4])) == "R1 waits at N0 until R2 is at N4"
     assert wait[5] == [1]
     source.until = 2.0
     recording.look()
@@ -115,7 +115,7 @@ def test_alarms_begin_and_end(tmp_path: Path) -> None:
     drive_demo(door(), journal=path)
     moments = iter((20.0, 21.0))
     journal = SqliteJournal(path, lambda: next(moments))
-    lost = parts_of(Phrase("is not connected"))
+    lost = to_parts(Phrase("is not connected"))
     journal.commit([make_notice(lost, 0, "lost")])
     journal.commit([make_notice("", 0, "lost", is_over=True)])
     journal.close()

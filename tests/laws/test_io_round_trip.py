@@ -41,7 +41,7 @@ from rightofway.model import (
 )
 from rightofway.model.attributes import Attribute
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
-from rightofway.phrases import Phrase, parts_of
+from rightofway.phrases import Phrase, to_parts
 from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from rightofway.values import exact, written
 from tests.builders.any_fleet import any_fleet
@@ -308,6 +308,6 @@ def test_plans(plan: Plan) -> None:
         write_plan(plan, one, seconds=True)
         loaded = load_plan(one)
         assert loaded == plan
-        assert parts_of(loaded.run.status) == parts_of(plan.run.status)
+        assert to_parts(loaded.run.status) == to_parts(plan.run.status)
         write_plan(loaded, other, seconds=True)
         assert one.read_bytes() == other.read_bytes()

@@ -17,7 +17,7 @@ from rightofway.io.plan.writer import dump_plan
 from rightofway.metrics import derive_outcome
 from rightofway.model import Objective, Proof, Scenario, Tick
 from rightofway.model.outcome import classify_cost
-from rightofway.phrases import parts_of
+from rightofway.phrases import to_parts
 from rightofway.report.plan import planning
 from rightofway.report.sentences import describe_proof
 from rightofway.viz.page.payload import make_payload
@@ -98,7 +98,7 @@ def test_a_factor_holds_only_where_the_bound_proves_it(factor: str, kind: Outcom
     is_said = "at most 5/4 times the least flowtime" in planning(plan, plan.scenario.quantities)
     assert is_said == (kind is OutcomeKind.BOUNDED)
     page = make_payload(plan)["planner"].get("proven", "")
-    assert page == parts_of(describe_proof(plan))
+    assert page == to_parts(describe_proof(plan))
 
 
 def test_a_bound_above_the_own_plan_is_a_fault_of_the_planner() -> None:

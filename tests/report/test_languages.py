@@ -6,7 +6,7 @@ import pytest
 
 from rightofway import load, solve
 from rightofway.languages import ENGLISH, find_languages, translate
-from rightofway.phrases import Phrase, counted
+from rightofway.phrases import Phrase, say_count
 from rightofway.report.lines import COLUMNS, Facts, Table, lay_out
 from rightofway.report.plan import report_decisions, summary
 from tests.cli.conftest import EXAMPLES
@@ -31,7 +31,7 @@ def test_no_line_of_a_report_is_longer_than_80_columns(language: str) -> None:
 
 
 def test_columns_are_as_wide_as_the_words_of_the_language() -> None:
-    facts = Facts([(Phrase("flowtime"), counted(2, "tick", "ticks")), (Phrase("makespan"), "1")])
+    facts = Facts([(Phrase("flowtime"), say_count(2, "tick", "ticks")), (Phrase("makespan"), "1")])
     assert lay_out([facts]) == "flowtime  2 ticks\nmakespan  1"
     assert lay_out([facts], "de") == "Zeitsumme    2 Zeitschritte\nGesamtdauer  1"
     table = Table((Phrase("robot"), Phrase("alone")), [("R1", "10"), ("R2", Phrase("never"))])

@@ -11,7 +11,7 @@ import pytest
 from rightofway.cyclic import excerpt, run_laps
 from rightofway.errors import InputError
 from rightofway.model import SteadyState, Tick
-from rightofway.phrases import names_in
+from rightofway.phrases import list_names
 from rightofway.viz import make_page, make_payload
 from tests.builders.fleets import grid_fleet
 from tests.builders.payloads import template_in
@@ -52,7 +52,7 @@ def said(entries: list[Any], index: int) -> str:
         case str(text):
             return text
         case [template, *values]:
-            names = names_in(entries[template])
+            names = list_names(entries[template])
             texts = (said(entries, value) for value in values)
             return str(entries[template]).format(**dict(zip(names, texts, strict=True)))
     raise AssertionError(entries[index])

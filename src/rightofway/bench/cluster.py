@@ -13,7 +13,7 @@ from rightofway.bench.process import make_lost_row, run_on_worker
 from rightofway.bench.results import Row
 from rightofway.bench.suite import Case
 from rightofway.errors import InputError
-from rightofway.extras import needed
+from rightofway.extras import load_library
 
 PATIENCE = 30
 """How long a scheduler has to answer [s]."""
@@ -50,7 +50,7 @@ def run_on_cluster(
     If a worker dies, the scheduler gives its cases, and results it held, to another worker; a case
     whose workers die four times is a row that says so.
     """
-    distributed = needed("distributed", "a cluster")
+    distributed = load_library("distributed", "a cluster")
     try:
         client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:

@@ -21,7 +21,7 @@ from rightofway.bench.summary import (
     name_planners,
 )
 from rightofway.errors import InputError
-from rightofway.extras import needed
+from rightofway.extras import load_library
 from rightofway.files import write_whole
 
 Table = list[Sequence[str]]
@@ -187,8 +187,8 @@ def _machines(rows: Iterable[Row]) -> Iterator[str]:
 def _picture(rows: Sequence[Row], draw: Callable[[Sequence[Row], Any], None], form: str) -> bytes:
     """Return a picture as svg or png."""
     content = io.BytesIO()
-    with needed("matplotlib", "a report").rc_context(STYLE):
-        figure = needed("matplotlib.figure", "a report").Figure(layout="constrained")
+    with load_library("matplotlib", "a report").rc_context(STYLE):
+        figure = load_library("matplotlib.figure", "a report").Figure(layout="constrained")
         draw(rows, figure)
         metadata = {"Date": None} if form == "svg" else {}
         figure.savefig(content, format=form, dpi=150, metadata=metadata)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Literal, Self
 
 from rightofway.errors import InputError, Location, Where
-from rightofway.extras import need, needed
+from rightofway.extras import load_library, need
 from rightofway.files import write_whole
 
 try:
@@ -200,8 +200,8 @@ def _value(cell: str, kind: Kind) -> Any:
 
 
 def _read_parquet(path: Path) -> list[Row]:
-    parquet = needed("pyarrow.parquet", "a Parquet file")
-    arrow = needed("pyarrow", "a Parquet file")
+    parquet = load_library("pyarrow.parquet", "a Parquet file")
+    arrow = load_library("pyarrow", "a Parquet file")
     try:
         table = parquet.read_table(path)
     except (OSError, arrow.ArrowInvalid) as error:
@@ -214,8 +214,8 @@ def _read_parquet(path: Path) -> list[Row]:
 
 
 def _write_parquet(path: Path, rows: list[Row]) -> None:
-    arrow = needed("pyarrow", "a Parquet file")
-    parquet = needed("pyarrow.parquet", "a Parquet file")
+    arrow = load_library("pyarrow", "a Parquet file")
+    parquet = load_library("pyarrow.parquet", "a Parquet file")
     kinds = {
         "text": arrow.string(), "int": arrow.int64(), "float": arrow.float64(),
         "bool": arrow.bool_(),

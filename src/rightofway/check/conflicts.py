@@ -21,7 +21,7 @@ from rightofway.check.faults import (
 from rightofway.check.visits import Visits
 from rightofway.model import Plan, Tick
 from rightofway.model.sorting import order_by
-from rightofway.phrases import Phrase, joined
+from rightofway.phrases import Phrase, join_items
 from rightofway.site import VertexId
 
 Indices = NDArray[np.int64]
@@ -151,8 +151,8 @@ def judge_swaps(visits: Visits, names: Names, collector: FaultCollector) -> None
         moves = int(first[position]), int(second[position])
         robots = tuple(int(visits.robot[move]) for move in moves)
         vertices = tuple(VertexId(int(visits.vertex[move])) for move in moves)
-        robot_names = joined([names.name_robot(robot) for robot in robots])
-        where = joined([names.name_vertex(vertex) for vertex in vertices])
+        robot_names = join_items([names.name_robot(robot) for robot in robots])
+        where = join_items([names.name_vertex(vertex) for vertex in vertices])
         return Fault(
             kind="swap conflict",
             robots=robots,
@@ -227,8 +227,8 @@ def judge_rotations(visits: Visits, names: Names, collector: FaultCollector) -> 
     for tick, head_of in heads.items():
         for circle in _circles(head_of):
             moving = [robots[tick, vertex] for vertex in circle]
-            robot_names = joined([names.name_robot(robot) for robot in moving])
-            where = joined([names.name_vertex(vertex) for vertex in circle])
+            robot_names = join_items([names.name_robot(robot) for robot in moving])
+            where = join_items([names.name_vertex(vertex) for vertex in circle])
             fault = Fault(
                 kind="rotation",
                 robots=tuple(sorted(moving)),

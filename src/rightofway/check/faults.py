@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, counted
+from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.quantities import Quantities
 from rightofway.site import VertexId
 
@@ -179,7 +179,7 @@ class Report:
         ]
         return Phrase(
             "{faults}: {kinds}",
-            faults=counted(self.total, "fault", "faults"),
+            faults=say_count(self.total, "fault", "faults"),
             kinds=chain_items(kinds),
         )
 

@@ -21,7 +21,7 @@ from rightofway.check.faults import ONE_AFTER_THE_OTHER, Fault, FaultCollector, 
 from rightofway.check.visits import Visits
 from rightofway.model import Plan, Tick
 from rightofway.model.sorting import order_by
-from rightofway.phrases import Phrase, joined
+from rightofway.phrases import Phrase, join_items
 from rightofway.quantities import decimal
 from rightofway.site import Roadmap, VertexId
 
@@ -320,7 +320,7 @@ def _judge_bookings(
                 tick=Tick(int(start[k])),
                 reason=Phrase(
                     "{bookings}, which are too near to be booked at one time",
-                    bookings=joined(booked),
+                    bookings=join_items(booked),
                 ),
                 remedy=ONE_AFTER_THE_OTHER,
             )

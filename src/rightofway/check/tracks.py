@@ -14,7 +14,7 @@ from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, Ver
 from rightofway.check.turning import MICRO
 from rightofway.check.visits import Visits
 from rightofway.model import Itinerary, Plan, Stage, Tick
-from rightofway.phrases import Phrase, joined
+from rightofway.phrases import Phrase, join_items
 from rightofway.quantities import decimal
 from rightofway.site import VertexId
 
@@ -252,7 +252,7 @@ class _Trip:
             robot=self._name,
             time=duration(spare),
             vertex=self.names.name_vertex(stage.vertex),
-            need=joined(needs),
+            need=join_items(needs),
         )
         longer = duration(stage.work + stage.turn - spare)
         verdict = (reason, Phrase("stay {time} longer", time=longer))

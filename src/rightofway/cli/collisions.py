@@ -14,7 +14,7 @@ from rightofway.cli.options import as_json_option, quantities_of, ticks_option, 
 from rightofway.cli.tables import clock_data, put_lists
 from rightofway.cli.terminal import language, progress, put_json
 from rightofway.languages import translate
-from rightofway.phrases import Phrase, counted
+from rightofway.phrases import Phrase, say_count
 
 if TYPE_CHECKING:
     from rightofway.metrics import NamedCollision
@@ -111,7 +111,7 @@ def collisions(
 def _headline(listed: Sequence[NamedCollision], ticks: int, *, is_planned: bool) -> str:
     number = _counted(listed)
     if ticks and listed:
-        counted_ticks = counted(ticks, "tick", "ticks")
+        counted_ticks = say_count(ticks, "tick", "ticks")
         number = Phrase("{collisions}, in {ticks}", collisions=number, ticks=counted_ticks)
     if is_planned:
         return Phrase("On the routes of the plan, without waits: {collisions}.", collisions=number)
@@ -124,10 +124,10 @@ def _texts(lists: Sequence[Listing]) -> list[str]:
 
 def _counted(listed: Sequence[NamedCollision]) -> str:
     kinds = Counter(collision.kind for collision in listed)
-    collisions = counted(kinds["collision"], "collision", "collisions")
-    swaps = counted(kinds["swap"], "swap", "swaps")
+    collisions = say_count(kinds["collision"], "collision", "collisions")
+    swaps = say_count(kinds["swap"], "swap", "swaps")
     text = Phrase("{first} and {last}", first=collisions, last=swaps)
-    near = counted(kinds["too near"], "near miss", "near misses")
+    near = say_count(kinds["too near"], "near miss", "near misses")
     return Phrase("{first}, {second}", first=text, second=near) if kinds["too near"] else text
 
 

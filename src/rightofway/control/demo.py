@@ -37,7 +37,7 @@ from rightofway.errors import InputError
 from rightofway.execution import replay
 from rightofway.model import ExecutionTrace, Plan, Tick, Track
 from rightofway.model.route import drives_along
-from rightofway.phrases import Phrase, parts_of
+from rightofway.phrases import Phrase, to_parts
 
 __all__ = ["DemoResult", "drive_demo"]
 
@@ -416,7 +416,7 @@ class _Demo:
             if text := answer["text"]:
                 said = text if answer["done"] else Phrase("refused: {reason}", reason=text)
                 self._tell(said)
-                self._record.write(make_notice(parts_of(said)))
+                self._record.write(make_notice(to_parts(said)))
         self._exchange(self._end.letters(messages))
         self._end_instant()
         for number, answer in answers:

@@ -31,7 +31,7 @@ from rightofway.control.story import Story
 from rightofway.errors import InputError
 from rightofway.io import plan_text
 from rightofway.model import Plan
-from rightofway.phrases import Phrase, parts_of
+from rightofway.phrases import Phrase, to_parts
 
 if TYPE_CHECKING:
     import aiomqtt
@@ -133,7 +133,7 @@ class Driver:
     def _tell(self, text: str, kind: str = "", *, is_over: bool = False) -> None:
         """Report a sentence, and write it into the journal."""
         self._report(text)
-        self._keep(make_notice(parts_of(text), kind=kind, is_over=is_over))
+        self._keep(make_notice(to_parts(text), kind=kind, is_over=is_over))
 
     async def run(self, broker: Broker, *, stays: bool = False) -> None:
         """Drive over any number of connections, until robots are at their ends or made all laps.

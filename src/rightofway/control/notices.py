@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from rightofway.control.journal import Entry
 from rightofway.control.messages import AUTOMATIC, Condition
 from rightofway.errors import printable
-from rightofway.phrases import Phrase, parts_of
+from rightofway.phrases import Phrase, to_parts
 from rightofway.report.driving import about_robot
 
 __all__ = ["Notices", "make_notice"]
@@ -66,7 +66,7 @@ class Notices:
             plain = sentence if isinstance(sentence, Phrase) else printable(sentence)
             text = about_robot(printable(self._names[robot]), plain)
             self._report(text)
-        self._keep(make_notice(parts_of(text), robot, kind, is_over=is_over))
+        self._keep(make_notice(to_parts(text), robot, kind, is_over=is_over))
 
     def once(self, robot: int, kind: str, sentence: str) -> bool:
         """Report a sentence unless one of its kind was reported lately; return whether it was.
@@ -125,7 +125,7 @@ def make_notice(text: object, robot: int = -1, kind: str = "", *, is_over: bool 
     Parameters
     ----------
     text
-        The sentence, as `parts_of` returns it.
+        The sentence, as `to_parts` returns it.
     robot
         The robot that it is about; -1 for none.
     kind

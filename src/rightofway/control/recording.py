@@ -16,7 +16,7 @@ from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive
 from rightofway.control.story import Story
 from rightofway.errors import InputError, shown
 from rightofway.model import Plan
-from rightofway.phrases import parts_of
+from rightofway.phrases import to_parts
 from rightofway.report.driving import say_start
 from rightofway.viz.page.schema import DrivenFrame, DrivenRow, SaysRow
 
@@ -176,7 +176,7 @@ class Recording:
         if self._story is not None:
             for happening in self._story.go_on(sorted(changed)):
                 robot, kind, text, others = happening
-                says: SaysRow = (tick, robot, "says", kind, parts_of(text), list(others))
+                says: SaysRow = (tick, robot, "says", kind, to_parts(text), list(others))
                 self._rows.append(says)
                 self._shown[robot].wait = says if kind == "wait" else None
 
@@ -192,7 +192,7 @@ class Recording:
             self._pace, self._is_simulated = entry["seconds"], True
             return ()
         if kind == "started":
-            self._rows.append((tick, -1, "says", "news", parts_of(say_start()), []))
+            self._rows.append((tick, -1, "says", "news", to_parts(say_start()), []))
         if kind in EVERYBODY:
             if not self._shown:
                 self._refuse_another_plan()

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from rightofway.control.demo import DemoResult
 from rightofway.languages import ENGLISH
-from rightofway.phrases import Phrase, chain_items, counted
+from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.quantities import Quantities
 from rightofway.report.lines import Facts, Part, Table, lay_out
 
@@ -47,9 +47,9 @@ def _totals(result: DemoResult, quantities: Quantities) -> Iterator[tuple[str, s
         yield Phrase("makespan"), text
     sent = result.messages
     messages = (
-        counted(sent["order"], "order", "orders"),
-        counted(sent.get("instantActions", 0), "instant action", "instant actions"),
-        counted(sent["state"], "state", "states"),
+        say_count(sent["order"], "order", "orders"),
+        say_count(sent.get("instantActions", 0), "instant action", "instant actions"),
+        say_count(sent["state"], "state", "states"),
     )
     yield Phrase("messages"), chain_items(messages)
 
@@ -76,5 +76,5 @@ def _robots(result: DemoResult, quantities: Quantities) -> Iterator[Part]:
     ]
     yield Table((Phrase("robot"), Phrase("jobs"), Phrase("waits"), *headings), rows)
     if len(robots) > MAX_ROBOTS:
-        more = counted(len(robots) - MAX_ROBOTS, "more robot", "more robots")
+        more = say_count(len(robots) - MAX_ROBOTS, "more robot", "more robots")
         yield Phrase("… and {robots}", robots=more)

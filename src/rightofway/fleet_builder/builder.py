@@ -11,7 +11,7 @@ from typing import Any, Literal, Self
 
 from rightofway.assign import HOMELESS, deal_homes
 from rightofway.errors import InputError, Where, in_file, shown, under
-from rightofway.files import path_of
+from rightofway.files import as_path
 from rightofway.fleet_builder.lanes import DrawnLanes, lanes_of_graph
 from rightofway.fleet_builder.values import (
     ends_of,
@@ -148,7 +148,7 @@ class FleetBuilder:
         elif map_file is not None:
             from rightofway.io import load_map
 
-            self._roadmap = make_grid_roadmap(load_map(path_of(map_file, "map_file")), **frame)
+            self._roadmap = make_grid_roadmap(load_map(as_path(map_file, "map_file")), **frame)
         elif graph is not None:
             self._drawn = lanes_of_graph(graph)
             self.roadmap()
@@ -478,7 +478,7 @@ class FleetBuilder:
         if not isinstance(layout, Layout):
             from rightofway.io import read_layout
 
-            source = read_layout(path_of(layout, "layout"))
+            source = read_layout(as_path(layout, "layout"))
             if not isinstance(source, Layout):
                 remedy = "write a scenario with map: {layout: …} and load it"
                 raise InputError.at("layout", f"is a map in pixels or cells ({remedy})")

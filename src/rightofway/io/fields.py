@@ -26,7 +26,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from rightofway.errors import is_printable, shown
 from rightofway.model.attributes import list_attributes
-from rightofway.phrases import phrase_of
+from rightofway.phrases import join_parts
 from rightofway.site import VertexId
 from rightofway.values import COORDINATE_DIGITS, PATTERN, coordinate, exact
 
@@ -195,7 +195,7 @@ def _words(value: str) -> str:
 
 
 def _sentence(value: object) -> str:
-    return _words(phrase_of(value))
+    return _words(join_parts(value))
 
 
 def _place(value: object, info: ValidationInfo) -> Any:

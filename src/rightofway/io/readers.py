@@ -7,7 +7,7 @@ from pathlib import Path
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Steps, Where, in_file, shown
-from rightofway.files import path_of
+from rightofway.files import as_path
 from rightofway.io.foreign import format_of_text, read_foreign
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import refuse_layout
@@ -54,7 +54,7 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
     count
         As for `load`.
     """
-    path = path_of(path)
+    path = as_path(path)
     if path.suffix.lower() == ".scen":
         with in_file(str(path)):
             return _classic(path, count)
@@ -92,7 +92,7 @@ def load_plan(
         With every independent fault, its place, value and remedy. A plan that breaks rules is not
         at fault here: `rightofway.check` judges it.
     """
-    path = path_of(path)
+    path = as_path(path)
     kinds = {".scen": "a .scen file", **dict.fromkeys(WORKBOOKS, "a workbook")}
     kind = kinds.get(path.suffix.lower())
     if kind:
@@ -127,7 +127,7 @@ def load_either(
     InputError
         As `load_plan` and `load` do.
     """
-    path = path_of(path)
+    path = as_path(path)
     if path.suffix.lower() in {".scen", *WORKBOOKS}:
         return load_with_notes(path, count)
     with in_file(str(path)):
@@ -189,7 +189,7 @@ def _foreign(
         text = read_text(path)
         places = {"map_file": map_file, "scen": scen}
         files = [
-            None if given is None else path_of(given, place) for place, given in places.items()
+            None if given is None else as_path(given, place) for place, given in places.items()
         ]
         plan = read_foreign(text, path, *files)
         if plan is None and any(files):

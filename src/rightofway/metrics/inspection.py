@@ -28,7 +28,7 @@ from rightofway.metrics.connectivity import (
 )
 from rightofway.metrics.nearness import find_nearness, round_distance
 from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, list_trip
-from rightofway.phrases import Phrase, counted
+from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import decimal
 from rightofway.site import Roadmap
 
@@ -198,13 +198,13 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
             own = [vertex for vertex in piece if vertex in site.places]
             names = listed([site.name(vertex) for vertex in own or piece])
             if site.roadmap.has_cells and not own and len(piece) > 1:
-                cells = counted(len(piece), "cell", "cells")
+                cells = say_count(len(piece), "cell", "cells")
                 names = Phrase(
                     "{cells} around {place}", cells=cells, place=site.name(piece[len(piece) // 2])
                 )
             others = len(piece) - len(own) if own else 0
             if others:
-                around = counted(others, "vertex", "vertices")
+                around = say_count(others, "vertex", "vertices")
                 names = Phrase("{places} and {vertices} around", places=names, vertices=around)
             yield Finding(
                 kind=kind,
@@ -265,7 +265,7 @@ def _on_the_way(
         rest = inside - beyond - {vertex}
         few = sorted(beyond if len(beyond) <= len(rest) else rest)
         parted = listed([site.name(place) for place in few])
-        others = counted(len(inside) - 1 - len(few), "other place", "other places")
+        others = say_count(len(inside) - 1 - len(few), "other place", "other places")
         yield Finding(
             kind="through way",
             severity="warning" if vertex in site.homes else "note",
@@ -326,7 +326,7 @@ def _corridors(
             users = Phrase(
                 "{some} of {robots} must use it",
                 some=str(len(using)),
-                robots=counted(len(site.robots), "robot", "robots"),
+                robots=say_count(len(site.robots), "robot", "robots"),
             )
         else:
             if not is_only and use(corridor) < AVOIDED * total:
@@ -411,7 +411,7 @@ def _bottlenecks(
             fact = Phrase(
                 "{fact}; {vertices} around it on {least} or more",
                 fact=fact,
-                vertices=counted(more, "vertex", "vertices"),
+                vertices=say_count(more, "vertex", "vertices"),
                 least=_percent(BUSY),
             )
         yield Finding(

@@ -10,7 +10,7 @@ import numpy as np
 
 from rightofway.metrics.site import Finding, Site
 from rightofway.model.resources import ClosePairs, close_pairs
-from rightofway.phrases import Phrase, counted, joined
+from rightofway.phrases import Phrase, join_items, say_count
 from rightofway.site import Roadmap
 from rightofway.site.geometry import measure_squared_distance
 from rightofway.site.walls import reaches_walls
@@ -50,7 +50,7 @@ def _beside_walls(site: Site) -> Iterator[Finding]:
                     "A robot of radius {radius} reaches into walls in {cells}, for example in"
                     " {place}",
                     radius=length(radius),
-                    cells=counted(len(reaches), "cell", "cells"),
+                    cells=say_count(len(reaches), "cell", "cells"),
                     place=site.name(reaches[0]),
                 ),
                 remedy=Phrase(
@@ -67,7 +67,7 @@ def _near(site: Site) -> Iterator[Finding]:
     length = site.units.written_length
     need = None
     if room:
-        sizes = joined([length(radius) for radius in dict.fromkeys(site.radii)])
+        sizes = join_items([length(radius) for radius in dict.fromkeys(site.radii)])
         need = Phrase("robots of radius {sizes} need {room}", sizes=sizes, room=length(room))
         if site.rules.clearance:
             need = Phrase(

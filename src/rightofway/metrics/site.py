@@ -14,7 +14,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import listed
 from rightofway.model import Robot, Rules
 from rightofway.model.place_names import middle
-from rightofway.phrases import Phrase, counted
+from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units, decimal
 from rightofway.site import Roadmap
 
@@ -224,18 +224,18 @@ def describe_site(site: Site, inspection: Inspection) -> tuple[str, ...]:
     inspection
         What was found on it.
     """
-    edges = counted(inspection.edges, "directed edge", "directed edges")
+    edges = say_count(inspection.edges, "directed edge", "directed edges")
     if inspection.one_way:
         number = str(inspection.one_way)
         edges = Phrase("{edges}, {number} of them one-way", edges=edges, number=number)
     across, down = compute_extent(site.roadmap)
     size = Phrase(
         "{vertices}, {edges}, {width} x {height}; {places}.",
-        vertices=counted(inspection.vertices, "vertex", "vertices"),
+        vertices=say_count(inspection.vertices, "vertex", "vertices"),
         edges=edges,
         width=decimal(across),
         height=site.units.written_length(down),
-        places=counted(inspection.places, "place", "places"),
+        places=say_count(inspection.places, "place", "places"),
     )
     sentences = [size]
     if len(inspection.parts) == 1:

@@ -20,25 +20,25 @@ if TYPE_CHECKING:
 class Figures(Protocol):
     """Figures of plans, and how plans and scenarios look in a notebook."""
 
-    def alone_completions(self, scenario: Scenario) -> tuple[Tick, ...]:
+    def compute_alone_completions(self, scenario: Scenario) -> tuple[Tick, ...]:
         """Return the least completion of each robot without the others [ticks]."""
 
-    def waits(self, plan: Plan) -> tuple[Wait, ...]:
+    def list_waits(self, plan: Plan) -> tuple[Wait, ...]:
         """Return all waits of a plan."""
 
-    def lost_time(self, plan: Plan) -> tuple[LostTime, ...]:
+    def compute_lost_time(self, plan: Plan) -> tuple[LostTime, ...]:
         """Return what each robot of a plan loses to others."""
 
-    def event_columns(self, plan: Plan) -> dict[str, list[Any]]:
+    def make_event_columns(self, plan: Plan) -> dict[str, list[Any]]:
         """Return the columns of the table of all visits of a plan."""
 
-    def plan_html(self, plan: Plan) -> str:
+    def draw_plan_html(self, plan: Plan) -> str:
         """Return the page of a plan in a frame."""
 
-    def plan_bundle(self, plan: Plan) -> dict[str, Any]:
+    def bundle_plan(self, plan: Plan) -> dict[str, Any]:
         """Return the page of a plan as a live part of a notebook."""
 
-    def scenario_html(self, scenario: Scenario) -> str:
+    def draw_scenario_html(self, scenario: Scenario) -> str:
         """Return the map and the robots of a scenario."""
 
 

@@ -285,11 +285,11 @@ class Plan:
 
     def _repr_html_(self) -> str:
         """Return the page of the plan in a frame, for notebooks."""
-        return provided().plan_html(self)
+        return provided().draw_plan_html(self)
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, Any]:
         """Return the page of the plan as a live part of a notebook that has anywidget."""
-        return provided().plan_bundle(self)
+        return provided().bundle_plan(self)
 
     @checks_arguments
     def once(self, figure: str, compute: Callable[[], T]) -> T:
@@ -330,13 +330,13 @@ class Plan:
         NoPlanExists
             If no way leads from one place of a robot's trip to the next.
         """
-        alone = self.run.alone or provided().alone_completions(self.scenario)
+        alone = self.run.alone or provided().compute_alone_completions(self.scenario)
         return Tick(sum(alone))
 
     @property
     def waits(self) -> tuple[Wait, ...]:
         """Every wait of every robot, by tick, then by robot."""
-        return provided().waits(self)
+        return provided().list_waits(self)
 
     @property
     def lost_time(self) -> tuple[LostTime, ...]:
@@ -347,7 +347,7 @@ class Plan:
         NoPlanExists
             If no way leads from one place of a robot's trip to the next.
         """
-        return provided().lost_time(self)
+        return provided().compute_lost_time(self)
 
     @checks_arguments
     def __getitem__(self, name: str) -> RobotPlan:
@@ -402,7 +402,7 @@ class Plan:
                 module = import_module(name)
             except ImportError:
                 continue
-            columns = provided().event_columns(self)
+            columns = provided().make_event_columns(self)
             return getattr(module, "table" if name == "pyarrow" else "DataFrame")(columns)
         which = f"none of {', '.join(wanted)} is" if library is None else f"{library} is not"
         raise InputError.at("library", f"{which} installed (run: pip install {wanted[0]})")

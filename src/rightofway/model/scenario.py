@@ -81,7 +81,7 @@ class Scenario:
 
     def _repr_html_(self) -> str:
         """Return the map and the robots, for notebooks."""
-        return provided().scenario_html(self)
+        return provided().draw_scenario_html(self)
 
     @property
     def quantities(self) -> Quantities:

@@ -17,7 +17,7 @@ from dataclasses import replace
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Proof, Tick, Track, cost_of
 from rightofway.model.outcome import minimized
-from rightofway.phrases import Phrase, counted
+from rightofway.phrases import Phrase, say_count
 from rightofway.planners.bounds import SHARE as SHARE_OF_NODES
 from rightofway.planners.bounds import compute_price_bound
 from rightofway.planners.features import refuse_with_swaps_left
@@ -197,7 +197,7 @@ class _Prover:
 
 
 def _nodes_of(search: ConflictBasedSearch) -> str:
-    nodes = counted(search.n_nodes, "node", "nodes")
+    nodes = say_count(search.n_nodes, "node", "nodes")
     return Phrase("{nodes} of conflict-based search", nodes=nodes)
 
 

@@ -34,7 +34,7 @@ from typing import Any
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Proof, Tick, completions_of, cost_of
 from rightofway.model.outcome import Objective, minimized
-from rightofway.phrases import Phrase, counted
+from rightofway.phrases import Phrase, say_count
 from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improve_best
 from rightofway.planners.prioritized import make_fleet_search
@@ -94,7 +94,7 @@ def _of_least_flowtime(task: Task, first: Draft | None) -> Draft:
         if not task.keep_best or first is None:
             raise
         return replace(first, status=Phrase("interrupted: {status}", status=first.status))
-    done = counted(search.n_nodes, "node", "nodes")
+    done = say_count(search.n_nodes, "node", "nodes")
     if search.tracks is not None:
         task.has_plan()
         tracks = search.tracks
@@ -182,7 +182,7 @@ def _of_least_makespan(task: Task, first: Draft) -> Draft:
     status = Phrase(
         "{kind}: {nodes} for the makespan (first plan: {status})",
         kind=kind,
-        nodes=counted(n_nodes, "node", "nodes"),
+        nodes=say_count(n_nodes, "node", "nodes"),
         status=first.status,
     )
     proof = Proof(

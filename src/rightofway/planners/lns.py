@@ -25,7 +25,7 @@ import numpy as np
 from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick, Track, cost_of
 from rightofway.model.outcome import minimized
-from rightofway.phrases import Phrase, chain_items, counted
+from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.prioritized import MOST_ROBOTS, make_fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, make_planning_problem
@@ -200,7 +200,7 @@ def _progress(task: Task, cost: int, bound: int, rate: float) -> str:
 def _status(first: Draft, done: int, *, is_better: bool, is_interrupted: bool) -> Phrase:
     """Return what the search did with a first plan."""
     values = {
-        "neighbourhoods": counted(done, "neighbourhood", "neighbourhoods"),
+        "neighbourhoods": say_count(done, "neighbourhood", "neighbourhoods"),
         "status": first.status,
     }
     if is_better:

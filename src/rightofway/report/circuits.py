@@ -10,7 +10,7 @@ from typing import Literal
 from rightofway.cyclic import Piece
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, counted, joined
+from rightofway.phrases import Phrase, chain_items, join_items, say_count
 from rightofway.site import VertexId
 
 MAX_STEPS = 12
@@ -69,7 +69,7 @@ def _steps_of_robot(
     for piece in run[:first]:
         yield _step(piece, awaited, scenario, place)
     if first < last:
-        laps = counted(len(arrivals) - 1, "lap", "laps")
+        laps = say_count(len(arrivals) - 1, "lap", "laps")
         between = run[first:last]
         yield CircuitStep(
             kind="laps",
@@ -122,7 +122,7 @@ def describe_circuit(pieces: Sequence[Piece], scenario: Scenario, *, most: int =
         texts = chain_items([step.text for step in run])
         parts.append(Phrase("{robot} {steps}", robot=names[robot], steps=texts))
     if len(steps) > most:
-        further = counted(len(steps) - most, "more step", "more steps")
+        further = say_count(len(steps) - most, "more step", "more steps")
         parts.append(Phrase("and {steps}", steps=further))
     return chain_items(parts, "{first}; {second}")
 
@@ -141,4 +141,4 @@ def summarize_circuit(pieces: Sequence[Piece], scenario: Scenario, period: Tick)
     if len(names) > MAX_ROBOTS:
         more = Phrase("{number} more", number=str(len(names) - MAX_ROBOTS + 1))
         names = [*names[: MAX_ROBOTS - 1], more]
-    return Phrase("Bottleneck: {robots}, {time} a period", robots=joined(names), time=time)
+    return Phrase("Bottleneck: {robots}, {time} a period", robots=join_items(names), time=time)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rightofway.phrases import Phrase, joined
+from rightofway.phrases import Phrase, join_items
 
 __all__ = [
     "about_robot",
@@ -59,7 +59,7 @@ def waits_until(robot: str, place: str, others: Sequence[tuple[str, str]]) -> Ph
         "{robot} waits at {place} until {arrivals}",
         robot=robot,
         place=place,
-        arrivals=joined(arrivals),
+        arrivals=join_items(arrivals),
     )
 
 

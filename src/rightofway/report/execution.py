@@ -8,7 +8,7 @@ from fractions import Fraction
 from rightofway.execution import PolicyGain, Quantiles, SimulationResult
 from rightofway.languages import ENGLISH
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, counted
+from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.quantities import Quantities, decimal
 from rightofway.report.lines import Facts, Part, Table, further, lay_out, short
 
@@ -40,8 +40,8 @@ def _totals(outcome: SimulationResult, quantities: Quantities) -> Iterator[tuple
             seed=str(outcome.seed),
         ),
     )
-    collisions = counted(outcome.collisions or Phrase("no"), "collision", "collisions")
-    deadlocks = counted(outcome.deadlocks or Phrase("no"), "deadlock", "deadlocks")
+    collisions = say_count(outcome.collisions or Phrase("no"), "collision", "collisions")
+    deadlocks = say_count(outcome.deadlocks or Phrase("no"), "deadlock", "deadlocks")
     yield Phrase("right of way"), chain_items([collisions, deadlocks])
     yield Phrase("by the clock"), _by_clock(outcome, quantities)
     yield Phrase("late"), _lateness(late.all, quantities, is_delay=True)
@@ -115,7 +115,7 @@ def _mean(number: int, runs: int) -> str:
 
 
 def _per_run(number: int, runs: int) -> Phrase:
-    times = counted(_mean(number, runs), "time", "times")
+    times = say_count(_mean(number, runs), "time", "times")
     return Phrase("{times} per run on average", times=times)
 
 
@@ -168,7 +168,7 @@ def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]
     headings = (Phrase("mean"), "95%", Phrase("most"), Phrase("own"), Phrase("waiting for"))
     yield Table((Phrase("robot"), *headings), rows, has_remarks=True)
     if len(robots) > len(listed):
-        more = counted(len(robots) - len(listed), "more robot", "more robots")
+        more = say_count(len(robots) - len(listed), "more robot", "more robots")
         yield Phrase("… and {robots} that are less late", robots=more)
 
 
@@ -194,5 +194,5 @@ def _sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part
     yield quantities.heading(Phrase("where most lateness begins, mean per run"))
     yield Table((Phrase("robot"), Phrase("itself"), Phrase("others")), rows)
     if len(sources) > len(rows):
-        more = counted(len(sources) - len(rows), "more place", "more places")
+        more = say_count(len(sources) - len(rows), "more place", "more places")
         yield Phrase("… and {places} (--json lists all)", places=more)

@@ -21,7 +21,7 @@ from rightofway.cyclic import (
 from rightofway.languages import ENGLISH
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, counted
+from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.quantities import Quantities, decimal
 from rightofway.report.circuits import describe_circuit
 from rightofway.report.laps_data import (
@@ -78,7 +78,7 @@ def _report(run: CyclicResult, quantities: Quantities) -> Iterator[Part]:
         if group.comparison is not None:
             yield from report_comparison(group.comparison)
     if len(largest) > MAX_GROUPS:
-        more = counted(len(largest) - MAX_GROUPS, "more group", "more groups")
+        more = say_count(len(largest) - MAX_GROUPS, "more group", "more groups")
         yield ""
         yield Phrase("… and {groups}, none larger (--json lists all)", groups=more)
 
@@ -96,7 +96,7 @@ def _groups(together: Sequence[GroupResult], alone: int) -> str:
         if number
     ]
     if alone:
-        groups.append(counted(alone, "robot meets no other", "robots meet no other"))
+        groups.append(say_count(alone, "robot meets no other", "robots meet no other"))
     return chain_items(groups, "{first}; {second}")
 
 
@@ -171,7 +171,7 @@ def _robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult)
 
 def _further_robots(group: GroupResult) -> Iterator[Part]:
     if len(group.robots) > MAX_LINES:
-        more = counted(len(group.robots) - MAX_LINES, "more robot", "more robots")
+        more = say_count(len(group.robots) - MAX_LINES, "more robot", "more robots")
         yield Phrase("… and {robots} (--json lists all)", robots=more)
 
 
@@ -190,7 +190,7 @@ def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
     if listed:
         yield Phrase(
             "{stand} still for ever: {robots} (another --rule may help, for example timetable)",
-            stand=counted(len(stuck), "robot stands", "robots stand"),
+            stand=say_count(len(stuck), "robot stands", "robots stand"),
             robots=chain_items(listed),
         )
 
@@ -245,7 +245,9 @@ def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
     more = len(ticks) - MAX_TIMES
     if more <= 0:
         return listed
-    return Phrase("{first} and {last}", first=listed, last=counted(more, "more time", "more times"))
+    return Phrase(
+        "{first} and {last}", first=listed, last=say_count(more, "more time", "more times")
+    )
 
 
 def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:

@@ -21,7 +21,7 @@ from rightofway.metrics import (
 )
 from rightofway.model import Loss, LostTime, Objective, Plan, Proof, Scenario
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, counted, joined
+from rightofway.phrases import Phrase, chain_items, join_items, say_count
 from rightofway.quantities import Quantities, decimal
 from rightofway.report.lines import Facts, Line, Paragraph, Part, Table, further, lay_out
 from rightofway.report.sentences import (
@@ -89,7 +89,7 @@ def planning(plan: Plan, quantities: Quantities) -> str:
             Phrase(
                 "{routes} of {fleet} keep their old route, {tracks} also its times",
                 routes=str(run.start.routes),
-                fleet=counted(len(plan.tracks), "robot", "robots"),
+                fleet=say_count(len(plan.tracks), "robot", "robots"),
                 tracks=str(run.start.tracks),
             )
         )
@@ -155,7 +155,7 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     ]
     yield Table(HEADINGS, rows)
     if len(lost) > len(listed):
-        rest = counted(len(lost) - len(listed), "more robot", "more robots")
+        rest = say_count(len(lost) - len(listed), "more robot", "more robots")
         yield Phrase("… and {robots} that lose less time (--json lists all)", robots=rest)
 
 
@@ -191,7 +191,7 @@ def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     ]
     robots = chain_items(listed)
     if rest := len(longest) - len(listed):
-        more = counted(rest, "more robot", "more robots")
+        more = say_count(rest, "more robot", "more robots")
         robots = Phrase("{first} and {last}", first=robots, last=more)
     yield ""
     yield Phrase("Detours: {robots}.", robots=robots)
@@ -230,7 +230,7 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
         values = {
             "place": words.places.where(last),
             "robot": words.robot(robot),
-            "others": joined(names),
+            "others": join_items(names),
             "time": words.time(sum(costs[robot].values())),
         }
         if last == scenario.robots[robot].home:
@@ -312,7 +312,7 @@ def report_bounds(
     heading = quantities.heading(Phrase("alone"))
     parts: list[Part] = [Facts(bounds), "", Table((Phrase("robot"), heading), rows)]
     if len(alone) > MAX_LINES:
-        more = counted(len(alone) - MAX_LINES, "more robot", "more robots")
+        more = say_count(len(alone) - MAX_LINES, "more robot", "more robots")
         parts.append(Phrase("… and {robots} (--json lists all)", robots=more))
     if losses:
         parts.append("")

@@ -22,7 +22,7 @@ from rightofway.model import (
     Scenario,
 )
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, counted
+from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.quantities import Quantities
 from rightofway.values import written
 
@@ -120,7 +120,7 @@ def describe_improvement(improvement: Improvement, quantities: Quantities) -> Ph
         gain = Phrase("saved {time}", time=quantities.duration(improvement.saved))
     attempts: Phrase = Phrase("attempts")
     if improvement.tries is not None:
-        attempts = counted(improvement.tries, "attempt", "attempts")
+        attempts = say_count(improvement.tries, "attempt", "attempts")
     if improvement.interrupted:
         attempts = Phrase("interrupted: {attempts}", attempts=attempts)
     return Phrase("{attempts} to improve the first plan {gain}", attempts=attempts, gain=gain)

@@ -14,7 +14,7 @@ from rightofway.io.scenario.writer import dump_scenario
 from rightofway.io.text import json_text
 from rightofway.model import Decision, Outcome, Plan, PlannerRun, Scenario, SteadyState
 from rightofway.model.given import checked_plan, require_truths
-from rightofway.phrases import parts_of
+from rightofway.phrases import to_parts
 from rightofway.values import written
 
 
@@ -99,11 +99,11 @@ def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str,
         "name": run.name,
         "options": dict(sorted(run.options.items())),
         "seed": run.seed,
-        "status": parts_of(run.status),
+        "status": to_parts(run.status),
         "seconds": float(run.seconds) if seconds and run.seconds is not None else None,
         "decisions": [_decision(decision, scenario) for decision in run.decisions],
         "reroutes": [
-            {"robot": scenario.robots[reroute.robot].name, "because": parts_of(reroute.because)}
+            {"robot": scenario.robots[reroute.robot].name, "because": to_parts(reroute.because)}
             for reroute in run.reroutes
         ],
         **({} if run.start is None else {"start": asdict(run.start)}),

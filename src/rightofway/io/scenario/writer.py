@@ -8,7 +8,7 @@ from typing import Any
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
-from rightofway.files import path_of, write_whole
+from rightofway.files import as_path, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.text import json_text
 from rightofway.model import Robot, Scenario
@@ -60,7 +60,7 @@ def write_scenario(scenario: Scenario, path: Path | str) -> None:
     InputError
         For another suffix, or if the file cannot be written.
     """
-    path = path_of(path)
+    path = as_path(path)
     document = dump_scenario(scenario)
     if path.suffix.lower() == ".json":
         write_whole(path, json_text(document))

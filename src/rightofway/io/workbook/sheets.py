@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, Location, nearest, shown
-from rightofway.extras import needed
+from rightofway.extras import load_library
 from rightofway.io.faults import Faults
 from rightofway.io.text import content_of
 
@@ -143,7 +143,7 @@ def _too_long() -> InputError:
 @contextmanager
 def _open_workbook(data: bytes, *, cached: bool) -> Iterator[Any]:
     """Yield a workbook that streams its sheets, with formulas or with the values they had."""
-    openpyxl = needed("openpyxl", "a workbook")
+    openpyxl = load_library("openpyxl", "a workbook")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # on parts that we do not read
         try:

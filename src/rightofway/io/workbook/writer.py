@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.extras import needed
-from rightofway.files import archive_of, write_whole
+from rightofway.extras import load_library
+from rightofway.files import make_archive, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.tables import SPOTS
 from rightofway.model.attributes import Attribute
@@ -109,7 +109,7 @@ def workbook_of(document: dict[str, Any]) -> bytes:
     InputError
         If a part of it has no place in the sheets.
     """
-    openpyxl = needed("openpyxl", "a workbook")
+    openpyxl = load_library("openpyxl", "a workbook")
     _refuse_more(document)
     workbook = openpyxl.Workbook()
     workbook.remove(workbook.active)
@@ -129,7 +129,7 @@ def workbook_of(document: dict[str, Any]) -> bytes:
     sheet.column_dimensions["A"].width = 100
     for line in HELP:
         sheet.append([line])
-    return archive_of(workbook.save)
+    return make_archive(workbook.save)
 
 
 def _refuse_more(document: dict[str, Any]) -> None:

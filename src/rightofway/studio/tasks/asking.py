@@ -10,7 +10,7 @@ from rightofway.errors import InputError, InvalidPlan, nearest
 from rightofway.io import plan_text
 from rightofway.metrics import compute_lost_time
 from rightofway.model import Loss, Plan, Tick
-from rightofway.phrases import Phrase, parts_of
+from rightofway.phrases import Phrase, to_parts
 from rightofway.planners.flip import flip_right_of_way
 from rightofway.report.sentences import Words, describe_decision, describe_losses, explain_decision
 from rightofway.studio.messages import Blobs, Emit, zip_text
@@ -42,7 +42,7 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
             "index": index,
             "decision": (story := describe_decision(words, words.plan.run.decisions[index])),
             "reason": (reason := explain_decision(words, words.plan.run.decisions[index])),
-            "phrase": parts_of(Phrase("{first} {second}", first=story, second=reason)),
+            "phrase": to_parts(Phrase("{first} {second}", first=story, second=reason)),
         }
         for index in _decisions_behind(words.plan, loss)
     ]
@@ -57,7 +57,7 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
         "end": loss.end,
         "ticks": loss.ticks,
         "sentence": (sentence := describe_losses(words, [loss])),
-        "phrase": parts_of(sentence),
+        "phrase": to_parts(sentence),
         "because": because,
     }
 

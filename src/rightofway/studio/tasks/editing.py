@@ -18,7 +18,7 @@ from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.picture import with_picture
 from rightofway.io.sites import sites_of
 from rightofway.metrics import Inspection, Site, describe_site, inspect
-from rightofway.phrases import parts_of
+from rightofway.phrases import to_parts
 from rightofway.quantities import Units
 from rightofway.studio.messages import Blobs, Emit, as_fault_data, zip_text
 from rightofway.studio.tasks.documents import as_plain, compute_digest, load_document
@@ -89,12 +89,12 @@ def survey_document(
                 {
                     **asdict(finding),
                     "sentence": str(finding),
-                    "phrases": {"fact": parts_of(finding.fact), "remedy": parts_of(finding.remedy)},
+                    "phrases": {"fact": to_parts(finding.fact), "remedy": to_parts(finding.remedy)},
                 }
                 for finding in inspection.findings
             ],
             "sentences": list(said),
-            "phrases": [parts_of(sentence) for sentence in said],
+            "phrases": [to_parts(sentence) for sentence in said],
         }
     return (None, zip_text(as_compact_json(answer)))
 

@@ -13,7 +13,7 @@ from rightofway.errors import GaveUp, InputError
 from rightofway.io import plan_of, plan_text
 from rightofway.io.text import parse_json
 from rightofway.model import Scenario
-from rightofway.phrases import parts_of
+from rightofway.phrases import to_parts
 from rightofway.report.execution import report as simulation_report
 from rightofway.report.laps import report_laps
 from rightofway.report.laps_data import laps_data
@@ -77,7 +77,7 @@ def make_laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settin
     shown, steady = excerpt(run)
     payload = as_compact_json(make_payload(shown, steady=steady)).encode()
     text = report_laps(run, scenario.quantities)
-    report = parts_of({**laps_data(run), "text": text})
+    report = to_parts({**laps_data(run), "text": text})
     result: dict[str, Any] = {"report": report, "has_payload": True}
     try:
         whole = plan_of_laps(run)
@@ -112,7 +112,7 @@ def make_laps_if(
     except ValueError as error:
         raise InputError.at("value", str(error)) from None
     run = _repeated(_changed(scenario, kind, robot, stop, wanted), emit, **settings)
-    answer = parts_of(laps_data(run, by_visit=False))
+    answer = to_parts(laps_data(run, by_visit=False))
     return ({key: answer[key] for key in ("groups", "throughput_per_hour")},)
 
 

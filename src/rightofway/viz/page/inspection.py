@@ -9,7 +9,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.files import write_whole
 from rightofway.metrics import HEADINGS, Inspection, Site, describe_site
 from rightofway.metrics.site import SEVERITY_NAMES
-from rightofway.phrases import parts_of
+from rightofway.phrases import to_parts
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.document import make_document
 from rightofway.viz.page.map_data import map_data
@@ -58,10 +58,10 @@ def make_inspection_page(
     payload: InspectionPayload = {
         "title": title,
         "translations": {},
-        "description": parts_of(description),
-        "notes": [parts_of(note) for note in notes],
-        "names": {severity: parts_of(name) for severity, name in SEVERITY_NAMES.items()},
-        "headings": {severity: parts_of(heading) for severity, heading in HEADINGS.items()},
+        "description": to_parts(description),
+        "notes": [to_parts(note) for note in notes],
+        "names": {severity: to_parts(name) for severity, name in SEVERITY_NAMES.items()},
+        "headings": {severity: to_parts(heading) for severity, heading in HEADINGS.items()},
         "levels": [_level(*level, background) for level in levels],
     }
     said = [(level["sentences"], level["findings"]) for level in payload["levels"]]
@@ -148,14 +148,14 @@ def _level(
     robot_of = {robot.name: index for index, robot in enumerate(site.robots)}
     return {
         "name": name,
-        "sentences": [parts_of(sentence) for sentence in describe_site(site, inspection)],
+        "sentences": [to_parts(sentence) for sentence in describe_site(site, inspection)],
         **make_site_data(site, background),
         "findings": [
             {
                 "severity": finding.severity,
                 "kind": finding.kind,
-                "fact": parts_of(finding.fact),
-                "remedy": parts_of(finding.remedy),
+                "fact": to_parts(finding.fact),
+                "remedy": to_parts(finding.remedy),
                 "vertices": [int(site.roadmap.get_vertex(vertex)) for vertex in finding.vertices],
                 "robots": [robot_of[robot] for robot in finding.robots],
             }

@@ -35,7 +35,7 @@ from rightofway.model import (
 from rightofway.model.closures import Closure
 from rightofway.model.given import checked_plan
 from rightofway.model.steady_state import refuse_unknown_robots
-from rightofway.phrases import Phrase, PhraseBook, parts_of
+from rightofway.phrases import Phrase, PhraseBook, to_parts
 from rightofway.report.circuits import describe_circuit, summarize_circuit
 from rightofway.report.sentences import (
     Words,
@@ -134,7 +134,7 @@ def make_payload(
         "planner": _planner(plan),
         "decisions": [_decision(decision, words, book) for decision in run.decisions],
         "reroutes": [
-            {"robot": reroute.robot, "because": parts_of(reroute.because)}
+            {"robot": reroute.robot, "because": to_parts(reroute.because)}
             for reroute in run.reroutes
         ],
         "metrics": {
@@ -244,7 +244,7 @@ def make_closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
         "from": begin,
         "until": end,
         "radius": None if closure.radius is None else float(closure.radius),
-        "text": parts_of(describe_closure(closure, scenario)),
+        "text": to_parts(describe_closure(closure, scenario)),
     }
 
 
@@ -253,9 +253,9 @@ def _planner(plan: Plan) -> PlannerData:
     method = run.status
     if run.improvement is not None:
         method = describe_improvement(run.improvement, plan.scenario.quantities)
-    data: PlannerData = {"name": run.name, "method": parts_of(method)}
+    data: PlannerData = {"name": run.name, "method": to_parts(method)}
     if proven := describe_proof(plan):
-        data["proven"] = parts_of(proven)
+        data["proven"] = to_parts(proven)
     return data
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from rightofway.extras import needed
+from rightofway.extras import load_library
 from rightofway.quantities import Quantities
 from rightofway.viz.table.terminal import MAX_LINES, measure_text
 
@@ -143,7 +143,7 @@ def as_parquet(columns: dict[str, list[Any]]) -> bytes:
     InputError
         If pyarrow is not installed.
     """
-    arrow = needed("pyarrow", "a Parquet file")
+    arrow = load_library("pyarrow", "a Parquet file")
     content = io.BytesIO()
-    needed("pyarrow.parquet", "a Parquet file").write_table(arrow.table(columns), content)
+    load_library("pyarrow.parquet", "a Parquet file").write_table(arrow.table(columns), content)
     return content.getvalue()

@@ -10,8 +10,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from rightofway.errors import InputError, NoPlanExists
-from rightofway.extras import needed
-from rightofway.files import archive_of, write_whole
+from rightofway.extras import load_library
+from rightofway.files import make_archive, write_whole
 from rightofway.metrics import compute_lost_time, free_running, measure, name_collisions
 from rightofway.model import Plan
 from rightofway.viz.motion import Phase, make_trips
@@ -32,7 +32,7 @@ from rightofway.viz.table.workbook import (
 from rightofway.viz.table.writing import MAX_TICKS_OF_SHEET
 from rightofway.viz.verdict import give_verdict
 
-openpyxl, charts = (needed(name, "a workbook") for name in ("openpyxl", "openpyxl.chart"))
+openpyxl, charts = (load_library(name, "a workbook") for name in ("openpyxl", "openpyxl.chart"))
 
 MOST_LINES = 100
 """Robots in the chart; a chart has 255 series, and nobody can tell more lines apart."""
@@ -91,7 +91,7 @@ def make_result(plan: Plan) -> bytes:
             left_out.append((listing.title, f"is left out: {error.faults[0].message}"))
     _write_diagram(diagram, _sheet(workbook, "diagram data"), plan)
     _write_summary(summary, plan, left_out)
-    return archive_of(workbook.save)
+    return make_archive(workbook.save)
 
 
 def _sheet(workbook: Any, title: str) -> Any:

@@ -8,12 +8,12 @@ from dataclasses import replace
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.extras import needed
-from rightofway.files import archive_of
+from rightofway.extras import load_library
+from rightofway.files import make_archive
 from rightofway.viz.table.listing import Listing
 from rightofway.viz.table.timespace import Mark, Place, RowKind, TimeSpaceTable
 
-openpyxl = needed("openpyxl", "a workbook")
+openpyxl = load_library("openpyxl", "a workbook")
 Font, PatternFill = openpyxl.styles.Font, openpyxl.styles.PatternFill
 
 FILLS: dict[Mark | None, Any] = {
@@ -52,7 +52,7 @@ def make_workbook(table: TimeSpaceTable) -> bytes:
     workbook = openpyxl.Workbook(write_only=True)
     write_table(workbook.create_sheet("time and space"), table)
     write_legend(workbook.create_sheet("legend"), table)
-    return archive_of(workbook.save)
+    return make_archive(workbook.save)
 
 
 def make_sheets(lists: Sequence[Listing]) -> bytes:
@@ -66,7 +66,7 @@ def make_sheets(lists: Sequence[Listing]) -> bytes:
     workbook = openpyxl.Workbook(write_only=True)
     for listing in lists:
         write_list(workbook.create_sheet(listing.title), listing)
-    return archive_of(workbook.save)
+    return make_archive(workbook.save)
 
 
 def write_list(sheet: Any, listing: Listing) -> None:
