@@ -121,6 +121,35 @@ def test_a_time_limit_begins_with_the_command_and_not_with_its_shell(door: Path)
     assert (done.returncode, "planner" in done.stdout) == (0, True), done.stderr
 
 
+GIVES_UP = """
+import atexit
+from rightofway.cli.main import commands, main
+from rightofway.errors import GaveUp
+
+class Map:
+    def __del__(self):
+        print("freed")
+
+def give_up(*args, **options):
+    large = Map()
+    raise GaveUp("time ran out")
+
+atexit.register(print, "tidied")
+commands.main = give_up
+main()
+"""
+
+
+def test_a_command_frees_no_memory_when_it_ends() -> None:
+    """A map of half a million lanes would take a second, after the limit; functions that were
+    registered for the exit run, and all output is written."""
+    ended = subprocess.run(
+        [sys.executable, "-c", GIVES_UP], capture_output=True, check=False, text=True
+    )
+    assert (ended.returncode, ended.stdout) == (3, "tidied\n")
+    assert ended.stderr == "no plan found: time ran out\n"
+
+
 def test_help_imports_nothing_heavy() -> None:
     code = (
         "import sys; from rightofway.cli.main import run; run(['plan', '--help']);"

@@ -13,12 +13,15 @@
 
 from __future__ import annotations
 
+import atexit
 import gc
 import os
 import sys
+import threading
 import time
 import traceback
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -44,6 +47,7 @@ COMPLETE = "_RIGHTOFWAY_COMPLETE"
 class _Session:
     debug: bool = False
     began: float | None = None  # when the process did, on the monotonic clock [s]
+    ended_by: BaseException | None = None  # holds what the work had, until the process ends
 
 
 START = """\b
@@ -143,11 +147,14 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
     """
     speak_utf8()
     _start_quickly()
+    is_process = args is None  # else a program calls, and may be old
+    session = _Session()
     try:
-        is_process = args is None  # else a program calls, and may be old
         # CPU time instead of the age of the process: a shell may have become this command by `exec`
         # after it had waited for another one, as `sh -c "pip install . && rightofway plan"` does.
-        code = run(args, began=time.monotonic() - time.process_time() if is_process else None)
+        if is_process:
+            session.began = time.monotonic() - time.process_time()
+        code = run(args, session)
     except BrokenPipeError:  # no program reads the messages
         code = UNREAD
     if code == UNREAD:
@@ -155,7 +162,22 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         for stream in (1, 2):
             os.dup2(nowhere, stream)
+    if is_process:
+        _leave_quickly(code)
     sys.exit(code)
+
+
+def _leave_quickly(code: int) -> None:
+    """End the process as Python does, but free no memory: of a large map that takes a second.
+
+    It returns where another thread runs or output is refused, because Python handles both.
+    """
+    if threading.active_count() == 1:
+        atexit._run_exitfuncs()  # noqa: SLF001 (os._exit alone runs none of them)
+        with suppress(OSError):
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(code)
 
 
 def _start_quickly() -> None:
@@ -179,12 +201,12 @@ ENDINGS: dict[type[BaseException], tuple[int, str]] = {
 }
 
 
-def run(args: Sequence[str] | None = None, *, began: float | None = None) -> int:
+def run(args: Sequence[str] | None = None, session: _Session | None = None) -> int:
     """Run a command and return its exit code; what went wrong is said on standard error.
 
-    Time limits count from ``began`` on the monotonic clock [s]; by default from the command on.
+    Time limits count from when the process of a session began; without one, from the command on.
     """
-    session = _Session(began=began)
+    session = session or _Session()
     try:
         if COMPLETE in os.environ:
             import_module("rightofway.cli.completion")  # makes its script for Bash known to click
@@ -196,6 +218,7 @@ def run(args: Sequence[str] | None = None, *, began: float | None = None) -> int
     except tuple(ENDINGS) as error:
         code, words = next(end for kind, end in ENDINGS.items() if isinstance(error, kind))
         complain("\n".join(words.format(line) for line in str(error).splitlines() or [""]))
+        session.ended_by = error
         return code
     except SystemExit as end:  # click ends so when no program reads our results, or to complete
         return UNREAD if end.code else DONE
