@@ -35,12 +35,12 @@ def test_distance_table(benchmark: BenchmarkFixture, scenario: Scenario) -> None
 
 
 def test_count_all_conflicts(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
-    benchmark(lambda: graph_of_routes(scenario).conflicts_left())
+    benchmark(lambda: graph_of_routes(scenario).count_conflicts())
 
 
 def test_give_and_take_back_a_right_of_way(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
     graph = graph_of_routes(scenario)
-    meeting = graph.next_meeting()
+    meeting = graph.find_next_meeting()
     assert meeting is not None
 
     def give_and_take_back() -> None:

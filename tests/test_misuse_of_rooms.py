@@ -63,7 +63,7 @@ STEPS = {
     },
     "precedence": {
         "find_critical_circuit_without",
-        "crossing",
+        "make_crossing",
         "order_of",
         "find_shared_segment",
         "find_tight_arcs",

@@ -60,6 +60,14 @@ def test_an_earlier_name_of_the_views_works_and_warns(earlier: str) -> None:
     assert earlier not in viz.__all__
 
 
+def test_an_earlier_name_of_a_method_works_and_says_the_new_one() -> None:
+    fleet = rightofway.FleetBuilder(grid=[".."])
+    message = r"FleetBuilder.roadmap is now build_roadmap \(use that name\)"
+    with pytest.warns(DeprecationWarning, match=message) as warned:
+        assert fleet.roadmap() is fleet.build_roadmap()
+    assert warned[0].filename == __file__
+
+
 def test_what_is_not_there_is_said_as_usual() -> None:
     with pytest.raises(AttributeError, match="module 'rightofway' has no attribute 'plot'"):
         rightofway.plot  # noqa: B018 (the access is the test)

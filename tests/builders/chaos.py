@@ -353,7 +353,7 @@ class _World:
             f"{own.arrived}/{own.released}/{own.route.end - 1} ack={own.is_acknowledged} "
             f"token={own.token} cancel={own.cancel} fault={own.fault} failed={own.failed} "
             f"job={own.route.jobs_at(own.released)} finished={own.finished} "
-            f"missing={ledger.graph.missing(Part(robot, own.released + 1), ledger.arrived)}"
+            f"missing={ledger.graph.list_missing(Part(robot, own.released + 1), ledger.arrived)}"
             for robot, own in enumerate(ledger.robots)
         ]
 
@@ -727,7 +727,7 @@ def another_plan(
         order = _played(scenario, routes, ends, draw)
         if order is not None:
             graph = graph_of_order(scenario, routes, ends, order)
-            if graph.rotation():
+            if graph.find_rotation():
                 continue
             return [
                 _timed(route, robot, end, order)

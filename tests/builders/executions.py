@@ -75,7 +75,7 @@ def oracle_of(adg: ActionDependencyGraph, delay_sample: DelaySample) -> executio
         books_ahead=adg.scenario.problem.booking_rules.books_ahead,
         dwell=delay_sample.dwell.tolist(),
         drive=delay_sample.drive.tolist(),
-        stoppages=[delay_sample.stoppages_of(robot) for robot in range(len(adg.routes))],
+        stoppages=[delay_sample.list_stoppages(robot) for robot in range(len(adg.routes))],
     )
 
 

@@ -113,7 +113,7 @@ def _packed() -> object:
 def _corner() -> Plan:
     """A robot that goes round a corner, works for 3 and comes back."""
     fleet = rightofway.FleetBuilder(grid=["...", "@@."], turn_rate=45)
-    scenario = fleet.add_robot("R1", home="N0", target="N5", work=3).scenario()
+    scenario = fleet.add_robot("R1", home="N0", target="N5", work=3).build_scenario()
     return rightofway.solve(scenario, time_limit=None)
 
 

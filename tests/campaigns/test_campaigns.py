@@ -33,11 +33,11 @@ def test_a_bound_above_a_plan_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     fleet = FleetBuilder(grid=["..."], rules="classic")
     fleet.add_robot("R1", home=[0, 0], target=[0, 2])
     into = plans.Round()
-    plans.bound(fleet.scenario(), 0, into)
+    plans.bound(fleet.build_scenario(), 0, into)
     assert into.findings == []
     false = (Proof(bound=Tick(3)), True)
     monkeypatch.setattr(plans, "prove_bound", lambda *_, **__: false)
-    plans.bound(fleet.scenario(), 0, into)
+    plans.bound(fleet.build_scenario(), 0, into)
     found = [what for what, *_ in into.findings]
     assert found == [f"bound proves 3, but {planner} has 2" for planner, _ in plans.PROVERS]
 

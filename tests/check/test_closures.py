@@ -19,7 +19,7 @@ def corridor(occupancy: str = "one", headway: int = 0) -> Scenario:
         fleet.add_vertex(name, x, y)
     fleet.add_edge("A", "B").add_edge("B", "C").add_edge("C", "D")
     fleet.add_edge("A", "E", 4, barred=["heavy"]).add_edge("E", "C", 4)
-    return fleet.add_robot("R1", home="A", target="D", type="heavy").scenario()
+    return fleet.add_robot("R1", home="A", target="D", type="heavy").build_scenario()
 
 
 def plan(scenario: Scenario, names: str = "ABCD", enter: Any = (0, 2, 4, 6)) -> Plan:

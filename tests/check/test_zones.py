@@ -202,7 +202,7 @@ def test_fleets_in_python_have_zones() -> None:
     fleet.add_edge("A", "B").add_edge("C", "D")
     fleet.add_zone("door", vertices=["A"], edges=[("C", "D")])
     fleet.add_robot("R1", home="A", target="B").add_robot("R2", home="C", target="D")
-    assert solve(fleet.scenario(), "prioritized").flowtime == 3
+    assert solve(fleet.build_scenario(), "prioritized").flowtime == 3
 
 
 def test_robots_with_sizes_and_zones_go_together() -> None:
@@ -216,7 +216,7 @@ def test_robots_with_sizes_and_zones_go_together() -> None:
 
 def test_a_fleet_in_python_may_split_the_lanes_of_a_zone() -> None:
     fleet = FleetBuilder(spacing=1).add_vertex("A", 0, 0).add_vertex("B", 2, 0).add_edge("A", "B")
-    (zone,) = fleet.add_zone("door", edges=[("A", "B")]).roadmap().zones
+    (zone,) = fleet.add_zone("door", edges=[("A", "B")]).build_roadmap().zones
     assert zone.edges == ((0, 2), (2, 1))
 
 

@@ -81,13 +81,13 @@ def test_the_next_period_has_the_rights_of_way_of_the_plan() -> None:
     assert routes is not None
     graph = graph_behind_released(plan.scenario, routes, [0, 0])
     once = ReleaseGraph.of(plan.scenario, plan.tracks)
-    for part in once.waiting_parts():
+    for part in once.list_waiting_parts():
         if part.number:
             shift = [route.end - 1 for route in routes_to_drive(plan)]
             later = part._replace(number=part.number + shift[part.robot])
             arrivals = {(a.robot, a.visit + shift[a.robot]) for a in once.waits(part)}
             assert arrivals <= set(graph.waits(later))
-    assert not graph.rotation()
+    assert not graph.find_rotation()
 
 
 def test_a_robot_that_does_not_return_makes_no_laps() -> None:

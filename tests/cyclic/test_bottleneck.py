@@ -44,7 +44,7 @@ def laps_of(scenario: Scenario) -> list[Lap]:
     return laps
 
 
-def graph_of(scenario: Scenario) -> TimedEventGraph:
+def build_graph_of_plan(scenario: Scenario) -> TimedEventGraph:
     timetable = timetable_of(
         laps_of(scenario), [[40, 110, 120, 130], [75, 145, 155, 165]], period=100
     )
@@ -52,7 +52,7 @@ def graph_of(scenario: Scenario) -> TimedEventGraph:
 
 
 def test_a_bottleneck_is_work_ways_and_rights_of_way() -> None:
-    found = bottleneck_of(graph_of(crossing()))
+    found = bottleneck_of(build_graph_of_plan(crossing()))
     assert [piece.kind for piece in found.pieces] == 2 * ["way", "work", "way", "right of way"]
     assert found.cycle_time == 12
     assert found.periods == 1
@@ -88,7 +88,7 @@ def told(lever: ParameterEffect) -> tuple[str, int | None, int | None, float, fl
 
 def test_what_helps_is_what_is_on_the_bottleneck_the_best_first() -> None:
     scenario = crossing()
-    sensitivity = parameter_effects(scenario, graph_of(scenario))
+    sensitivity = parameter_effects(scenario, build_graph_of_plan(scenario))
     # R1 drives 3 of its 4 edges between entering the door and leaving it for home, and works for 4.
     assert [told(lever) for lever in sensitivity] == [
         ("work", 0, 0, 4.0, 1.0, 8.0),
@@ -107,7 +107,7 @@ def test_turning_and_headway_are_levers_of_their_own() -> None:
     scenario = crossing(rules=Rules(turn=Fraction(5), headway=Fraction(2)))
     sensitivity = {
         (lever.kind, lever.robot): lever
-        for lever in parameter_effects(scenario, graph_of(scenario), most=9)
+        for lever in parameter_effects(scenario, build_graph_of_plan(scenario), most=9)
     }
     # Each turns once beyond the door; the door changes hands twice.
     assert float(sensitivity["turn", 0].effect.gain) == 5
@@ -119,7 +119,7 @@ def test_driving_into_a_place_booked_ahead_counts_as_driving() -> None:
     scenario = crossing(rules=Rules(turn=Fraction(0), occupancy="both"))
     sensitivity = {
         (lever.kind, lever.robot): lever
-        for lever in parameter_effects(scenario, graph_of(scenario), most=9)
+        for lever in parameter_effects(scenario, build_graph_of_plan(scenario), most=9)
     }
     assert float(sensitivity["speed", 0].effect.gain) == 4
     assert sensitivity["speed", 0].effect.cycle_time == 14

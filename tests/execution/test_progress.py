@@ -20,7 +20,7 @@ def expected(activity: Activity, delay: tuple[Tick | None, ...] = ()) -> list[li
     progress = Progress(
         now=Tick(3), enter=enter, start=enter, activity=(Activity.WAITS, activity), delay=delay
     )
-    return [times.tolist() for times in np.split(Forecast(adg, progress).times(), [9])]
+    return [times.tolist() for times in np.split(Forecast(adg, progress).compute_times(), [9])]
 
 
 def test_an_overdue_drive_is_expected_to_last_as_long_again_and_others_wait_for_it() -> None:

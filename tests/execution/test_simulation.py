@@ -118,10 +118,10 @@ def test_an_interrupt_may_keep_the_runs_that_were_made(
 def test_runs_are_ranked_from_the_best_to_the_worst() -> None:
     plan = rightofway.solve(random_fleet(2, robots=6), "two-level")
     outcome = rightofway.simulate(plan, runs=9)
-    order = outcome.ranked().tolist()
+    order = outcome.rank_runs().tolist()
     assert sorted(order) == list(range(9))
     assert np.diff(outcome.completion.sum(axis=1)[order]).min() >= 0
-    assert (order[4], order[-1]) == (outcome.typical(), outcome.worst())
+    assert (order[4], order[-1]) == (outcome.find_typical_run(), outcome.find_worst_run())
 
 
 def test_switching_and_replanning_gain_when_one_robot_stops() -> None:
@@ -225,7 +225,7 @@ def late_before_a_closure(*rows: str, target: str, **closure: int | str) -> Simu
     """Return a run in which R1 stands still for 6 time units, with replanning."""
     fleet = rightofway.FleetBuilder(grid=list(rows), ends="none", turn=0)
     fleet.add_robot("R1", home="N0", target=target).add_closure(from_=5, **closure)  # type: ignore[arg-type]
-    plan = rightofway.solve(fleet.scenario())
+    plan = rightofway.solve(fleet.build_scenario())
     kept = rightofway.simulate(plan, "stop:R1@0+6", runs=1)
     assert kept.stranded == (0 if "until" in closure else 1)
     return rightofway.simulate(plan, "stop:R1@0+6", runs=1, replan=True)

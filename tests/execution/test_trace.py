@@ -33,7 +33,7 @@ def test_a_robot_that_breaks_down_never_completes() -> None:
 def test_the_typical_run_is_in_the_middle() -> None:
     outcome = simulate(door(), "exponential:0.5", runs=11, seed=3)
     flowtimes = outcome.completion.sum(axis=1)
-    assert flowtimes[outcome.typical()] == np.median(flowtimes)
+    assert flowtimes[outcome.find_typical_run()] == np.median(flowtimes)
 
 
 def test_there_is_no_run_beyond_the_last() -> None:

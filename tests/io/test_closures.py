@@ -116,7 +116,7 @@ def test_the_builder_makes_the_same_scenario() -> None:
     fleet = fleet.add_robot("R1", home="A", target="C", type="heavy")
     fleet = fleet.add_closure(edge=("B", "A"), from_="1/3", until=5)
     fleet = fleet.add_closure(at="D", radius="1/2")
-    assert fleet.scenario() == scenario_of(DOCUMENT)
+    assert fleet.build_scenario() == scenario_of(DOCUMENT)
 
 
 @pytest.mark.parametrize(
@@ -146,6 +146,6 @@ def test_a_type_that_is_nearly_one_of_the_map_is_noted() -> None:
 
 def test_conversion_to_scen_says_that_closures_are_left_out(tmp_path: Path) -> None:
     fleet = rightofway.FleetBuilder(grid=["..."]).add_robot("R1", home="N0", target="N2")
-    scenario = fleet.add_closure(at="N1", until=1).scenario()
+    scenario = fleet.add_closure(at="N1", until=1).build_scenario()
     notes = write_scen(scenario, tmp_path / "a.scen", map_name="a.map")
     assert "closures are left out" in notes

@@ -100,20 +100,20 @@ def test_several_stops_are_columns(tmp_path: Path) -> None:
     fleet = fleet.add_robot("A", home="N0", stops=[("N1", 2), "N5"]).add_robot(
         "B", home="N3", target="N4", work="1/3", laps=2
     )
-    write_scenario(fleet.scenario(), tmp_path / "stops.xlsx")
+    write_scenario(fleet.build_scenario(), tmp_path / "stops.xlsx")
     sheet = openpyxl.load_workbook(tmp_path / "stops.xlsx")["robots"]
     assert [cell.value for cell in sheet[1]][:6] == [
         "name", "home", "stop 1", "work 1", "stop 2", "work 2",
     ]  # fmt: skip
-    assert rightofway.load(tmp_path / "stops.xlsx") == fleet.scenario()
+    assert rightofway.load(tmp_path / "stops.xlsx") == fleet.build_scenario()
 
 
 def test_later_keys_of_robots_and_rules_are_kept(tmp_path: Path) -> None:
     fleet = rightofway.FleetBuilder(grid=["...", "..."], occupancy="both")
     fleet = fleet.add_robot("A", home="N0", target="N5")
-    (robot,) = fleet.scenario().robots
+    (robot,) = fleet.build_scenario().robots
     scenario = replace(
-        fleet.scenario(),
+        fleet.build_scenario(),
         robots=(replace(robot, radius=Fraction(1, 4)),),
         rules=Rules(occupancy="both", clearance=Fraction(1, 10)),
     )

@@ -62,7 +62,7 @@ def test_three_periods_of_a_chosen_timetable_have_no_fault(scenario: Scenario) -
         assert oracle.faults(timetable, headway=headway, books_ahead=ahead) == []
         period = timetable.period
         graph = TimedEventGraph(timetable, rules=BookingRules(headway=headway, books_ahead=ahead))
-        found = graph.critical_circuit()
+        found = graph.find_critical_circuit()
         assert found.cycle_time == period or found.cycle_time > period - 1
         assert comparison.throughput == group.rate()
         assert min(timetable.counts) >= 1

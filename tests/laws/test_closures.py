@@ -7,7 +7,7 @@ import random
 from hypothesis import strategies as st
 
 from rightofway.model import Scenario, route_of
-from rightofway.precedence import graph_on
+from rightofway.precedence import build_graph
 from rightofway.search import Bookings, Distances, find_earliest_track
 from tests.builders.closures import closed_fleet
 from tests.builders.laws import law, leave
@@ -34,10 +34,10 @@ def test_precedence_graphs_have_the_earliest_times_that_keep_clear_of_closures(
         route_of(scenario.roadmap, one, track)
         for one, track in zip(itineraries, tracks, strict=True)
     ]
-    graph = graph_on(scenario.problem, routes)
+    graph = build_graph(scenario.problem, routes)
     given: list[tuple[int, int]] = []
     for _ in range(30):
-        meeting = graph.next_meeting()
+        meeting = graph.find_next_meeting()
         if given and (meeting is None or draw.random() < 0.3):
             right = given.pop(draw.randrange(len(given)))
             assert graph.take_back(*right)
@@ -51,5 +51,5 @@ def test_precedence_graphs_have_the_earliest_times_that_keep_clear_of_closures(
                     graph.rollback(mark)
                     given.pop()
         expected = earliest_times(scenario, routes, given, scenario.problem.booking_rules.headway)
-        times = [tick for track in graph.tracks() for tick in track.enter.tolist()]
+        times = [tick for track in graph.build_tracks() for tick in track.enter.tolist()]
         assert times == expected

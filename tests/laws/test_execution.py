@@ -53,7 +53,7 @@ def test_the_kernel_equals_robots_that_look(fleet: Scenario, planner: str, chanc
     plan, draw = planned(fleet, planner), random.Random(chance)  # noqa: S311
     adg = late(plan, draw)
     since = np.array([draw.choice([0, 0, 0, 12]) for _ in adg.vertex], np.int64)
-    adg = adg.reordered(adg.order, since)
+    adg = adg.reorder(adg.order, since)
     delay_sample = adg.delay_sample(chance, 3)
     slow = oracle_of(adg, delay_sample)
     for clock, run in ((False, execution.by_right_of_way), (True, execution.by_clock)):
@@ -62,7 +62,7 @@ def test_the_kernel_equals_robots_that_look(fleet: Scenario, planner: str, chanc
         assert tuple(found.collisions.tolist()) == execution.collisions(slow, expected)
         if not clock:
             assert not found.collisions[:3].any()
-    assert adg.deadlocked() == []
+    assert adg.list_deadlocked() == []
 
 
 @law(any_fleet(robots=(3, 4), without=ONE_CHAIN), planners, seeds)
@@ -76,7 +76,7 @@ def test_robots_in_a_wrong_order_deadlock_just_where_the_kernel_says(
     swappable = [
         visit
         for other, visit in adg.order.tolist()
-        if other not in firsts and adg.robot_of(other) != adg.robot_of(visit)
+        if other not in firsts and adg.get_robot(other) != adg.get_robot(visit)
     ]
     if not swappable:
         leave("no robots share a vertex")
@@ -88,7 +88,7 @@ def test_robots_in_a_wrong_order_deadlock_just_where_the_kernel_says(
     before[visit], before[other] = before[other], visit
     before[after] = other
     second = np.flatnonzero(before >= 0).astype(np.int32)
-    adg = adg.reordered(np.column_stack((before[second], second)))
+    adg = adg.reorder(np.column_stack((before[second], second)))
     delay_sample = adg.delay_sample(0, 0)
     found, expected = (
         adg.execute(delay_sample),
@@ -96,7 +96,7 @@ def test_robots_in_a_wrong_order_deadlock_just_where_the_kernel_says(
     )
     assert found.completion.tolist() == expected.completion
     stuck = [robot for robot, tick in enumerate(expected.completion) if tick >= NEVER]
-    assert adg.deadlocked() == stuck
+    assert adg.list_deadlocked() == stuck
 
 
 @law(any_fleet(), planners, seeds)
@@ -104,7 +104,7 @@ def test_runs_are_what_single_runs_are_however_they_are_cut_up(
     fleet: Scenario, planner: str, chance: int
 ) -> None:
     adg = late(planned(fleet, planner), random.Random(chance))  # noqa: S311
-    whole, second = adg.runs(chance, 0, 8), adg.runs(chance, 5, 3)
+    whole, second = adg.make_runs(chance, 0, 8), adg.make_runs(chance, 5, 3)
     assert np.array_equal(whole.completion[5:], second.completion)
     for run in range(8):
         delay_sample = adg.delay_sample(chance, run)
@@ -121,7 +121,7 @@ def test_what_lateness_is_put_down_to_sums_up_to_it(
     fleet: Scenario, planner: str, chance: int
 ) -> None:
     adg = late(planned(fleet, planner), random.Random(chance))  # noqa: S311
-    runs = adg.runs(chance, 0, 5)
+    runs = adg.make_runs(chance, 0, 5)
     ends = adg.first_visit[1:] - 1
     by = runs.completion - adg.planned[ends] - adg.dwell[ends]
     expected = np.where(runs.completion < NEVER, np.maximum(by, 0), 0).sum()

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from rightofway.check import check
 from rightofway.metrics.alone import compute_alone_completions
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, completions_of
-from rightofway.precedence import graph_of
+from rightofway.precedence import build_graph_of_plan
 from rightofway.search import FleetSearch
 from rightofway.site import make_grid_roadmap
 from tests.builders.fleets import grid_fleet, random_fleet
@@ -93,7 +93,9 @@ def test_retiming_gives_the_timetable_of_the_precedence_graph(
         search.improve(100, patience=10**9)
         before = search.list_tracks()
         search.retime()
-        assert search.list_tracks() == tuple(graph_of(scenario.problem, before).tracks())
+        assert search.list_tracks() == tuple(
+            build_graph_of_plan(scenario.problem, before).build_tracks()
+        )
         assert search.cost == sum(completions_of(scenario, search.list_tracks()))
 
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from rightofway.model import Rules, Scenario, Track
 from rightofway.planners import make_planning_problem
-from rightofway.precedence import graph_of
+from rightofway.precedence import build_graph_of_plan
 from rightofway.search import plan_by_lacam
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law
@@ -62,6 +62,6 @@ def test_the_kernel_finds_the_plan_of_the_oracle(scenario: Scenario, seed: int) 
     if expected is None:
         return
     tracks = [Track.of(vertices, enter) for vertices, enter in expected]
-    earliest = graph_of(problem, tracks).tracks()
+    earliest = build_graph_of_plan(problem, tracks).build_tracks()
     found = plan_by_lacam(problem, seed=seed, most_effort=10**6, spreads=False)
     assert found == list(earliest)

@@ -13,7 +13,7 @@ import rightofway
 from rightofway.errors import NoPlanExists
 from rightofway.model import Scenario, Track
 from rightofway.planners import make_planning_problem
-from rightofway.precedence import graph_of
+from rightofway.precedence import build_graph_of_plan
 from rightofway.search import plan_by_lacam
 from tests.builders.any_fleet import FEATURES, any_fleet
 from tests.builders.any_plan import planned
@@ -32,7 +32,7 @@ def test_nobody_could_be_earlier_in_the_same_order(scenario: Scenario, seed: int
     tracks = plan_by_lacam(make_planning_problem(scenario), seed=seed, most_effort=20_000)
     if tracks is None:
         leave("the search gave up")
-    assert graph_of(scenario.problem, tracks).tracks() == tracks
+    assert build_graph_of_plan(scenario.problem, tracks).build_tracks() == tracks
 
 
 def in_step(scenario: Scenario) -> Scenario:

@@ -67,11 +67,11 @@ def check_periods(run: CyclicResult) -> None:
         cycles, period = oracle.cycles_of(timetable), int(timetable.period)
         assert all(oracle.is_kept(cycle, period) for cycle in cycles)
         assert not oracle.conflicts(run.scenario, cycles, period)
-        assert graph.slack().min() >= 0
-        found = graph.critical_circuit()
+        assert graph.compute_slack().min() >= 0
+        found = graph.find_critical_circuit()
         assert oracle.load(run.scenario, timetable) <= found.cycle_time <= period
         shortest = Tick(-(-found.cycle_time.numerator // found.cycle_time.denominator))
-        again = oracle.cycles_of(graph.earliest(shortest))
+        again = oracle.cycles_of(graph.compute_earliest(shortest))
         assert all(oracle.is_kept(cycle, shortest) for cycle in again)
         assert not oracle.conflicts(run.scenario, again, shortest)
 
@@ -84,7 +84,7 @@ def stands_still(run: CyclicResult) -> bool:
 
 
 def check_plan(plan: Plan, since: int = 0) -> None:
-    """Let the judge look at unrolled laps, until the first robot stays at home."""
+    """Let the judge look at unroll_schedule laps, until the first robot stays at home."""
     ends = min(int(track.enter[-1]) for track in plan.tracks)
     found = check(plan).faults
     assert not [fault for fault in found if fault.tick is None or since <= fault.tick < ends]

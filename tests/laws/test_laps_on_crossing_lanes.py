@@ -33,12 +33,12 @@ def check_result(run: CyclicResult) -> None:
         cycles, period = oracle.cycles_of(timetable), int(timetable.period)
         assert all(oracle.is_kept(cycle, period) for cycle in cycles)
         assert not oracle.conflicts(run.scenario, cycles, period)
-        assert graph.slack().min() >= 0
-        found = graph.critical_circuit()
+        assert graph.compute_slack().min() >= 0
+        found = graph.find_critical_circuit()
         assert oracle.load(run.scenario, timetable) <= found.cycle_time <= period
         # The earliest timetable of the same orders keeps the rules, too.
         shortest = Tick(-(-found.cycle_time.numerator // found.cycle_time.denominator))
-        again = oracle.cycles_of(graph.earliest(shortest))
+        again = oracle.cycles_of(graph.compute_earliest(shortest))
         assert all(oracle.is_kept(cycle, shortest) for cycle in again)
         assert not oracle.conflicts(run.scenario, again, shortest)
 
@@ -195,9 +195,9 @@ def test_rights_of_way_are_those_of_some_periods_laid_out_one_by_one() -> None:
     )
     context = GroupContext(scenario=scenario, routes=tuple(cyclic_routes(scenario, "shortest")))
     graph = context.graph(timetable)
-    rights = graph.arcs.chosen(graph.arcs.first >= 0)
-    assert graph.slack().min() == 0
-    assert graph.critical_circuit().cycle_time == 16
+    rights = graph.arcs.choose(graph.arcs.first >= 0)
+    assert graph.compute_slack().min() == 0
+    assert graph.find_critical_circuit().cycle_time == 16
     # R1 to B, R2 to D, R1 to A, R2 to C: each drive waits for the end of the drive before it.
     assert sorted(zip(rights.tail.tolist(), rights.head.tolist(), strict=True)) == [
         (0, 2),

@@ -45,7 +45,7 @@ def test_robots_that_look_find_the_new_plan_possible(
     expected = execution.by_right_of_way(slow)
     assert times(monitor.execution) == times(expected)
     assert execution.collisions(slow, expected)[:3] == (0, 0, 0)
-    assert monitor.adg.deadlocked() == []
+    assert monitor.adg.list_deadlocked() == []
 
 
 @law(any_fleet(without=CLOSURES), planners, seeds, policies)
@@ -62,7 +62,7 @@ def test_the_judge_finds_all_work_done_and_no_robots_meeting(
     adg = ActionDependencyGraph(fleet, plan.tracks, delays)
     monitor = ExecutionMonitor(adg, policy, chance, 0, Deadline())
     assert (monitor.completion < NEVER).all()
-    found = check(replace(plan, tracks=monitor.adg.tracks_at(monitor.execution.enter)))
+    found = check(replace(plan, tracks=monitor.adg.build_tracks(monitor.execution.enter)))
     assert found.ok, found
 
 
@@ -89,10 +89,10 @@ class Witness(ExecutionMonitor):
     last: tuple[int, list[list[tuple[int, int]]]] = (0, [])
     seen = 0
 
-    def forecast(self, now: int) -> Forecast:
+    def make_forecast(self, now: int) -> Forecast:
         self.look()
         self.last = (now, booked_until(self, now))
-        return super().forecast(now)
+        return super().make_forecast(now)
 
     def look(self) -> None:
         tick, before = self.last

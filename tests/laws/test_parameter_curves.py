@@ -71,7 +71,7 @@ def period_by_hand(group: GroupResult, scenario: Scenario) -> Fraction | None:
     after = replace(timetable, laps=tuple(laps))
     rows = BookedRows.of_laps(old.problem, timetable.robots, timetable.laps, timetable.counts)
     graph = TimedEventGraph(after, rules=make_planning_problem(scenario).booking_rules, rows=rows)
-    found = graph.critical_circuit_if_live()
+    found = graph.find_critical_circuit_if_live()
     return None if found is None else found.cycle_time * scenario.problem.clock.tick
 
 
@@ -94,7 +94,7 @@ def check_curves(scenario: Scenario, draw: random.Random) -> int:
             continue
         curves = parameter_curves(scenario, graph, most_visits=MOST_CURVES * len(graph))
         assert len(curves) <= MOST_CURVES
-        period = graph.critical_circuit().cycle_time * scenario.problem.clock.tick
+        period = graph.find_critical_circuit().cycle_time * scenario.problem.clock.tick
         for curve in curves:
             breakpoints += len(curve.pieces) - 1
             assert curve.period(curve.value) == period

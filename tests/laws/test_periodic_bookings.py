@@ -35,8 +35,8 @@ def test_a_track_that_closes_is_found_exactly_where_there_is_one(
     graph = TimedEventGraph(
         drawn, rules=BookingRules(headway=Tick(headway), books_ahead=books_ahead)
     )
-    least = graph.critical_circuit().cycle_time
-    timetable = graph.earliest(Tick(-(-least.numerator // least.denominator) + spare))
+    least = graph.find_critical_circuit().cycle_time
+    timetable = graph.compute_earliest(Tick(-(-least.numerator // least.denominator) + spare))
     period = timetable.period
     circle = PeriodicBookings(
         robots + 5, period, rules=BookingRules(headway=Tick(headway), books_ahead=books_ahead)

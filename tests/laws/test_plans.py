@@ -16,7 +16,7 @@ from rightofway.cyclic import best_timetable, plan_of_laps, run_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.planners.routing import find_shortest_routes
-from rightofway.precedence import graph_on
+from rightofway.precedence import build_graph
 from rightofway.search import Distances
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.any_plan import ALL, QUICK, STRICT, broken, by_both_judges, knows, planned
@@ -96,8 +96,8 @@ def heedless(fleet: Scenario) -> Plan:
         routes = find_shortest_routes(fleet, Distances(fleet.roadmap))
     except NoPlanExists:
         leave("a robot has no way")
-    graph = graph_on(replace(fleet, closures=()).problem, routes)
-    return Plan(scenario=fleet, tracks=tuple(graph.tracks()), run=PlannerRun(name="heedless"))
+    graph = build_graph(replace(fleet, closures=()).problem, routes)
+    return Plan(scenario=fleet, tracks=tuple(graph.build_tracks()), run=PlannerRun(name="heedless"))
 
 
 @law(any_fleet(without={"layouts"}, always={"limits"}), st.sampled_from(STRICT))

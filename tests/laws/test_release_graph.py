@@ -22,7 +22,7 @@ planners, seeds = st.sampled_from(STRICT), st.integers(0, 2**32 - 1)
 def test_a_plan_has_a_cycle_just_where_it_has_a_rotation(fleet: Scenario, planner: str) -> None:
     """Those who wait for each other round a circle are those who move round at one instant."""
     plan = planned(fleet, planner)
-    cycle = ReleaseGraph.of(fleet, plan.tracks).rotation()
+    cycle = ReleaseGraph.of(fleet, plan.tracks).find_rotation()
     strict = replace(fleet, rules=replace(fleet.rules, rotations=False))
     faults = check(replace(plan, scenario=strict)).faults
     rotating = [set(fault.robots) for fault in faults if fault.kind == "rotation"]
@@ -38,7 +38,7 @@ def test_robots_released_part_by_part_hold_nothing_together_and_come_to_their_en
     plan, draw = planned(fleet, planner), random.Random(chance)  # noqa: S311
     tracks, robots = plan.tracks, range(len(plan.tracks))
     graph, floor = ReleaseGraph.of(fleet, tracks), Floor(fleet, tracks)
-    if graph.rotation():
+    if graph.find_rotation():
         leave("a rotation is released by no order")
     ends = [len(track) - 1 for track in tracks]
     arrived, released = [0 for _ in robots], [0 for _ in robots]
@@ -58,7 +58,7 @@ def test_robots_released_part_by_part_hold_nothing_together_and_come_to_their_en
         move, robot = draw.choice(moves)
         if move == "arrives":
             arrived[robot] += 1
-            for part in graph.after(Arrival(robot, arrived[robot])):
+            for part in graph.list_waiting_for(Arrival(robot, arrived[robot])):
                 assert Arrival(robot, arrived[robot]) in graph.waits(part)
         else:
             released[robot] += 1
@@ -77,7 +77,7 @@ def test_only_the_order_of_arrivals_counts(fleet: Scenario, planner: str) -> Non
         for track in tracks
     ]
     by_order = ReleaseGraph.of(fleet, numbered)
-    parts = {*graph.waiting_parts(), *by_order.waiting_parts()}
+    parts = {*graph.list_waiting_parts(), *by_order.list_waiting_parts()}
     assert {part: graph.waits(part) for part in parts} == {
         part: by_order.waits(part) for part in parts
     }

@@ -20,7 +20,7 @@ def test_no_chaos_makes_robots_meet_or_lose_work(
 ) -> None:
     """Closures are kept by the clock, and the rule reads none."""
     plan = planned(fleet, planner)
-    if ReleaseGraph.of(fleet, plan.tracks).rotation():
+    if ReleaseGraph.of(fleet, plan.tracks).find_rotation():
         leave("a rotation is released by no order")
     if not knows(kind, plan):
         leave("laps need robots that return home")

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from rightofway.check import check
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
-from rightofway.execution.progress import simulated_progress
+from rightofway.execution.progress import derive_progress
 from rightofway.execution.replan import find_commitment, find_held_by_broken, replan
 from rightofway.model import NEVER, Plan, Scenario, Stage, Tick
 from rightofway.planners import Deadline
@@ -74,9 +74,9 @@ def test_as_many_finish_as_brute_force_finds(fleet: Scenario, planner: str, chan
     plan, draw = planned(fleet, planner), random.Random(chance)  # noqa: S311
     adg = with_breakdowns(draw, plan, most=1)
     sample = adg.delay_sample(chance, 0)
-    since, broken = min((sample.breakdown(robot), robot) for robot in range(len(plan.tracks)))
+    since, broken = min((sample.find_breakdown(robot), robot) for robot in range(len(plan.tracks)))
     run = adg.execute(sample)
-    forecast = Forecast(adg, simulated_progress(adg, sample, run, since, frozenset({broken})))
+    forecast = Forecast(adg, derive_progress(adg, sample, run, since, frozenset({broken})))
     stages = tuple(one.stages for one in plan.scenario.problem.itineraries)
     replanned = replan(forecast, stages, 0, Deadline())
     assert replanned
@@ -94,7 +94,7 @@ def test_no_robots_collide_over_all_plans_of_a_run_and_the_rest_complete(
     adg = with_breakdowns(draw, plan, most=2)
     policy = ExecutionPolicy(switch=switch, replan=True)
     monitor = ExecutionMonitor(adg, policy, chance, 0, Deadline())
-    tracks = monitor.adg.tracks_at(monitor.execution.enter)
+    tracks = monitor.adg.build_tracks(monitor.execution.enter)
     report = check(replace(plan, tracks=tracks))
     assert not MEETINGS & set(report.counts)
     assert not monitor.execution.collisions[:3].any()

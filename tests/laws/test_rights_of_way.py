@@ -17,8 +17,8 @@ from rightofway.precedence import (
     ActionDependencyGraph,
     DelaySample,
     PrecedenceGraph,
-    graph_of,
-    graph_on,
+    build_graph,
+    build_graph_of_plan,
 )
 from rightofway.search import Distances
 from tests.builders.any_fleet import any_fleet
@@ -48,7 +48,7 @@ PLANNERS = st.sampled_from(["two-level", "fixed-priority", "prioritized"])
 def undecided(scenario: Scenario) -> PrecedenceGraph:
     """Return the graph of shortest routes, without any right of way."""
     try:
-        return graph_on(
+        return build_graph(
             scenario.problem, find_shortest_routes(scenario, Distances(scenario.roadmap))
         )
     except NoPlanExists:
@@ -122,7 +122,9 @@ def excluded_crosswise() -> Scenario:
 @once(scenario=excluded_crosswise())
 def test_the_earliest_conflict_of_two_robots_is_that_of_their_bookings(scenario: Scenario) -> None:
     graph = undecided(scenario)
-    booked = [list(bookings(scenario, robot, track)) for robot, track in enumerate(graph.tracks())]
+    booked = [
+        list(bookings(scenario, robot, track)) for robot, track in enumerate(graph.build_tracks())
+    ]
     for i, j in combinations(range(len(booked)), 2):
         overlaps = [
             max(one.start, other.start)
@@ -131,7 +133,7 @@ def test_the_earliest_conflict_of_two_robots_is_that_of_their_bookings(scenario:
             and other.start < one.end
             and incompatible(scenario, i, one.shape, j, other.shape)
         ]
-        meeting = graph.next_meeting_of(i, j)
+        meeting = graph.find_next_meeting_of(i, j)
         assert (meeting and meeting.tick) == min(overlaps, default=None)
 
 
@@ -140,27 +142,39 @@ def test_one_robot_goes_first_in_a_whole_segment(scenario: Scenario) -> None:
     """Other orders leave a pair undecidable; what a segment gives implies each pair's order."""
     graph = undecided(scenario)
     for i, j in combinations(range(len(graph.routes)), 2):
-        meeting = graph.next_meeting_of(i, j)
+        meeting = graph.find_next_meeting_of(i, j)
         if meeting is None:
             continue
-        segment = graph.segment(*meeting.visits)
+        segment = graph.find_segment(*meeting.visits)
         if scenario.problem.resources.are_points and not scenario.problem.booking_rules.books_ahead:
             leave("points that follow each other at one instant")
-        i_first = [(graph.visit(i, p.i), graph.visit(j, p.j_starts)) for p in segment.pairs]
-        j_first = [(graph.visit(j, p.j), graph.visit(i, p.i_starts)) for p in segment.pairs]
+        i_first = [(graph.get_visit(i, p.i), graph.get_visit(j, p.j_starts)) for p in segment.pairs]
+        j_first = [(graph.get_visit(j, p.j), graph.get_visit(i, p.i_starts)) for p in segment.pairs]
         mark = graph.checkpoint()
         for mixed in product(i_first, j_first):
             if graph.give_all(mixed):
                 assert not all_can_be_decided(graph, list(zip(i_first, j_first, strict=True)))
             graph.rollback(mark)
         for whole, given in (
-            (i_first, [(graph.visit(i, a), graph.visit(j, b)) for a, b in segment.if_j_waits()]),
-            (j_first, [(graph.visit(j, b), graph.visit(i, a)) for a, b in segment.if_i_waits()]),
+            (
+                i_first,
+                [
+                    (graph.get_visit(i, a), graph.get_visit(j, b))
+                    for a, b in segment.list_rights_of_i()
+                ],
+            ),
+            (
+                j_first,
+                [
+                    (graph.get_visit(j, b), graph.get_visit(i, a))
+                    for a, b in segment.list_rights_of_j()
+                ],
+            ),
         ):
             if graph.give_all(given):
-                enter = np.concatenate([track.enter for track in graph.tracks()])
+                enter = np.concatenate([track.enter for track in graph.build_tracks()])
                 assert graph.give_all(whole)
-                again = np.concatenate([track.enter for track in graph.tracks()])
+                again = np.concatenate([track.enter for track in graph.build_tracks()])
                 assert enter.tolist() == again.tolist()
             graph.rollback(mark)
 
@@ -168,23 +182,23 @@ def test_one_robot_goes_first_in_a_whole_segment(scenario: Scenario) -> None:
 def test_lanes_that_cross_are_one_decision() -> None:
     """R1 drives from A to B, R2 from C to D; only the two drives exclude each other."""
     graph = undecided(crossing())
-    meeting = graph.next_meeting()
+    meeting = graph.find_next_meeting()
     assert meeting is not None
-    segment = graph.segment(*meeting.visits)
+    segment = graph.find_segment(*meeting.visits)
     assert segment.kind == "crossing"
-    assert segment.if_j_waits() == [(0, 1)]  # R1 has left A before R2 starts to drive to D
-    assert segment.if_i_waits() == [(1, 0)]
+    assert segment.list_rights_of_i() == [(0, 1)]  # R1 has left A before R2 starts to drive to D
+    assert segment.list_rights_of_j() == [(1, 0)]
     assert segment.i_vertices == (0, 1)
 
 
 @law(FLEETS, PLANNERS)
 def test_the_order_of_a_plan_gives_the_earliest_times(scenario: Scenario, planner: str) -> None:
     plan = some_plan(scenario, planner)
-    graph = graph_of(plan.scenario.problem, plan.tracks)
+    graph = build_graph_of_plan(plan.scenario.problem, plan.tracks)
     dwell, drive = ([getattr(route, name) for route in graph.routes] for name in ("dwell", "drive"))
     _, enter = executed(plan.scenario, plan.tracks, dwell, drive)
-    assert [track.enter.tolist() for track in graph.tracks()] == enter
-    assert graph.next_meeting() is None
+    assert [track.enter.tolist() for track in graph.build_tracks()] == enter
+    assert graph.find_next_meeting() is None
 
 
 @law(FLEETS, PLANNERS, st.sampled_from(DELAYS), st.integers(0, 999))
@@ -195,7 +209,7 @@ def test_delayed_robots_wait_just_as_long_as_they_must(
     plan = some_plan(scenario, planner)
     model = delay_model_of(read_delays(delays, scenario), scenario)
     adg = ActionDependencyGraph(scenario, plan.tracks, model)
-    assert adg.deadlocked() == []
+    assert adg.list_deadlocked() == []
     sample = adg.delay_sample(seed, 1)
     run = adg.execute(sample)
     own = adg.first_visit[1:-1]
@@ -205,7 +219,7 @@ def test_delayed_robots_wait_just_as_long_as_they_must(
     start, enter = executed(scenario, plan.tracks, dwell, drive)
     assert [part.tolist() for part in np.split(run.enter, own)] == enter
     assert [part.tolist() for part in np.split(run.start, own)] == start
-    tracks = adg.tracks_at(run.enter)
+    tracks = adg.build_tracks(run.enter)
     assert first_overlap(scenario, tracks, start) is None
     assert not discs_meet(scenario, tracks, start)
     assert run.collisions[:3].tolist() == [0, 0, 0]
@@ -221,7 +235,7 @@ def test_the_kernel_counts_what_meets_by_the_clock(
     adg = ActionDependencyGraph(scenario, plan.tracks, model)
     run = adg.execute(adg.delay_sample(seed, 0), clock=True)
     start = [part.tolist() for part in np.split(run.start, adg.first_visit[1:-1])]
-    first = first_overlap(scenario, adg.tracks_at(run.enter), start)
+    first = first_overlap(scenario, adg.build_tracks(run.enter), start)
     assert (run.collisions[:3].sum() > 0) == (first is not None)
     assert int(run.collisions[3]) == (NEVER if first is None else first)
 
@@ -231,7 +245,7 @@ def test_robots_that_break_down_are_waited_for(scenario: Scenario, planner: str,
     plan = some_plan(scenario, planner)
     model = delay_model_of(read_delays("breaks:0.4,chance:0.3x5", plan.scenario), plan.scenario)
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, model)
-    batch = adg.runs(seed, 0, 50)
+    batch = adg.make_runs(seed, 0, 50)
     assert not batch.by_right_of_way[:, :3].any()
     stuck = (batch.completion >= NEVER).any(axis=1)
     assert batch.is_broken[stuck].any(axis=1).all()

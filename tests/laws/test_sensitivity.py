@@ -7,7 +7,11 @@ from fractions import Fraction
 import numpy as np
 from hypothesis import strategies as st
 
-from rightofway.precedence import TimedEventGraph, find_critical_circuit_without, sensitivity
+from rightofway.precedence import (
+    TimedEventGraph,
+    compute_sensitivity,
+    find_critical_circuit_without,
+)
 from tests.builders.laws import law
 from tests.builders.periodic import patterns
 
@@ -21,13 +25,13 @@ def test_gain_loss_and_reach_are_those_of_the_cycle_time_itself(
 ) -> None:
     lengths = graph.arcs.length.tolist()
     share = np.array([draw.choice((0, length)) for length in lengths], np.int64)
-    effect = sensitivity(graph, share)
+    effect = compute_sensitivity(graph, share)
 
     def at(part: Fraction) -> Fraction:
         return find_critical_circuit_without(graph, share, part).cycle_time
 
     now = effect.cycle_time
-    assert at(Fraction(0)) == now == graph.critical_circuit().cycle_time
+    assert at(Fraction(0)) == now == graph.find_critical_circuit().cycle_time
     assert at(Fraction(1)) == effect.at_best
     assert at(-LITTLE) == now + effect.loss * LITTLE
     assert effect.until > 0

@@ -156,7 +156,7 @@ def plan() -> Plan:
 
 def runs(_: Scenario, limit: float) -> None:
     adg = ActionDependencyGraph(plan().scenario, plan().tracks, DelayModel.none(40))
-    adg.runs(0, 0, 10**7, limit)
+    adg.make_runs(0, 0, 10**7, limit)
 
 
 def least_plan(scenario: Scenario, limit: float) -> None:
@@ -186,8 +186,10 @@ CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "PeriodicBookings.find_route": find_route,
     "PeriodicBookings.search": search,
     "PriceAscent.run": raise_prices,
-    "critical_circuit": lambda _, limit: event_graph().critical_circuit(time_limit=limit),
-    "earliest_times": lambda _, limit: event_graph().earliest(Tick(10**6), time_limit=limit),
+    "critical_circuit": lambda _, limit: event_graph().find_critical_circuit(time_limit=limit),
+    "earliest_times": lambda _, limit: event_graph().compute_earliest(
+        Tick(10**6), time_limit=limit
+    ),
     "earliest_track": track,
     "plan_by_lacam": lacam,
 }

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from rightofway import _core
 from rightofway.model import Tick
-from rightofway.precedence import CyclicSchedule, TimedEventGraph, unrolled
+from rightofway.precedence import CyclicSchedule, TimedEventGraph, unroll_schedule
 from tests.builders.laws import law
 from tests.builders.periodic import patterns
 from tests.oracles import timed_event_graph as oracle
@@ -32,19 +32,19 @@ def test_arcs_are_those_of_the_visits_laid_out_one_by_one(graph: TimedEventGraph
 @law(patterns())
 def test_the_period_by_theory_is_the_period_of_the_running_fleet(graph: TimedEventGraph) -> None:
     arcs = oracle.turned(graph.timetable, slow_arcs(graph))
-    assert graph.critical_circuit().cycle_time == oracle.run_until_it_repeats(len(graph), arcs)
+    assert graph.find_critical_circuit().cycle_time == oracle.run_until_it_repeats(len(graph), arcs)
 
 
 @law(patterns())
 def test_policy_iteration_finds_what_karp_does(graph: TimedEventGraph) -> None:
     arcs = oracle.turned(graph.timetable, slow_arcs(graph))
-    assert graph.critical_circuit().cycle_time == oracle.karp(len(graph), arcs)
+    assert graph.find_critical_circuit().cycle_time == oracle.karp(len(graph), arcs)
 
 
 @law(patterns())
 def test_the_critical_circuit_is_one_and_as_long_as_it_says(graph: TimedEventGraph) -> None:
-    found, arcs = graph.critical_circuit(), graph.arcs
-    on = arcs.chosen(found.arcs)
+    found, arcs = graph.find_critical_circuit(), graph.arcs
+    on = arcs.choose(found.arcs)
     assert np.array_equal(on.head, np.roll(on.tail, -1))
     assert Fraction(int(on.length.sum()), int(on.height.sum())) == found.cycle_time
 
@@ -53,15 +53,15 @@ def test_the_critical_circuit_is_one_and_as_long_as_it_says(graph: TimedEventGra
 def test_the_earliest_timetable_keeps_all_arcs_and_all_orders(
     graph: TimedEventGraph, spare: int
 ) -> None:
-    cycle_time = graph.critical_circuit().cycle_time
+    cycle_time = graph.find_critical_circuit().cycle_time
     times = cycle_time.denominator
-    wide = TimedEventGraph(unrolled(graph.timetable, times), rules=graph.rules)
-    assert wide.critical_circuit().cycle_time == cycle_time.numerator
-    found = wide.earliest(Tick(cycle_time.numerator + spare))
+    wide = TimedEventGraph(unroll_schedule(graph.timetable, times), rules=graph.rules)
+    assert wide.find_critical_circuit().cycle_time == cycle_time.numerator
+    found = wide.compute_earliest(Tick(cycle_time.numerator + spare))
     again = TimedEventGraph(found, rules=graph.rules)
-    assert again.slack().min() >= 0
-    assert spare or (again.slack() == 0).any()
-    assert again.critical_circuit().cycle_time == cycle_time.numerator
+    assert again.compute_slack().min() >= 0
+    assert spare or (again.compute_slack() == 0).any()
+    assert again.find_critical_circuit().cycle_time == cycle_time.numerator
     is_well_formed(found)
 
 
@@ -74,9 +74,9 @@ def is_well_formed(timetable: CyclicSchedule) -> None:
 
 @law(patterns())
 def test_nothing_is_possible_below_the_cycle_time(graph: TimedEventGraph) -> None:
-    cycle_time = graph.critical_circuit().cycle_time
+    cycle_time = graph.find_critical_circuit().cycle_time
     with pytest.raises(ValueError, match="is less than the cycle time"):
-        graph.earliest(Tick((cycle_time.numerator - 1) // cycle_time.denominator))
+        graph.compute_earliest(Tick((cycle_time.numerator - 1) // cycle_time.denominator))
 
 
 @st.composite

@@ -17,7 +17,11 @@ DOOR_1 = paper_scenario(PAPER[0])
 
 def corridor(*stops: Stop, laps: int = 1, speed: Fraction = Fraction(1)) -> Scenario:
     """Return one robot in a corridor of three cells, with home at the left end."""
-    grid = rightofway.FleetBuilder(grid=["..."]).add_robot("x", home="N0", target="N1").scenario()
+    grid = (
+        rightofway.FleetBuilder(grid=["..."])
+        .add_robot("x", home="N0", target="N1")
+        .build_scenario()
+    )
     robot = Robot(name="R", home=VertexId(0), stops=stops, laps=laps, speed=speed)
     return Scenario(roadmap=grid.roadmap, robots=(robot,), rules=Rules())
 
@@ -72,7 +76,7 @@ def test_columns_have_times_in_the_scenario_unit_and_exact_ticks() -> None:
 def test_a_visit_says_that_a_robot_turns_on_the_spot() -> None:
     """East, then south: 2 for the corner, which is waited for, too; 4 to come back."""
     fleet = rightofway.FleetBuilder(grid=["..", "@."], turn_rate=45)
-    scenario = fleet.add_robot("R", home="N0", target="N3", work=1).scenario()
+    scenario = fleet.add_robot("R", home="N0", target="N3", work=1).build_scenario()
     plan = plan_of(scenario, [0, 1, 2, 1, 0], [0, 1, 4, 10, 14])
     assert [(event.purpose, event.enter, event.waits) for event in list_events(plan)] == [
         ("home", 0, 0),

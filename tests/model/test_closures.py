@@ -18,7 +18,7 @@ def line(*, radius: str = "0", clearance: str = "0", spacing: Any = "whole") -> 
     for name, x, y in [("A", 0, 0), ("B", 4, 0), ("C", 8, 0), ("D", 2, 1), ("E", 2, 5)]:
         fleet.add_vertex(name, x, y)
     fleet.add_edge("A", "B").add_edge("B", "C").add_edge("D", "E")
-    return fleet.add_robot("R1", home="A", target="C", speed=2, radius=radius).scenario()
+    return fleet.add_robot("R1", home="A", target="C", speed=2, radius=radius).build_scenario()
 
 
 def closed(scenario: Scenario, closure: Closure) -> set[str]:

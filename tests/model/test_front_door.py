@@ -32,7 +32,7 @@ def door(**changes: Any) -> FleetBuilder:
 
 def pair() -> Scenario:
     fleet = door().add_robot("R1", home="N0", target="N6", speed="1/2")
-    return fleet.add_robot("R2", home=(0, 2), target="N8", work=0.5).scenario()
+    return fleet.add_robot("R2", home=(0, 2), target="N8", work=0.5).build_scenario()
 
 
 HALVES = [0.5, "0.5", "1/2", ".5", "5e-1", Decimal("0.5"), Fraction(1, 2), np.float64(0.5)]
@@ -50,7 +50,7 @@ def test_a_number_is_kept_exactly_however_it_is_written(half: Any) -> None:
 def test_points_units_and_the_frame_are_those_of_a_file() -> None:
     fleet = door(y="up", origin=(10, "20.5"), units={"length": "m"})
     fleet.add_robot("R1", home={"x": 10.2, "y": 20.6}, stops=[({"x": 12.9, "y": 23}, 4)])
-    built = fleet.scenario()
+    built = fleet.build_scenario()
     shape = {"grid": DOOR, "y": "up", "origin": [10, "20.5"]}
     robots = [{"name": "R1", "home": "N6", "stops": [{"at": "N2", "work": 4}]}]
     document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
@@ -60,7 +60,7 @@ def test_points_units_and_the_frame_are_those_of_a_file() -> None:
 def test_edges_without_a_length_share_one_step() -> None:
     fleet = FleetBuilder(y="up").add_vertex("a", 0, 0).add_vertex("b", 1, 1).add_vertex("c", 0, 0.5)
     fleet.add_edge("a", "b").add_edge("b", "c").add_edge("a", "c")
-    roadmap = fleet.roadmap()
+    roadmap = fleet.build_roadmap()
     # roots of 2 and 1.25, rounded up to a millionth, because a and c are 0.5 apart
     assert [float(length) for length in roadmap.lengths] == [0.5, 1.118034, 1.414214]
     assert roadmap.get_point(1) == (Fraction(1), Fraction(1))
@@ -151,11 +151,11 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         "robots: .* is no fleet",
     ),
     "speed is 0": (
-        lambda: door().add_robot("R1", home="N0", target="N6", speed=0).scenario(),
+        lambda: door().add_robot("R1", home="N0", target="N6", speed=0).build_scenario(),
         r"robots\[0\].speed: 0 is not positive",
     ),
     "weight is 0": (
-        lambda: door().add_robot("R1", home="N0", target="N6", weight=0).scenario(),
+        lambda: door().add_robot("R1", home="N0", target="N6", weight=0).build_scenario(),
         r"robots\[0\].weight: 0 is not positive",
     ),
     "weights are too far apart": (
@@ -163,7 +163,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
             door()
             .add_robot("R1", home="N0", target="N6", weight="1/1001")
             .add_robot("R2", home="N2", target="N8", weight=1000)
-            .scenario()
+            .build_scenario()
         ),
         r"robots\[1\].weight: 1000 makes weights too far apart .* it is 1001000, above 1000000",
     ),
@@ -176,7 +176,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         lambda: door(map_file="door.map"),
         r"grid and map_file are given \(give one map\)",
     ),
-    "no map": (lambda: FleetBuilder().scenario(), "the fleet has no map"),
+    "no map": (lambda: FleetBuilder().build_scenario(), "the fleet has no map"),
     "no map file": (lambda: FleetBuilder(map_file="no.map"), "no.map: there is no such file"),
     "no graph": (lambda: FleetBuilder(graph=[(0, 1)]), "graph: .* is no graph"),
     "a rule is unknown": (
@@ -311,25 +311,25 @@ def test_a_fleet_from_a_grid_is_that_of_the_file() -> None:
         target, work = each.stops[0].at, each.stops[0].work
         name = written.roadmap.name(target)
         fleet.add_robot(each.name, home=(row, column), target=name, work=work, speed=each.speed)
-    assert fleet.scenario() == written
+    assert fleet.build_scenario() == written
 
 
 def test_a_map_file_gives_the_same_map_as_its_rows(tmp_path: Path) -> None:
     file = tmp_path / "door.map"
     file.write_text("type octile\nheight 3\nwidth 3\nmap\n" + "\n".join(DOOR) + "\n")
-    assert FleetBuilder(map_file=file).roadmap() == make_grid_roadmap(DOOR)
+    assert FleetBuilder(map_file=file).build_roadmap() == make_grid_roadmap(DOOR)
 
 
 def test_stops_have_work_times_of_their_own() -> None:
     fleet = door().add_robot("R1", home="N0", stops=["N6", ((2, 2), "1/2"), (1, 1)])
-    stops = fleet.scenario().robots[0].stops
+    stops = fleet.build_scenario().robots[0].stops
     assert [stop.at for stop in stops] == [4, 6, 3]
     assert [stop.work for stop in stops] == [0, Fraction(1, 2), 0]
 
 
 def test_rules_are_given_by_name() -> None:
     fleet = door(headway="1/4", occupancy="both").add_robot("R1", home="N0", target="N6")
-    assert fleet.scenario().rules == rules(headway="1/4", occupancy="both")
+    assert fleet.build_scenario().rules == rules(headway="1/4", occupancy="both")
 
 
 def test_edges_have_their_straight_length_and_lead_both_ways_unless_told_otherwise() -> None:
@@ -337,7 +337,7 @@ def test_edges_have_their_straight_length_and_lead_both_ways_unless_told_otherwi
     fleet = FleetBuilder().add_vertex("dock", 0, 0).add_vertex("press", 3, 4)
     fleet.add_vertex("store", 3, 0)
     fleet.add_edge("dock", "press").add_edge("press", "store", "9/2", both_ways=False)
-    roadmap = fleet.roadmap()
+    roadmap = fleet.build_roadmap()
     dock, press, store = map(roadmap.get_vertex, ("dock", "press", "store"))
     assert roadmap.lengths == (Fraction(9, 2), Fraction(5))
     assert roadmap.find_edge(dock, press) is not None
@@ -348,7 +348,7 @@ def test_edges_have_their_straight_length_and_lead_both_ways_unless_told_otherwi
 
 def test_a_graph_of_networkx_is_a_map_and_its_nodes_are_places() -> None:
     fleet = FleetBuilder(graph=nx.grid_2d_graph(3, 3))
-    scenario = fleet.add_robot("R1", home=(0, 0), target=(2, 2)).scenario()
+    scenario = fleet.add_robot("R1", home=(0, 0), target=(2, 2)).build_scenario()
     assert scenario.roadmap.n_vertices == 9
     assert scenario.roadmap.n_edges == 24
     assert scenario.roadmap.name(scenario.robots[0].stops[0].at) == "(2, 2)"
@@ -361,7 +361,7 @@ def test_a_directed_graph_keeps_its_directions_and_lengths() -> None:
     graph.add_edge("A", "B", length="1/3")
     graph.add_edge("B", "C", weight=2)
     graph.add_edge("C", "A")
-    roadmap = FleetBuilder(graph=graph).roadmap()
+    roadmap = FleetBuilder(graph=graph).build_roadmap()
     assert roadmap.n_edges == 3
     assert roadmap.lengths == (Fraction(1, 3), Fraction(1), Fraction(2))
 
@@ -371,12 +371,12 @@ def test_positions_of_a_graph_give_the_lengths_of_its_edges() -> None:
     graph.add_node("A", pos=(0, 0))
     graph.add_node("B", x=0.3, y=0.4)
     graph.add_edge("A", "B")
-    assert FleetBuilder(graph=graph).roadmap().lengths == (Fraction(1, 2),)
+    assert FleetBuilder(graph=graph).build_roadmap().lengths == (Fraction(1, 2),)
 
 
 def test_classic_rules_go_by_their_name_as_in_files() -> None:
     def rules_with(**given: Any) -> Rules:
-        return door(**given).add_robot("R1", home="N0", target="N6").scenario().rules
+        return door(**given).add_robot("R1", home="N0", target="N6").build_scenario().rules
 
     classic = rules_with(rules="classic", headway=1)
     assert classic == Rules(turn=Fraction(0), ends="none", headway=Fraction(1), occupancy="one")

@@ -17,7 +17,7 @@ def waiting() -> Plan:
     fleet = FleetBuilder(grid=["...", "...", "..."], ends="none", turn=0)
     fleet.add_robot("R1", home="N1", target="N7").add_robot("R2", home="N5", target="N3", work=1)
     tracks = (Track.of([1, 4, 7], [0, 1, 2]), Track.of([5, 4, 3], [0, 2, 3]))
-    return Plan(scenario=fleet.scenario(), tracks=tracks, run=PlannerRun(name="hand"))
+    return Plan(scenario=fleet.build_scenario(), tracks=tracks, run=PlannerRun(name="hand"))
 
 
 def test_a_plan_answers_what_it_costs() -> None:

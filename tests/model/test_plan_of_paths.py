@@ -13,7 +13,7 @@ def two_on_a_line(**robot: Any) -> Scenario:
     """R1 drives from the left to the right of three cells, R2 back, past it on the row below."""
     fleet = rightofway.FleetBuilder(grid=["...", "..."], ends="none", turn=0)
     fleet = fleet.add_robot("R1", home=(0, 0), target=(0, 2), **robot)
-    return fleet.add_robot("R2", home=(0, 2), target=(0, 0)).scenario()
+    return fleet.add_robot("R2", home=(0, 2), target=(0, 0)).build_scenario()
 
 
 GOOD: dict[str, list[Any]] = {

@@ -165,7 +165,7 @@ def test_a_graph_without_positions_has_no_headings() -> None:
     fleet = FleetBuilder(graph=nx.path_graph(["A", "B", "C"]), turn_rate=90)
     fleet.add_robot("R1", home="A", target="C")
     with pytest.raises(InputError, match="turn_rate: needs positions, and the graph has none"):
-        fleet.scenario()
+        fleet.build_scenario()
 
 
 def test_a_roadmap_without_edges_that_follow_each_other_is_planned() -> None:
@@ -180,6 +180,6 @@ def test_a_roadmap_without_edges_that_follow_each_other_is_planned() -> None:
 def test_a_builder_takes_rates_of_the_fleet_and_of_a_robot() -> None:
     fleet = FleetBuilder(grid=["..", ".."], turn_rate=60)
     fleet.add_robot("R1", home="N0", target="N3", turn_rate="45/2")
-    scenario = fleet.add_robot("R2", home="N1", target="N2").scenario()
+    scenario = fleet.add_robot("R2", home="N1", target="N2").build_scenario()
     assert scenario.rules.turn_rate == 60
     assert [robot.turn_rate for robot in scenario.robots] == [Fraction(45, 2), None]

@@ -19,8 +19,8 @@ LAP_LOSS = 1 << 40
 def first_come(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 1]:
     """Let the robot go first that would enter the segment first; on a tie the first listed."""
     (i, j), graph = meeting.robots, window.graph
-    i_enters = graph.enter(graph.visit(i, segment.i_first))
-    j_enters = graph.enter(graph.visit(j, segment.j_first))
+    i_enters = graph.enter(graph.get_visit(i, segment.i_first))
+    j_enters = graph.enter(graph.get_visit(j, segment.j_first))
     return 0 if j_enters < i_enters else 1
 
 

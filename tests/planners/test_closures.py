@@ -18,7 +18,7 @@ def corridor(**closure: Any) -> Scenario:
     """Return two robots that exchange the ends of N0 - N1 - N2 - N3, with a bay N5 below N1."""
     fleet = FleetBuilder(grid=["....", "@.@@"], ends="none", turn=0)
     fleet = fleet.add_robot("R1", home="N0", target="N3").add_robot("R2", home="N3", target="N0")
-    return fleet.add_closure(**closure).scenario() if closure else fleet.scenario()
+    return fleet.add_closure(**closure).build_scenario() if closure else fleet.build_scenario()
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ def two_ways(*, kind: str | None = None, surcharge: str = "0") -> Scenario:
     fleet = fleet.add_vertex("C", 2, 0).add_vertex("D", 1, 1)
     fleet = fleet.add_edge("A", "B", 1, barred=["heavy"], surcharge=surcharge)
     fleet = fleet.add_edge("B", "C", 1).add_edge("A", "D", "3/2").add_edge("D", "C", "3/2")
-    return fleet.add_robot("R1", home="A", target="C", type=kind).scenario()
+    return fleet.add_robot("R1", home="A", target="C", type=kind).build_scenario()
 
 
 @pytest.mark.parametrize("planner", [name for name in find_all() if name != "lacam"])
@@ -120,7 +120,7 @@ def _few(planner: str) -> dict[str, int] | None:
 def test_a_robot_without_a_way_for_its_type_is_named() -> None:
     fleet = FleetBuilder(ends="none").add_vertex("A", 0, 0).add_vertex("B", 1, 0)
     fleet = fleet.add_edge("A", "B", barred=["heavy"])
-    scenario = fleet.add_robot("R1", home="A", target="B", type="heavy").scenario()
+    scenario = fleet.add_robot("R1", home="A", target="B", type="heavy").build_scenario()
     with pytest.raises(NoPlanExists) as proven:
         solve(scenario)
     assert str(proven.value) == (
@@ -134,6 +134,8 @@ def test_a_robot_that_passes_its_stop_before_a_closure_has_not_worked_there() ->
     fleet = FleetBuilder(grid=["....", "...."], occupancy="both", ends="none", turn=0)
     fleet = fleet.add_robot("R1", home="N0", target="N1", work=6)
     fleet = fleet.add_robot("R2", home="N7", stops=[("N5", 0), ("N7", 0)])
-    plan = solve(fleet.add_closure(at="N1", from_=4, until=9).scenario(), "lns", iterations=20)
+    plan = solve(
+        fleet.add_closure(at="N1", from_=4, until=9).build_scenario(), "lns", iterations=20
+    )
     assert check(plan).ok
     assert plan["R1"].completion == 16

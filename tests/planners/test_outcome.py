@@ -18,7 +18,7 @@ from rightofway.metrics import derive_outcome
 from rightofway.model import Objective, Proof, Scenario, Tick
 from rightofway.model.outcome import classify_cost
 from rightofway.phrases import to_parts
-from rightofway.report.plan import planning
+from rightofway.report.plan import describe_planning
 from rightofway.report.sentences import describe_proof
 from rightofway.viz.page.payload import make_payload
 from tests.builders.fleets import grid_fleet
@@ -81,7 +81,7 @@ def test_without_a_claim_a_plan_above_the_bound_is_the_best_found() -> None:
 def test_a_planner_may_prove_more_than_the_sum_alone() -> None:
     plan = solve(crossing(), "claimant", bound=5)
     assert plan.run.outcome == Outcome(kind=OutcomeKind.OPTIMAL, bound=Tick(5))
-    said = planning(plan, plan.scenario.quantities)
+    said = describe_planning(plan, plan.scenario.quantities)
     assert "optimal, no plan has a smaller flowtime" in said
 
 
@@ -95,7 +95,9 @@ def test_a_factor_holds_only_where_the_bound_proves_it(factor: str, kind: Outcom
     assert outcome is not None
     assert outcome.kind is kind
     assert plan.run.options == {"bound": 4, "factor": factor}
-    is_said = "at most 5/4 times the least flowtime" in planning(plan, plan.scenario.quantities)
+    is_said = "at most 5/4 times the least flowtime" in describe_planning(
+        plan, plan.scenario.quantities
+    )
     assert is_said == (kind is OutcomeKind.BOUNDED)
     page = make_payload(plan)["planner"].get("proven", "")
     assert page == to_parts(describe_proof(plan))
@@ -182,7 +184,7 @@ def test_a_spare_tick_against_rotations_is_no_proof() -> None:
     fleet.add_edge("B", "A", both_ways=False).add_edge("A", "C")
     fleet.add_robot("R1", home="A", target="A", radius="0.3")
     fleet.add_robot("R2", home="B", stops=["A", "B"], radius="0.3")
-    scenario = fleet.scenario()
+    scenario = fleet.build_scenario()
     outcome = solve(scenario, "lns", iterations=10).run.outcome
     assert outcome is not None
     assert outcome.bound is not None

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model import BookingRules, Lap, Tick
-from rightofway.precedence import Growth, PeriodPiece, TimedEventGraph, period_curve
+from rightofway.precedence import Growth, PeriodPiece, TimedEventGraph, compute_period_curve
 from rightofway.site import VertexId
 from tests.builders.periodic import timetable_of
 
@@ -48,27 +48,27 @@ def test_a_work_time_costs_nothing_until_its_circuit_is_critical() -> None:
     # 1 + (1 + 3) = 5 in one period. So each tick of work of the first robot at vertex 1 costs one.
     at_one = (graph.arcs.first < 0) & (graph.robot[graph.arcs.tail] == 0)
     at_one &= graph.index[graph.arcs.tail] == 1
-    [piece] = period_curve(graph, growing(graph, at_one), Fraction(0), Fraction(8))
+    [piece] = compute_period_curve(graph, growing(graph, at_one), Fraction(0), Fraction(8))
     assert told(piece) == [0, 8, 5, 1]
     # At home nobody waits for the first robot: its lap of 2 decides from 3 ticks on.
     at_home = (graph.arcs.first < 0) & (graph.robot[graph.arcs.tail] == 0)
     at_home &= graph.index[graph.arcs.tail] == 0
-    flat, steep = period_curve(graph, growing(graph, at_home), Fraction(0), Fraction(8))
+    flat, steep = compute_period_curve(graph, growing(graph, at_home), Fraction(0), Fraction(8))
     assert told(flat) == [0, 3, 5, 0]
     assert told(steep) == [3, 8, 2, 1]
     assert set(graph.robot[graph.arcs.tail[steep.arcs]].tolist()) == {0}
-    assert steep.at(Fraction(7, 2)) == Fraction(11, 2)
+    assert steep.compute_period(Fraction(7, 2)) == Fraction(11, 2)
 
 
 def test_a_circle_of_robots_leaves_no_room_for_a_headway() -> None:
     graph = circle()
     rights = growing(graph, graph.arcs.first >= 0)
-    [piece] = period_curve(graph, rights, Fraction(0), Fraction(8))
+    [piece] = compute_period_curve(graph, rights, Fraction(0), Fraction(8))
     assert told(piece) == [0, 0, 4, 0]
 
 
 def test_a_parameter_of_no_arc_changes_nothing() -> None:
     graph = circle()
     nothing = growing(graph, np.zeros(len(graph.arcs), np.bool_))
-    [piece] = period_curve(graph, nothing, Fraction(0), Fraction(8))
+    [piece] = compute_period_curve(graph, nothing, Fraction(0), Fraction(8))
     assert told(piece) == [0, 8, 4, 0]

@@ -14,12 +14,12 @@ def test_the_second_robot_waits_until_the_first_has_arrived_beyond_the_door() ->
     plan = door()
     graph = ReleaseGraph.of(plan.scenario, plan.tracks)
     assert graph.waits(Part(0, 1)) == (Arrival(1, 2),)
-    assert graph.after(Arrival(1, 2)) == (Part(0, 1),)
+    assert graph.list_waiting_for(Arrival(1, 2)) == (Part(0, 1),)
     assert not graph.may_go(Part(0, 1), [0, 1])
-    assert graph.missing(Part(0, 1), [0, 1]) == (Arrival(1, 2),)
+    assert graph.list_missing(Part(0, 1), [0, 1]) == (Arrival(1, 2),)
     assert graph.may_go(Part(0, 1), [0, 2])
     assert graph.waits(Part(1, 1)) == ()
-    assert graph.rotation() == ()
+    assert graph.find_rotation() == ()
 
 
 def test_robots_that_move_round_a_square_at_one_instant_are_a_cycle() -> None:
@@ -32,7 +32,7 @@ def test_robots_that_move_round_a_square_at_one_instant_are_a_cycle() -> None:
     )
     scenario = Scenario(roadmap=roadmap, robots=robots, rules=Rules(ends="none"))
     tracks = [Track.of(way, [0, Tick(1)]) for way in ways]
-    cycle = ReleaseGraph.of(scenario, tracks).rotation()
+    cycle = ReleaseGraph.of(scenario, tracks).find_rotation()
     assert cycle == (Part(0, 1), Part(1, 1), Part(2, 1), Part(3, 1))
 
 
@@ -48,5 +48,5 @@ def test_robots_wait_in_the_order_of_their_arrivals_however_long_a_drive_takes()
     fleet = fleet.add_robot("R1", home="A", target="B", speed=10, radius=1)
     fleet = fleet.add_robot("R2", home="C", target="D", speed=1, radius=1)
     tracks = [Track.of((0, 1), (0, 2)), Track.of((2, 3), (0, 4))]
-    graph = ReleaseGraph.of(fleet.scenario(), tracks)
+    graph = ReleaseGraph.of(fleet.build_scenario(), tracks)
     assert (graph.waits(Part(0, 1)), graph.waits(Part(1, 1))) == ((), (Arrival(0, 1),))

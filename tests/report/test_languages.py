@@ -8,13 +8,13 @@ from rightofway import load, solve
 from rightofway.languages import ENGLISH, find_languages, translate
 from rightofway.phrases import Phrase, say_count
 from rightofway.report.lines import COLUMNS, Facts, Table, lay_out
-from rightofway.report.plan import report_decisions, summary
+from rightofway.report.plan import report_decisions, summarize_plan
 from tests.cli.conftest import EXAMPLES
 
 
 def test_a_summary_in_german_has_the_sentences_of_the_page() -> None:
     plan = solve(load(EXAMPLES / "door.yaml"), "two-level")
-    text = summary(plan, plan.scenario.quantities, "de")
+    text = summarize_plan(plan, plan.scenario.quantities, "de")
     assert "Zeitsumme    19 Zeiteinheiten" in text
     assert "Bei Zeit 0: R1 wartet 1 Zeiteinheit in N0, bis R2 N1 verlässt." in text
     assert "Roboter  fertig  allein  Umwege  macht Platz  wartet" in text
@@ -24,7 +24,7 @@ def test_a_summary_in_german_has_the_sentences_of_the_page() -> None:
 def test_no_line_of_a_report_is_longer_than_80_columns(language: str) -> None:
     plan = solve(load(EXAMPLES / "warehouse.yaml"), "two-level")
     for text in (
-        summary(plan, plan.scenario.quantities, language),
+        summarize_plan(plan, plan.scenario.quantities, language),
         report_decisions(plan, plan.scenario.quantities, language),
     ):
         assert max(map(len, text.splitlines())) <= COLUMNS

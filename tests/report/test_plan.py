@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from rightofway.model import Improvement, Plan, PlannerRun, Reroute, Rules, Tick, Track
 from rightofway.quantities import Units
-from rightofway.report.plan import planning, report_decisions, summary
+from rightofway.report.plan import describe_planning, report_decisions, summarize_plan
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import counter, door
 
@@ -21,7 +21,7 @@ def in_seconds(plan: Plan) -> Plan:
 
 
 def report(plan: Plan) -> list[str]:
-    text = summary(plan, plan.scenario.quantities)
+    text = summarize_plan(plan, plan.scenario.quantities)
     assert max(map(len, text.splitlines())) <= 80
     return text.splitlines()
 
@@ -53,7 +53,7 @@ def test_times_are_in_the_units_of_the_scenario() -> None:
 
 def test_on_request_times_are_in_ticks_and_the_length_of_a_tick_is_given() -> None:
     plan = in_seconds(door())
-    lines = summary(plan, replace(plan.scenario.quantities, in_ticks=True)).splitlines()
+    lines = summarize_plan(plan, replace(plan.scenario.quantities, in_ticks=True)).splitlines()
     assert lines[3:5] == ["lost time  1 tick: waiting 1 tick", "tick       1 s"]
     assert lines[6] == "times of each robot [ticks]"
     assert lines[-1] == "At tick 0, R1 waits 1 tick in N0 for R2 to leave N1."
@@ -152,7 +152,7 @@ def test_what_a_planner_did_needs_no_knowledge_of_its_method() -> None:
 
     def words(**run: object) -> str:
         changed = replace(plan.run, **run)  # type: ignore[arg-type]
-        return planning(replace(plan, run=changed), plan.scenario.quantities)
+        return describe_planning(replace(plan, run=changed), plan.scenario.quantities)
 
     assert words(seconds=0.4213) == "two-level, planned in 0.42 s"
     assert words(improvement=Improvement(saved=Tick(0), tries=2000)) == (

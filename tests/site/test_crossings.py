@@ -150,7 +150,7 @@ def test_a_fleet_that_is_built_is_split_as_one_that_is_read() -> None:
         fleet.add_robot("R1", home="A", target="B", radius="0.4")
         fleet.add_robot("R2", home="C", target="D", radius="0.4")
         read = scenario_of(cross(spacing=spacing))
-        assert fleet.scenario().roadmap == read.roadmap, spacing
+        assert fleet.build_scenario().roadmap == read.roadmap, spacing
 
 
 def test_more_pieces_than_allowed_are_made_longer() -> None:

@@ -28,7 +28,7 @@ def limited() -> Scenario:
         fleet.add_vertex(name, x, y)
     fleet.add_edge("A", "B").add_edge("B", "C", max_speed="1/2").add_edge("B", "D")
     fleet.add_robot("R1", home="A", target="C", speed=2)
-    return fleet.add_robot("R2", home="C", target="D", speed="1/3").scenario()
+    return fleet.add_robot("R2", home="C", target="D", speed="1/3").build_scenario()
 
 
 def test_no_robot_is_faster_than_the_limit_of_an_edge_and_none_is_slower_for_it() -> None:
@@ -95,7 +95,7 @@ def split_both_ways() -> Scenario:
     for name, x, y in [("A", 0, 0), ("B-1", 6, 0), ("C", 6, 3)]:
         fleet.add_vertex(name, x, y)
     fleet.add_edge("B-1", "A").add_edge("B-1", "C", both_ways=False)
-    return fleet.add_robot("R1", home="A", target="B-1", speed=1).scenario()
+    return fleet.add_robot("R1", home="A", target="B-1", speed=1).build_scenario()
 
 
 def names(roadmap: Roadmap, vertices: Iterable[int]) -> list[str]:
@@ -172,7 +172,7 @@ def test_the_name_of_a_piece_may_not_be_taken() -> None:
     fleet = FleetBuilder(spacing=1)
     fleet.add_vertex("A", 0, 0).add_vertex("B", 2, 0).add_vertex("A-B/1", 5, 5).add_edge("A", "B")
     with pytest.raises(InputError, match="'A-B/1' is the name of a piece of a lane"):
-        fleet.roadmap()
+        fleet.build_roadmap()
 
 
 @pytest.mark.parametrize(
@@ -256,5 +256,5 @@ def test_a_lane_far_longer_than_its_drawing_is_not_split() -> None:
 def test_lanes_of_a_graph_without_positions_are_split_by_their_lengths_alone() -> None:
     graph = nx.Graph()
     graph.add_edge("A", "B", length=40)
-    roadmap = FleetBuilder(graph=graph, spacing=2).roadmap()
+    roadmap = FleetBuilder(graph=graph, spacing=2).build_roadmap()
     assert roadmap.n_vertices == 21

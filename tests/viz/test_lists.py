@@ -38,7 +38,7 @@ def published(name: str) -> Plan:
 def in_seconds() -> Plan:
     """One robot at 0.4 m/s over two cells of 1 m: a cell takes 2.5 s, which is the tick."""
     fleet = rightofway.FleetBuilder(grid=["..."])
-    scenario = fleet.add_robot("R1", home="N0", target="N2", speed="0.4").scenario()
+    scenario = fleet.add_robot("R1", home="N0", target="N2", speed="0.4").build_scenario()
     return rightofway.solve(replace(scenario, units=Units(length="m", time="s")))
 
 

@@ -26,7 +26,7 @@ def test_a_visit_is_work_then_turning_then_waiting_then_the_drive(cart: Trip) ->
 def test_a_turn_between_two_edges_comes_before_the_wait() -> None:
     """At the corner from 1 to 5: 2 of turning, 1 of waiting, 1 of driving."""
     fleet = FleetBuilder(grid=["..", "@."], turn_rate=45, ends="none")
-    scenario = fleet.add_robot("R", home="N0", target="N3").scenario()
+    scenario = fleet.add_robot("R", home="N0", target="N3").build_scenario()
     tracks = (Track.of([0, 1, 2], [0, 1, 5]),)
     (trip,) = make_trips(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
     assert list(trip.trace_phases(1)) == [

@@ -43,7 +43,7 @@ def test_a_roadmap_shows_a_line_for_each_lane() -> None:
     """Two lanes; one of them can be driven both ways."""
     yard = rightofway.FleetBuilder().add_vertex("a", 0, 0).add_vertex("b", 2, 0)
     yard = yard.add_vertex("c", 2, 2).add_edge("a", "b").add_edge("b", "c", both_ways=False)
-    view = parsed(yard.add_edge("c", "a").add_robot("R", home="a", target="b").scenario())
+    view = parsed(yard.add_edge("c", "a").add_robot("R", home="a", target="b").build_scenario())
     path = next(view.iter("{http://www.w3.org/2000/svg}path"))
     assert path.get("d") == "M0 0L1 0M0 0L1 1M1 0L1 1"
 

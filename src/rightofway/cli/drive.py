@@ -223,9 +223,9 @@ def _report_demo(
 ) -> None:
     """Print what robots of a demo have done."""
     if as_json:
-        from rightofway.report.plan_data import measures
+        from rightofway.report.plan_data import describe_measures
 
-        put_json({**measures(plan.scenario), "seed": seed, **outcome.as_dict()})
+        put_json({**describe_measures(plan.scenario), "seed": seed, **outcome.as_dict()})
     else:
         from rightofway.control.report import report
 

@@ -108,7 +108,7 @@ def laps(
     from rightofway.deadline import limit_work
     from rightofway.model.steady_state import within
     from rightofway.report.laps import report_laps
-    from rightofway.report.laps_data import laps_data
+    from rightofway.report.laps_data import make_laps_data
 
     refuse_outputs(scenario, output, as_json=as_json)
     if rule not in {*RULES, TIMETABLE}:
@@ -133,7 +133,7 @@ def laps(
             ways = routes or "clear"
             run = run_laps(problem, rule, routes=ways, time_limit=time_limit, report=report)
     if as_json:
-        put_json(laps_data(run))
+        put_json(make_laps_data(run))
     elif output != "-":
         quantities = quantities_of(problem, in_ticks=in_ticks)
         put_report(report_laps(run, quantities, language()))

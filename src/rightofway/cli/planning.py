@@ -183,7 +183,7 @@ def bound(
     from rightofway.metrics import compute_alone_completions, find_forced_losses
     from rightofway.planners.bounds import prove_bound
     from rightofway.report.plan import report_bounds
-    from rightofway.report.plan_data import measures
+    from rightofway.report.plan_data import describe_measures
 
     problem = read_scenario(scenario, count)
     alone, names = compute_alone_completions(problem), [robot.name for robot in problem.robots]
@@ -208,7 +208,7 @@ def bound(
             for loss in losses
         ]
         forced = {} if time_limit is None else {"forced_losses": pairs}
-        put_json({**measures(problem), "lower_bound": bounds, "robots": robots, **forced})
+        put_json({**describe_measures(problem), "lower_bound": bounds, "robots": robots, **forced})
         return
     quantities = quantities_of(problem, in_ticks=in_ticks)
     put_report(report_bounds(problem, quantities, proof, is_reached=is_reached, losses=losses))
@@ -293,9 +293,9 @@ def write_no_plan(problem: Any, page: str | None, title: str, *, as_json: bool) 
         yield
     except NoPlanExists as error:
         if as_json:
-            from rightofway.report.plan_data import no_plan_data
+            from rightofway.report.plan_data import make_no_plan_data
 
-            put_json({"no_plan": error.as_dict(), "outcome": no_plan_data(error)})
+            put_json({"no_plan": error.as_dict(), "outcome": make_no_plan_data(error)})
         if page:
             from rightofway.planners.impossible import put_fleet_at_home
             from rightofway.viz import write_page
@@ -306,13 +306,13 @@ def write_no_plan(problem: Any, page: str | None, title: str, *, as_json: bool) 
 
 
 def _report(plan: Plan, quantities: Quantities, *, log: bool, table: bool, as_json: bool) -> None:
-    from rightofway.report.plan import report_decisions, summary
-    from rightofway.report.plan_data import summary_data
+    from rightofway.report.plan import report_decisions, summarize_plan
+    from rightofway.report.plan_data import make_summary_data
 
     if as_json:
-        put_json(summary_data(plan))
+        put_json(make_summary_data(plan))
         return
-    put_report(summary(plan, quantities, language()))
+    put_report(summarize_plan(plan, quantities, language()))
     if log:
         put_report("\n" + report_decisions(plan, quantities, language()))
     if table:

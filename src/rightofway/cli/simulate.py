@@ -89,13 +89,13 @@ def simulate(
     from rightofway.execution import DEFAULT_DELAYS
     from rightofway.execution import simulate as execute
     from rightofway.report.execution import report
-    from rightofway.report.plan_data import measures
+    from rightofway.report.plan_data import describe_measures
 
     texts = delay_texts(delays or [DEFAULT_DELAYS])
     opened = read_plan(plan)
     with progress() as reported:
         outcome = execute(opened, texts, runs, seed, switch=switch, replan=replan, report=reported)
-    data = {**measures(opened.scenario), **outcome.as_dict()}
+    data = {**describe_measures(opened.scenario), **outcome.as_dict()}
     if as_json or output == "-":
         put_json(data)
     else:
@@ -106,7 +106,7 @@ def simulate(
     if page:
         from rightofway.viz import write_page
 
-        played = outcome.typical() if run is None else run
+        played = outcome.find_typical_run() if run is None else run
         trace = outcome.trace(played)
         write_page(outcome.plan, page, actual=trace, title=file_title(plan))
         say(

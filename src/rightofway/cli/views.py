@@ -161,7 +161,7 @@ def show(
     """
     from rightofway.metrics import MAX_COMPARED
     from rightofway.model import Scenario
-    from rightofway.report.plan import planning
+    from rightofway.report.plan import describe_planning
     from rightofway.solve import solve
 
     if not (output or page):
@@ -179,7 +179,7 @@ def show(
     if isinstance(opened, Scenario):
         with progress(LIMIT) as report:
             opened = solve(opened, time_limit=LIMIT, report=report)
-        text = planning(opened, opened.scenario.quantities)
+        text = describe_planning(opened, opened.scenario.quantities)
         say(Phrase("{file}: {text}", file=plan, text=text))
     first, *titles = _titles([plan, *others])
     extras: dict[str, Any] = {

@@ -465,7 +465,7 @@ class Dispatcher:
             arrival.robot
             for robot, own in enumerate(ledger.robots)
             if robot not in self._stuck_for
-            for arrival in ledger.graph.missing(Part(robot, own.released + 1), ledger.arrived)
+            for arrival in ledger.graph.list_missing(Part(robot, own.released + 1), ledger.arrived)
         }
         if long == self._passed or (long > self._passed and not long & awaited):
             return []

@@ -303,7 +303,7 @@ class FleetControl:
             sends += self._open(robot)
         # Nobody else can go on because of a state than those that wait for what it proves.
         let_go = (Arrival(robot, visit) for visit in range(before + 1, own.arrived + 1))
-        others = {part.robot for arrival in let_go for part in graph.after(arrival)}
+        others = {part.robot for arrival in let_go for part in graph.list_waiting_for(arrival)}
         return [*sends, *self._go_on(sorted({robot, *others})), *self.dispatch()]
 
     def connect(self, robot: int, *, is_connected: bool) -> list[Message]:
@@ -671,7 +671,7 @@ def _order_entry(order: Order, offset: int, actions: list[tuple[str, str, int]])
 
 
 def _refuse_rotation(graph: ReleaseGraph, names: Sequence[str]) -> None:
-    if cycle := graph.rotation():
+    if cycle := graph.find_rotation():
         robots = ", ".join(names[robot] for robot in sorted({part.robot for part in cycle}))
         message = f"{robots} move round a circle at one instant, which orders cannot make safe"
         raise InputError.at("plan", f"{message} (plan with rotations: false)")

@@ -73,7 +73,9 @@ class LapsToDrive:
         extended = self.extended(robots, ahead=10**9)
         if extended is None:
             raise InputError.at("plan", "no robot moves (laps need stops away from home)")
-        if cycle := graph_behind_released(plan.scenario, extended, [0] * len(names)).rotation():
+        if cycle := graph_behind_released(
+            plan.scenario, extended, [0] * len(names)
+        ).find_rotation():
             those = ", ".join(names[robot] for robot in sorted({part.robot for part in cycle}))
             message = f"{those} move round a circle at one instant from one lap to the next"
             raise InputError.at("plan", f"{message} (plan with rotations: false)")
@@ -216,7 +218,7 @@ def graph_behind_released(
         Part(present[part.robot], part.number): [
             Arrival(present[arrival.robot], arrival.visit) for arrival in graph.waits(part)
         ]
-        for part in graph.waiting_parts()
+        for part in graph.list_waiting_parts()
     }
     return ReleaseGraph(ends, waits, [route.first for route in routes])
 

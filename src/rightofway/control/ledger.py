@@ -422,7 +422,7 @@ def _written_waits(graph: ReleaseGraph, committed: Sequence[int]) -> Waits:
     """Return who waits for whom behind what is released."""
     return [
         [list(part), [list(arrival) for arrival in graph.waits(part)]]
-        for part in graph.waiting_parts()
+        for part in graph.list_waiting_parts()
         if part.number > committed[part.robot]
     ]
 

@@ -9,7 +9,7 @@ from rightofway.control.journal import Entry
 from rightofway.control.messages import AUTOMATIC, Condition
 from rightofway.errors import printable
 from rightofway.phrases import Phrase, to_parts
-from rightofway.report.driving import about_robot
+from rightofway.report.driving import describe_robot
 
 __all__ = ["Notices", "make_notice"]
 
@@ -64,7 +64,7 @@ class Notices:
         text = ""
         if sentence:
             plain = sentence if isinstance(sentence, Phrase) else printable(sentence)
-            text = about_robot(printable(self._names[robot]), plain)
+            text = describe_robot(printable(self._names[robot]), plain)
             self._report(text)
         self._keep(make_notice(to_parts(text), robot, kind, is_over=is_over))
 

@@ -23,7 +23,7 @@ from rightofway.model.route import drives_along, route_through
 from rightofway.planners.lacam import build_timetable_if_possible
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.task import Task, make_planning_problem
-from rightofway.precedence import ReleaseGraph, graph_on
+from rightofway.precedence import ReleaseGraph, build_graph
 from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId
 from rightofway.solve import solve
@@ -148,7 +148,7 @@ class RestPlanner:
                 routes[robot] = route
             absent = [robot for robot, own in enumerate(robots) if own.is_off]
             graph = graph_behind_released(self._scenario, routes, released, absent)
-            if not graph.rotation():
+            if not graph.find_rotation():
                 return routes, graph
             reasons = "robots would move round a circle at one instant"
         raise GaveUp(f"no plan of the rest was found: {reasons}")
@@ -206,7 +206,7 @@ class RestPlanner:
             ]
             for robot in moving
         ]
-        graph = graph_on(make_planning_problem(whole), visited)
+        graph = build_graph(make_planning_problem(whole), visited)
         if not graph.keeps_order(times):
             return None
         committed = {
@@ -214,11 +214,11 @@ class RestPlanner:
             for first, robot in zip(accumulate(map(len, visited), initial=0), moving, strict=False)
             for visit in range(first, first + len(commitments[robot].vertices))
         }
-        before = graph.flowtime()
+        before = graph.compute_flowtime()
         LocalSearch(Task(scenario=whole), graph, lambda visit: visit not in committed).descend()
-        if (before - graph.flowtime()) * SHARE < before:
+        if (before - graph.compute_flowtime()) * SHARE < before:
             return None
-        tracks = graph.tracks()
+        tracks = graph.build_tracks()
         if not check(Plan(scenario=whole, tracks=tuple(tracks), run=PlannerRun())).ok:
             return None
         for robot, track in zip(moving, tracks, strict=True):
@@ -226,7 +226,7 @@ class RestPlanner:
             routes[robot] = replace(routes[robot], enter=enter, in_step=False)
         absent = [robot for robot, own in enumerate(robots) if own.is_off]
         released_first = graph_behind_released(self._scenario, routes, released, absent)
-        return None if released_first.rotation() else (routes, released_first)
+        return None if released_first.find_rotation() else (routes, released_first)
 
     def _commitment(self, robot: int, own: RobotLedger, released: int) -> _Commitment:
         route = own.route.since(own.arrived)

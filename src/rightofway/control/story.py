@@ -9,7 +9,13 @@ from typing import Literal, NamedTuple
 from rightofway.control.ledger import Ledger, RobotLedger
 from rightofway.phrases import Phrase
 from rightofway.precedence import Part
-from rightofway.report.driving import ends_way, finishes_work, goes_on, sets_out, waits_until
+from rightofway.report.driving import (
+    describe_end_of_way,
+    finishes_work,
+    goes_on,
+    sets_out,
+    waits_until,
+)
 
 __all__ = ["Happening", "Story"]
 
@@ -98,14 +104,14 @@ class Story:
         if next_part == own.route.end:
             if own.is_done and not chapter.has_ended:
                 chapter.has_ended = True
-                yield Happening(robot, "end", ends_way(name, place))
+                yield Happening(robot, "end", describe_end_of_way(name, place))
             return
         if chapter.has_ended:  # it was given more to do
             chapter.has_ended = chapter.has_set_out = False
         is_at_end = own.arrived == own.released and own.finished.issuperset(
             own.route.jobs_at(own.arrived)
         )
-        missing = self._ledger.graph.missing(Part(robot, next_part), self._ledger.arrived)
+        missing = self._ledger.graph.list_missing(Part(robot, next_part), self._ledger.arrived)
         if is_at_end and missing and chapter.waits_for is None:
             chapter.waits_for = next_part
             self.waits[robot] += 1

@@ -102,7 +102,7 @@ class RightOfWaySearch:
             raise self._deadlock(meeting, self._circle)
 
     def _deadlock(self, meeting: Meeting, circle: Sequence[int]) -> Deadlock:
-        vertex = self.window.graph.vertex(meeting.visits[0])
+        vertex = self.window.graph.get_vertex(meeting.visits[0])
         tick = Tick(self.window.begins + meeting.tick)
         return Deadlock(meeting.robots, vertex, tick, circle)
 
@@ -137,6 +137,6 @@ class RightOfWaySearch:
     def _culprits(self) -> set[int]:
         """Return the decisions on the cycle of the last refused right of way."""
         graph = self.window.graph
-        self._circle = graph.deadlocked() or self._circle
-        rights = graph.deadlocking_rights()
+        self._circle = graph.list_deadlocked() or self._circle
+        rights = graph.list_deadlocking_rights()
         return {self._frame_of[right] for right in rights if right in self._frame_of}

@@ -82,7 +82,7 @@ def bottleneck_of(graph: TimedEventGraph, *, time_limit: float | None = None) ->
     GaveUp
         If time ran out.
     """
-    return trace_bottleneck(graph, graph.critical_circuit(time_limit=time_limit).arcs.tolist())
+    return trace_bottleneck(graph, graph.find_critical_circuit(time_limit=time_limit).arcs.tolist())
 
 
 @checks_arguments

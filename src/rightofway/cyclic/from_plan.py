@@ -63,7 +63,11 @@ def repeat_plan(problem: CyclicProblem) -> Candidate | None:
         visits[0] = enter[-1] - period
         cycles.append(RobotCycle(lap, 1, visits + (period if visits[0] < 0 else 0)))
     timetable = problem.timetable(cycles, period)
-    return problem.candidate(timetable) if problem.graph(timetable).slack().min() >= 0 else None
+    return (
+        problem.candidate(timetable)
+        if problem.graph(timetable).compute_slack().min() >= 0
+        else None
+    )
 
 
 def take_one_lap(scenario: Scenario, robot: int) -> Itinerary:

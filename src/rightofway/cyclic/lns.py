@@ -32,7 +32,7 @@ from heapq import heapify, heappop, heappush
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.errors import GaveUp
 from rightofway.model import Tick
-from rightofway.precedence import CyclicSchedule, unrolled
+from rightofway.precedence import CyclicSchedule, unroll_schedule
 from rightofway.search import PeriodicBookings
 
 
@@ -170,7 +170,7 @@ def improve(
         if in_vain >= params.patience:
             in_vain = 0
             if 2 * candidate.n_visits <= params.most_visits:
-                twice = unrolled(candidate.timetable, 2)
+                twice = unroll_schedule(candidate.timetable, 2)
                 candidate = Candidate(twice, candidate.cycle_time * 2)
     return best
 
@@ -260,7 +260,7 @@ def _removed(
         if not left:
             return removed, 1
         graph = problem.graph(_part(candidate.timetable, left))
-        circuit = graph.critical_circuit()
+        circuit = graph.find_critical_circuit()
         on = sorted({left[robot] for robot in graph.robot[graph.arcs.head[circuit.arcs]].tolist()})
         if removed and circuit.cycle_time <= most:
             if not extra:
@@ -292,7 +292,7 @@ def _reinserted(
     bookings, cycles = problem.empty_bookings(period), dict[int, RobotCycle]()
     left = [robot for robot in range(len(problem)) if robot not in removed]
     if left:
-        rest = problem.graph(_part(candidate.timetable, left)).earliest(Tick(period))
+        rest = problem.graph(_part(candidate.timetable, left)).compute_earliest(Tick(period))
         rows = zip(left, rest.laps, rest.counts, rest.enter, strict=True)
         cycles = {robot: RobotCycle(lap, n, enter) for robot, lap, n, enter in rows}
     for robot, cycle in cycles.items():

@@ -24,7 +24,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.cyclic.sensitivity import find_stages_at
 from rightofway.model import Robot, Scenario
 from rightofway.model.problem import compute_turning_time
-from rightofway.precedence import Growth, TimedEventGraph, period_curve
+from rightofway.precedence import Growth, TimedEventGraph, compute_period_curve
 
 MOST_VISITS = 100_000
 """Visits of a period times parameters that are examined; each takes a few searches of the graph."""
@@ -126,7 +126,7 @@ def parameter_curves(
 def _curves(
     scenario: Scenario, graph: TimedEventGraph, time_limit: float | None
 ) -> Iterator[ParameterCurve]:
-    circuit = graph.critical_circuit(time_limit=time_limit).arcs
+    circuit = graph.find_critical_circuit(time_limit=time_limit).arcs
     critical = dict.fromkeys(graph.robot[graph.arcs.head[circuit]].tolist())
     for place in critical:
         yield from _of_robot(scenario, graph, place, time_limit)
@@ -163,7 +163,7 @@ def _of_robot(
                 slope=piece.slope * tick * robot.speed,
                 arcs=piece.arcs,
             )
-            for piece in reversed(period_curve(graph, growth, *ends, time_limit=time_limit))
+            for piece in reversed(compute_period_curve(graph, growth, *ends, time_limit=time_limit))
         ),
     )
     dwells = (arcs.first < 0) & (graph.robot[arcs.tail] == place)
@@ -202,7 +202,9 @@ def _of_time(
             slope=piece.slope,
             arcs=piece.arcs,
         )
-        for piece in period_curve(graph, growth, Fraction(least), most, time_limit=time_limit)
+        for piece in compute_period_curve(
+            graph, growth, Fraction(least), most, time_limit=time_limit
+        )
     )
 
 

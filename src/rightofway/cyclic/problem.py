@@ -144,7 +144,7 @@ class CyclicProblem:
 
     def candidate(self, timetable: CyclicSchedule) -> Candidate:
         """Return a candidate of a conflict-free timetable, with the cycle time of its orders."""
-        return Candidate(timetable, self.graph(timetable).critical_circuit().cycle_time)
+        return Candidate(timetable, self.graph(timetable).find_critical_circuit().cycle_time)
 
     def candidate_of_orders(self, timetable: CyclicSchedule) -> Candidate | None:
         """Return a candidate of the orders at the vertices of a timetable, ignoring its times.
@@ -152,12 +152,12 @@ class CyclicProblem:
         None if these orders cause a deadlock or a swap.
         """
         graph = self.graph(timetable)
-        circuit = None if graph.has_swaps() else graph.critical_circuit_if_live()
+        circuit = None if graph.has_swaps() else graph.find_critical_circuit_if_live()
         return None if circuit is None else Candidate(timetable, circuit.cycle_time)
 
     def booked(self, candidate: Candidate) -> tuple[PeriodicBookings, list[RobotCycle]]:
         """Return the earliest timetable of a candidate's orders, as bookings and cycles."""
-        timetable = self.graph(candidate.timetable).earliest(
+        timetable = self.graph(candidate.timetable).compute_earliest(
             Tick(candidate.period), cycle_time=candidate.cycle_time
         )
         rows = zip(timetable.laps, timetable.counts, timetable.enter, strict=True)

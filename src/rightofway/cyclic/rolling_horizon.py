@@ -36,8 +36,8 @@ def two_level(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 
     if settlement is not None and settlement.decisions:
         return 0 if settlement.decisions[0].waits == meeting.robots[0] else 1
     (i, j), graph = meeting.robots, window.graph
-    i_enters = graph.enter(graph.visit(i, segment.i_first))
-    return 0 if graph.enter(graph.visit(j, segment.j_first)) < i_enters else 1
+    i_enters = graph.enter(graph.get_visit(i, segment.i_first))
+    return 0 if graph.enter(graph.get_visit(j, segment.j_first)) < i_enters else 1
 
 
 _Checkpoint = tuple[int, tuple[int, ...], tuple[LapDecision, ...]]
@@ -161,7 +161,7 @@ class RollingHorizon:
         graph, end = window.graph, window.ends().min()
         while True:
             self._deadline.check("giving right of way")
-            meeting = graph.next_meeting()
+            meeting = graph.find_next_meeting()
             if graph.enter(self._home_in(window)) > self._params.patience * self._longest:
                 self._replace_pacemaker(window)
             limit = window.begins + graph.enter(self._home_in(window)) + self._lag
@@ -208,7 +208,7 @@ class RollingHorizon:
     def _freeze(self, window: Window, search: RightOfWaySearch) -> None:
         tick = window.begins + window.graph.enter(self._home_in(window))
         for past, start, track in zip(
-            self.history, window.starts, window.graph.tracks(), strict=True
+            self.history, window.starts, window.graph.build_tracks(), strict=True
         ):
             enter = track.enter[:-1] + window.begins
             end = int(np.searchsorted(enter, tick, "right"))

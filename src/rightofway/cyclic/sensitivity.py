@@ -21,9 +21,9 @@ from rightofway.model.lap import compute_dwell_between_laps, compute_turns_of_la
 from rightofway.precedence import (
     Sensitivity,
     TimedEventGraph,
+    compute_sensitivity,
     find_critical_circuit_without,
     find_tight_arcs,
-    sensitivity,
 )
 from rightofway.site import Roadmap
 
@@ -88,14 +88,14 @@ def parameter_effects(
     GaveUp
         If time ran out.
     """
-    circuit = graph.critical_circuit(time_limit=time_limit).arcs
+    circuit = graph.find_critical_circuit(time_limit=time_limit).arcs
     tight = find_tight_arcs(graph, time_limit=time_limit)
     shares = dict(_shares(scenario, graph, circuit))
     weights = {key: int(share[circuit].sum()) for key, share in shares.items()}
     chosen = sorted((key for key in shares if weights[key]), key=lambda key: -weights[key])[:most]
     effects = []
     for key in chosen:
-        effect = sensitivity(graph, shares[key], tight=tight, time_limit=time_limit)
+        effect = compute_sensitivity(graph, shares[key], tight=tight, time_limit=time_limit)
         part = TEN_PER_CENT.get(key[0], Fraction(1, 10))
         if part <= effect.until:
             then = effect.cycle_time - effect.gain * part

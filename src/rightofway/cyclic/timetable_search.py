@@ -34,7 +34,7 @@ from rightofway.model import Scenario, Tick, checked_time_limit
 from rightofway.model.given import checked_scenario, require_functions, require_number, require_seed
 from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
-from rightofway.precedence import unrolled
+from rightofway.precedence import unroll_schedule
 from rightofway.search import Distances, RoundTrip
 from rightofway.values import at, list_of, number
 
@@ -402,10 +402,12 @@ def _whole(problem: CyclicProblem, candidate: Candidate, params: ChoiceParams) -
     """Return the timetable in whole ticks; several periods if its cycle time is a fraction."""
     timetable, cycle_time = candidate.timetable, candidate.cycle_time
     if cycle_time.denominator * candidate.n_visits <= params.most_visits:
-        timetable = unrolled(timetable, cycle_time.denominator)
+        timetable = unroll_schedule(timetable, cycle_time.denominator)
         cycle_time *= cycle_time.denominator
     period = Tick(Candidate(timetable, cycle_time).period)
-    return Candidate.as_it_is(problem.graph(timetable).earliest(period, cycle_time=cycle_time))
+    return Candidate.as_it_is(
+        problem.graph(timetable).compute_earliest(period, cycle_time=cycle_time)
+    )
 
 
 def _started(

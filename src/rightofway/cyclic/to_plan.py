@@ -200,7 +200,7 @@ def _critical_visits(group: GroupResult, pattern: Pattern) -> tuple[tuple[int, i
     graph = group.graph()
     if graph is None:
         return ()
-    circuit = graph.critical_circuit()
+    circuit = graph.find_critical_circuit()
     if circuit.cycle_time != pattern.period:
         return ()
     return list_visits_along(group, pattern, graph, circuit.arcs.tolist())

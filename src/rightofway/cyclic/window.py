@@ -82,7 +82,7 @@ class Window:
 
     def visit(self, robot: int, number: int) -> int:
         """Return the node of a robot's visit in the graph."""
-        return self.graph.visit(robot, number - self.starts[robot])
+        return self.graph.get_visit(robot, number - self.starts[robot])
 
     def number(self, visit: int) -> tuple[int, int]:
         """Return the robot and the number of a visit of the graph."""
@@ -123,7 +123,7 @@ class Window:
         """
         if segment.kind != "head-on":
             return False
-        (i, j), pairs = meeting.robots, segment.meetings()
+        (i, j), pairs = meeting.robots, segment.list_meetings()
         i_last, j_last = max(a for a, _ in pairs), max(b for _, b in pairs)
         if i_last < len(self.routes[i]) - 2 and j_last < len(self.routes[j]) - 2:
             return False

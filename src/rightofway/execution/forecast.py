@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from rightofway.execution.progress import Activity, Progress, Times
 from rightofway.model import Route, Tick
 from rightofway.planners.task import make_planning_problem
-from rightofway.precedence import ActionDependencyGraph, PrecedenceGraph, graph_on
+from rightofway.precedence import ActionDependencyGraph, PrecedenceGraph, build_graph
 
 
 class Forecast:
@@ -50,11 +50,11 @@ class Forecast:
             self.graph = self._graph(np.ones_like(begun))
             self.graph.give_all(self._rights())
 
-    def times(self) -> Times:
+    def compute_times(self) -> Times:
         """Return the expected enter of each visit [ticks]; int64[N]."""
-        return np.concatenate([track.enter for track in self.graph.tracks()])
+        return np.concatenate([track.enter for track in self.graph.build_tracks()])
 
-    def visit_of(self, robot: int) -> int:
+    def get_visit(self, robot: int) -> int:
         """Return the last visit that a robot has begun."""
         first, end = self.adg.first_visit[robot : robot + 2].tolist()
         return int(first + np.count_nonzero(self.entered[first:end]) - 1)
@@ -77,7 +77,7 @@ class Forecast:
 
     def _graph(self, begun: NDArray[np.bool_]) -> PrecedenceGraph:
         """Return the graph of expected durations, in which closures do not bind what has begun."""
-        return graph_on(
+        return build_graph(
             make_planning_problem(self.adg.scenario),
             [self._route(robot) for robot in range(len(self.adg.routes))],
             begun=begun,
@@ -88,7 +88,7 @@ class Forecast:
         begun = np.column_stack((self.booked, self.booked))
         for robot in range(len(self.adg.routes)):
             if self.has_set_off(robot):
-                begun[self.visit_of(robot) + 1, 1] = True
+                begun[self.get_visit(robot) + 1, 1] = True
         return begun
 
     def _rights(self) -> Iterator[tuple[int, int]]:
@@ -104,7 +104,7 @@ class Forecast:
     def _route(self, robot: int) -> Route:
         """Return a route with actual durations so far and the expected one of the current visit."""
         route, first = self.adg.routes[robot], int(self.adg.first_visit[robot])
-        current = self.visit_of(robot) - first
+        current = self.get_visit(robot) - first
         lasted = np.diff(self.progress.enter[first : first + current + 1])
         dwell = [Tick(ticks - route.drive[k + 1]) for k, ticks in enumerate(lasted.tolist())]
         if current < len(route) - 1:
@@ -117,7 +117,7 @@ class Forecast:
         enter, start = self.progress.enter, self.progress.start
         since, drive = self.now - int(enter[visit]), int(route.drive[index + 1])
         is_ready = self.progress.activity[robot] == Activity.WAITS
-        more = self.progress.known_delay(robot) or 0
+        more = self.progress.get_delay(robot) or 0
         if not self.books_ahead:
             least = route.least(index)
             return max(since, least) if is_ready else _with_overdue(least + more, since)

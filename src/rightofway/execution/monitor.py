@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.execution.forecast import Forecast
-from rightofway.execution.progress import simulated_progress
+from rightofway.execution.progress import derive_progress
 from rightofway.execution.replan import replan
 from rightofway.model import NEVER, ExecutionTrace
 from rightofway.planners import Deadline
@@ -93,13 +93,13 @@ class ExecutionMonitor:
         completion[sorted(self.lost | self.cut_off)] = NEVER
         return completion
 
-    def batch(self, batch: RunBatch) -> RunBatch:
+    def as_batch(self, batch: RunBatch) -> RunBatch:
         """Return this run as a batch of one; ``kept`` is the same run of the plan as it was.
 
         Where the rest was replanned, the sources of lateness are not known and left out.
         """
         if not self.replans:
-            return self.adg.runs(self.seed, self.run, 1)
+            return self.adg.make_runs(self.seed, self.run, 1)
         is_broken = self.execution.is_broken.copy()
         is_broken[sorted(self.lost)] = 1
         return batch._replace(
@@ -115,7 +115,7 @@ class ExecutionMonitor:
     def trace(self) -> ExecutionTrace:
         """Return the actual tracks, and the duration of each visit and drive."""
         adg, sample = self.adg, self.delay_sample
-        tracks = adg.tracks_at(self.execution.enter)
+        tracks = adg.build_tracks(self.execution.enter)
         firsts = adg.first_visit[:-1].tolist()
         visits = [slice(k, k + len(track)) for k, track in zip(firsts, tracks, strict=True)]
         return ExecutionTrace(
@@ -124,20 +124,20 @@ class ExecutionMonitor:
             drive=tuple(sample.drive[own] for own in visits),
             completion=tuple(None if tick == NEVER else tick for tick in self.completion.tolist()),
             stoppages=tuple(
-                tuple((k, None if n == NEVER else n) for k, n in sample.stoppages_of(robot))
+                tuple((k, None if n == NEVER else n) for k, n in sample.list_stoppages(robot))
                 for robot in range(len(tracks))
             ),
         )
 
-    def forecast(self, now: int) -> Forecast:
+    def make_forecast(self, now: int) -> Forecast:
         """Return the forecast at a tick."""
-        progress = simulated_progress(self.adg, self.delay_sample, self.execution, now, self.broken)
+        progress = derive_progress(self.adg, self.delay_sample, self.execution, now, self.broken)
         return Forecast(self.adg, progress)
 
     def _execute(self) -> None:
         """Execute the plan; at each delay or breakdown, make a forecast, then reorder or replan."""
         adg, now, tries, planned = self.adg, -1, 0, self.last_tried
-        ticks = (self.delay_sample.breakdown(robot) for robot in range(len(self.stages)))
+        ticks = (self.delay_sample.find_breakdown(robot) for robot in range(len(self.stages)))
         breakdown = np.array([tick if self.policy.replan else NEVER for tick in ticks])
         patience = max(int(np.median(adg.dwell + adg.drive)), int(adg.planned.max()) // LOOKS, 1)
         while True:
@@ -155,18 +155,18 @@ class ExecutionMonitor:
             lost = np.flatnonzero(at_work & (breakdown <= now)).tolist()
             self.broken = self.broken.union(np.flatnonzero(breakdown <= now).tolist())
             self.lost = self.lost.union(lost)
-            forecast = self.forecast(now)
-            self.expected = forecast.times()
+            forecast = self.make_forecast(now)
+            self.expected = forecast.compute_times()
             if lost:
                 self._replan(forecast, NEVER)
                 continue
             switched = _switched(forecast) if self.policy.switch else None
             if switched is not None:
                 self.switches += 1
-                self.adg, self.expected = switched, forecast.times()
+                self.adg, self.expected = switched, forecast.compute_times()
                 self.execution = switched.execute(self.delay_sample)
-                forecast = self.forecast(now)
-            flowtime = int(forecast.graph.flowtime())
+                forecast = self.make_forecast(now)
+            flowtime = int(forecast.graph.compute_flowtime())
             has_fallen_behind = (flowtime - self.last_tried) * SHARE >= planned
             is_shut_out = bool(adg.scenario.closures) and not forecast.is_possible
             wants_plan = has_fallen_behind or is_shut_out
@@ -180,18 +180,18 @@ class ExecutionMonitor:
         lowest, best = limit, None
         for plan in replan(forecast, self.stages, self.seed, self.deadline):
             sample = plan.adg.delay_sample(self.seed, self.run)
-            sample = sample.with_stoppages_of(self.delay_sample)
+            sample = sample.add_stoppages(self.delay_sample)
             execution = plan.adg.execute(sample)
-            progress = simulated_progress(plan.adg, sample, execution, forecast.now, self.broken)
+            progress = derive_progress(plan.adg, sample, execution, forecast.now, self.broken)
             new = Forecast(plan.adg, progress)
-            flowtime = int(new.graph.flowtime())
+            flowtime = int(new.graph.compute_flowtime())
             if new.is_possible and flowtime < lowest:
                 lowest, best = flowtime, (plan, sample, execution, new)
         if best is not None:
             plan, self.delay_sample, self.execution, new = best
             self.replans += 1
             self.adg, self.stages, self.cut_off = plan.adg, plan.stages, self.cut_off | plan.cut_off
-            self.expected, self.last_tried = new.times(), lowest
+            self.expected, self.last_tried = new.compute_times(), lowest
 
 
 def _switched(forecast: Forecast) -> ActionDependencyGraph | None:
@@ -204,11 +204,11 @@ def _switched(forecast: Forecast) -> ActionDependencyGraph | None:
     mark = forecast.graph.checkpoint()
     task = Task(scenario=adg.scenario)
     LocalSearch(task, forecast.graph, lambda visit: not booked[visit]).descend()
-    order = adg.order_at(forecast.times())
+    order = adg.order_at(forecast.compute_times())
     # A visit that has begun must not wait for one that has not.
     first, second = order.T
     is_allowed = booked[first[booked[second]]].all()
     if np.array_equal(order, adg.order) or not is_allowed:
         forecast.graph.rollback(mark)
         return None
-    return adg.reordered(order, np.where(booked, adg.since, forecast.now))
+    return adg.reorder(order, np.where(booked, adg.since, forecast.now))

@@ -1,7 +1,7 @@
 """Progress: what is known at an instant of robots that carry out a plan.
 
 Forecasts, switching and replanning take progress only, and never what a simulation knows beyond the
-instant. `simulated_progress` makes it from the delays of a simulated run.
+instant. `derive_progress` makes it from the delays of a simulated run.
 """
 
 from __future__ import annotations
@@ -66,12 +66,12 @@ class Progress:
         """Visits that have booked their vertex; bool[N]."""
         return self.start < NEVER
 
-    def known_delay(self, robot: int) -> Tick | None:
+    def get_delay(self, robot: int) -> Tick | None:
         """Return how much longer than planned a robot's stay or drive lasts, None if unknown."""
         return self.delay[robot] if self.delay else None
 
 
-def simulated_progress(
+def derive_progress(
     adg: ActionDependencyGraph,
     delay_sample: DelaySample,
     execution: Execution,
@@ -102,7 +102,7 @@ def _activity(
     # Under ``occupancy: one`` a robot waits for its right of way after the drive, before it enters.
     ready = stayed if books_ahead else stayed + int(delay_sample.drive[visit + 1])
     stands = False
-    for begin, ticks in delay_sample.stoppages_of(robot):
+    for begin, ticks in delay_sample.list_stoppages(robot):
         if begins <= begin < ready:
             ready += ticks
         stands |= begin < progress.now < begin + ticks

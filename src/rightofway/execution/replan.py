@@ -143,7 +143,7 @@ def find_held_by_broken(forecast: Forecast) -> Held:
     """Return what broken robots book for ever: for robots with a size, the edge driven on, too."""
     adg, booked, paths = forecast.adg, forecast.booked, dict[int, list[int]]()
     for robot in forecast.broken:
-        current, end = forecast.visit_of(robot), int(adg.first_visit[robot + 1])
+        current, end = forecast.get_visit(robot), int(adg.first_visit[robot + 1])
         paths[robot] = adg.vertex[current:end][booked[current:end]].tolist()
     return list_held(adg.scenario, paths)
 
@@ -225,7 +225,7 @@ def replan(
             adg = _spliced(forecast, commitments, plan)
         except ValueError:
             continue
-        if not adg.deadlocked():
+        if not adg.list_deadlocked():
             served = tuple((*commitment.begun, *commitment.left) for commitment in commitments)
             replanned.append(Replanned(adg=adg, stages=served, cut_off=cut_off))
     return tuple(replanned)
@@ -238,7 +238,7 @@ def _going_on(
     rest: Scenario,
 ) -> list[Track] | None:
     """Return the plan with the old routes and rights of way; None if a closure blocks it."""
-    adg, times = forecast.adg, forecast.times()
+    adg, times = forecast.adg, forecast.compute_times()
     visited, arrivals = [], []
     for robot, commitment in enumerate(commitments):
         first, end = int(adg.first_visit[robot]) + commitment.visit, int(adg.first_visit[robot + 1])

@@ -19,7 +19,7 @@ from rightofway.execution.statistics import (
     Lateness,
     PolicyGain,
     SimulationResult,
-    joined,
+    join_batches,
 )
 from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
 from rightofway.model.given import require_number, require_seed, require_truths
@@ -120,11 +120,11 @@ def simulate(
     def trace(run: int) -> ExecutionTrace:
         return traces.get(run) or ExecutionMonitor(adg, policy, seed, run, Deadline()).trace()
 
-    every = joined([part.batch for part in parts])
+    every = join_batches([part.batch for part in parts])
     unchanged = [part.unchanged for part in parts if part.unchanged is not None]
     cut_off = sum(part.cut_off for part in parts)
     is_broken, unfinished = every.is_broken.astype(bool), every.completion == NEVER
-    stuck = np.isin(np.arange(len(plan.tracks)), adg.deadlocked())
+    stuck = np.isin(np.arange(len(plan.tracks)), adg.list_deadlocked())
     return SimulationResult(
         plan=plan,
         runs=len(every.completion),
@@ -196,7 +196,7 @@ def _execute(
     """Yield runs, at least one; keep the trace of a first one that the deadline cut short."""
     chunk = 1 if any(policy) else max(CHUNK // len(adg.vertex), 1)
     for first in range(0, runs, chunk):
-        batch = adg.runs(seed, first, min(chunk, runs - first))
+        batch = adg.make_runs(seed, first, min(chunk, runs - first))
         if any(policy):
             monitor = ExecutionMonitor(adg, policy, seed, first, deadline)
             if deadline.seconds_left() == 0:  # replanning may have been cut short
@@ -224,10 +224,10 @@ class _Runs(NamedTuple):
     def watched(cls, monitor: ExecutionMonitor, batch: RunBatch) -> _Runs:
         """Return one run with changes; ``batch`` is the same run without."""
         return cls(
-            batch=monitor.batch(batch),
+            batch=monitor.as_batch(batch),
             unchanged=batch.completion,
             switches=monitor.switches,
             replans=monitor.replans,
             cut_off=len(monitor.cut_off - monitor.lost),
-            deadlocks=bool(monitor.adg.deadlocked()),
+            deadlocks=bool(monitor.adg.list_deadlocked()),
         )

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import EarlierName
 from rightofway.errors import InputError, shown
 from rightofway.model import NEVER, ExecutionTrace, Plan
 from rightofway.precedence import ActionDependencyGraph, RunBatch
@@ -174,7 +175,7 @@ def _sources(adg: ActionDependencyGraph, batch: RunBatch) -> tuple[LatenessSourc
     """Return the sources of lateness: sums over the visits of one robot at one vertex."""
     own, of_others = Counter[tuple[int, int]](), Counter[tuple[int, int]]()
     for visit in np.flatnonzero(batch.own + batch.of_others).tolist():
-        place = adg.robot_of(visit), int(adg.vertex[visit])
+        place = adg.get_robot(visit), int(adg.vertex[visit])
         own[place] += int(batch.own[visit])
         of_others[place] += int(batch.of_others[visit])
     total, runs = own + of_others, len(batch.completion)
@@ -217,7 +218,7 @@ class PolicyGain:
         return cls(runs=len(gain), earlier=earlier, later=later, flowtime=Quantiles.of(gain))
 
 
-def joined(batches: Sequence[RunBatch]) -> RunBatch:
+def join_batches(batches: Sequence[RunBatch]) -> RunBatch:
     """Return the runs of several batches of one plan as one batch."""
     summed = {"own", "of_others"}
     columns = zip(RunBatch._fields, zip(*batches, strict=True), strict=True)
@@ -306,19 +307,23 @@ class SimulationResult:
             raise InputError.at("run", message)
         return self._trace(int(run))
 
-    def typical(self) -> int:
+    def find_typical_run(self) -> int:
         """Return the median run, ordered by the number of robots that complete, then flowtime."""
-        return int(self.ranked()[(self.runs - 1) // 2])
+        return int(self.rank_runs()[(self.runs - 1) // 2])
 
-    def worst(self) -> int:
+    def find_worst_run(self) -> int:
         """Return the last run in the same order."""
-        return int(self.ranked()[-1])
+        return int(self.rank_runs()[-1])
 
-    def ranked(self) -> NDArray[np.intp]:
+    def rank_runs(self) -> NDArray[np.intp]:
         """Return the runs from the best to the worst: by robots that complete, then flowtime."""
         never = (self.completion < 0).sum(axis=1)
         flowtime = np.where(self.completion < 0, 0, self.completion).sum(axis=1)
         return np.lexsort((flowtime, never))
+
+    typical = EarlierName("find_typical_run")
+    worst = EarlierName("find_worst_run")
+    ranked = EarlierName("rank_runs")
 
     def as_dict(self) -> dict[str, Any]:
         """Return all results except single runs, as plain data for JSON; times in ticks."""

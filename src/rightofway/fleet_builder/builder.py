@@ -9,18 +9,19 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Literal, Self
 
+from rightofway.arguments import EarlierName
 from rightofway.assign import HOMELESS, deal_homes
 from rightofway.errors import InputError, Where, in_file, shown, under
 from rightofway.files import as_path
-from rightofway.fleet_builder.lanes import DrawnLanes, lanes_of_graph
+from rightofway.fleet_builder.lanes import DrawnLanes, read_graph
 from rightofway.fleet_builder.values import (
-    ends_of,
-    pair_of,
     place_and_work,
-    point_of,
-    radius_of,
-    rules_of,
-    units_of,
+    read_ends,
+    read_pair,
+    read_point,
+    read_radius,
+    read_rules,
+    read_units,
 )
 from rightofway.model import Robot, Scenario, Stop, TripEnd
 from rightofway.model.closures import Closure, find_closure_faults
@@ -91,7 +92,7 @@ class FleetBuilder:
     --------
     >>> fleet = FleetBuilder(grid=["...", "@.@", "..."])
     >>> _ = fleet.add_robot("R1", home="N0", target="N6").add_robot("R2", home=(0, 2), target="N8")
-    >>> fleet.scenario()
+    >>> fleet.build_scenario()
     Scenario(2 robots on Roadmap(7 vertices, 12 edges, grid of 3 x 3 cells), tick 1)
     """
 
@@ -136,10 +137,10 @@ class FleetBuilder:
         self._roadmap: Roadmap | None = None
         self._level: Callable[..., LevelRoadmap] | None = None
         self._stations: dict[str, VertexId] = {}
-        self._rules = rules_of(rules)
-        self._units = units_of(units)
+        self._rules = read_rules(rules)
+        self._units = read_units(units)
         self._y_up = y == "up"
-        corner = None if origin is None else point_of("origin", *pair_of("origin", origin))
+        corner = None if origin is None else read_point("origin", *read_pair("origin", origin))
         frame: dict[str, Any] = {"cell_size": cell_size, "y_up": self._y_up, "origin": corner}
         if grid is not None:
             rows = grid.strip("\n").split("\n") if isinstance(grid, str) else grid
@@ -150,8 +151,8 @@ class FleetBuilder:
 
             self._roadmap = make_grid_roadmap(load_map(as_path(map_file, "map_file")), **frame)
         elif graph is not None:
-            self._drawn = lanes_of_graph(graph)
-            self.roadmap()
+            self._drawn = read_graph(graph)
+            self.build_roadmap()
         elif layout is not None:
             self._take_layout(layout, level, vehicle_type)
 
@@ -265,7 +266,7 @@ class FleetBuilder:
             at("name", text, name)
             named = at("vertices", list_of(text), vertices)
             listed = at("edges", list_of(lambda ends: ends), edges)
-            pairs = tuple(ends_of(("edges", k), ends) for k, ends in enumerate(listed))
+            pairs = tuple(read_ends(("edges", k), ends) for k, ends in enumerate(listed))
             for k, ends in enumerate(pairs):
                 at(("edges", k), list_of(text), ends)
         self._drawn.zones.append(NamedZone(name=name, vertices=named, edges=pairs))
@@ -346,7 +347,7 @@ class FleetBuilder:
                 turn=turn,  # type: ignore[arg-type]
                 ends=ends,
                 laps=laps,
-                radius=radius_of(radius, size),
+                radius=read_radius(radius, size),
                 type=type,
                 turn_rate=turn_rate,  # type: ignore[arg-type]
                 weight=weight,  # type: ignore[arg-type]
@@ -389,7 +390,7 @@ class FleetBuilder:
         """
         source = f"closure {len(self._closures)}"
         try:
-            ends = None if edge is None else ends_of("edge", edge)
+            ends = None if edge is None else read_ends("edge", edge)
             closure = Closure(
                 at=None if at is None else self._vertex("at", at),
                 edge=ends and (self._vertex("edge", ends[0]), self._vertex("edge", ends[1])),
@@ -399,12 +400,12 @@ class FleetBuilder:
             )
         except InputError as error:
             raise InputError(fault.in_file(source) for fault in error.faults) from None
-        if faults := list(find_closure_faults(closure, self.roadmap())):
+        if faults := list(find_closure_faults(closure, self.build_roadmap())):
             raise InputError(faults, source)
         self._closures.append(closure)
         return self
 
-    def scenario(self) -> Scenario:
+    def build_scenario(self) -> Scenario:
         """Return the scenario.
 
         Raises
@@ -417,7 +418,7 @@ class FleetBuilder:
         if not self._drawn.is_drawn and any(rates):
             remedy = "give each node a pos, or x and y; or leave it out"
             raise InputError.at("turn_rate", f"needs positions, and the graph has none ({remedy})")
-        roadmap, rules = self.roadmap(), self._rules
+        roadmap, rules = self.build_roadmap(), self._rules
         radius = max((robot.radius for robot in self._robots), default=Fraction(0))
         distance = 2 * radius + rules.clearance if radius > 0 and self._splits_crossed else 0
         if self._level and radius > 0:
@@ -425,7 +426,7 @@ class FleetBuilder:
             roadmap = cut.roadmap
             rules = replace(rules, clearance=rules.clearance + 2 * cut.chord_error)
         elif distance and self._drawn.positions and not self._spacing:
-            roadmap = self._drawn.roadmap(
+            roadmap = self._drawn.build_roadmap(
                 spacing=None, y_up=self._y_up, distance=Fraction(distance)
             )
         robots, _ = deal_homes(self._robots, roadmap, rules)
@@ -437,7 +438,7 @@ class FleetBuilder:
             closures=tuple(self._closures),
         )
 
-    def roadmap(self) -> Roadmap:
+    def build_roadmap(self) -> Roadmap:
         """Return the map; vertices and edges can no longer be added.
 
         Raises
@@ -449,12 +450,15 @@ class FleetBuilder:
             if not self._drawn.positions:
                 remedy = "give grid, map_file, graph or layout, or add vertices and edges"
                 raise InputError.at("", f"the fleet has no map ({remedy})")
-            self._roadmap = self._drawn.roadmap(spacing=self._spacing, y_up=self._y_up)
+            self._roadmap = self._drawn.build_roadmap(spacing=self._spacing, y_up=self._y_up)
         return self._roadmap
+
+    scenario = EarlierName("build_scenario")
+    roadmap = EarlierName("build_roadmap")
 
     def _vertex(self, key: Where, place: Any) -> VertexId:
         """Return the vertex of a place as users write it."""
-        roadmap = self.roadmap()
+        roadmap = self.build_roadmap()
         if not isinstance(place, str) and str(place) in (roadmap.labels or ()):
             place = str(place)
         if (

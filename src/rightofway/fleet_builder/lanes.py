@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.errors import InputError, nearest, shown, under
-from rightofway.fleet_builder.values import point_of, surcharge_of, types_of
+from rightofway.fleet_builder.values import read_point, read_surcharge, read_types
 from rightofway.site import (
     Edge,
     Point,
@@ -58,10 +58,10 @@ class DrawnLanes:
             raise InputError.at(place, "is no name (give text)")
         if name in self.positions:
             raise InputError.at(place, "is there already (give each vertex a name of its own)")
-        self.positions[name] = point_of(place, x, y)
-        if types := types_of((place, "barred"), barred):
+        self.positions[name] = read_point(place, x, y)
+        if types := read_types((place, "barred"), barred):
             self.barred[name] = types
-        if more := surcharge_of((place, "surcharge"), surcharge):
+        if more := read_surcharge((place, "surcharge"), surcharge):
             self.surcharges[name] = more
 
     def add_edge(
@@ -89,14 +89,14 @@ class DrawnLanes:
         limit = None if max_speed is None else exact_length(max_speed, (place, "max_speed"))
         more = {
             "max_speed": limit,
-            "barred": types_of((place, "barred"), barred),
-            "surcharge": surcharge_of((place, "surcharge"), surcharge),
+            "barred": read_types((place, "barred"), barred),
+            "surcharge": read_surcharge((place, "surcharge"), surcharge),
         }
         self.edges.append((tail, head, given, more))
         if both_ways:
             self.edges.append((head, tail, given, more))
 
-    def roadmap(
+    def build_roadmap(
         self, *, spacing: Fraction | None, y_up: bool, distance: Fraction = Fraction(0)
     ) -> Roadmap:
         """Return the roadmap; longer edges are split into pieces of at most ``spacing``.
@@ -134,7 +134,7 @@ class DrawnLanes:
         return measure_squared_distance(self.positions[tail], self.positions[head])
 
 
-def lanes_of_graph(graph: Any) -> DrawnLanes:
+def read_graph(graph: Any) -> DrawnLanes:
     """Return the lanes of a `networkx` graph; drawn if all its nodes have positions."""
     if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
         raise InputError.at("graph", f"{shown(graph)} is no graph (give a networkx graph)")

@@ -39,7 +39,7 @@ def plan_of_paths(scenario: Scenario, paths: Mapping[str, Sequence[Any]]) -> Pla
     --------
     >>> import rightofway
     >>> fleet = rightofway.FleetBuilder(grid=["..."], ends="none", turn=0)
-    >>> scenario = fleet.add_robot("R1", home=(0, 0), target=(0, 2)).scenario()
+    >>> scenario = fleet.add_robot("R1", home=(0, 0), target=(0, 2)).build_scenario()
     >>> plan = plan_of_paths(scenario, {"R1": [(0, 0), (0, 0), (0, 1), (0, 2)]})
     >>> rightofway.check(plan).ok, plan["R1"].completion
     (True, 3)

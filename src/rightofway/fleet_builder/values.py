@@ -16,7 +16,7 @@ from rightofway.site.places import is_cell
 from rightofway.values import Number, at, coordinate, length, names, number
 
 
-def rules_of(given: dict[str, Any]) -> Rules:
+def read_rules(given: dict[str, Any]) -> Rules:
     """Return the rules of a fleet by their names; ``rules="classic"`` is those of classic MAPF."""
     from rightofway.io.scenario.reader import CLASSIC
 
@@ -34,7 +34,7 @@ def rules_of(given: dict[str, Any]) -> Rules:
     return replace(CLASSIC, **own) if base else Rules(**own)
 
 
-def units_of(given: Units | Mapping[str, Any] | None) -> Units:
+def read_units(given: Units | Mapping[str, Any] | None) -> Units:
     """Return units; none by default."""
     if given is None or isinstance(given, Units):
         return given or Units()
@@ -44,7 +44,7 @@ def units_of(given: Units | Mapping[str, Any] | None) -> Units:
     return Units(**given)
 
 
-def types_of(place: Where, given: Iterable[str]) -> frozenset[str]:
+def read_types(place: Where, given: Iterable[str]) -> frozenset[str]:
     """Return types of robots; a text alone is no list of them."""
     try:
         return names(given if isinstance(given, str) else list(given))
@@ -53,7 +53,7 @@ def types_of(place: Where, given: Iterable[str]) -> frozenset[str]:
         raise InputError.at(place, message) from None
 
 
-def surcharge_of(place: Where, given: Number) -> Fraction:
+def read_surcharge(place: Where, given: Number) -> Fraction:
     """Return a surcharge, which is not negative [time unit]."""
     surcharge = at(place, number, given)
     if surcharge < 0:
@@ -61,26 +61,26 @@ def surcharge_of(place: Where, given: Number) -> Fraction:
     return surcharge
 
 
-def pair_of(place: Where, given: Any) -> tuple[Any, Any]:
+def read_pair(place: Where, given: Any) -> tuple[Any, Any]:
     """Return both parts of (x, y)."""
     if not isinstance(given, list | tuple) or len(given) != 2:  # noqa: PLR2004 (x and y)
         raise InputError.at(place, f"{shown(given)} is no point (give (x, y))")
     return given[0], given[1]
 
 
-def ends_of(place: Where, given: Any) -> tuple[Any, Any]:
+def read_ends(place: Where, given: Any) -> tuple[Any, Any]:
     """Return both ends of an edge."""
     if not isinstance(given, list | tuple) or len(given) != 2:  # noqa: PLR2004 (tail and head)
         raise InputError.at(place, f"{shown(given)} is no edge (give (tail, head))")
     return given[0], given[1]
 
 
-def point_of(place: Where, x: Number, y: Number) -> Point:
+def read_point(place: Where, x: Number, y: Number) -> Point:
     """Return a point, exactly [length unit]."""
     return at(place, coordinate, x), at(place, coordinate, y)
 
 
-def radius_of(radius: Number | None, size: tuple[Number, Number] | None) -> Fraction:
+def read_radius(radius: Number | None, size: tuple[Number, Number] | None) -> Fraction:
     """Return the radius of a robot, or of the circle around its sides [length unit]."""
     if size is None:
         return Fraction(0) if radius is None else radius  # type: ignore[return-value]

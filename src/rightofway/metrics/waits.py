@@ -124,5 +124,5 @@ def list_rights_of_way(
     graph = PrecedenceGraph(routes, rules=scenario.problem.booking_rules, rows=rows)
     if not may_last or not graph.keeps_order([track.enter for track in tracks]):
         return np.empty((0, 2), np.int32)
-    rights = graph.rights()
+    rights = graph.list_rights()
     return rights[np.lexsort((rights[:, 0], rights[:, 1]))]

@@ -29,9 +29,9 @@ from rightofway.precedence import (
     Meeting,
     PrecedenceGraph,
     Segment,
-    crossing,
-    graph_of,
-    graph_on,
+    build_graph,
+    build_graph_of_plan,
+    make_crossing,
 )
 from rightofway.search import Booking, Bookings, Distances, find_earliest_track
 
@@ -88,13 +88,13 @@ class PartialPlan:
         self.settled = np.zeros(len(routes), np.uint8)
         self.deferred: dict[int, str] = {}
         self.decisions: list[Decision] = []
-        self.graph = graph or graph_on(
+        self.graph = graph or build_graph(
             make_planning_problem(task.scenario), routes, forbid_swaps=sees_swaps
         )
 
     def resolve_all(self, rule: Rule) -> None:
         """Resolve the earliest conflict until none is left; defer where the rule cannot."""
-        while (meeting := self.graph.next_meeting()) is not None:
+        while (meeting := self.graph.find_next_meeting()) is not None:
             self.task.deadline.check("giving right of way")
             resolution = rule(self, meeting)
             if resolution is None:
@@ -107,9 +107,9 @@ class PartialPlan:
     def find_segment(self, meeting: Meeting) -> Segment:
         """Return the visits of which one robot goes first in all."""
         if self.sees_swaps:
-            return self.graph.segment(*meeting.visits)
+            return self.graph.find_segment(*meeting.visits)
         (i, visit_i), (j, visit_j) = (self.graph.place(visit) for visit in meeting.visits)
-        return crossing(self.routes[i], visit_i, self.routes[j], visit_j)
+        return make_crossing(self.routes[i], visit_i, self.routes[j], visit_j)
 
     def defer(self, meeting: Meeting) -> None:
         """Take out one of two robots that no waiting keeps apart; the others keep their rights."""
@@ -119,7 +119,7 @@ class PartialPlan:
         everyone = np.ones(len(self.routes), np.uint8)
         robot = max(
             meeting.robots,
-            key=lambda candidate: (self.graph.conflicts_of(candidate, everyone), candidate),
+            key=lambda candidate: (self.graph.count_conflicts_of(candidate, everyone), candidate),
         )
         self.deferred[robot] = why
         self.settled[robot] = 0
@@ -129,14 +129,14 @@ class PartialPlan:
         """Name the two robots, and the cycle of robots that one of them would close by waiting."""
         scenario, segment = self.task.scenario, self.find_segment(meeting)
         names = [scenario.robots[robot].name for robot in meeting.robots]
-        place = scenario.roadmap.name(self.graph.vertex(meeting.visits[0]))
+        place = scenario.roadmap.name(self.graph.get_vertex(meeting.visits[0]))
         mark = self.graph.checkpoint()
         for waits in (0, 1):
             possible = self.graph.give_all(
                 list_rights_if_waits(self.graph, meeting, segment, waits)
             )
             self.graph.rollback(mark)
-            cycle = [] if possible else self.graph.deadlocked()
+            cycle = [] if possible else self.graph.list_deadlocked()
             if cycle:
                 circle = [scenario.robots[robot].name for robot in cycle]
                 return describe_deadlock(names, place, circle)
@@ -148,7 +148,7 @@ class PartialPlan:
         return Decision(
             tick=meeting.tick,
             kind=segment.kind,
-            vertices=segment.ahead(waits),
+            vertices=segment.list_vertices_ahead(waits),
             robots=meeting.robots,
             waits=meeting.robots[waits],
             waits_at=self.routes[meeting.robots[waits]].vertices[first_visit - 1],
@@ -168,8 +168,12 @@ def list_rights_if_waits(
     """Return the rights of way in a segment if one of two robots (0: i, 1: j) waits."""
     i, j = meeting.robots
     if waits == 0:
-        return tuple((graph.visit(j, b), graph.visit(i, a)) for a, b in segment.if_i_waits())
-    return tuple((graph.visit(i, a), graph.visit(j, b)) for a, b in segment.if_j_waits())
+        return tuple(
+            (graph.get_visit(j, b), graph.get_visit(i, a)) for a, b in segment.list_rights_of_j()
+        )
+    return tuple(
+        (graph.get_visit(i, a), graph.get_visit(j, b)) for a, b in segment.list_rights_of_i()
+    )
 
 
 def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule: Rule) -> Draft:
@@ -185,7 +189,7 @@ def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule
 def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Rule) -> Draft:
     """Resolve all conflicts, then reroute the robots that were deferred."""
     plan.resolve_all(rule)
-    tracks = {r: t for r, t in enumerate(plan.graph.tracks()) if r not in plan.deferred}
+    tracks = {r: t for r, t in enumerate(plan.graph.build_tracks()) if r not in plan.deferred}
     made_way = reroute(task, distances, tracks, list(plan.deferred))
     if made_way is None:
         because = Phrase("one robot at a time finds no way, so all were planned together")
@@ -193,7 +197,7 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
     ordered = [track for _, track in sorted(tracks.items())]
     status, names = Phrase("waits only"), [robot.name for robot in task.scenario.robots]
     if made_way:  # shift the visits of robots that waited for a robot on its former route
-        ordered = graph_of(task.scenario.problem, ordered).tracks()
+        ordered = build_graph_of_plan(task.scenario.problem, ordered).build_tracks()
     rerouted = [
         robot
         for robot in sorted(made_way)

@@ -16,7 +16,7 @@ from rightofway.model import Plan, Tick, Track, completions_of
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.prioritized import make_fleet_search
 from rightofway.planners.task import Task, make_planning_problem
-from rightofway.precedence import PrecedenceGraph, graph_of
+from rightofway.precedence import PrecedenceGraph, build_graph_of_plan
 
 SEARCHES = 100
 """Searches for both robots and those that are in their way."""
@@ -61,10 +61,10 @@ def flip_right_of_way(
         remedy = "plan again with a planner that leaves none"
         raise GaveUp(f"the plan has {judged.summary}: no right of way can be flipped ({remedy})")
     task = Task(scenario=scenario, deadline=Deadline.after(time_limit))
-    graph = graph_of(make_planning_problem(scenario), plan.tracks)
+    graph = build_graph_of_plan(make_planning_problem(scenario), plan.tracks)
     rights = [
         (first, second)
-        for first, second in graph.rights_of(waits)
+        for first, second in graph.list_rights_of(waits)
         if graph.place(second)[0] == waits and graph.place(first)[0] == goes_first
     ]
     if not rights:
@@ -72,7 +72,7 @@ def flip_right_of_way(
     first, second = min(rights, key=lambda right: (abs(graph.enter(right[1]) - tick), right))
     search = LocalSearch(task, graph)
     if search.reverse(first, second) and search.resolve():
-        return Flipped(tracks=tuple(graph.tracks()), keeps_routes=True)
+        return Flipped(tracks=tuple(graph.build_tracks()), keeps_routes=True)
     tracks = _on_other_routes(task, plan, waits, goes_first)
     if tracks is None:
         why = _why_not(graph, names, first, second)

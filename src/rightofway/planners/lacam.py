@@ -34,7 +34,7 @@ from rightofway.planners.impossible import (
 from rightofway.planners.moves import plan_by_moves
 from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.planners.timed_moves import plan_by_timed_moves
-from rightofway.precedence import graph_on
+from rightofway.precedence import build_graph
 from rightofway.search import Distances, FleetSearch, plan_by_lacam
 from rightofway.site import VertexId
 
@@ -151,7 +151,7 @@ def build_timetable_if_possible(
         for itinerary, vertices in zip(scenario.problem.itineraries, visited, strict=True)
     ]
     try:
-        graph = graph_on(make_planning_problem(scenario), routes)
+        graph = build_graph(make_planning_problem(scenario), routes)
     except ValueError:
         return None
-    return graph.tracks() if graph.keeps_order(arrivals) else None
+    return graph.build_tracks() if graph.keeps_order(arrivals) else None

@@ -29,7 +29,7 @@ from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.prioritized import MOST_ROBOTS, make_fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, make_planning_problem
-from rightofway.precedence import graph_of
+from rightofway.precedence import build_graph_of_plan
 from rightofway.search import FleetSearch
 
 SHARE, SHARE_WITH_SIZES = 0.9, 0.2
@@ -230,8 +230,8 @@ def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
     if problem.closures is None:
         search.retime()
         return search.list_tracks()
-    graph = graph_of(make_planning_problem(task.scenario), search.list_tracks())
-    return tuple(graph.tracks())
+    graph = build_graph_of_plan(make_planning_problem(task.scenario), search.list_tracks())
+    return tuple(graph.build_tracks())
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track] | None:
@@ -243,6 +243,6 @@ def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track] | None:
     if problem is task.scenario.problem:
         return tracks
     try:
-        return graph_of(problem, tracks).tracks()
+        return build_graph_of_plan(problem, tracks).build_tracks()
     except ValueError:
         return None

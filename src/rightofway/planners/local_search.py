@@ -31,7 +31,7 @@ from rightofway.phrases import Phrase, chain_items
 from rightofway.planners.conflict_resolution import list_rights_if_waits
 from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.planners.two_level import two_level
-from rightofway.precedence import Meeting, PrecedenceGraph, graph_of
+from rightofway.precedence import Meeting, PrecedenceGraph, build_graph_of_plan
 
 MOST_FAVOURS = 3
 """How many robots are favoured or disfavoured in a round, at most."""
@@ -55,21 +55,23 @@ def local_search(task: Task) -> Draft:
     first = Draft(tracks=task.start, status="") if task.start else two_level(task)
     task.has_plan()
     task.better(lambda: first.tracks)
-    before = graph_of(task.scenario.problem, first.tracks)
-    graph = graph_of(make_planning_problem(task.scenario), first.tracks)
+    before = build_graph_of_plan(task.scenario.problem, first.tracks)
+    graph = build_graph_of_plan(make_planning_problem(task.scenario), first.tracks)
     LocalSearch(task, graph).run(rounds=int(task.options["rounds"]))
-    if graph.flowtime() > before.flowtime():  # the headway of planning costs more than flips gain
+    if (
+        graph.compute_flowtime() > before.compute_flowtime()
+    ):  # the headway of planning costs more than flips gain
         graph = before
     gain = Phrase(
         "flips took the flowtime from {before} to {after} ticks",
-        before=str(before.flowtime()),
-        after=str(graph.flowtime()),
+        before=str(before.compute_flowtime()),
+        after=str(graph.compute_flowtime()),
     )
     return Draft(
-        tracks=tuple(graph.tracks()),
+        tracks=tuple(graph.build_tracks()),
         status=chain_items([*filter(None, [first.status]), gain], "{first}; {second}"),
         reroutes=first.reroutes,
-        improvement=Improvement(saved=Tick(before.flowtime() - graph.flowtime())),
+        improvement=Improvement(saved=Tick(before.compute_flowtime() - graph.compute_flowtime())),
     )
 
 
@@ -95,20 +97,20 @@ class LocalSearch:
         """Descend, then change some robots' luck and descend again, until no robot is late."""
         try:
             self.descend()
-            self.task.better(self.graph.tracks)
+            self.task.better(self.graph.build_tracks)
             for _ in range(rounds):
-                if self.graph.flowtime() == sum(self.alone):
+                if self.graph.compute_flowtime() == sum(self.alone):
                     return
-                mark, before = self.graph.checkpoint(), self.graph.flowtime()
+                mark, before = self.graph.checkpoint(), self.graph.compute_flowtime()
                 try:
                     for _ in range(self.draw.randint(1, MOST_FAVOURS)):
                         self.perturb()
                     self.descend()
                 finally:
-                    if self.graph.flowtime() > before:
+                    if self.graph.compute_flowtime() > before:
                         self.graph.rollback(mark)
-                if self.graph.flowtime() < before:
-                    self.task.better(self.graph.tracks)
+                if self.graph.compute_flowtime() < before:
+                    self.task.better(self.graph.build_tracks)
         except GaveUp:
             return
 
@@ -120,7 +122,7 @@ class LocalSearch:
         first, second = (graph.place(visit)[0] for visit in self.draw.choice(critical))
         robot = self.draw.choice((first, second))
         mark = graph.checkpoint()
-        for a, b in graph.rights_of(robot):
+        for a, b in graph.list_rights_of(robot):
             graph.take_back(a, b)
         if not self.resolve(preference=_Preference(robot, goes_first=robot == second)):
             graph.rollback(mark)
@@ -138,8 +140,8 @@ class LocalSearch:
 
     def list_critical_rights(self) -> Iterator[tuple[int, int]]:
         """Yield each right of way that makes a robot late, once."""
-        late = (r for r, alone in enumerate(self.alone) if self.graph.completion(r) > alone)
-        rights = chain.from_iterable(self.graph.critical_rights(robot) for robot in late)
+        late = (r for r, alone in enumerate(self.alone) if self.graph.get_completion(r) > alone)
+        rights = chain.from_iterable(self.graph.list_critical_rights(robot) for robot in late)
         yield from dict.fromkeys(rights)
 
     def flip(self, first: int, second: int) -> bool:
@@ -147,7 +149,7 @@ class LocalSearch:
 
         False, with nothing changed, if that is impossible or the flowtime does not get less.
         """
-        mark, before = self.graph.checkpoint(), self.graph.flowtime()
+        mark, before = self.graph.checkpoint(), self.graph.compute_flowtime()
         if self.reverse(first, second) and self.resolve(below=before):
             return True
         self.graph.rollback(mark)
@@ -157,12 +159,14 @@ class LocalSearch:
         """Flip a right of way and all others between the two robots in the segment around it."""
         graph = self.graph
         (i, _), (j, _) = graph.place(first), graph.place(second)
-        segment = graph.segment_of_right(first, second)
+        segment = graph.find_segment_of_right(first, second)
         if not graph.take_back(first, second):
             return False  # a flip before has taken it back already
-        for a, b in segment.meetings():
-            graph.take_back(graph.visit(i, a), graph.visit(j, b))
-        rights = [(graph.visit(j, b), graph.visit(i, a)) for a, b in segment.if_i_waits()]
+        for a, b in segment.list_meetings():
+            graph.take_back(graph.get_visit(i, a), graph.get_visit(j, b))
+        rights = [
+            (graph.get_visit(j, b), graph.get_visit(i, a)) for a, b in segment.list_rights_of_j()
+        ]
         return self.give_all(rights)
 
     def give_all(self, rights: Sequence[tuple[int, int]]) -> bool:
@@ -172,9 +176,9 @@ class LocalSearch:
     def resolve(self, *, below: Tick | None = None, preference: _Preference | None = None) -> bool:
         """Resolve all conflicts; false if that is impossible or the flowtime not below."""
         for _ in range(MOST_MEETINGS * len(self.alone)):
-            if below is not None and self.graph.flowtime() >= below:
+            if below is not None and self.graph.compute_flowtime() >= below:
                 return False  # more rights of way never make it less
-            meeting = self.graph.next_meeting()
+            meeting = self.graph.find_next_meeting()
             if meeting is None:
                 return True
             if not self.resolve_one(meeting, preference):
@@ -184,7 +188,7 @@ class LocalSearch:
     def resolve_one(self, meeting: Meeting, preference: _Preference | None) -> bool:
         """Let one of two robots wait, by preference or by what it costs; false if neither can."""
         graph, mark = self.graph, self.graph.checkpoint()
-        segment = graph.segment(*meeting.visits)
+        segment = graph.find_segment(*meeting.visits)
         choices = []
         for waits in (0, 1):
             against = preference is not None and preference.robot in meeting.robots
@@ -193,7 +197,7 @@ class LocalSearch:
                 against = is_waiting == preference.goes_first
             rights = list_rights_if_waits(graph, meeting, segment, waits)
             if self.give_all(rights):
-                cost = (against, graph.flowtime(), graph.conflicts_left(), waits)
+                cost = (against, graph.compute_flowtime(), graph.count_conflicts(), waits)
                 choices.append((cost, rights))
             graph.rollback(mark)
         return bool(choices) and self.give_all(min(choices)[1])

@@ -25,7 +25,7 @@ from rightofway.phrases import Phrase
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import build_timetable, plan_fleet
 from rightofway.planners.task import Draft, Task, make_planning_problem
-from rightofway.precedence import graph_of
+from rightofway.precedence import build_graph_of_plan
 from rightofway.search import FleetSearch
 
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
@@ -117,7 +117,9 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     tracks = search.list_tracks()
     problem = task.scenario.problem
     if problem.closures is not None:  # a robot may have waited for a kept home
-        tracks = tuple(graph_of(make_planning_problem(task.scenario), tracks).tracks())
+        tracks = tuple(
+            build_graph_of_plan(make_planning_problem(task.scenario), tracks).build_tracks()
+        )
     task.has_plan()
     return Draft(tracks=tracks, status=Phrase("one after another"))
 

@@ -173,8 +173,8 @@ def _temporary_group(plan: PartialPlan, meeting: Meeting, on_tie: int) -> Moveme
         return None
     mark = plan.graph.checkpoint()
     plan.graph.give_all(followed.resolution.rights)
-    completions = plan.graph.completion(i), plan.graph.completion(j)
-    group = MovementGroup(tracks=tuple(plan.graph.tracks()), completions=completions)
+    completions = plan.graph.get_completion(i), plan.graph.get_completion(j)
+    group = MovementGroup(tracks=tuple(plan.graph.build_tracks()), completions=completions)
     plan.graph.rollback(mark)
     return group
 
@@ -188,7 +188,7 @@ def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup
     mark = graph.checkpoint()
     decisions: list[Decision] = []
     rights: list[Right] = []
-    while (meeting := graph.next_meeting_of(i, j)) is not None:
+    while (meeting := graph.find_next_meeting_of(i, j)) is not None:
         segment = plan.find_segment(meeting)
         options = [_attempt(plan, meeting, segment, waits) for waits in (0, 1)]
         chosen = _node_level(options, on_tie)
@@ -200,7 +200,7 @@ def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup
         decisions.append(replace(decision, level=chosen.level, conflicts_left=(left[0], left[1])))
         graph.give_all(chosen.rights)
         rights += chosen.rights
-    completion_sum = graph.completion(i) + graph.completion(j)
+    completion_sum = graph.get_completion(i) + graph.get_completion(j)
     graph.rollback(mark)
     resolution = Resolution(decisions=tuple(decisions), rights=tuple(rights))
     return _MovementGroup(resolution=resolution, completion_sum=completion_sum)
@@ -213,14 +213,18 @@ def _attempt(plan: PartialPlan, meeting: Meeting, segment: Segment, waits: int) 
     others[list(meeting.robots)] = 0
     rights = list_rights_if_waits(graph, meeting, segment, waits)
     enters = rights[0][1]
-    mark, planned, met = graph.checkpoint(), graph.enter(enters), graph.conflicts_of(robot, others)
+    mark, planned, met = (
+        graph.checkpoint(),
+        graph.enter(enters),
+        graph.count_conflicts_of(robot, others),
+    )
     if not graph.give_all(rights):
         return None
     option = _Option(
         waits=waits,
         rights=rights,
-        conflicts_left=graph.conflicts_left(),
-        meets_settled=graph.conflicts_of(robot, others) > met,
+        conflicts_left=graph.count_conflicts(),
+        meets_settled=graph.count_conflicts_of(robot, others) > met,
         delay=Tick(graph.enter(enters) - planned),
     )
     graph.rollback(mark)

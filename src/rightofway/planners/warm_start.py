@@ -48,7 +48,7 @@ from rightofway.model import (
 from rightofway.planners.impossible import refuse_closed_ways
 from rightofway.planners.prioritized import make_fleet_search
 from rightofway.planners.task import Task
-from rightofway.precedence import graph_on
+from rightofway.precedence import build_graph
 from rightofway.search import FleetSearch
 from rightofway.site import Roadmap, VertexId
 
@@ -278,13 +278,13 @@ def _timetable(
         part = replace(scenario, robots=fleet, clock=scenario.problem.clock)
     try:
         routes = [old_routes[robot].route for robot in robots]
-        graph = graph_on(replace(part.problem, booking_rules=rules), routes)
+        graph = build_graph(replace(part.problem, booking_rules=rules), routes)
         is_possible = graph.keeps_order([old_routes[robot].when for robot in robots])
     except ValueError:
         return None  # closures leave a route no times, or the old plan has times that fall
     if not is_possible:
         return None
-    return dict(zip(robots, graph.tracks(), strict=True))
+    return dict(zip(robots, graph.build_tracks(), strict=True))
 
 
 def _is_valid(scenario: Scenario, tracks: tuple[Track, ...]) -> bool:

@@ -12,24 +12,24 @@ from rightofway.precedence.adg import (
 from rightofway.precedence.graph import (
     Meeting,
     PrecedenceGraph,
-    graph_of,
-    graph_on,
+    build_graph,
+    build_graph_of_plan,
 )
-from rightofway.precedence.period_curve import Growth, PeriodPiece, period_curve
+from rightofway.precedence.period_curve import Growth, PeriodPiece, compute_period_curve
 from rightofway.precedence.release_graph import Arrival, Part, ReleaseGraph
-from rightofway.precedence.segments import Segment, crossing, find_shared_segment
+from rightofway.precedence.segments import Segment, find_shared_segment, make_crossing
 from rightofway.precedence.sensitivity import (
     Sensitivity,
+    compute_sensitivity,
     find_critical_circuit_without,
     find_tight_arcs,
-    sensitivity,
 )
 from rightofway.precedence.timed_event_graph import (
     Arcs,
     Circuit,
     CyclicSchedule,
     TimedEventGraph,
-    unrolled,
+    unroll_schedule,
 )
 
 __all__ = [
@@ -52,14 +52,14 @@ __all__ = [
     "Sensitivity",
     "Stoppage",
     "TimedEventGraph",
-    "crossing",
+    "build_graph",
+    "build_graph_of_plan",
+    "compute_period_curve",
+    "compute_sensitivity",
     "find_critical_circuit_without",
     "find_shared_segment",
     "find_tight_arcs",
-    "graph_of",
-    "graph_on",
+    "make_crossing",
     "order_of",
-    "period_curve",
-    "sensitivity",
-    "unrolled",
+    "unroll_schedule",
 ]

@@ -29,7 +29,7 @@ from rightofway.native import (
     bind_rows,
     bind_rules,
 )
-from rightofway.precedence.graph import Pairs, graph_on
+from rightofway.precedence.graph import Pairs, build_graph
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
 """Kinds of random delay; the kernel takes the index."""
@@ -88,19 +88,19 @@ class DelaySample(NamedTuple):
     tick: NDArray[np.int64]
     ticks: NDArray[np.int64]
 
-    def stoppages_of(self, robot: int) -> list[Stoppage]:
+    def list_stoppages(self, robot: int) -> list[Stoppage]:
         """Return the stoppages of a robot."""
         own = slice(*self.first_stoppage[robot : robot + 2].tolist())
         pairs = zip(self.tick[own].tolist(), self.ticks[own].tolist(), strict=True)
         return [Stoppage(Tick(tick), Tick(ticks)) for tick, ticks in pairs]
 
-    def with_stoppages_of(self, other: DelaySample) -> DelaySample:
+    def add_stoppages(self, other: DelaySample) -> DelaySample:
         """Return these durations with the stoppages of another sample of the same fleet."""
         return DelaySample(self.dwell, self.drive, *other[2:])
 
-    def breakdown(self, robot: int) -> Tick:
+    def find_breakdown(self, robot: int) -> Tick:
         """Return when a robot breaks down, `NEVER` if it does not [ticks]."""
-        own = self.stoppages_of(robot)
+        own = self.list_stoppages(robot)
         return min((tick for tick, ticks in own if ticks == NEVER), default=NEVER)
 
 
@@ -237,31 +237,33 @@ class ActionDependencyGraph:
             return order_of(self.vertex, when)
         # An order has no clock: what has begun too late for a closure has its place in it, too.
         begun = np.ones((len(self.vertex), 2), bool)
-        graph = graph_on(self.scenario.problem, self.routes, begun=begun)
+        graph = build_graph(self.scenario.problem, self.routes, begun=begun)
         if not graph.keeps_order(np.split(when, self.first_visit[1:-1])):
             raise ValueError("when: some visits cannot take place in this order")
-        rights = graph.rights()
+        rights = graph.list_rights()
         return rights[np.lexsort((rights[:, 0], rights[:, 1]))]
 
-    def reordered(
+    def reorder(
         self, order: Pairs, since: NDArray[np.int64] | None = None
     ) -> ActionDependencyGraph:
         """Return the same routes with another order of visits; `order` and `since` as above."""
         return ActionDependencyGraph(
             self.scenario,
-            self.tracks_at(self.planned),
+            self.build_tracks(self.planned),
             self.delay_model,
             routes=self.routes,
             order=order,
             since=self.since if since is None else since,
         )
 
-    def deadlocked(self) -> list[int]:
+    def list_deadlocked(self) -> list[int]:
         """Return the robots that can never complete because they wait for each other."""
         circle: list[int] = self._kernel.deadlocked().tolist()
         return circle
 
-    def runs(self, seed: int, first: int, count: int, time_limit: float | None = None) -> RunBatch:
+    def make_runs(
+        self, seed: int, first: int, count: int, time_limit: float | None = None
+    ) -> RunBatch:
         """Run the plan ``count`` times, from run number ``first`` on.
 
         A run depends on its number and the seed alone. After ``time_limit`` [s] no run is begun.
@@ -281,11 +283,11 @@ class ActionDependencyGraph:
         first, second = self.order.T
         return list(map(int, first[slice(*np.searchsorted(second, [visit, visit + 1]))]))
 
-    def robot_of(self, visit: int) -> int:
+    def get_robot(self, visit: int) -> int:
         """Return the robot of a visit."""
         return int(np.searchsorted(self.first_visit, visit, side="right")) - 1
 
-    def tracks_at(self, enter: NDArray[np.int64]) -> tuple[Track, ...]:
+    def build_tracks(self, enter: NDArray[np.int64]) -> tuple[Track, ...]:
         """Return the tracks with these times (int64[N]); visits at `NEVER` are left out."""
         tracks = []
         for first, end in pairwise(self.first_visit.tolist()):

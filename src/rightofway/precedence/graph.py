@@ -120,7 +120,7 @@ class PrecedenceGraph:
             bind_closures(closed),
         )
 
-    def visit(self, robot: int, index: int) -> Visit:
+    def get_visit(self, robot: int, index: int) -> Visit:
         """Return the number of the ``index``-th visit of a robot."""
         return int(self._first[robot]) + index
 
@@ -129,7 +129,7 @@ class PrecedenceGraph:
         robot: int = self._robot[visit]
         return robot, visit - int(self._first[robot])
 
-    def vertex(self, visit: Visit) -> VertexId:
+    def get_vertex(self, visit: Visit) -> VertexId:
         """Return where a visit is."""
         robot, index = self.place(visit)
         return self.routes[robot].vertices[index]
@@ -162,7 +162,7 @@ class PrecedenceGraph:
         """
         return self._kernel.take_back(first, second)
 
-    def deadlocked(self) -> list[int]:
+    def list_deadlocked(self) -> list[int]:
         """Return the robots that the last right of way found impossible would have deadlocked.
 
         Each robot would have waited for the next, the last robot for the first. Empty if another
@@ -171,7 +171,7 @@ class PrecedenceGraph:
         robots = [self._robot[visit] for visit in self._refused_cycle()]
         return [robot for robot, _ in groupby(reversed(robots))]
 
-    def deadlocking_rights(self) -> list[tuple[Visit, Visit]]:
+    def list_deadlocking_rights(self) -> list[tuple[Visit, Visit]]:
         """Return the rights of way that made the last one impossible, by closing a circle with it.
 
         None if there was another reason.
@@ -209,38 +209,38 @@ class PrecedenceGraph:
         """Do as `keep_order`; false, with nothing changed, if some visit cannot take place."""
         return self._kernel.keep_order(np.concatenate(when, dtype=np.int64))
 
-    def rights_of(self, robot: int) -> list[tuple[Visit, Visit]]:
+    def list_rights_of(self, robot: int) -> list[tuple[Visit, Visit]]:
         """Return all (first, second) of which one is a visit of the robot."""
         return [(first, second) for first, second in self._kernel.rights_of(robot).tolist()]
 
-    def rights(self) -> Pairs:
+    def list_rights(self) -> Pairs:
         """Return all (first, second) in the order they were given."""
         return self._kernel.rights_of_way()
 
-    def segment(self, visit: Visit, other: Visit) -> Segment:
+    def find_segment(self, visit: Visit, other: Visit) -> Segment:
         """Return the segment around two visits that are in conflict if both are at one time."""
         (i, index_i), (j, index_j) = self.place(visit), self.place(other)
         if self._has_sizes:
             return self._segments_of(i, j)[index_i, index_j]
         return find_shared_segment(self.routes[i], index_i, self.routes[j], index_j)
 
-    def segment_of_right(self, first: Visit, second: Visit) -> Segment:
+    def find_segment_of_right(self, first: Visit, second: Visit) -> Segment:
         """Return the segment for which a right of way holds."""
         if not self._has_sizes:
-            return self.segment(first, second)
+            return self.find_segment(first, second)
         (i, index_i), (j, starts) = self.place(first), self.place(second)
         segments = self._segments_of(i, j)
         return next(
             segment
             for index_j in (starts, starts - 1)
             if (segment := segments.get((index_i, index_j))) is not None
-            and (index_i, starts) in segment.meetings()
+            and (index_i, starts) in segment.list_meetings()
         )
 
     def _segments_of(self, i: int, j: int) -> Mapping[tuple[int, int], Segment]:
         """Return the segments of two robots by the indices of the visits in them."""
         if (i, j) not in self._segments:
-            begin_i, begin_j = self.visit(i, 0), self.visit(j, 0)
+            begin_i, begin_j = self.get_visit(i, 0), self.get_visit(j, 0)
             indices = self._kernel.incompatible(i, j) - [begin_i, begin_j, begin_i, begin_j]
             pairs = [IncompatiblePair(*pair) for pair in indices.tolist()]
             self._segments[i, j] = link_segments(self.routes[i], self.routes[j], pairs)
@@ -259,19 +259,19 @@ class PrecedenceGraph:
         self._last_dwells -= self.routes[robot].dwell[-1]
         self._kernel.withdraw(robot)
 
-    def conflicts_left(self) -> int:
+    def count_conflicts(self) -> int:
         """Return the conflicts in the whole system: ticks of overlap, and swaps."""
         return self._kernel.conflicts()
 
-    def conflicts_of(self, robot: int, others: NDArray[np.uint8]) -> int:
+    def count_conflicts_of(self, robot: int, others: NDArray[np.uint8]) -> int:
         """Return the conflicts of one robot with those others whose place in the mask is not 0."""
         return self._kernel.conflicts_of(robot, others)
 
-    def next_meeting(self) -> Meeting | None:
+    def find_next_meeting(self) -> Meeting | None:
         """Return the earliest conflict in the system, or None."""
         return self._meeting(self._kernel.next_conflict())
 
-    def next_meeting_of(self, i: int, j: int) -> Meeting | None:
+    def find_next_meeting_of(self, i: int, j: int) -> Meeting | None:
         """Return the earliest conflict of two robots, or None."""
         return self._meeting(self._kernel.next_conflict_between(i, j))
 
@@ -284,15 +284,15 @@ class PrecedenceGraph:
             return Meeting(tick=Tick(tick), kind="swap", robots=robots, visits=(first, other - 1))
         return Meeting(tick=Tick(tick), kind="vertex", robots=robots, visits=(first, other))
 
-    def completion(self, robot: int) -> Tick:
+    def get_completion(self, robot: int) -> Tick:
         """Return when a robot has done its work and is where it ends."""
         return Tick(self._kernel.completion(robot) + self.routes[robot].dwell[-1])
 
-    def flowtime(self) -> Tick:
+    def compute_flowtime(self) -> Tick:
         """Return the sum of all completion times; of robots that were set aside, it has none."""
         return Tick(self._kernel.completion_sum() + self._last_dwells)
 
-    def critical_rights(self, robot: int) -> list[tuple[Visit, Visit]]:
+    def list_critical_rights(self, robot: int) -> list[tuple[Visit, Visit]]:
         """Return the rights of way that a robot's completion time is due to, the latest first.
 
         They lie on a longest path to its last visit: with all of them it cannot complete sooner.
@@ -303,7 +303,7 @@ class PrecedenceGraph:
         """Return when a visit begins [ticks]."""
         return Tick(self._kernel.enter_of(visit))
 
-    def tracks(self) -> list[Track]:
+    def build_tracks(self) -> list[Track]:
         """Return the timetable: the earliest track of each robot."""
         parts = np.split(self._kernel.enter(), self._first[1:-1])
         return [
@@ -313,7 +313,7 @@ class PrecedenceGraph:
 
 
 @checks_arguments
-def graph_on(
+def build_graph(
     problem: Problem,
     routes: Sequence[Route],
     *,
@@ -349,7 +349,7 @@ def graph_on(
 
 
 @checks_arguments
-def graph_of(problem: Problem, tracks: Sequence[Track]) -> PrecedenceGraph:
+def build_graph_of_plan(problem: Problem, tracks: Sequence[Track]) -> PrecedenceGraph:
     """Return the precedence graph of a plan: its routes, and its order of visits at every vertex.
 
     Parameters
@@ -368,6 +368,6 @@ def graph_of(problem: Problem, tracks: Sequence[Track]) -> PrecedenceGraph:
         route_of(problem.roadmap, itinerary, track)
         for itinerary, track in zip(problem.itineraries, tracks, strict=True)
     ]
-    graph = graph_on(problem, routes)
+    graph = build_graph(problem, routes)
     graph.keep_order([track.enter.tolist() for track in tracks])
     return graph

@@ -66,13 +66,13 @@ class PeriodPiece:
     slope: Fraction
     arcs: NDArray[np.int64]
 
-    def at(self, x: Fraction) -> Fraction:
+    def compute_period(self, x: Fraction) -> Fraction:
         """Return the mean of the circuit for a parameter [ticks]."""
         return self.fixed + self.slope * x
 
 
 @checks_arguments
-def period_curve(
+def compute_period_curve(
     graph: TimedEventGraph,
     growth: Growth,
     start: Fraction,
@@ -105,13 +105,13 @@ def period_curve(
     GaveUp
         If time ran out, or numbers become too large for the native core.
     """
-    arcs = graph.arcs.chosen(growth.of.astype(np.int32))
+    arcs = graph.arcs.choose(growth.of.astype(np.int32))
 
     def line_at(x: Fraction) -> PeriodPiece | None:
         """Return the line of the critical circuit at ``x``; None for a deadlock."""
         length = growth.fixed * x.denominator + growth.slope * x.numerator
         try:
-            circuit = trace_circuit(len(graph), arcs.stretched(length), time_limit)
+            circuit = trace_circuit(len(graph), arcs.stretch(length), time_limit)
         except ValueError as error:
             raise GaveUp(f"the numbers of this period are too large ({error})") from None
         return None if circuit is None else _line(arcs, growth, circuit.arcs, x, until)
@@ -128,7 +128,7 @@ def period_curve(
             continue
         cross = (low.fixed - high.fixed) / (high.slope - low.slope)
         between = line_at(cross)
-        if between is not None and between.at(cross) > low.at(cross):
+        if between is not None and between.compute_period(cross) > low.compute_period(cross):
             ahead.append(between)
         else:
             lines[-1] = replace(low, until=cross)

@@ -101,7 +101,7 @@ class ReleaseGraph:
         ends = [first + len(track) for first, track in zip(firsts, tracks, strict=True)]
         return cls(ends, waits, firsts)
 
-    def waiting_parts(self) -> Iterator[Part]:
+    def list_waiting_parts(self) -> Iterator[Part]:
         """Yield the parts that wait for arrivals."""
         yield from self._waits
 
@@ -115,7 +115,7 @@ class ReleaseGraph:
         """
         return self._waits.get(part, ())
 
-    def after(self, arrival: Arrival) -> tuple[Part, ...]:
+    def list_waiting_for(self, arrival: Arrival) -> tuple[Part, ...]:
         """Return the parts that wait for an arrival.
 
         Parameters
@@ -125,7 +125,7 @@ class ReleaseGraph:
         """
         return tuple(self._after.get(arrival, ()))
 
-    def missing(self, part: Part, arrived: Sequence[int]) -> tuple[Arrival, ...]:
+    def list_missing(self, part: Part, arrived: Sequence[int]) -> tuple[Arrival, ...]:
         """Return the arrivals that a part still waits for: why it may not go.
 
         Parameters
@@ -149,9 +149,9 @@ class ReleaseGraph:
         arrived
             The visit at whose vertex each robot has last arrived.
         """
-        return not self.missing(part, arrived)
+        return not self.list_missing(part, arrived)
 
-    def rotation(self) -> tuple[Part, ...]:
+    def find_rotation(self) -> tuple[Part, ...]:
         """Return parts of which each waits for the next, the last for the first; empty if none do.
 
         The robots of a cycle move round at one instant in the plan. No robot can go first, so such

@@ -80,22 +80,22 @@ class Segment:
         """The pairs of visits, in the order of i."""
         return tuple(map(IncompatiblePair, self.i, self.j, self.i_starts, self.j_starts))
 
-    def meetings(self) -> list[tuple[int, int]]:
+    def list_meetings(self) -> list[tuple[int, int]]:
         """Return (visit of i, visit of j that starts later if j waits) of all pairs."""
         return list(zip(self.i, self.j_starts, strict=True))
 
-    def if_j_waits(self) -> list[tuple[int, int]]:
+    def list_rights_of_i(self) -> list[tuple[int, int]]:
         """Return the visits (of i, of j) of which i's ends before j's starts if j waits.
 
         Only those that the others do not imply, in the order of j.
         """
         return [(i, j) for j, i in _implying(zip(self.j_starts, map(neg, self.i), strict=True))]
 
-    def if_i_waits(self) -> list[tuple[int, int]]:
+    def list_rights_of_j(self) -> list[tuple[int, int]]:
         """Return the visits (of i, of j) of which j's ends before i's starts if i waits."""
         return _implying(zip(self.i_starts, map(neg, self.j), strict=True))
 
-    def ahead(self, waits: int) -> tuple[VertexId, ...]:
+    def list_vertices_ahead(self, waits: int) -> tuple[VertexId, ...]:
         """Return the vertices of the robot that goes first; 0: i waits, 1: j waits."""
         return self.j_vertices if waits == 0 else self.i_vertices
 
@@ -153,7 +153,7 @@ def _segment_of(first: Route, other: Route, columns: tuple[Sequence[int], ...]) 
     )
 
 
-def crossing(first: Route, i: int, other: Route, j: int) -> Segment:
+def make_crossing(first: Route, i: int, other: Route, j: int) -> Segment:
     """Return the segment of two visits to one vertex, and of nothing around it.
 
     Parameters

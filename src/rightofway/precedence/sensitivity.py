@@ -48,7 +48,7 @@ class Sensitivity:
 
 
 @checks_arguments
-def sensitivity(
+def compute_sensitivity(
     graph: TimedEventGraph,
     share: NDArray[np.int64],
     *,
@@ -74,10 +74,10 @@ def sensitivity(
         If time ran out.
     """
     mask = find_tight_arcs(graph, time_limit=time_limit) if tight is None else tight
-    critical, on_critical = graph.arcs.chosen(mask), share[mask]
+    critical, on_critical = graph.arcs.choose(mask), share[mask]
 
     def mean(length: NDArray[np.int64]) -> Fraction:
-        return _circuit(graph, critical.stretched(length), time_limit).cycle_time
+        return _circuit(graph, critical.stretch(length), time_limit).cycle_time
 
     now = mean(critical.length)
     gain = now - mean(critical.length - on_critical)
@@ -104,7 +104,7 @@ def find_tight_arcs(
         If time ran out.
     """
     arcs = graph.arcs
-    cycle_time = graph.critical_circuit(time_limit=time_limit).cycle_time
+    cycle_time = graph.find_critical_circuit(time_limit=time_limit).cycle_time
     period, parts = cycle_time.numerator, cycle_time.denominator
     times = _core.earliest_times(
         len(graph), arcs.tail, arcs.head, arcs.length, arcs.height, period, parts, time_limit
@@ -141,7 +141,7 @@ def find_critical_circuit_without(
         If time ran out.
     """
     whole, saved = part.denominator, part.numerator
-    arcs = graph.arcs.stretched(graph.arcs.length * whole - share * saved)
+    arcs = graph.arcs.stretch(graph.arcs.length * whole - share * saved)
     circuit = _circuit(graph, arcs, time_limit)
     return Circuit(cycle_time=circuit.cycle_time / whole, arcs=circuit.arcs)
 
@@ -168,7 +168,7 @@ def _reach(
     other_circuit = find_critical_circuit_without(graph, share, until, time_limit=time_limit)
     at_best = other_circuit.cycle_time
     while other_circuit.cycle_time > now - gain * until:
-        arcs = graph.arcs.chosen(other_circuit.arcs)
+        arcs = graph.arcs.choose(other_circuit.arcs)
         height = int(arcs.height.sum())
         mean = Fraction(int(arcs.length.sum()), height)
         slope = Fraction(int(share[other_circuit.arcs].sum()), height)

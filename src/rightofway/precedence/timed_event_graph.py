@@ -60,7 +60,7 @@ class CyclicSchedule:
 
 
 @checks_arguments
-def unrolled(timetable: CyclicSchedule, times: int) -> CyclicSchedule:
+def unroll_schedule(timetable: CyclicSchedule, times: int) -> CyclicSchedule:
     """Return the same timetable with several of its periods as one.
 
     Parameters
@@ -106,11 +106,11 @@ class Arcs:
     def __len__(self) -> int:
         return len(self.tail)
 
-    def stretched(self, length: NDArray[np.int64]) -> Self:
+    def stretch(self, length: NDArray[np.int64]) -> Self:
         """Return the same arcs, as long as given."""
         return replace(self, length=length)
 
-    def chosen(self, which: NDArray[np.int32] | NDArray[np.bool_]) -> Self:
+    def choose(self, which: NDArray[np.int32] | NDArray[np.bool_]) -> Self:
         """Return some of the arcs, by their numbers or by a mask."""
         return replace(self, **{name: getattr(self, name)[which] for name in self.__slots__})
 
@@ -334,7 +334,7 @@ class TimedEventGraph:
 
         No timetable that keeps the rules has these orders; but no circuit of them takes any time.
         """
-        rights = self.arcs.chosen((self.arcs.first >= 0) & (self.arcs.length == 0))
+        rights = self.arcs.choose((self.arcs.first >= 0) & (self.arcs.length == 0))
         if not len(rights):
             return False
         forward = rights.tail.astype(np.int64) * len(self) + rights.head
@@ -344,7 +344,7 @@ class TimedEventGraph:
         swaps = (forward[matches] == back) & (rights.height + rights.height[matches] == 0)
         return bool(swaps.any())
 
-    def slack(self) -> NDArray[np.int64]:
+    def compute_slack(self) -> NDArray[np.int64]:
         """Return how much later than it had to each arc's head comes in the timetable [ticks].
 
         Below 0 for a timetable that does not keep its own orders: robots drive too fast in it, or
@@ -354,7 +354,7 @@ class TimedEventGraph:
         due = enter[arcs.tail] + arcs.length
         return enter[arcs.head] + arcs.height * int(self.timetable.period) - due
 
-    def critical_circuit(self, *, time_limit: float | None = None) -> Circuit:
+    def find_critical_circuit(self, *, time_limit: float | None = None) -> Circuit:
         """Return a circuit of the largest mean, and with it the exact cycle time.
 
         The cycle time is for one period of the timetable, so for all its ``counts`` of laps. A
@@ -367,12 +367,12 @@ class TimedEventGraph:
         GaveUp
             If time ran out.
         """
-        circuit = self.critical_circuit_if_live(time_limit=time_limit)
+        circuit = self.find_critical_circuit_if_live(time_limit=time_limit)
         if circuit is None:
             raise ValueError("timetable: robots wait for each other for ever in its orders")
         return circuit
 
-    def critical_circuit_if_live(self, *, time_limit: float | None = None) -> Circuit | None:
+    def find_critical_circuit_if_live(self, *, time_limit: float | None = None) -> Circuit | None:
         """Return a critical circuit; None if robots wait for each other for ever in these orders.
 
         Raises
@@ -382,7 +382,7 @@ class TimedEventGraph:
         """
         return trace_circuit(len(self), self.arcs, time_limit)
 
-    def earliest(
+    def compute_earliest(
         self,
         period: Tick,
         *,
@@ -408,7 +408,7 @@ class TimedEventGraph:
             If time ran out.
         """
         if cycle_time is None:
-            cycle_time = self.critical_circuit(time_limit=time_limit).cycle_time
+            cycle_time = self.find_critical_circuit(time_limit=time_limit).cycle_time
         if period < cycle_time:
             raise ValueError(f"period: {period} is less than the cycle time {cycle_time}")
         arcs, ticks = self.arcs, int(period)

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from rightofway.phrases import Phrase, join_items
 
 __all__ = [
-    "about_robot",
-    "ends_way",
+    "describe_end_of_way",
+    "describe_robot",
     "finishes_work",
     "goes_on",
     "say_start",
@@ -20,7 +20,7 @@ __all__ = [
 ]
 
 
-def about_robot(robot: str, predicate: str) -> Phrase:
+def describe_robot(robot: str, predicate: str) -> Phrase:
     """Return a sentence on a robot.
 
     Parameters
@@ -74,6 +74,6 @@ def finishes_work(robot: str, place: str, done: int, jobs: int) -> Phrase:
     )
 
 
-def ends_way(robot: str, place: str) -> Phrase:
+def describe_end_of_way(robot: str, place: str) -> Phrase:
     """Return that a robot has come to the end of its route."""
     return Phrase("{robot} is at the end of its way, {place}", robot=robot, place=place)

@@ -10,7 +10,7 @@ from rightofway.languages import ENGLISH
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.quantities import Quantities, decimal
-from rightofway.report.lines import Facts, Part, Table, further, lay_out, short
+from rightofway.report.lines import Facts, Part, Table, choose_further_format, lay_out, shorten_name
 
 MAX_ROBOTS = 20
 """Robots in the report; --json has them all."""
@@ -124,7 +124,7 @@ def _lateness(lateness: Quantiles, quantities: Quantities, *, is_delay: bool = F
     mean, most = lateness.mean, lateness.max
     if mean is None or most is None:
         return Phrase("no robot ever completes")
-    write = further(quantities)
+    write = choose_further_format(quantities)
     times = {"time": quantities.duration(abs(mean))}
     if mean < 0:
         average = Phrase("earlier by {time} on average", **times)
@@ -147,7 +147,7 @@ def _lateness(lateness: Quantiles, quantities: Quantities, *, is_delay: bool = F
 
 
 def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]:
-    names = [short(robot.name) for robot in outcome.plan.scenario.robots]
+    names = [shorten_name(robot.name) for robot in outcome.plan.scenario.robots]
     robots, cell = outcome.lateness.robots, quantities.cell
     latest = sorted(range(len(robots)), key=lambda robot: -(robots[robot].quantiles.mean or 0))
     listed = sorted(latest[:MAX_ROBOTS])
@@ -182,7 +182,7 @@ def _sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part
         [
             Phrase(
                 "{robot} at {place}",
-                robot=short(robots[source.robot].name),
+                robot=shorten_name(robots[source.robot].name),
                 place=place(source.vertex),
             ),
             quantities.cell(source.own),

@@ -28,11 +28,11 @@ from rightofway.report.laps_data import (
     HOUR,
     MAX_VISITS,
     MAX_VISITS_OF_SENSITIVITY,
-    hour_of,
+    compute_hour,
     is_long,
-    names_in,
+    list_names,
 )
-from rightofway.report.lines import Facts, Paragraph, Part, Table, further, lay_out
+from rightofway.report.lines import Facts, Paragraph, Part, Table, choose_further_format, lay_out
 
 MAX_GROUPS = 3
 """Groups in the report; --json has them all."""
@@ -57,7 +57,7 @@ def report_laps(run: CyclicResult, quantities: Quantities, language: str = ENGLI
 
 def _report(run: CyclicResult, quantities: Quantities) -> Iterator[Part]:
     together = [group for group in run.groups if len(group.robots) > 1]
-    rate = decimal(hour_of(run.scenario) * run.throughput())
+    rate = decimal(compute_hour(run.scenario) * run.throughput())
     throughput = Phrase("{rate} laps per hour", rate=rate)
     if not run.scenario.units.time:
         throughput = Phrase("{rate} laps in {hour} time units", rate=rate, hour=str(HOUR))
@@ -154,7 +154,7 @@ def _robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult)
         ]
         for name, laps, mean, share, route in islice(
             zip(
-                names_in(scenario, group),
+                list_names(scenario, group),
                 counts,
                 group.mean_laps(),
                 group.waiting_shares(),
@@ -240,7 +240,7 @@ def _sites(waits: Sequence[LapWait]) -> Sites:
 
 def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
     """Return several times: ``5.35 s, 1 min 56.2 s and 1 more time``, ``time 4, 13``."""
-    others = map(further(quantities), ticks[1:MAX_TIMES])
+    others = map(choose_further_format(quantities), ticks[1:MAX_TIMES])
     listed = chain_items([quantities.moment(ticks[0]), *others])
     more = len(ticks) - MAX_TIMES
     if more <= 0:

@@ -20,7 +20,7 @@ from rightofway.errors import GaveUp
 from rightofway.model import Scenario
 from rightofway.phrases import Phrase
 from rightofway.report.circuits import list_circuit_steps
-from rightofway.report.plan_data import measures
+from rightofway.report.plan_data import describe_measures
 from rightofway.values import written
 
 HOUR = 3600
@@ -39,23 +39,23 @@ BY_VISIT = ("conflicts", "first_lap", "bottleneck", "sensitivity", "curves")
 """Keys of --json that are computed visit by visit."""
 
 
-def laps_data(run: CyclicResult, *, by_visit: bool = True) -> dict[str, Any]:
+def make_laps_data(run: CyclicResult, *, by_visit: bool = True) -> dict[str, Any]:
     """Return a result for programs: plain data, exact times [time unit]."""
     return {
         "rule": run.rule,
         "routes": run.routes,
-        **measures(run.scenario),
-        "throughput_per_hour": written(hour_of(run.scenario) * run.throughput()),
+        **describe_measures(run.scenario),
+        "throughput_per_hour": written(compute_hour(run.scenario) * run.throughput()),
         "groups": [_group_data(run.scenario, group, by_visit=by_visit) for group in run.groups],
     }
 
 
-def hour_of(scenario: Scenario) -> Fraction:
+def compute_hour(scenario: Scenario) -> Fraction:
     """Return the time units of an hour, or 3600 where they are not known."""
     return HOUR / (scenario.units.seconds or Fraction(1))
 
 
-def names_in(scenario: Scenario, group: GroupResult) -> list[str]:
+def list_names(scenario: Scenario, group: GroupResult) -> list[str]:
     """Return the names of the robots of a group."""
     return [scenario.robots[robot].name for robot in group.robots]
 
@@ -67,7 +67,7 @@ def is_long(group: GroupResult) -> bool:
 
 def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> dict[str, Any]:
     robots, place, clock = scenario.robots, scenario.roadmap.name, scenario.problem.clock
-    names, pattern, measured, time = names_in(scenario, group), group.pattern, None, clock.time
+    names, pattern, measured, time = list_names(scenario, group), group.pattern, None, clock.time
     means = [None if mean is None else written(mean * clock.tick) for mean in group.mean_laps()]
     shares = [None if share is None else written(share) for share in group.waiting_shares()]
     if pattern is None:
@@ -113,7 +113,7 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
             "curves": _curves_data(scenario, group),
         }
     if group.comparison is not None:
-        hour = hour_of(scenario) / clock.tick
+        hour = compute_hour(scenario) / clock.tick
         data |= {
             "throughput_per_hour": written(group.comparison.throughput * hour),
             "fairness": written(group.comparison.fairness),

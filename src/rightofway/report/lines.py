@@ -101,14 +101,14 @@ def _rows(table: Table, language: str) -> Iterator[str]:
         for k in range(1, columns - table.has_remarks)
     ]
     room = MAX_NAME if table.has_remarks else COLUMNS - sum(widths) - 2 * len(widths)
-    names = [short(row[0], room) for row in rows]
+    names = [shorten_name(row[0], room) for row in rows]
     first = max(map(len, names))
     for name, row in zip(names, rows, strict=True):
         cells = row[1:]
         if len(row) == columns:
             aligned = zip(row[1:], widths, strict=False)
             cells = [f"{cell:>{width}}" for cell, width in aligned] + row[1 + len(widths) :]
-        yield short(f"{name:{first}}  {'  '.join(cells)}".rstrip(), COLUMNS)
+        yield shorten_name(f"{name:{first}}  {'  '.join(cells)}".rstrip(), COLUMNS)
 
 
 def _broken(text: str, first: str, following: str) -> list[str]:
@@ -118,12 +118,12 @@ def _broken(text: str, first: str, following: str) -> list[str]:
     return [line.replace(NO_BREAK, " ") for line in lines]
 
 
-def short(name: str, columns: int = MAX_NAME) -> str:
+def shorten_name(name: str, columns: int = MAX_NAME) -> str:
     """Return a robot's name in the columns that it may take."""
     return name if len(name) <= columns else f"{name[: columns - 1]}…"
 
 
-def further(quantities: Quantities) -> Callable[[Value], str]:
+def choose_further_format(quantities: Quantities) -> Callable[[Value], str]:
     """Return how times after the first one of a sentence are written.
 
     Where all times are in one unit, ``time 4`` goes on with ``13``, ``8 ticks`` with ``9``.

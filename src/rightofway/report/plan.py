@@ -23,7 +23,15 @@ from rightofway.model import Loss, LostTime, Objective, Plan, Proof, Scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, join_items, say_count
 from rightofway.quantities import Quantities, decimal
-from rightofway.report.lines import Facts, Line, Paragraph, Part, Table, further, lay_out
+from rightofway.report.lines import (
+    Facts,
+    Line,
+    Paragraph,
+    Part,
+    Table,
+    choose_further_format,
+    lay_out,
+)
 from rightofway.report.sentences import (
     OBJECTIVES,
     Words,
@@ -54,14 +62,14 @@ HEADINGS = (
 """Headings of the table of robots: the first time is the sum of the others."""
 
 
-def summary(plan: Plan, quantities: Quantities, language: str = ENGLISH) -> str:
+def summarize_plan(plan: Plan, quantities: Quantities, language: str = ENGLISH) -> str:
     """Return the costs of a plan, and where and to which others robots lose time."""
     words = Words(plan=plan, quantities=quantities)
     metrics, lost = measure(plan), compute_lost_time(plan)
     costs = [
-        (Phrase("planner"), planning(plan, quantities)),
+        (Phrase("planner"), describe_planning(plan, quantities)),
         (Phrase("flowtime"), _flowtime(words, metrics)),
-        (Phrase("makespan"), words.time(metrics.makespan)),
+        (Phrase("makespan"), words.say_time(metrics.makespan)),
         (Phrase("lost time"), _lost(words, lost)),
     ]
     if quantities.in_ticks:
@@ -69,7 +77,7 @@ def summary(plan: Plan, quantities: Quantities, language: str = ENGLISH) -> str:
     return lay_out([Facts(costs), "", *_robots(words, lost), *_losses(words, lost)], language)
 
 
-def planning(plan: Plan, quantities: Quantities) -> str:
+def describe_planning(plan: Plan, quantities: Quantities) -> str:
     """Return what the planner did, in words that need no knowledge of its method."""
     run, metrics, words = plan.run, measure(plan), Words(plan=plan, quantities=quantities)
     parts = [run.name]
@@ -94,13 +102,13 @@ def planning(plan: Plan, quantities: Quantities) -> str:
             )
         )
     if run.reroutes:
-        names = [words.robot(reroute.robot) for reroute in run.reroutes]
+        names = [words.name_robot(reroute.robot) for reroute in run.reroutes]
         parts.append(Phrase("rerouted: {robots}", robots=chain_items(names)))
     return chain_items(parts, "{first}; {second}")
 
 
 def _flowtime(words: Words, metrics: Metrics) -> str:
-    outcome, flowtime = derive_outcome(words.plan), words.time(metrics.flowtime)
+    outcome, flowtime = derive_outcome(words.plan), words.say_time(metrics.flowtime)
     bound = int(metrics.lower_bound)
     if outcome.objective is Objective.FLOWTIME and outcome.bound is not None:
         bound = max(bound, outcome.bound)
@@ -112,7 +120,7 @@ def _flowtime(words: Words, metrics: Metrics) -> str:
         "{flowtime}, {gap} above the lower bound of {bound}",
         flowtime=flowtime,
         gap=f"{metrics.flowtime / bound - 1:.1%}",
-        bound=words.time(bound),
+        bound=words.say_time(bound),
     )
 
 
@@ -123,14 +131,14 @@ def _lost(words: Words, lost: Sequence[LostTime]) -> str:
         Phrase("waiting"): sum(times.waiting for times in lost),
     }
     causes = [
-        Phrase("{cause} {time}", cause=cause, time=words.time(ticks))
+        Phrase("{cause} {time}", cause=cause, time=words.say_time(ticks))
         for cause, ticks in parts.items()
         if ticks
     ]
     if not causes:
         return Phrase("none")
     return Phrase(
-        "{time}: {causes}", time=words.time(sum(parts.values())), causes=chain_items(causes)
+        "{time}: {causes}", time=words.say_time(sum(parts.values())), causes=chain_items(causes)
     )
 
 
@@ -145,7 +153,7 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     yield words.quantities.heading(heading)
     rows = [
         [
-            words.robot(robot),
+            words.name_robot(robot),
             *map(
                 cell,
                 (times.completion, times.alone, times.detours, times.making_room, times.waiting),
@@ -184,9 +192,9 @@ def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     )
     if not longest:
         return
-    times = [words.time, *[further(words.quantities)] * (MAX_DETOURS - 1)]
+    times = [words.say_time, *[choose_further_format(words.quantities)] * (MAX_DETOURS - 1)]
     listed: list[str] = [
-        Phrase("{robot} {time}", robot=words.robot(lost_by.robot), time=write(lost_by.detours))
+        Phrase("{robot} {time}", robot=words.name_robot(lost_by.robot), time=write(lost_by.detours))
         for lost_by, write in zip(longest, times, strict=False)
     ]
     robots = chain_items(listed)
@@ -224,14 +232,14 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
     for robot in largest[:MAX_HOMES]:
         last = scenario.problem.itineraries[robot].last
         ranked = sorted(costs[robot], key=lambda other: -costs[robot][other])
-        names: list[str] = [*map(words.robot, ranked[:3])]
+        names: list[str] = [*map(words.name_robot, ranked[:3])]
         if ranked[3:]:
             names.append(Phrase("others"))
         values = {
             "place": words.places.where(last),
-            "robot": words.robot(robot),
+            "robot": words.name_robot(robot),
             "others": join_items(names),
-            "time": words.time(sum(costs[robot].values())),
+            "time": words.say_time(sum(costs[robot].values())),
         }
         if last == scenario.robots[robot].home:
             yield Phrase(
@@ -257,12 +265,12 @@ def _decisions(words: Words) -> Iterator[Part]:
     for decision in plan.run.decisions:
         yield Phrase(
             "At {moment}: {decision}",
-            moment=words.moment(decision.tick),
+            moment=words.say_moment(decision.tick),
             decision=describe_decision(words, decision),
         )
         yield Paragraph(explain_decision(words, decision), "    ")
     for reroute in plan.run.reroutes:
-        robot = words.robot(reroute.robot)
+        robot = words.name_robot(reroute.robot)
         yield Phrase("{robot} is rerouted: {why}.", robot=robot, why=reroute.because)
     if plan.run.decisions or plan.run.reroutes:
         return

@@ -13,13 +13,13 @@ from rightofway.model.outcome import classify_error
 from rightofway.values import written
 
 
-def measures(scenario: Scenario) -> dict[str, Any]:
+def describe_measures(scenario: Scenario) -> dict[str, Any]:
     """Return what the numbers of a report for programs are measured in."""
     tick = written(scenario.problem.clock.tick)
     return {"tick": tick, "units": asdict(scenario.units)}
 
 
-def summary_data(plan: Plan) -> dict[str, Any]:
+def make_summary_data(plan: Plan) -> dict[str, Any]:
     """Return the data of the report on a plan: the planner as in a plan file, times in ticks."""
     metrics, run = measure(plan), plan.run
     names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
@@ -34,7 +34,7 @@ def summary_data(plan: Plan) -> dict[str, Any]:
             **({} if run.start is None else {"start": asdict(run.start)}),
             "outcome": outcome_document(derive_outcome(plan)),
         },
-        **measures(plan.scenario),
+        **describe_measures(plan.scenario),
         "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},
         "robots": [
             {"name": names[lost.robot], **lost.as_dict(names.__getitem__, place)}
@@ -54,7 +54,7 @@ def summary_data(plan: Plan) -> dict[str, Any]:
     }
 
 
-def no_plan_data(error: NoPlanExists | GaveUp) -> dict[str, Any]:
+def make_no_plan_data(error: NoPlanExists | GaveUp) -> dict[str, Any]:
     """Return the outcome of a search that found no plan."""
     return outcome_document(classify_error(error))
 

@@ -41,24 +41,24 @@ class Words:
     plan: Plan
     quantities: Quantities
 
-    def robot(self, robot: int | None) -> str:
+    def name_robot(self, robot: int | None) -> str:
         """Return the name of a robot."""
         return "" if robot is None else self.plan.scenario.robots[robot].name
 
-    def place(self, vertex: int | None) -> str:
+    def name_place(self, vertex: int | None) -> str:
         """Return what a sentence calls a vertex."""
         return "" if vertex is None else self.places(vertex)
 
-    def way(self, vertices: Sequence[int]) -> str:
+    def name_way(self, vertices: Sequence[int]) -> str:
         """Return a place, or the first and the last of several."""
-        first, last = self.place(vertices[0]), self.place(vertices[-1])
+        first, last = self.name_place(vertices[0]), self.name_place(vertices[-1])
         return first if first == last else Phrase("{first} to {last}", first=first, last=last)
 
-    def time(self, ticks: int) -> str:
+    def say_time(self, ticks: int) -> str:
         """Return how long a number of ticks lasts."""
         return self._time(ticks)
 
-    def moment(self, tick: int) -> str:
+    def say_moment(self, tick: int) -> str:
         """Return a point in time."""
         return self._moment(tick)
 
@@ -129,9 +129,9 @@ def describe_improvement(improvement: Improvement, quantities: Quantities) -> Ph
 def describe_loss(words: Words, loss: Loss) -> Phrase:
     """Return how a robot loses time; the sentence goes on from its name."""
     names = {
-        "other": words.robot(loss.for_robot),
-        "here": words.place(loss.vertex),
-        "time": words.time(loss.ticks),
+        "other": words.name_robot(loss.for_robot),
+        "here": words.name_place(loss.vertex),
+        "time": words.say_time(loss.ticks),
     }
     match loss.kind:
         case "waits":
@@ -139,7 +139,7 @@ def describe_loss(words: Words, loss: Loss) -> Phrase:
         case "follows":
             if loss.until_vertex == loss.vertex:
                 return Phrase("follows {other} in {here}, loses {time}", **names)
-            end_place = words.place(loss.until_vertex)
+            end_place = words.name_place(loss.until_vertex)
             return Phrase(
                 "follows {other} from {here} to {there}, loses {time}", **names, there=end_place
             )
@@ -156,13 +156,13 @@ def describe_executed_loss(words: Words, loss: Loss, unplanned: int) -> Phrase:
     text = describe_loss(words, loss)
     if unplanned <= 0:
         return text
-    return Phrase("{loss}, {time} more than planned", loss=text, time=words.time(unplanned))
+    return Phrase("{loss}, {time} more than planned", loss=text, time=words.say_time(unplanned))
 
 
 def _wait_in_words(words: Words, loss: Loss, names: Mapping[str, str]) -> Phrase:
     """Return for whom a robot waits; for a wait for no robot, what may be closed then."""
     if loss.for_robot is not None:
-        freed = words.place(loss.freed)
+        freed = words.name_place(loss.freed)
         if loss.freed == loss.towards:
             return Phrase(
                 "waits {time} in {here} for {other} to leave {freed}", **names, freed=freed
@@ -175,7 +175,7 @@ def _wait_in_words(words: Words, loss: Loss, names: Mapping[str, str]) -> Phrase
     for vertices, end in words.closed:
         is_ahead = loss.towards in vertices and (len(vertices) == 1 or loss.vertex in vertices)
         if end > loss.tick and is_ahead:
-            names = {**names, "way": words.way(vertices), "end": words.moment(end)}
+            names = {**names, "way": words.name_way(vertices), "end": words.say_moment(end)}
             return Phrase("waits {time} in {here}: {way} is closed until {end}", **names)
     if words.plan.scenario.closures:
         return Phrase(
@@ -192,11 +192,11 @@ def describe_losses(words: Words, group: Sequence[Loss]) -> Phrase:
     """Return where and why a robot loses time to another one; all losses are of that pair."""
     first, number = group[0], len(group)
     names = {
-        "robot": words.robot(first.robot),
-        "other": words.robot(first.for_robot),
-        "moment": words.moment(first.tick),
+        "robot": words.name_robot(first.robot),
+        "other": words.name_robot(first.for_robot),
+        "moment": words.say_moment(first.tick),
         "loss": describe_loss(words, first),
-        "time": words.time(sum(loss.ticks for loss in group)),
+        "time": words.say_time(sum(loss.ticks for loss in group)),
         "number": str(number),
     }
     if number == 1:
@@ -212,8 +212,11 @@ def describe_losses(words: Words, group: Sequence[Loss]) -> Phrase:
 
 def summarize_decision(words: Words, decision: Decision) -> tuple[Phrase, Phrase]:
     """Return who waits for whom, and when, at what loss and why, each in a line."""
-    names = {"waits": words.robot(decision.waits), "first": words.robot(goes_first(decision))}
-    names["place"] = words.way(decision.vertices)
+    names = {
+        "waits": words.name_robot(decision.waits),
+        "first": words.name_robot(goes_first(decision)),
+    }
+    names["place"] = words.name_way(decision.vertices)
     match decision.kind:
         case "head-on":
             head = Phrase("{waits} waits for {first}, head-on, {place}", **names)
@@ -223,8 +226,8 @@ def summarize_decision(words: Words, decision: Decision) -> tuple[Phrase, Phrase
             head = Phrase("{waits} waits for {first}, {place}", **names)
     cost: Phrase = Phrase("no time lost")
     if decision.ticks:
-        cost = Phrase("loses {time}", time=words.time(decision.ticks))
-    moment, why = words.moment(decision.tick), _why(decision)
+        cost = Phrase("loses {time}", time=words.say_time(decision.ticks))
+    moment, why = words.say_moment(decision.tick), _why(decision)
     return head, Phrase("at {moment} · {cost} · {why}", moment=moment, cost=cost, why=why)
 
 
@@ -246,15 +249,15 @@ def _why(decision: Decision) -> Phrase:
 
 def describe_decision(words: Words, decision: Decision) -> Phrase:
     """Return how two robots would have met, and which of them waits where."""
-    first_name, other = map(words.robot, decision.robots)
+    first_name, other = map(words.name_robot, decision.robots)
     names = {
         "one": first_name,
         "other": other,
-        "place": words.way(decision.vertices),
-        "waits": words.robot(decision.waits),
-        "first": words.robot(goes_first(decision)),
-        "here": words.place(decision.waits_at),
-        "time": words.time(decision.ticks),
+        "place": words.name_way(decision.vertices),
+        "waits": words.name_robot(decision.waits),
+        "first": words.name_robot(goes_first(decision)),
+        "here": words.name_place(decision.waits_at),
+        "time": words.say_time(decision.ticks),
     }
     match decision.kind:
         case "head-on":
@@ -294,8 +297,8 @@ def _is_tie(decision: Decision) -> bool:
 def describe_reason(words: Words, decision: Decision) -> Phrase:
     """Return why the planner decided so."""
     names = {
-        "waits": words.robot(decision.waits),
-        "first": words.robot(goes_first(decision)),
+        "waits": words.name_robot(decision.waits),
+        "first": words.name_robot(goes_first(decision)),
     }
     match decision.level:
         case "node":
@@ -340,7 +343,7 @@ def _sums_in_words(decision: Decision, waits: str) -> Phrase:
 
 def describe_figures(words: Words, decision: Decision) -> list[Phrase]:
     """Return what both choices lead to, in a sentence for each figure that was compared."""
-    first_name, other = map(words.robot, decision.robots)
+    first_name, other = map(words.name_robot, decision.robots)
     names, sentences = {"one": first_name, "other": other}, list[Phrase]()
     if any(count is not None for count in decision.conflicts_left):
         impossible = Phrase("impossible")
@@ -351,7 +354,7 @@ def describe_figures(words: Words, decision: Decision) -> list[Phrase]:
         )
     if decision.completion_sums:
         no_way = Phrase("no way")
-        sums = [no_way if n is None else words.time(n) for n in decision.completion_sums]
+        sums = [no_way if n is None else words.say_time(n) for n in decision.completion_sums]
         names["if_one"], names["if_other"] = sums
         sentences.append(
             Phrase(

@@ -147,8 +147,8 @@ def test_both_directions_share_the_pieces_and_the_clearance_grows(tmp_path: Path
 
 def test_a_builder_cuts_curves_for_robots_with_a_size_only(tmp_path: Path) -> None:
     fleet = FleetBuilder(layout=hall(tmp_path, 4)).add_robot("R1", home="A", target="B")
-    assert fleet.scenario().roadmap.n_vertices == 4
-    cut = fleet.add_robot("R2", home="C", target="D", radius=0.3).scenario()
+    assert fleet.build_scenario().roadmap.n_vertices == 4
+    cut = fleet.add_robot("R2", home="C", target="D", radius=0.3).build_scenario()
     assert cut.roadmap.n_vertices > 20
     assert cut.rules.clearance == 2 * Fraction(repr(CHORD_ERROR))
     assert [cut.roadmap.name(robot.home) for robot in cut.robots] == ["A", "C"]

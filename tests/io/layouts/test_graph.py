@@ -78,7 +78,7 @@ def test_every_fault_of_a_graph_is_named() -> None:
 def test_a_fleet_is_built_on_a_layout() -> None:
     """The way out is 5 m at 0.5 m/s, the way home 5.5 m at 1 m/s; ticks are rounded."""
     fleet = FleetBuilder(layout=layout_of_graph(graph())).add_robot("R1", home="dock", target=7)
-    scenario = fleet.scenario()
+    scenario = fleet.build_scenario()
     assert (scenario.units.length, scenario.units.time) == ("m", "s")
     assert float(solve(scenario).flowtime * scenario.problem.clock.tick) == pytest.approx(
         15.5, abs=0.02
@@ -91,20 +91,20 @@ def test_a_fleet_is_built_on_a_file_with_stations_and_other_units() -> None:
     station = found.levels[0].stations[0]
     type_ = found.levels[0].vehicle_types[0]
     fleet = FleetBuilder(layout=HALL, vehicle_type=type_, units={"length": "mm"})
-    at = fleet.roadmap()
+    at = fleet.build_roadmap()
     fleet.add_robot("R1", home=at.name(0), target=station.name)
-    robot = fleet.scenario().robots[0]
+    robot = fleet.build_scenario().robots[0]
     assert at.name(robot.stops[0].at) == station.vertices[0]
     assert max(at.lengths) >= 1000
 
 
 def test_a_fleet_gets_homes_from_the_parking_places_of_a_layout() -> None:
     fleet = FleetBuilder(layout=layout_of_graph(graph())).add_robot("R1", target=7)
-    assert fleet.roadmap().name(fleet.scenario().robots[0].home) == "dock"
+    assert fleet.build_roadmap().name(fleet.build_scenario().robots[0].home) == "dock"
     with pytest.raises(InputError, match="2 robots need a home, and the map has 1 parking"):
-        fleet.add_robot("R2", target=7).scenario()
+        fleet.add_robot("R2", target=7).build_scenario()
     with pytest.raises(InputError, match="the map has no parking or charging place"):
-        FleetBuilder(grid=[".."]).add_robot("R1", target="N0").scenario()
+        FleetBuilder(grid=[".."]).add_robot("R1", target="N0").build_scenario()
 
 
 def test_a_layout_of_pixels_is_refused_with_the_remedy() -> None:

@@ -48,8 +48,8 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
     ]
     return {
         "kind": loss.kind,
-        "robot": words.robot(loss.robot),
-        "for": words.robot(loss.for_robot) or None,
+        "robot": words.name_robot(loss.robot),
+        "for": words.name_robot(loss.for_robot) or None,
         "vertex": name(loss.vertex),
         "towards": name(loss.towards),
         "freed": None if loss.freed is None else name(loss.freed),

@@ -16,8 +16,8 @@ from rightofway.model import Scenario
 from rightofway.phrases import to_parts
 from rightofway.report.execution import report as simulation_report
 from rightofway.report.laps import report_laps
-from rightofway.report.laps_data import laps_data
-from rightofway.report.plan_data import measures
+from rightofway.report.laps_data import make_laps_data
+from rightofway.report.plan_data import describe_measures
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import compute_digest, compute_figures, load_document
 from rightofway.studio.tasks.planning import PlanningProgress
@@ -77,7 +77,7 @@ def make_laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settin
     shown, steady = excerpt(run)
     payload = as_compact_json(make_payload(shown, steady=steady)).encode()
     text = report_laps(run, scenario.quantities)
-    report = to_parts({**laps_data(run), "text": text})
+    report = to_parts({**make_laps_data(run), "text": text})
     result: dict[str, Any] = {"report": report, "has_payload": True}
     try:
         whole = plan_of_laps(run)
@@ -112,7 +112,7 @@ def make_laps_if(
     except ValueError as error:
         raise InputError.at("value", str(error)) from None
     run = _repeated(_changed(scenario, kind, robot, stop, wanted), emit, **settings)
-    answer = to_parts(laps_data(run, by_visit=False))
+    answer = to_parts(make_laps_data(run, by_visit=False))
     return ({key: answer[key] for key in ("groups", "throughput_per_hour")},)
 
 
@@ -158,18 +158,18 @@ def simulate(
     given, report = plan_of(parse_json(blobs[0].decode())), PlanningProgress(emit).report
     causes = list(delays) or [DEFAULT_DELAYS]
     outcome = execute(given, causes, runs, keep_runs=True, report=report, **settings)
-    named = {"typical": outcome.typical, "worst": outcome.worst}
+    named = {"typical": outcome.find_typical_run, "worst": outcome.find_worst_run}
     played = named[run]() if isinstance(run, str) else run
     if not played < outcome.runs:
         message = f"{played} is not among the {outcome.runs} runs (0 is the first)"
         raise InputError.at("run", message)
     payload = as_compact_json(make_payload(outcome.plan, actual=outcome.trace(played))).encode()
     data = {
-        **measures(given.scenario),
+        **describe_measures(given.scenario),
         **outcome.as_dict(),
         "played": played,
         "text": simulation_report(outcome, given.scenario.quantities),
-        "worst": outcome.worst(),
+        "worst": outcome.find_worst_run(),
         "spread": compute_spread(outcome),
         "ranks": compute_ranks(outcome),
     }
@@ -210,7 +210,7 @@ def compute_spread(outcome: SimulationResult) -> dict[str, Any] | None:
 
 def compute_ranks(outcome: SimulationResult) -> dict[str, Any]:
     """Return runs from the best to the worst: the rank, number and flowtime of each [ticks]."""
-    order = outcome.ranked()
+    order = outcome.rank_runs()
     ranks = np.unique(np.linspace(0, len(order) - 1, min(len(order), RANKS)).round().astype(int))
     completion = outcome.completion[order[ranks]]
     sums = completion.sum(axis=1).tolist()

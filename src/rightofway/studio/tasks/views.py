@@ -15,7 +15,7 @@ from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.text import parse_json
 from rightofway.metrics import compare, find_changes
 from rightofway.model import Plan
-from rightofway.report.plan_data import summary_data
+from rightofway.report.plan_data import make_summary_data
 from rightofway.studio.messages import Blobs, Emit, zip_text
 from rightofway.studio.tasks.documents import compute_figures
 from rightofway.studio.tasks.drawings import Origin, as_drawn
@@ -110,7 +110,7 @@ def export_plan(_emit: Emit, blobs: Blobs, *, form: str, origin: Origin | None =
 
 def summarize_plan(_emit: Emit, blobs: Blobs) -> Result:
     """Return the report of `rightofway plan --json`."""
-    return (summary_data(read(blobs[0])),)
+    return (make_summary_data(read(blobs[0])),)
 
 
 def compare_plans(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
