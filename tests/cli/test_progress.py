@@ -9,7 +9,7 @@ import time
 
 import pytest
 
-from rightofway.cli.terminal import CLEAR, progress
+from rightofway.cli.terminal import CLEAR, show_progress
 
 
 def test_a_terminal_shows_the_time_and_the_latest_sentence_in_one_line(
@@ -19,7 +19,7 @@ def test_a_terminal_shows_the_time_and_the_latest_sentence_in_one_line(
     monkeypatch.setenv("COLUMNS", "21")
     times = iter([100, 100, 103.14])
     monkeypatch.setattr(time, "monotonic", lambda: next(times))
-    with progress(10) as report:
+    with show_progress(10) as report:
         report("cost 19")
         report("cost 18, more than fits")
     shown = capsys.readouterr().err
@@ -38,7 +38,7 @@ def test_the_line_is_kept_up_to_date_while_a_planner_says_nothing(
         return write(text)
 
     monkeypatch.setattr(sys.stderr, "write", heard)
-    with progress(10):
+    with show_progress(10):
         assert written.wait(30)
     *lines, end = capsys.readouterr().err.split(CLEAR)[1:]
     assert lines
@@ -47,6 +47,6 @@ def test_the_line_is_kept_up_to_date_while_a_planner_says_nothing(
 
 
 def test_a_file_gets_none_of_it(capsys: pytest.CaptureFixture[str]) -> None:
-    with progress() as report:
+    with show_progress() as report:
         report("flowtime 19")
     assert capsys.readouterr().err == ""

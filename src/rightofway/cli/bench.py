@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rightofway.cli.completion import files
-from rightofway.cli.options import as_json_option, writable
+from rightofway.cli.completion import complete_files
+from rightofway.cli.options import as_json_option, require_writable
 from rightofway.cli.terminal import put_json, put_report, say, say_written
 from rightofway.phrases import Phrase
 from rightofway.report.lines import Table
@@ -26,11 +26,11 @@ Examples:
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("suite", type=click.Path(), shell_complete=files(".toml"))
+@click.argument("suite", type=click.Path(), shell_complete=complete_files(".toml"))
 @click.option("-o", "--output", metavar="RESULTS", default="results.csv", show_default=True,
-              callback=writable(".csv", ".parquet", stdout=False),
+              callback=require_writable(".csv", ".parquet", stdout=False),
               help="Add rows to this file; cases with a row in it are not run again.")  # fmt: skip
-@click.option("--report", metavar="REPORT", callback=writable(".html", ".md", stdout=False),
+@click.option("--report", metavar="REPORT", callback=require_writable(".html", ".md", stdout=False),
               help="Write a report with plots (HTML or Markdown) at the end.")  # fmt: skip
 @click.option("--jobs", type=click.IntRange(1), metavar="N",
               help="Number of cases that run at a time; by default one for each core.")  # fmt: skip

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 
-def broker_options(command: Any) -> Any:
+def add_broker_options(command: Any) -> Any:
     """Add the options that say where the broker is, and how to log in."""
     for option in reversed(
         (

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.completion import SCENARIOS, files, planners
-from rightofway.cli.inputs import count_option, foreign_options, read_either
-from rightofway.cli.options import as_json_option, quantities_of, ticks_option, writable
-from rightofway.cli.tables import clock_data, put_lists
-from rightofway.cli.terminal import language, progress, put_json
+from rightofway.cli.completion import SCENARIOS, complete_files, complete_planners
+from rightofway.cli.inputs import add_foreign_options, count_option, read_either
+from rightofway.cli.options import as_json_option, choose_quantities, require_writable, ticks_option
+from rightofway.cli.tables import describe_clock, put_lists
+from rightofway.cli.terminal import get_language, put_json, show_progress
 from rightofway.languages import translate
 from rightofway.phrases import Phrase, say_count
 
@@ -39,14 +39,14 @@ LEGEND = Phrase(
 
 @click.command(epilog=EXAMPLES, short_help="List where robots would meet if none of them waited.")
 @click.argument("source", type=click.Path(), metavar="SCENARIO_OR_PLAN",
-                shell_complete=files(*SCENARIOS))  # fmt: skip
+                shell_complete=complete_files(*SCENARIOS))  # fmt: skip
 @count_option
-@foreign_options
-@click.option("-o", "--output", metavar="FILE", callback=writable(".txt", ".csv", ".xlsx"),
+@add_foreign_options
+@click.option("-o", "--output", metavar="FILE", callback=require_writable(".txt", ".csv", ".xlsx"),
               help="Write .txt, .csv or .xlsx; - writes CSV to standard output.")  # fmt: skip
 @click.option("--each-tick", is_flag=True,
               help="List Collision(i, j, t) = n tick by tick, as the paper does.")  # fmt: skip
-@click.option("--planner", metavar="NAME", shell_complete=planners(improving=False),
+@click.option("--planner", metavar="NAME", shell_complete=complete_planners(improving=False),
               help="Plan a scenario first, and list each decision too.")  # fmt: skip
 @ticks_option
 @as_json_option("list")
@@ -78,12 +78,12 @@ def collisions(
 
     opened = read_either(source, count)
     if isinstance(opened, Scenario) and planner:
-        with progress() as report:
+        with show_progress() as report:
             opened = solve(opened, planner, report=report)
     plan = None if isinstance(opened, Scenario) else opened
     scenario = opened if isinstance(opened, Scenario) else opened.scenario
     tracks = free_running_tracks(scenario) if plan is None else free_running(plan)
-    quantities = quantities_of(scenario, in_ticks=in_ticks)
+    quantities = choose_quantities(scenario, in_ticks=in_ticks)
     listed = name_collisions(scenario, tracks)
     if each_tick:
         end = max(completions_of(scenario, tracks))
@@ -105,7 +105,7 @@ def collisions(
             left = name_collisions(scenario, plan.tracks)
             parts.append(Phrase("Left in the plan: {collisions}.", collisions=_counted(left)))
             parts += _texts([tabulate_collisions(left, quantities)])
-        click.echo("\n\n".join(translate(part, language()) for part in parts))
+        click.echo("\n\n".join(translate(part, get_language()) for part in parts))
 
 
 def _headline(listed: Sequence[NamedCollision], ticks: int, *, is_planned: bool) -> str:
@@ -138,7 +138,10 @@ def _collision_data(
     from rightofway.metrics import name_collisions
     from rightofway.viz.table import count_conflicts_before
 
-    data = {**clock_data(quantities), "collisions": [_pair_data(collision) for collision in listed]}
+    data = {
+        **describe_clock(quantities),
+        "collisions": [_pair_data(collision) for collision in listed],
+    }
     if plan is not None:
         names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
         data["decisions"] = [

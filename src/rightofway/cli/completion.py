@@ -25,7 +25,7 @@ PLANS = (".json", ".txt", ".yaml")
 """Endings of the files that have a plan."""
 
 
-def files(*suffixes: str) -> Completer:
+def complete_files(*suffixes: str) -> Completer:
     """Return a function that completes files with these endings, and folders."""
 
     def complete(
@@ -48,7 +48,7 @@ def _literal(text: str) -> str:
     return "".join(f"[{character}]" if character in "*?[" else character for character in text)
 
 
-def words(known: Callable[[], Iterable[str]]) -> Completer:
+def complete_words(known: Callable[[], Iterable[str]]) -> Completer:
     """Return a function that completes words, which are looked up when Tab is pressed."""
 
     def complete(
@@ -59,7 +59,7 @@ def words(known: Callable[[], Iterable[str]]) -> Completer:
     return complete
 
 
-def planners(*, improving: bool) -> Completer:
+def complete_planners(*, improving: bool) -> Completer:
     """Return a function that completes names of planners, or of those that improve a plan."""
 
     def complete(
@@ -75,7 +75,7 @@ def planners(*, improving: bool) -> Completer:
     return complete
 
 
-def planner_options(
+def complete_planner_options(
     context: click.Context, _parameter: click.Parameter, incomplete: str
 ) -> list[CompletionItem[str]]:
     """Complete ``name=value`` for the planner that stands in the command so far."""

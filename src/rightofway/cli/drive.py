@@ -14,21 +14,21 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rightofway.cli.broker import broker_options
-from rightofway.cli.completion import PLANS, files
-from rightofway.cli.inputs import foreign_options, read_plan
+from rightofway.cli.broker import add_broker_options
+from rightofway.cli.completion import PLANS, complete_files
+from rightofway.cli.inputs import add_foreign_options, read_plan
 from rightofway.cli.options import (
     ListingCommand,
     as_json_option,
+    choose_quantities,
     delay_texts,
-    delays_option,
     list_delays,
-    quantities_of,
+    make_delays_option,
     seed_option,
     ticks_option,
 )
-from rightofway.cli.outputs import page_option
-from rightofway.cli.terminal import file_title, language, put_json, put_report, say, say_written
+from rightofway.cli.outputs import make_page_option
+from rightofway.cli.terminal import get_language, make_title, put_json, put_report, say, say_written
 from rightofway.cli.watch import WatchPage, add_page_options
 from rightofway.phrases import Phrase
 
@@ -76,12 +76,12 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
     epilog=EXAMPLES,
     short_help="Have robots drive a PLAN by right of way (VDA 5050).",
 )
-@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
-@foreign_options
+@click.argument("plan", type=click.Path(), shell_complete=complete_files(*PLANS))
+@add_foreign_options
 @click.option("--demo", is_flag=True,
               help="Have simulated robots drive it, in this process and without a network.",
               )  # fmt: skip
-@broker_options
+@add_broker_options
 @click.option("--journal", metavar="FILE",
               help="What has happened, kept on the disk: a start with the same journal goes on. By"
               " default the name of the plan with .journal.")  # fmt: skip
@@ -103,7 +103,7 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
               metavar="FACTOR",
               help="With --demo, seconds of the plan in each second, or its time units where it has"
               " no unit; inf for no pause.")  # fmt: skip
-@delays_option("none")
+@make_delays_option("none")
 @seed_option
 @click.option("--laps", metavar="COUNT", callback=_count,
               help="Repeat the laps of the plan until each robot has made COUNT; inf: until"
@@ -111,7 +111,7 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @click.option("--switch", is_flag=True,
               help="Switch rights of way where robots have come so far that another order is"
               " better.")  # fmt: skip
-@page_option("what robots of a demo did beside the plan, or with --replay what a journal has")
+@make_page_option("what robots of a demo did beside the plan, or with --replay what a journal has")
 @ticks_option
 @as_json_option("outcome")
 def drive(
@@ -163,7 +163,7 @@ def drive(
     known = load_identities(identities, names) if identities else []
     journal_file = Path(journal) if journal else Path(plan).with_suffix(".journal")
 
-    shown = WatchPage(plan=opened, title=file_title(plan), host=host, port=port)
+    shown = WatchPage(plan=opened, title=make_title(plan), host=host, port=port)
     if replay and page:
         shown.write(journal_file, page)
         say_written(page)
@@ -186,7 +186,7 @@ def drive(
 
         drive_demo(opened, identities=known, watch=_show)
         return 0
-    quantities = quantities_of(opened.scenario, in_ticks=in_ticks)
+    quantities = choose_quantities(opened.scenario, in_ticks=in_ticks)
 
     def narrate(tick: int, sentence: str) -> None:
         say(Phrase("{time}  {text}", time=f"{quantities.cell(tick):>8}", text=sentence))
@@ -211,7 +211,7 @@ def drive(
         if page:
             from rightofway.viz import write_page
 
-            write_page(opened, page, actual=outcome.trace, title=file_title(plan))
+            write_page(opened, page, actual=outcome.trace, title=make_title(plan))
             say_written(page)
         if live:
             shown.wait_for_interrupt()
@@ -229,7 +229,7 @@ def _report_demo(
     else:
         from rightofway.control.report import report
 
-        put_report(report(outcome, quantities, language()))
+        put_report(report(outcome, quantities, get_language()))
 
 
 def _refuse_combinations(

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
-from rightofway.cli.completion import words
-from rightofway.cli.options import writable
+from rightofway.cli.completion import complete_words
+from rightofway.cli.options import require_writable
 from rightofway.cli.terminal import say, say_written
 from rightofway.errors import InputError, nearest
 from rightofway.files import write_whole
@@ -54,7 +54,7 @@ TEMPLATES: dict[str, Callable[[str], None]] = {
 
 
 @click.command(epilog=NEW_EXAMPLES, short_help="Write a scenario with comments, to be edited.")
-@click.argument("file", type=click.Path(), callback=writable(*TEMPLATES, stdout=False))
+@click.argument("file", type=click.Path(), callback=require_writable(*TEMPLATES, stdout=False))
 def new(file: str) -> None:
     """Write a small scenario to FILE, with a comment for each key, to be edited.
 
@@ -67,8 +67,8 @@ def new(file: str) -> None:
 
 
 @click.command(epilog=EXAMPLES_EXAMPLES, short_help="List, print or copy the example files.")
-@click.argument("name", required=False, shell_complete=words(list_example_names))
-@click.option("-o", "--output", metavar="FILE", callback=writable(),
+@click.argument("name", required=False, shell_complete=complete_words(list_example_names))
+@click.option("-o", "--output", metavar="FILE", callback=require_writable(),
               help="Write the example NAME to this file, and the maps that it needs beside it.",
               )  # fmt: skip
 @click.option("--copy", "parent", metavar="FOLDER", type=click.Path(exists=True, file_okay=False),

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-from rightofway.cli.completion import PLANS, SCENARIOS, files, words
-from rightofway.cli.inputs import count_option, foreign_options, read_either
-from rightofway.cli.options import ListingCommand, writable
+from rightofway.cli.completion import PLANS, SCENARIOS, complete_files, complete_words
+from rightofway.cli.inputs import add_foreign_options, count_option, read_either
+from rightofway.cli.options import ListingCommand, require_writable
 from rightofway.cli.outputs import put_text, write
 from rightofway.cli.terminal import put_json, say, say_of, say_written
 from rightofway.errors import InputError, nearest
@@ -74,18 +74,18 @@ def _radius(
     epilog=EXAMPLES,
     short_help="Write a scenario or a plan in another format.",
 )
-@click.argument("source", type=click.Path(), shell_complete=files(*SCENARIOS, *PLANS))
-@click.argument("target", type=click.Path(), required=False, callback=writable())
-@click.option("-o", "--output", metavar="TARGET", callback=writable(),
+@click.argument("source", type=click.Path(), shell_complete=complete_files(*SCENARIOS, *PLANS))
+@click.argument("target", type=click.Path(), required=False, callback=require_writable())
+@click.option("-o", "--output", metavar="TARGET", callback=require_writable(),
               help="File to write, the same as the argument TARGET; - for standard output.",
               )  # fmt: skip
-@click.option("--to", "name", metavar="FORMAT", shell_complete=words(_names),
+@click.option("--to", "name", metavar="FORMAT", shell_complete=complete_words(_names),
               help="Write a plan or a layout for another program; see below.")  # fmt: skip
 @click.option("--radius", metavar="LENGTH", callback=_radius,
               help="Radius of the robots of the scenario that is written for a layout [m].",
               )  # fmt: skip
 @count_option
-@foreign_options
+@add_foreign_options
 def convert(
     *,
     source: str,

@@ -52,7 +52,7 @@ def _keep_file(context: click.Context, parameter: click.Parameter, given: str | 
     context.meta[f"{FILES}{parameter.name}"] = given
 
 
-def foreign_options(command: Any) -> Any:
+def add_foreign_options(command: Any) -> Any:
     """Add the files that a plan of another program may need; `read_plan` finds them."""
     for name, content in (("scen", "starts and goals (.scen)"), ("map", "map (.map)")):
         command = click.option(
@@ -63,13 +63,13 @@ def foreign_options(command: Any) -> Any:
 
 
 def _files() -> dict[str, str | None]:
-    """Return the files of `foreign_options`."""
+    """Return the files of `add_foreign_options`."""
     meta = click.get_current_context().meta
     return {"map_file": meta.get(f"{FILES}map"), "scen": meta.get(f"{FILES}scen")}
 
 
-def own_among(paths: Sequence[str]) -> Collection[str]:
-    """Return the plans that need no files of `foreign_options`, because others among them do."""
+def list_own(paths: Sequence[str]) -> Collection[str]:
+    """Return the plans that need no files of `add_foreign_options`, as others among them do."""
     from rightofway.io import is_foreign
 
     if len(paths) == 1 or not any(_files().values()):

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.completion import SCENARIOS, files
+from rightofway.cli.completion import SCENARIOS, complete_files
 from rightofway.cli.inputs import refuse_missing_example
-from rightofway.cli.options import as_json_option, writable
+from rightofway.cli.options import as_json_option, require_writable
 from rightofway.cli.outputs import PAGE_SUFFIXES, put_text, refuse_outputs
 from rightofway.cli.terminal import (
-    file_title,
-    json_text,
-    language,
+    format_json,
+    get_language,
+    make_title,
     put_json,
     put_report,
     say_written,
@@ -40,14 +40,14 @@ Examples:
     "source",
     type=click.Path(),
     metavar="FILE",
-    shell_complete=files(*SCENARIOS, ".xml", ".graphml", ".geojson", ".csv", ".map"),
+    shell_complete=complete_files(*SCENARIOS, ".xml", ".graphml", ".geojson", ".csv", ".map"),
 )
 @click.option(
     "--robots",
     "fleet",
     metavar="FILE",
     type=click.Path(),
-    shell_complete=files(".yaml", ".yml", ".json", ".csv"),
+    shell_complete=complete_files(".yaml", ".yml", ".json", ".csv"),
     help="Judge the robots of this file: a scenario, a list of robots, or a CSV.",
 )
 @click.option("--level", metavar="NAME", help="Inspect only this level of a layout.")
@@ -66,9 +66,9 @@ Examples:
     metavar="N",
     help="Findings to list of each kind; all are counted.",
 )
-@click.option("-o", "--output", metavar="FILE", callback=writable(".json", ".txt"),
+@click.option("-o", "--output", metavar="FILE", callback=require_writable(".json", ".txt"),
               help="Write the report (.json, .txt); - for standard output.")  # fmt: skip
-@click.option("--page", metavar="FILE", callback=writable(*PAGE_SUFFIXES, stdout=False),
+@click.option("--page", metavar="FILE", callback=require_writable(*PAGE_SUFFIXES, stdout=False),
               help="Write a page that shows the findings on the map (.html).")  # fmt: skip
 @as_json_option("report")
 def inspect(
@@ -103,7 +103,7 @@ def inspect(
     if page is not None:
         from rightofway.viz import write_inspection
 
-        title = file_title(source)
+        title = make_title(source)
         write_inspection(
             results, page, title=title, description=sites.description, notes=sites.notes
         )
@@ -112,11 +112,11 @@ def inspect(
         if as_json:
             put_json(data)
         if output not in (None, "-"):
-            put_text(f"{json_text(data)}\n", output)
+            put_text(f"{format_json(data)}\n", output)
         return
     report = report_inspection(source, sites.description, sites.notes, results, limit)
     if output not in (None, "-"):
-        put_text(f"{lay_out(report, language())}\n", output)
+        put_text(f"{lay_out(report, get_language())}\n", output)
     else:
         put_report(report)
 

@@ -8,25 +8,25 @@ from fractions import Fraction
 
 import click
 
-from rightofway.cli.completion import SCENARIOS, files, words
+from rightofway.cli.completion import SCENARIOS, complete_files, complete_words
 from rightofway.cli.inputs import read_scenario
 from rightofway.cli.options import (
     ListingCommand,
     as_json_option,
-    quantities_of,
+    choose_quantities,
     seed_option,
     ticks_option,
     time_limit_option,
 )
-from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
+from rightofway.cli.outputs import make_page_option, plan_output_option, refuse_outputs, write
 from rightofway.cli.terminal import (
     choose_deadline,
-    file_title,
-    language,
-    progress,
+    get_language,
+    make_title,
     put_json,
     put_report,
     say_written,
+    show_progress,
 )
 
 EXAMPLES = """\b
@@ -65,12 +65,12 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
     epilog=EXAMPLES,
     short_help="Find the cycle time of a fleet that repeats its work.",
 )
-@click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
+@click.argument("scenario", type=click.Path(), shell_complete=complete_files(*SCENARIOS))
 @click.option("--rule", metavar="RULE", default="first-come", show_default=True,
-              shell_complete=words(_rules),
+              shell_complete=complete_words(_rules),
               help="Rule that gives the right of way; see below.")  # fmt: skip
 @click.option("--routes", metavar="ROUTES",
-              shell_complete=words(lambda: ("clear", "direct", "shortest")),
+              shell_complete=complete_words(lambda: ("clear", "direct", "shortest")),
               help="Routes of the round trips. clear: avoid other robots; direct: avoid them less;"
               " shortest: do not avoid them.  [default: clear]")  # fmt: skip
 @time_limit_option
@@ -79,7 +79,7 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
               " laps that it makes without the others.")  # fmt: skip
 @seed_option
 @plan_output_option("whole laps as a plan")
-@page_option("the laps")
+@make_page_option("the laps")
 @ticks_option
 @as_json_option("result")
 def laps(
@@ -120,7 +120,7 @@ def laps(
     with limit_work(deadline):
         problem = read_scenario(scenario)
     time_limit = deadline.seconds_left()
-    with progress(time_limit) as report:
+    with show_progress(time_limit) as report:
         if rule == TIMETABLE:
             run = best_timetable(
                 problem,
@@ -135,13 +135,13 @@ def laps(
     if as_json:
         put_json(make_laps_data(run))
     elif output != "-":
-        quantities = quantities_of(problem, in_ticks=in_ticks)
-        put_report(report_laps(run, quantities, language()))
+        quantities = choose_quantities(problem, in_ticks=in_ticks)
+        put_report(report_laps(run, quantities, get_language()))
     if page:
         from rightofway.viz import write_page
 
         plan, steady = excerpt(run)
-        write_page(plan, page, steady=steady, title=file_title(scenario))
+        write_page(plan, page, steady=steady, title=make_title(scenario))
         say_written(page)
     if output:
         plan, steady = plan_of_laps(run), excerpt(run)[1]

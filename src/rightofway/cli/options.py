@@ -24,7 +24,7 @@ Callback = Callable[[click.Context, click.Parameter, Any], Any]
 """What click calls to check the value of an option."""
 
 
-def writable(
+def require_writable(
     *suffixes: str, instead: dict[str, str] | None = None, stdout: bool = True
 ) -> Callback:
     """Return a callback that refuses, before any work, a file that cannot be written after it."""
@@ -130,7 +130,7 @@ ticks_option = click.option(
 )
 
 
-def quantities_of(scenario: Scenario, *, in_ticks: bool) -> Quantities:
+def choose_quantities(scenario: Scenario, *, in_ticks: bool) -> Quantities:
     """Return how a report writes times: in the scenario's units, or in ticks on request."""
     return replace(scenario.quantities, in_ticks=in_ticks)
 
@@ -165,7 +165,7 @@ def list_delays(formatter: click.HelpFormatter) -> None:
         formatter.write_text("Several delays: with commas between, or a YAML or JSON list.")
 
 
-def delays_option(default: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def make_delays_option(default: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return the option that makes robots late."""
     return click.option("--delays", multiple=True, metavar="DELAYS",
                         help="Kinds of delays, see below; or a file with a list of them. May be"

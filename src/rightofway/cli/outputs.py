@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.options import writable
+from rightofway.cli.options import require_writable
 from rightofway.cli.terminal import say, say_written
 from rightofway.files import write_whole
 from rightofway.phrases import Phrase
@@ -56,7 +56,7 @@ def plan_output_option(content: str) -> Decorator:
     """Return the option -o of a command whose result is a plan."""
     endings = ", ".join(PLAN_WRITERS)
     return click.option(
-        "-o", "--output", metavar="FILE", callback=writable(*PLAN_WRITERS, instead=INSTEAD),
+        "-o", "--output", metavar="FILE", callback=require_writable(*PLAN_WRITERS, instead=INSTEAD),
         help=f"Write {content} to this file ({endings}); - for standard output.",
     )  # fmt: skip
 
@@ -78,11 +78,11 @@ class _PageOption(click.Option):
         return super().handle_parse_result(ctx, opts, args)
 
 
-def page_option(content: str) -> Decorator:
+def make_page_option(content: str) -> Decorator:
     """Return the option --page of a command; ``what`` is what the page plays."""
     return click.option(
         "--page", cls=_PageOption, metavar="FILE",
-        callback=writable(*PAGE_SUFFIXES, stdout=False),
+        callback=require_writable(*PAGE_SUFFIXES, stdout=False),
         help=f"Write a page that plays {content} (.html).",
     )  # fmt: skip
 

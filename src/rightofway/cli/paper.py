@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.options import as_json_option, quantities_of
-from rightofway.cli.terminal import language, put_json, put_report
+from rightofway.cli.options import as_json_option, choose_quantities
+from rightofway.cli.terminal import get_language, put_json, put_report
 from rightofway.phrases import Phrase
 from rightofway.report.examples import find_examples_folder, read_first_sentence
 
@@ -137,7 +137,7 @@ def _print(table: _Table, *, log: bool) -> None:
         put_report(
             "\n"
             + report_decisions(
-                table.plan, quantities_of(table.plan.scenario, in_ticks=True), language()
+                table.plan, choose_quantities(table.plan.scenario, in_ticks=True), get_language()
             )
         )
     put_report("")

@@ -10,27 +10,33 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.completion import PLANS, SCENARIOS, files, planner_options, planners
-from rightofway.cli.inputs import count_option, foreign_options, read_plan, read_scenario
+from rightofway.cli.completion import (
+    PLANS,
+    SCENARIOS,
+    complete_files,
+    complete_planner_options,
+    complete_planners,
+)
+from rightofway.cli.inputs import add_foreign_options, count_option, read_plan, read_scenario
 from rightofway.cli.options import (
     ListingCommand,
     as_json_option,
-    quantities_of,
+    choose_quantities,
     seed_option,
     ticks_option,
     time_limit_option,
 )
-from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
+from rightofway.cli.outputs import make_page_option, plan_output_option, refuse_outputs, write
 from rightofway.cli.terminal import (
     choose_deadline,
     complain,
-    file_title,
-    language,
-    progress,
+    get_language,
+    make_title,
+    measure_width,
     put_json,
     put_report,
     say,
-    width,
+    show_progress,
 )
 from rightofway.errors import NoPlanExists
 from rightofway.phrases import Phrase
@@ -97,14 +103,14 @@ def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[.
     options: list[Callable[[Callable[..., Any]], Callable[..., Any]]] = [
         plan_output_option("the plan"),
         click.option("--planner", default=planner, show_default=True, metavar="NAME",
-                     shell_complete=planners(improving=planner == IMPROVER),
+                     shell_complete=complete_planners(improving=planner == IMPROVER),
                      help="Planner to use; see below."),
         click.option("--option", "options", multiple=True, metavar="NAME=VALUE", callback=_options,
-                     shell_complete=planner_options,
+                     shell_complete=complete_planner_options,
                      help="Set an option of the planner; may be repeated."),
         time_limit_option,
         seed_option,
-        page_option("the plan"),
+        make_page_option("the plan"),
         click.option("--log", is_flag=True,
                      help="Print every decision: which robot waits, where and why."),
         click.option("--table", is_flag=True, help="Print the time/space table."),
@@ -121,9 +127,9 @@ def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[.
 
 
 @click.command(cls=ListingCommand, listing=_list_all, epilog=PLAN_EXAMPLES)
-@click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
+@click.argument("scenario", type=click.Path(), shell_complete=complete_files(*SCENARIOS))
 @count_option
-@click.option("--start", type=click.Path(), metavar="PLAN", shell_complete=files(*PLANS),
+@click.option("--start", type=click.Path(), metavar="PLAN", shell_complete=complete_files(*PLANS),
               help="Start from the PLAN of this SCENARIO before it was changed.")  # fmt: skip
 @_planning_options(DEFAULT_PLANNER)
 def plan(*, scenario: str, count: int | None, **given: Any) -> int:
@@ -138,8 +144,8 @@ def plan(*, scenario: str, count: int | None, **given: Any) -> int:
 
 
 @click.command(cls=ListingCommand, listing=_list_improvers, epilog=IMPROVE_EXAMPLES)
-@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
-@foreign_options
+@click.argument("plan", type=click.Path(), shell_complete=complete_files(*PLANS))
+@add_foreign_options
 @_planning_options(IMPROVER)
 def improve(*, plan: str, **given: Any) -> int:
     """Improve a PLAN of any planner, and check the result.
@@ -159,7 +165,7 @@ Examples:
 
 
 @click.command(epilog=BOUND_EXAMPLES, short_help="Print the lower bounds of all plans.")
-@click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
+@click.argument("scenario", type=click.Path(), shell_complete=complete_files(*SCENARIOS))
 @count_option
 @ticks_option
 @as_json_option("bounds")
@@ -210,7 +216,7 @@ def bound(
         forced = {} if time_limit is None else {"forced_losses": pairs}
         put_json({**describe_measures(problem), "lower_bound": bounds, "robots": robots, **forced})
         return
-    quantities = quantities_of(problem, in_ticks=in_ticks)
+    quantities = choose_quantities(problem, in_ticks=in_ticks)
     put_report(report_bounds(problem, quantities, proof, is_reached=is_reached, losses=losses))
 
 
@@ -248,8 +254,8 @@ def _run(
         problem = read(source)
         if start is not None:
             search = partial(search, start=read_plan(start))
-    blocked = write_no_plan(problem, page, file_title(source), as_json=as_json)
-    with blocked, progress(time_limit, began) as report:
+    blocked = write_no_plan(problem, page, make_title(source), as_json=as_json)
+    with blocked, show_progress(time_limit, began) as report:
         plan = search(
             problem,
             planner,
@@ -264,10 +270,10 @@ def _run(
     if page:
         from rightofway.viz import write_page
 
-        write_page(plan, page, title=file_title(source))
+        write_page(plan, page, title=make_title(source))
         say(Phrase("wrote {file} (open it in a browser)", file=page))
     if output != "-":
-        quantities = quantities_of(plan.scenario, in_ticks=in_ticks)
+        quantities = choose_quantities(plan.scenario, in_ticks=in_ticks)
         _report(plan, quantities, log=log, table=table, as_json=as_json)
     may_hold_swaps = (
         Feature.LEAVES_SWAPS in find(planner).features or plan.run.options.get("swaps") == "leave"
@@ -312,10 +318,10 @@ def _report(plan: Plan, quantities: Quantities, *, log: bool, table: bool, as_js
     if as_json:
         put_json(make_summary_data(plan))
         return
-    put_report(summarize_plan(plan, quantities, language()))
+    put_report(summarize_plan(plan, quantities, get_language()))
     if log:
-        put_report("\n" + report_decisions(plan, quantities, language()))
+        put_report("\n" + report_decisions(plan, quantities, get_language()))
     if table:
         from rightofway.viz.table import as_text, make_table
 
-        put_report("\n" + as_text(make_table(plan), width()))
+        put_report("\n" + as_text(make_table(plan), measure_width()))

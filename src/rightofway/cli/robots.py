@@ -7,9 +7,9 @@ from pathlib import Path
 
 import click
 
-from rightofway.cli.broker import broker_options
-from rightofway.cli.completion import PLANS, files
-from rightofway.cli.inputs import foreign_options, read_plan
+from rightofway.cli.broker import add_broker_options
+from rightofway.cli.completion import PLANS, complete_files
+from rightofway.cli.inputs import add_foreign_options, read_plan
 from rightofway.cli.options import seed_option
 from rightofway.cli.terminal import say, say_written
 from rightofway.phrases import Phrase
@@ -26,9 +26,9 @@ Examples:
     epilog=EXAMPLES,
     short_help="Simulate the robots of a PLAN at a broker (VDA 5050).",
 )
-@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
-@foreign_options
-@broker_options
+@click.argument("plan", type=click.Path(), shell_complete=complete_files(*PLANS))
+@add_foreign_options
+@add_broker_options
 @click.option("--write-identities", metavar="FILE",
               help="Write a file of identities for these robots, which `drive` reads.",
               )  # fmt: skip

@@ -4,28 +4,28 @@ from __future__ import annotations
 
 import click
 
-from rightofway.cli.completion import PLANS, files
-from rightofway.cli.inputs import foreign_options, read_plan
+from rightofway.cli.completion import PLANS, complete_files
+from rightofway.cli.inputs import add_foreign_options, read_plan
 from rightofway.cli.options import (
     ListingCommand,
     as_json_option,
+    choose_quantities,
     delay_texts,
-    delays_option,
     list_delays,
-    quantities_of,
+    make_delays_option,
+    require_writable,
     seed_option,
     ticks_option,
-    writable,
 )
-from rightofway.cli.outputs import page_option, put_text
+from rightofway.cli.outputs import make_page_option, put_text
 from rightofway.cli.terminal import (
-    file_title,
-    json_text,
-    language,
-    progress,
+    format_json,
+    get_language,
+    make_title,
     put_json,
     put_report,
     say,
+    show_progress,
 )
 from rightofway.phrases import Phrase
 
@@ -44,9 +44,9 @@ Examples:
     epilog=EXAMPLES,
     short_help="Execute a PLAN many times with robots that are late.",
 )
-@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
-@foreign_options
-@delays_option("exponential:0.2")
+@click.argument("plan", type=click.Path(), shell_complete=complete_files(*PLANS))
+@add_foreign_options
+@make_delays_option("exponential:0.2")
 @click.option("--runs", type=click.IntRange(1), default=1000, show_default=True, metavar="N",
               help="Number of runs.")  # fmt: skip
 @seed_option
@@ -56,9 +56,9 @@ Examples:
 @click.option("--replan", is_flag=True,
               help="Replan the rest of the work where this is expected to save time, and when a"
               " robot breaks down for ever.")  # fmt: skip
-@click.option("-o", "--output", metavar="FILE", callback=writable(".json"),
+@click.option("-o", "--output", metavar="FILE", callback=require_writable(".json"),
               help="Write the outcome to this file (.json); - for standard output.")  # fmt: skip
-@page_option("one run beside the plan")
+@make_page_option("one run beside the plan")
 @click.option("--run", type=click.IntRange(0), metavar="K",
               help="Run that the page plays, from 0; by default the one of median lateness.",
               )  # fmt: skip
@@ -93,22 +93,22 @@ def simulate(
 
     texts = delay_texts(delays or [DEFAULT_DELAYS])
     opened = read_plan(plan)
-    with progress() as reported:
+    with show_progress() as reported:
         outcome = execute(opened, texts, runs, seed, switch=switch, replan=replan, report=reported)
     data = {**describe_measures(opened.scenario), **outcome.as_dict()}
     if as_json or output == "-":
         put_json(data)
     else:
-        quantities = quantities_of(opened.scenario, in_ticks=in_ticks)
-        put_report(report(outcome, quantities, language()))
+        quantities = choose_quantities(opened.scenario, in_ticks=in_ticks)
+        put_report(report(outcome, quantities, get_language()))
     if output not in {None, "-"}:
-        put_text(json_text(data) + "\n", str(output))
+        put_text(format_json(data) + "\n", str(output))
     if page:
         from rightofway.viz import write_page
 
         played = outcome.find_typical_run() if run is None else run
         trace = outcome.trace(played)
-        write_page(outcome.plan, page, actual=trace, title=file_title(plan))
+        write_page(outcome.plan, page, actual=trace, title=make_title(plan))
         say(
             Phrase(
                 "wrote {file}: run {number} of {runs}",

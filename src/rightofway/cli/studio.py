@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from rightofway.cli.completion import SCENARIOS, files
+from rightofway.cli.completion import SCENARIOS, complete_files
 from rightofway.cli.inputs import refuse_missing_example
 from rightofway.cli.terminal import complain
 from rightofway.errors import InputError
@@ -22,7 +22,7 @@ Examples:
 
 @click.command(epilog=EXAMPLES, short_help="Draw, plan, watch and compare in a browser.")
 @click.argument("path", type=click.Path(), default=".", metavar="[FILE|FOLDER]",
-                shell_complete=files(*SCENARIOS))  # fmt: skip
+                shell_complete=complete_files(*SCENARIOS))  # fmt: skip
 @click.option("--host", default="127.0.0.1", show_default=True, metavar="ADDRESS",
               help="Address to listen on. Other machines than this one need the token that is"
               " in the printed address.")  # fmt: skip

@@ -11,10 +11,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.completion import PLANS, files
-from rightofway.cli.inputs import foreign_options, read_plan
-from rightofway.cli.options import Time, as_json_option, quantities_of, ticks_option, writable
-from rightofway.cli.terminal import language, put_json, say_written, width
+from rightofway.cli.completion import PLANS, complete_files
+from rightofway.cli.inputs import add_foreign_options, read_plan
+from rightofway.cli.options import (
+    Time,
+    as_json_option,
+    choose_quantities,
+    require_writable,
+    ticks_option,
+)
+from rightofway.cli.terminal import get_language, measure_width, put_json, say_written
 from rightofway.errors import InputError
 from rightofway.languages import translate
 from rightofway.model.place_names import PlaceNames
@@ -77,7 +83,7 @@ def _shown(
 
     if step == 0:
         raise InputError.at("--step", "0 is not positive (give the time of a column)")
-    quantities = quantities_of(plan.scenario, in_ticks=in_ticks)
+    quantities = choose_quantities(plan.scenario, in_ticks=in_ticks)
     names = [name.strip() for name in robots.split(",")] if robots else None
     tick = Fraction(1) if in_ticks else quantities.tick
     end = end_of(plan, names)
@@ -98,10 +104,10 @@ def _shown(
 
 
 @click.command(epilog=TABLE_EXAMPLES, short_help="Print where each robot is at each time.")
-@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
-@foreign_options
+@click.argument("plan", type=click.Path(), shell_complete=complete_files(*PLANS))
+@add_foreign_options
 @click.option("-o", "--output", metavar="FILE",
-              callback=writable(".txt", ".csv", ".xlsx", ".parquet"),
+              callback=require_writable(".txt", ".csv", ".xlsx", ".parquet"),
               help="Write .txt, .csv, .xlsx or .parquet; - writes CSV to standard"
                    " output.")  # fmt: skip
 @click.option("--events", is_flag=True,
@@ -194,14 +200,17 @@ def _put_table(
     elif output and suffix == ".xlsx":
         write_xlsx(table, output)
     elif output:
-        _write(output, as_csv(table) if suffix == ".csv" else f"{as_text(table, width(), None)}\n")
+        _write(
+            output,
+            as_csv(table) if suffix == ".csv" else f"{as_text(table, measure_width(), None)}\n",
+        )
     if output and output != "-":
         say_written(output)
     if as_json:
         put_json({**_table_data(table), **(more or {})})
     elif not output:
-        texts = [*words[:1], as_text(table, width()), *words[1:]]
-        click.echo("\n\n".join(translate(text, language()) for text in texts))
+        texts = [*words[:1], as_text(table, measure_width()), *words[1:]]
+        click.echo("\n\n".join(translate(text, get_language()) for text in texts))
 
 
 def _write(path: str, content: str | bytes) -> None:
@@ -215,7 +224,7 @@ def _table_data(table: TimeSpaceTable) -> dict[str, Any]:
     return {
         "first_tick": table.first_tick,
         "last_tick": table.last_tick,
-        **clock_data(table.quantities),
+        **describe_clock(table.quantities),
         "rows": [
             {
                 "robot": row.robot,
@@ -230,7 +239,7 @@ def _table_data(table: TimeSpaceTable) -> dict[str, Any]:
     }
 
 
-def clock_data(quantities: Quantities) -> dict[str, Any]:
+def describe_clock(quantities: Quantities) -> dict[str, Any]:
     """Return what the times of a report for programs are measured in."""
     units = quantities.units
     return {
@@ -260,7 +269,7 @@ def _events(plan: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> 
         keys = [key for key in columns if key not in exact.values()]
         values = zip(*(columns[exact.get(key, key)] for key in keys), strict=True)
         rows = [dict(zip(keys, row, strict=True)) for row in values]
-        put_json({**clock_data(shown.quantities), "events": rows})
+        put_json({**describe_clock(shown.quantities), "events": rows})
 
 
 def put_lists(lists: Sequence[Listing], output: str) -> None:

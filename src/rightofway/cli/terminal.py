@@ -51,7 +51,7 @@ def choose_deadline(seconds: float | None) -> Deadline:
     return Deadline(began + seconds)
 
 
-def quiet() -> bool:
+def is_quiet() -> bool:
     """Whether the user wants neither reports nor messages, but results and errors."""
     context = click.get_current_context(silent=True)
     return context is not None and context.meta.get(QUIET, False)
@@ -62,7 +62,7 @@ def _set_quiet(context: click.Context, _parameter: click.Parameter, given: bool)
         context.meta[QUIET] = True
 
 
-def language() -> str:
+def get_language() -> str:
     """Return the language in which the user wants reports and messages."""
     context = click.get_current_context(silent=True)
     return "en" if context is None else str(context.meta.get(LANGUAGE, "en"))
@@ -96,7 +96,7 @@ def add_shared_options(command: Any) -> Any:
 
 def say(message: str) -> None:
     """Write a message, not a result, to standard error, in the language of the user."""
-    if not quiet():
+    if not is_quiet():
         complain(message)
 
 
@@ -114,7 +114,7 @@ def complain(message: str) -> None:
     """Write what is wrong to standard error, also for users who want no messages."""
     from rightofway.languages import translate
 
-    text = translate(message, language())
+    text = translate(message, get_language())
     click.echo("\n".join(map(printable, text.split("\n"))), err=True)
 
 
@@ -122,23 +122,23 @@ def put_report(report: str | Iterable[Part]) -> None:
     """Write a report for people to standard output, in their language."""
     from rightofway.report.lines import Line, lay_out
 
-    if not quiet():
+    if not is_quiet():
         parts = [Line(report)] if isinstance(report, str) else report
-        click.echo(lay_out(parts, language()))
+        click.echo(lay_out(parts, get_language()))
 
 
 def put_json(value: Any) -> None:
     """Write a result for programs to standard output."""
-    click.echo(json_text(value))
+    click.echo(format_json(value))
 
 
-def json_text(value: Any) -> str:
+def format_json(value: Any) -> str:
     """Return the JSON of a report."""
     return json.dumps(value, indent=1, ensure_ascii=False)
 
 
 @contextmanager
-def progress(
+def show_progress(
     limit: float | None = None, since: float | None = None
 ) -> Iterator[Callable[[str], None]]:
     """Yield a function that shows progress in the last line of a terminal; elsewhere, nothing.
@@ -147,11 +147,11 @@ def progress(
     ``3.1 of 10 s, flowtime 5273``. It is brought up to date twice a second. Of a line that is too
     long for the terminal, what follows the last commas is left out.
     """
-    if quiet() or not sys.stderr.isatty():
+    if is_quiet() or not sys.stderr.isatty():
         yield lambda _: None
         return
     began = time.monotonic() if since is None else since
-    latest, ended, shown_in = [""], threading.Event(), language()
+    latest, ended, shown_in = [""], threading.Event(), get_language()
     from rightofway.languages import translate
     from rightofway.quantities import decimal
 
@@ -162,9 +162,9 @@ def progress(
         if limit is not None:
             seconds = Phrase("{time} of {limit} s", time=passed, limit=decimal(limit))
         line = ", ".join(filter(None, [translate(seconds, shown_in), translate(message, shown_in)]))
-        while len(line) >= width() and ", " in line:
+        while len(line) >= measure_width() and ", " in line:
             line = line.rpartition(", ")[0]
-        click.echo(f"{CLEAR}{line[: width() - 1]}", err=True, nl=False)
+        click.echo(f"{CLEAR}{line[: measure_width() - 1]}", err=True, nl=False)
 
     def repeat() -> None:
         while not ended.wait(0.5):
@@ -180,11 +180,11 @@ def progress(
         click.echo(CLEAR, err=True, nl=False)
 
 
-def width() -> int:
+def measure_width() -> int:
     """Return the columns of the terminal, 80 where there is none."""
     return shutil.get_terminal_size().columns
 
 
-def file_title(path: str) -> str:
+def make_title(path: str) -> str:
     """Return the name of a file as the title of its page; empty for standard input."""
     return "" if path == "-" else Path(path).name

@@ -9,24 +9,30 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.completion import PLANS, SCENARIOS, files
+from rightofway.cli.completion import PLANS, SCENARIOS, complete_files
 from rightofway.cli.inputs import (
+    add_foreign_options,
     count_option,
-    foreign_options,
-    own_among,
+    list_own,
     read_either,
     read_plan,
 )
-from rightofway.cli.options import Time, as_json_option, quantities_of, ticks_option, writable
+from rightofway.cli.options import (
+    Time,
+    as_json_option,
+    choose_quantities,
+    require_writable,
+    ticks_option,
+)
 from rightofway.cli.outputs import PAGE_SUFFIXES
 from rightofway.cli.terminal import (
     complain,
-    file_title,
-    progress,
+    make_title,
     put_json,
     put_report,
     say,
     say_written,
+    show_progress,
 )
 from rightofway.errors import InputError
 from rightofway.phrases import Phrase
@@ -60,8 +66,8 @@ Examples:
 
 @click.command(epilog=CHECK_EXAMPLES)
 @click.argument("plans", type=click.Path(), nargs=-1, required=True, metavar="PLAN...",
-                shell_complete=files(*PLANS))  # fmt: skip
-@foreign_options
+                shell_complete=complete_files(*PLANS))  # fmt: skip
+@add_foreign_options
 @click.option("--limit", type=click.IntRange(0), default=1000, show_default=True, metavar="N",
               help="Faults to list for each plan; all are counted.")  # fmt: skip
 @ticks_option
@@ -78,7 +84,7 @@ def check(*, plans: tuple[str, ...], limit: int, in_ticks: bool, as_json: bool) 
     from rightofway.check import check as judge
     from rightofway.report.plan import report_check
 
-    code, reports, own = 0, [], own_among(plans)
+    code, reports, own = 0, [], list_own(plans)
     for path in plans:
         try:
             opened = read_plan(path, own)
@@ -86,7 +92,7 @@ def check(*, plans: tuple[str, ...], limit: int, in_ticks: bool, as_json: bool) 
             complain(str(error))
             code = 2
             continue
-        quantities = quantities_of(opened.scenario, in_ticks=in_ticks)
+        quantities = choose_quantities(opened.scenario, in_ticks=in_ticks)
         report = judge(opened, limit=limit, quantities=quantities)
         code = code or int(not report.ok)
         if as_json:
@@ -117,15 +123,16 @@ def _report_data(plan: Plan, report: Report) -> dict[str, Any]:
 
 @click.command(epilog=SHOW_EXAMPLES, short_help="Show a plan as a page, a picture or a film.")
 @click.argument("plan", type=click.Path(), metavar="PLAN_OR_SCENARIO",
-                shell_complete=files(*SCENARIOS))  # fmt: skip
+                shell_complete=complete_files(*SCENARIOS))  # fmt: skip
 @click.argument("others", type=click.Path(), nargs=-1, metavar="[OTHER_PLAN]...",
-                shell_complete=files(*PLANS))  # fmt: skip
+                shell_complete=complete_files(*PLANS))  # fmt: skip
 @count_option
-@foreign_options
-@click.option("-o", "--output", metavar="FILE", callback=writable(*PAGE_SUFFIXES, ".png", ".gif"),
+@add_foreign_options
+@click.option("-o", "--output", metavar="FILE",
+              callback=require_writable(*PAGE_SUFFIXES, ".png", ".gif"),
               help="Write a page (.html), picture (.png) or film (.gif); - prints the page.",
               )  # fmt: skip
-@click.option("--page", metavar="FILE", callback=writable(*PAGE_SUFFIXES, stdout=False),
+@click.option("--page", metavar="FILE", callback=require_writable(*PAGE_SUFFIXES, stdout=False),
               help="Write a page that plays the plan (.html).",
               )  # fmt: skip
 @click.option("--at", type=Time(), metavar="TIME",
@@ -174,10 +181,10 @@ def show(
         message = f"{len(others) + 1} plans are too many to compare"
         raise click.UsageError(f"{message} (give at most {MAX_COMPARED})")
     _check_background(background, background_scale, [page, output])
-    own = own_among([plan, *others])
+    own = list_own([plan, *others])
     opened = read_either(plan, count, own)
     if isinstance(opened, Scenario):
-        with progress(LIMIT) as report:
+        with show_progress(LIMIT) as report:
             opened = solve(opened, time_limit=LIMIT, report=report)
         text = describe_planning(opened, opened.scenario.quantities)
         say(Phrase("{file}: {text}", file=plan, text=text))
@@ -206,7 +213,7 @@ def show(
 
 def _titles(paths: list[str]) -> list[str]:
     """Return the names of files; the whole paths where two have one name."""
-    titles = list(map(file_title, paths))
+    titles = list(map(make_title, paths))
     return titles if len(set(titles)) == len(titles) else paths
 
 
