@@ -22,7 +22,7 @@ import numpy as np
 from rightofway.control.broker import Broker
 from rightofway.control.driver import Driver
 from rightofway.control.endpoints import Letter
-from rightofway.control.identities import simulated_identities
+from rightofway.control.identities import make_simulated_identities
 from rightofway.control.journal import SqliteJournal
 from rightofway.control.metrics import FleetMetrics
 from rightofway.io import write_plan
@@ -65,7 +65,7 @@ def main() -> None:
     given = parser.parse_args()
     plan = warehouse(given.robots)
     names = [robot.name for robot in plan.scenario.robots]
-    metrics, identities = _Raw(names), simulated_identities(names)
+    metrics, identities = _Raw(names), make_simulated_identities(names)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         write_plan(plan, folder / "plan.json")

@@ -95,7 +95,7 @@ class FreeWhenCancelled(FleetControl):
         own = self.ledger.robots[robot]
         asked = own.cancel.action_id if own.cancel else None
         if asked is not None and state.actions.get(asked) in {"FINISHED", "FAILED"}:
-            stands_at = own.held_at(state.last_place)
+            stands_at = own.find_held(state.last_place)
             if stands_at is not None:
                 own.released, own.cancel = max(stands_at, own.arrived), None
         yield from super()._answers(robot, state)
@@ -132,7 +132,7 @@ class LastNodeIsEnough(VertexTwiceInBase):
             return None
         visit = sent.offset + state.last_sequence_id // 2
         is_held = own.route.first <= visit <= own.released
-        return visit if is_held and own.route.place(visit) == state.last_place else None
+        return visit if is_held and own.route.get_place(visit) == state.last_place else None
 
 
 class OrderPerLeg(FleetControl):
@@ -170,7 +170,7 @@ class DoubtProvesArrival(FleetControl):
     def _settle_doubt(self, robot: int, state: RobotState) -> Iterator[Entry]:
         own = self.ledger.robots[robot]
         if own.token in state.actions and state.is_idle:
-            stands_at = own.held_at(state.last_place)
+            stands_at = own.find_held(state.last_place)
             if stands_at is not None:
                 yield {"kind": "arrived", "robot": robot, "visit": stands_at}
         yield from super()._settle_doubt(robot, state)

@@ -204,7 +204,7 @@ class MemoryJournal:
         self.written: list[Entry] = []
         self.kill: Callable[[], bool] = lambda: False
 
-    def entries(self) -> Iterable[Entry]:
+    def read_entries(self) -> Iterable[Entry]:
         """Return all entries."""
         return list(self.written)
 
@@ -352,7 +352,7 @@ class _World:
         return [
             f"{own.arrived}/{own.released}/{own.route.end - 1} ack={own.is_acknowledged} "
             f"token={own.token} cancel={own.cancel} fault={own.fault} failed={own.failed} "
-            f"job={own.route.jobs_at(own.released)} finished={own.finished} "
+            f"job={own.route.get_jobs(own.released)} finished={own.finished} "
             f"missing={ledger.graph.list_missing(Part(robot, own.released + 1), ledger.arrived)}"
             for robot, own in enumerate(ledger.robots)
         ]
@@ -365,7 +365,7 @@ class _World:
                 for own, goal in zip(robots, self.goals, strict=True)
             )
         return all(
-            (own.arrived == own.route.end - 1 and own.finished >= own.route.all_jobs())
+            (own.arrived == own.route.end - 1 and own.finished >= own.route.all_jobs)
             or (own.is_off and self._has_no_place(robot))
             for robot, own in enumerate(robots)
         )
@@ -430,7 +430,7 @@ class _World:
 
     def _tell(self, robot: int) -> None:
         """Send the state of a robot."""
-        state = self.robots[robot].state(self.conditions[robot])
+        state = self.robots[robot].report_state(self.conditions[robot])
         for _ in range(self._copies()):
             sent = state
             if self._happens(self.chaos.wrong):
@@ -466,7 +466,7 @@ class _World:
         jobs = [
             (number, job)
             for number, own in enumerate(ledger.robots)
-            for job in sorted(own.route.all_jobs() - own.finished)
+            for job in sorted(own.route.all_jobs - own.finished)
         ]
         kind = draw.choice(
             ["added", "added", "changed", "withdrawn", "closed", "opened", "switched"]
@@ -654,7 +654,7 @@ class Observer:
         if key == self._looked_at[robot]:
             return
         self._looked_at[robot] = key
-        jobs = own.route.all_jobs()
+        jobs = own.route.all_jobs
         self._job_of[robot] |= own.jobs_of
         gone = self._open[robot] - jobs
         unwanted = {job for other, job in self.withdrawn if other == robot}
@@ -687,7 +687,7 @@ class Observer:
             if is_endless or own.is_off:
                 continue
             skipped = {job for other, job in self.withdrawn if other == robot}
-            wanted = own.route.all_jobs() - skipped
+            wanted = own.route.all_jobs - skipped
             if not wanted <= done.keys():
                 raise Fault(f"robot {robot} has not done {sorted(wanted - done.keys())}")
             if real.place != own.route.places[-1]:
@@ -716,8 +716,8 @@ def another_plan(
     """
     robots = control.ledger.robots
     firsts = [own.arrived for own in robots]
-    kept = [own.route.since(own.arrived) for own in robots]
-    ends = [end - first for end, first in zip(control.committed(), firsts, strict=True)]
+    kept = [own.route.cut_before(own.arrived) for own in robots]
+    ends = [end - first for end, first in zip(control.list_committed(), firsts, strict=True)]
     detour = partial(_detour, scenario, draw)
     for attempt in range(6):
         routes = [

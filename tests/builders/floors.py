@@ -25,11 +25,11 @@ class Floor:
                 robot.take_order(message)
             else:
                 robot.take_action(message)
-            messages += self.dispatcher.control.receive(message.robot, robot.state())
+            messages += self.dispatcher.control.receive(message.robot, robot.report_state())
 
     def drive(self, steps: int) -> None:
         """Have each robot do the next things."""
         for _ in range(steps):
             for number, robot in enumerate(self.robots):
                 robot.step()
-                self.send(self.dispatcher.control.receive(number, robot.state()))
+                self.send(self.dispatcher.control.receive(number, robot.report_state()))

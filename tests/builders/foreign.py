@@ -50,7 +50,7 @@ def virtual_agvs(plan: Plan, url: str, folder: Path, work: dict[str, Any]) -> It
     robots = []
     for number, identity in enumerate(load_identities(identities, names)):
         home = plan.scenario.roadmap.name(plan.scenario.robots[number].home)
-        place = OrderMap(plan.scenario, number, identity).place(home)
+        place = OrderMap(plan.scenario, number, identity).get_place(home)
         assert place is not None
         x, y = place.point
         robots.append(

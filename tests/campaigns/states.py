@@ -19,7 +19,7 @@ from typing import Any
 from rightofway.control import FleetControl, SimulatedRobot
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
-from rightofway.control.identities import VERSIONS, simulated_identities
+from rightofway.control.identities import VERSIONS, make_simulated_identities
 from rightofway.control.notices import MAX_KINDS, Notices
 from rightofway.control.order_map import OrderMap
 from tests.builders.chaos import MemoryJournal
@@ -82,9 +82,9 @@ def fuzz_states(count: int, seed: int) -> Counter[str]:
     plan = warehouse(4, seed=seed % 5)
     names = [robot.name for robot in plan.scenario.robots]
     notices = Notices(names, lambda sentence: said.update([sentence]), lambda: 0.0)
-    control = FleetControl(MemoryJournal(), report=notices.about)
+    control = FleetControl(MemoryJournal(), report=notices.report_on)
     Dispatcher(control, plan).begin("run")
-    identities = simulated_identities(names, draw.choice(VERSIONS))
+    identities = make_simulated_identities(names, draw.choice(VERSIONS))
     maps = [OrderMap(plan.scenario, *numbered) for numbered in enumerate(identities)]
     end = ControlEnd(control, maps, lambda: NOW, notices)
     homes = [plan.scenario.roadmap.name(robot.home) for robot in plan.scenario.robots]
@@ -93,20 +93,20 @@ def fuzz_states(count: int, seed: int) -> Counter[str]:
         for number, home in enumerate(homes)
     ]
     listens = {topic: robot for robot in robots for topic in robot.topics}
-    letters = end.letters(control.start())
+    letters = end.make_letters(control.start())
     for _ in range(count):
         for letter in letters:
             listens[letter.topic].receive(letter)
         robot = draw.choice(robots)
         robot.robot.step()
-        letter = robot.state()
+        letter = robot.report_state()
         if draw.random() < 0.7:
             name = draw.choice(("state",) * 8 + ("connection", "factsheet"))
             topic = letter.topic.rpartition("/")[0] + f"/{name}"
             letter = Letter(topic, _broken(json.loads(letter.payload), draw))
         letters = end.receive(letter)
         if draw.random() < 0.05:
-            letters += end.letters(control.remind())
+            letters += end.make_letters(control.remind())
         _look(control)
     worst = max(said.values(), default=0)
     assert worst <= 2, said.most_common(1)

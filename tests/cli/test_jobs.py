@@ -91,5 +91,5 @@ def test_a_control_that_does_not_run_answers_later(cli: Cli, tmp_path: Path) -> 
     ended = cli("jobs", tmp_path / "a.journal", "hold", "--wait", "0")
     assert ended.code == 3
     assert "it is carried out when the control runs" in ended.err
-    [(_, command)] = Commands(tmp_path / "a.journal").unanswered()
+    [(_, command)] = Commands(tmp_path / "a.journal").list_unanswered()
     assert command == {"kind": "hold"}

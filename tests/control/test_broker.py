@@ -19,9 +19,9 @@ import pytest
 from rightofway.control.broker import PASSWORD, Broker
 from rightofway.control.driver import Driver
 from rightofway.control.identities import (
-    identities_text,
+    format_identities,
     load_identities,
-    simulated_identities,
+    make_simulated_identities,
 )
 from rightofway.control.journal import SqliteJournal
 from rightofway.control.robots import run_robots
@@ -130,7 +130,7 @@ def test_control_and_broker_are_killed_and_everything_goes_on(
 def test_withdrawals_over_the_broker_lose_nothing(tmp_path: Path, broker: Mosquitto) -> None:
     """Withdrawals come at any time, late ones too; robots get the rest again."""
     plan, said = warehouse(5), list[str]()
-    identities = simulated_identities([robot.name for robot in plan.scenario.robots])
+    identities = make_simulated_identities([robot.name for robot in plan.scenario.robots])
     observer = Observer(broker.port)
     journal = SqliteJournal(tmp_path / "plan.journal")
     address = Broker.of(broker.url)
@@ -212,18 +212,18 @@ def test_a_journal_of_another_plan_is_refused(tmp_path: Path) -> None:
     plan, other = door(), warehouse(2)
     names = [robot.name for robot in plan.scenario.robots]
     journal = SqliteJournal(tmp_path / "plan.journal")
-    Driver(plan, simulated_identities(names), journal, report=print)
+    Driver(plan, make_simulated_identities(names), journal, report=print)
     for changed, version in ((other, "2.1.0"), (plan, "3.0.0")):
         with pytest.raises(InputError, match="is of another plan, or of other identities"):
-            Driver(changed, simulated_identities(names, version), journal, report=print)
-    Driver(plan, simulated_identities(names), journal, report=print)
+            Driver(changed, make_simulated_identities(names, version), journal, report=print)
+    Driver(plan, make_simulated_identities(names), journal, report=print)
     journal.close()
 
 
 def test_a_written_file_of_identities_is_read(tmp_path: Path) -> None:
     names = ["R1", "R2"]
-    own, path = simulated_identities(names, "3.0.0"), tmp_path / "robots.yaml"
-    path.write_text(identities_text(names, own), encoding="utf-8")
+    own, path = make_simulated_identities(names, "3.0.0"), tmp_path / "robots.yaml"
+    path.write_text(format_identities(names, own), encoding="utf-8")
     assert load_identities(path, names) == own
 
 
@@ -299,8 +299,8 @@ def test_the_file_of_identities_of_the_page_is_read(tmp_path: Path) -> None:
     path = tmp_path / "acme.yaml"
     path.write_text(block.text, encoding="utf-8")
     first, second = load_identities(path, ["R1", "R2"])
-    assert first.topic("state") == "uagv/v2/ACME/A-001/state"
-    assert second.topic("state") == "vda5050/v3/ACME/A-002/state"
+    assert first.get_topic("state") == "uagv/v2/ACME/A-001/state"
+    assert second.get_topic("state") == "vda5050/v3/ACME/A-002/state"
     assert (first.work.action, first.work.parameters) == ("pick", {"stationType": "floor"})
     assert (second.work.action, first.deviation, first.map_id) == ("drop", 0.05, "hall-1")
 

@@ -59,7 +59,7 @@ class Loop:
         self.control.begin("run", routes, ReleaseGraph([5, 1], {}))
         self.observer = Observer(door().scenario, self.robots)
         self.take(self.control.start())
-        self.update = self.control.receive(0, self.robots[0].state())
+        self.update = self.control.receive(0, self.robots[0].report_state())
 
     def take(self, messages: list[Message]) -> None:
         """Bring orders to R1."""
@@ -79,7 +79,7 @@ def test_a_loop_is_not_driven_twice_by_a_robot_that_forgets_it(kind: type[FleetC
     robot = loop.robots[0]
     for _ in range(4):
         robot.step()
-    late = robot.state()
+    late = robot.report_state()
     assert robot.forget()
     loop.take(loop.control.remind())
     loop.control.receive(0, late)
@@ -94,7 +94,7 @@ def test_a_loop_is_not_driven_twice_by_a_robot_that_forgets_it(kind: type[FleetC
 def test_a_wrong_number_of_a_node_proves_nothing(kind: type[FleetControl]) -> None:
     """Its update is on its way, and R1 says that it is at N0 for the second time."""
     loop = Loop(kind)
-    wrong = replace(loop.robots[0].state(), last_sequence_id=4)
+    wrong = replace(loop.robots[0].report_state(), last_sequence_id=4)
     loop.control.receive(0, wrong)
     loop.take(loop.update)
     if kind is LastNodeIsEnough:

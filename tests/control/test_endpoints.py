@@ -14,7 +14,7 @@ from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
 from rightofway.control.identities import VERSIONS, Identity
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderMap
-from rightofway.control.routes import routes_to_drive
+from rightofway.control.routes import make_routes_to_drive
 from rightofway.model import Plan
 from rightofway.precedence import ReleaseGraph
 from tests.builders.chaos import MemoryJournal
@@ -34,8 +34,8 @@ class Site:
         self.time = 0.0
         names = [robot.name for robot in plan.scenario.robots]
         notices = Notices(names, self.said.append, lambda: self.time)
-        self.control = FleetControl(MemoryJournal(), report=notices.about)
-        routes = routes_to_drive(plan)
+        self.control = FleetControl(MemoryJournal(), report=notices.report_on)
+        routes = make_routes_to_drive(plan)
         self.control.begin("run", routes, ReleaseGraph.of(plan.scenario, plan.tracks))
         self.identities = [
             Identity(manufacturer="maker", serial_number=name, version=version) for name in names
@@ -46,7 +46,7 @@ class Site:
             RobotEnd(SimulatedRobot(route.places[0]), k, self.identities[k], lambda: NOW)
             for k, route in enumerate(routes)
         ]
-        self.deliver(self.end.letters(self.control.start()))
+        self.deliver(self.end.make_letters(self.control.start()))
 
     def deliver(self, letters: list[Letter]) -> None:
         """Bring letters to robots, and nothing back."""
@@ -57,13 +57,13 @@ class Site:
 
     def say(self, robot: int, **changes: Any) -> None:
         """Let a robot send its state with changes, and deliver what is answered."""
-        letter = self.robots[robot].state()
+        letter = self.robots[robot].report_state()
         document = {**json.loads(letter.payload), **changes}
         self.deliver(self.end.receive(letter._replace(payload=json.dumps(document).encode())))
 
     def send(self, robot: int, name: str, document: Any) -> None:
         """Let a robot send a message."""
-        topic = self.identities[robot].topic(name)
+        topic = self.identities[robot].get_topic(name)
         self.end.receive(Letter(topic, json.dumps(document).encode()))
 
     @property
@@ -233,7 +233,7 @@ def test_orders_say_nothing_else_than_the_journal() -> None:
     site = Site()
     orders = [m for m in site.control.remind() if isinstance(m, Order)]
     first, again = (
-        [json.loads(letter.payload) for letter in site.end.letters(orders)] for _ in range(2)
+        [json.loads(letter.payload) for letter in site.end.make_letters(orders)] for _ in range(2)
     )
     for one, other in zip(first, again, strict=True):
         assert {**one, "headerId": 0} == {**other, "headerId": 0}

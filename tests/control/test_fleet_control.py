@@ -17,7 +17,7 @@ from rightofway.control import (
     SimulatedRobot,
 )
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.routes import routes_to_drive
+from rightofway.control.routes import make_routes_to_drive
 from rightofway.errors import InputError
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 from tests.builders.chaos import MemoryJournal, chaotic_plan
@@ -30,7 +30,7 @@ def begun(journal: MemoryJournal | None = None) -> FleetControl:
     plan = door()
     control = FleetControl(journal or MemoryJournal())
     graph = ReleaseGraph.of(plan.scenario, plan.tracks)
-    control.begin("run", routes_to_drive(plan), graph)
+    control.begin("run", make_routes_to_drive(plan), graph)
     control.start()
     return control
 
@@ -92,7 +92,7 @@ def test_a_robot_with_an_order_of_others_is_faulty_until_a_person_has_looked() -
     plan = door()
     control = FleetControl(MemoryJournal(), report=lambda *said: told.append((said[0], said[1])))
     graph = ReleaseGraph.of(plan.scenario, plan.tracks)
-    control.begin("run", routes_to_drive(plan), graph)
+    control.begin("run", make_routes_to_drive(plan), graph)
     control.start()
     for _ in range(3):
         control.receive(1, state("another", 0, "N2", 0, ()))
@@ -145,7 +145,7 @@ def test_where_the_journal_cannot_be_written_nothing_is_sent() -> None:
 def test_a_splice_keeps_what_is_released() -> None:
     control = begun()
     control.receive(1, state("run-1-0", 0, "N2", 0, ()))
-    routes = routes_to_drive(door())
+    routes = make_routes_to_drive(door())
     other = replace(
         routes[1], places=("N2", "N1", *routes[1].places[2:4], "N6", *routes[1].places[5:])
     )
@@ -156,14 +156,14 @@ def test_a_splice_keeps_what_is_released() -> None:
 
 def test_a_splice_loses_no_job() -> None:
     control = begun()
-    routes = routes_to_drive(door())
+    routes = make_routes_to_drive(door())
     idle = replace(routes[0], jobs=((),) * len(routes[0].jobs))
     with pytest.raises(InputError, match=r"routes\[0\]: job0 is in no visit"):
         control.splice([idle, routes[1]], control.ledger.graph)
 
 
 def test_a_rotation_is_refused_with_the_way_out() -> None:
-    routes = routes_to_drive(door())
+    routes = make_routes_to_drive(door())
     circle = {Part(0, 1): [Arrival(1, 1)], Part(1, 1): [Arrival(0, 1)]}
     graph = ReleaseGraph([len(route.places) for route in routes], circle)
     with pytest.raises(InputError, match=r"robot 0, robot 1 move round .* rotations: false"):
@@ -189,16 +189,16 @@ def test_a_withdrawal_that_comes_after_the_next_order_costs_one_more_order() -> 
         return kept
 
     take(control.remind())
-    take(control.receive(1, robot.state()))
-    control.receive(1, robot.state())
+    take(control.receive(1, robot.report_state()))
+    control.receive(1, robot.report_state())
     [late] = take(control.cancel(1))
     robot.forget()
     for _ in range(3):
-        take([*control.receive(1, robot.state()), *control.remind()])
+        take([*control.receive(1, robot.report_state()), *control.remind()])
     assert len(control.ledger.robots[1].orders) == 2
     robot.take_action(late)
     for _ in range(40):
-        take([*control.receive(1, robot.state()), *control.remind()])
+        take([*control.receive(1, robot.report_state()), *control.remind()])
         robot.step()
     assert robot.place == "N8"
     assert control.ledger.robots[1].finished == {"job0"}
@@ -209,7 +209,7 @@ def test_a_robot_whose_work_has_failed_goes_no_further_and_others_go_on() -> Non
     told: list[tuple[int, str]] = []
     plan, robots = door(), [SimulatedRobot("N0"), SimulatedRobot("N2")]
     control = FleetControl(MemoryJournal(), report=lambda *said: told.append((said[0], said[1])))
-    control.begin("run", routes_to_drive(plan), ReleaseGraph.of(plan.scenario, plan.tracks))
+    control.begin("run", make_routes_to_drive(plan), ReleaseGraph.of(plan.scenario, plan.tracks))
     messages = [*control.start()]
     for _ in range(60):
         for message in messages:
@@ -219,7 +219,7 @@ def test_a_robot_whose_work_has_failed_goes_no_further_and_others_go_on() -> Non
         for number, robot in enumerate(robots):
             if not (number and robot.place == "N8"):
                 robot.step()
-            said = robot.state()
+            said = robot.report_state()
             if number and robot.place == "N8":
                 said = replace(said, actions=dict.fromkeys(said.actions, "FAILED"))
             messages += control.receive(number, said)

@@ -143,7 +143,7 @@ def test_each_command_has_an_answer(
     assert found is not None
     assert found["done"] == answer["done"]
     assert str(found["text"]).startswith(str(answer["text"]))
-    assert commands.unanswered() == []
+    assert commands.list_unanswered() == []
 
 
 def test_all_robots_are_held_and_let_go(tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ def test_what_was_committed_is_there_after_the_next_start(tmp_path: Path) -> Non
     journal.commit([{"kind": "started"}])
     journal.close()
     again = SqliteJournal(tmp_path / "run.journal")
-    assert list(again.entries()) == [*ENTRIES, {"kind": "started"}]
+    assert list(again.read_entries()) == [*ENTRIES, {"kind": "started"}]
     again.close()
 
 
@@ -57,7 +57,7 @@ def test_on_a_full_disk_nothing_is_half_written(tmp_path: Path) -> None:
     large: Entry = {"kind": "started", "text": "x" * 100_000}
     with pytest.raises(JournalFailed, match="full"):
         journal.commit([ENTRIES[0], large])
-    assert list(journal.entries()) == []
+    assert list(journal.read_entries()) == []
     journal.close()
 
 
@@ -112,7 +112,7 @@ def test_a_journal_of_an_earlier_version_goes_on_with_moments(tmp_path: Path) ->
     reader.close()
     journal = SqliteJournal(path, lambda: 7.0)
     journal.commit(ENTRIES[1:])
-    assert list(journal.entries()) == ENTRIES
+    assert list(journal.read_entries()) == ENTRIES
     reader = JournalReader(path)
     assert [row.moment for row in reader.read_rows()] == [None, 7.0]
     reader.close()
@@ -127,5 +127,5 @@ def test_a_snapshot_leaves_the_notices_that_are_not_on_the_disk_yet(tmp_path: Pa
     batched.commit([*ENTRIES, told])
     batched.begin_again({"kind": "snapshot"})
     batched.flush()
-    assert list(journal.entries()) == [{"kind": "snapshot"}, told]
+    assert list(journal.read_entries()) == [{"kind": "snapshot"}, told]
     journal.close()

@@ -10,8 +10,8 @@ import pytest
 import rightofway
 from rightofway.control import FleetControl, RobotLedger, SqliteJournal
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.laps import LapsToDrive, graph_behind_released
-from rightofway.control.routes import routes_to_drive
+from rightofway.control.laps import LapsToDrive, build_graph_behind_released
+from rightofway.control.routes import make_routes_to_drive
 from rightofway.cyclic import best_timetable
 from rightofway.errors import InputError
 from rightofway.model import Plan
@@ -51,11 +51,11 @@ def test_what_a_control_knows_and_keeps_does_not_grow(tmp_path: Path) -> None:
     floor, sizes, laps = Floor(dispatcher), [], []
     for steps in (1000, 9000):
         floor.drive(steps)
-        sizes.append(len(str(dispatcher.ledger.snapshot())))
+        sizes.append(len(str(dispatcher.ledger.make_snapshot())))
         laps.append(dispatcher.ledger.robots[0].laps_done)
     assert laps[1] > 8 * laps[0]
     assert sizes[1] < 1.2 * sizes[0]
-    assert len(list(journal.history())) < 1200
+    assert len(list(journal.read_history())) < 1200
     journal.close()
 
 
@@ -65,8 +65,8 @@ def test_a_start_from_a_snapshot_knows_all_that_was_known(tmp_path: Path) -> Non
     dispatcher = begun(chosen_timetable(), journal)
     Floor(dispatcher).drive(1000)
     again = FleetControl(journal)
-    assert again.ledger.snapshot() == dispatcher.ledger.snapshot()
-    assert len(list(journal.entries())) < len(list(journal.history()))
+    assert again.ledger.make_snapshot() == dispatcher.ledger.make_snapshot()
+    assert len(list(journal.read_entries())) < len(list(journal.read_history()))
     journal.close()
 
 
@@ -74,16 +74,16 @@ def test_the_next_period_has_the_rights_of_way_of_the_plan() -> None:
     """The door's plan twice is the plan of two laps, by the definition of the graph."""
     plan = door()
     laps = LapsToDrive(plan)
-    robots = [RobotLedger(route) for route in routes_to_drive(plan)]
+    robots = [RobotLedger(route) for route in make_routes_to_drive(plan)]
     for own in robots:
         own.take_route(own.route)
-    routes = laps.extended(robots, ahead=100)
+    routes = laps.extend(robots, ahead=100)
     assert routes is not None
-    graph = graph_behind_released(plan.scenario, routes, [0, 0])
+    graph = build_graph_behind_released(plan.scenario, routes, [0, 0])
     once = ReleaseGraph.of(plan.scenario, plan.tracks)
     for part in once.list_waiting_parts():
         if part.number:
-            shift = [route.end - 1 for route in routes_to_drive(plan)]
+            shift = [route.end - 1 for route in make_routes_to_drive(plan)]
             later = part._replace(number=part.number + shift[part.robot])
             arrivals = {(a.robot, a.visit + shift[a.robot]) for a in once.waits(part)}
             assert arrivals <= set(graph.waits(later))

@@ -49,7 +49,7 @@ def test_a_recording_says_where_robots_are_what_they_hold_and_whom_they_wait_for
     """The door: R1 waits at N0 until R2, which has set out for N8, is at N4, at 2."""
     source = Journalled(recorded(door(), tmp_path))
     recording = Recording(door(), source)
-    recording.look()
+    recording.read_on()
     frame = recording.take_frame()
     assert frame["begins"]
     assert [row[1:] for row in frame["rows"] if row[2] in {"arrived", "released"}] == [
@@ -59,7 +59,7 @@ def test_a_recording_says_where_robots_are_what_they_hold_and_whom_they_wait_for
     assert join_parts(list(wait[4])) == "R1 waits at N0 until R2 is at N4"
     assert wait[5] == [1]
     source.until = 2.0
-    recording.look()
+    recording.read_on()
     assert [row for row in recording.take_frame(frame["number"])["rows"] if row[2] != "says"] == [
         (1.0, 1, "arrived", 1), (2.0, 0, "released", 1), (2.0, 1, "arrived", 2),
     ]  # fmt: skip
@@ -70,12 +70,12 @@ def test_read_bit_by_bit_or_at_once_a_journal_says_the_same(tmp_path: Path) -> N
     whole, bit = Journalled(rows), Journalled(rows)
     whole.until = float("inf")
     at_once, bit_by_bit = Recording(warehouse(8), whole), Recording(warehouse(8), bit)
-    at_once.look()
+    at_once.read_on()
     for row in rows[::7]:
         bit.until = row.moment or 0.0
-        bit_by_bit.look()
+        bit_by_bit.read_on()
     bit.until = whole.until
-    bit_by_bit.look()
+    bit_by_bit.read_on()
     assert at_once.take_frame() == bit_by_bit.take_frame()
 
 
@@ -83,7 +83,7 @@ def test_who_comes_late_or_again_gets_what_is_missing(tmp_path: Path) -> None:
     source = Journalled(recorded(door(), tmp_path))
     source.until = 12.0
     recording = Recording(door(), source)
-    recording.look()
+    recording.read_on()
     whole = recording.take_frame()
     assert not recording.take_frame(whole["number"])["rows"]
     again = recording.take_frame(5)
@@ -98,10 +98,10 @@ def test_a_recording_that_begins_again_says_what_is_known_now(
     source = Journalled(recorded(door(), tmp_path))
     source.until = 7.0
     recording = Recording(door(), source)
-    recording.look()
+    recording.read_on()
     before = recording.count
     monkeypatch.setattr(module, "MAX_ROWS", 10)
-    recording.look()
+    recording.read_on()
     rows = recording.take_frame()["rows"]
     assert recording.count == before + len(rows)
     assert [row[1:] for row in rows if row[2] in {"arrived", "released"}] == [
@@ -121,7 +121,7 @@ def test_alarms_begin_and_end(tmp_path: Path) -> None:
     journal.close()
     reader = JournalReader(path)
     recording = Recording(door(), reader)
-    recording.look()
+    recording.read_on()
     alarms = [row for row in recording.take_frame()["rows"] if row[2] == "alarm"]
     assert alarms == [(20.0, 0, "alarm", "lost", lost), (21.0, 0, "alarm", "lost", None)]
     reader.close()
@@ -131,7 +131,7 @@ def test_the_journal_of_other_robots_is_refused(tmp_path: Path) -> None:
     source = Journalled(recorded(door(), tmp_path))
     other = rightofway.solve(rightofway.load(ROOT / "examples" / "bay.yaml"), "prioritized")
     with pytest.raises(InputError, match="is of other robots, R1, R2"):
-        Recording(other, source).look()
+        Recording(other, source).read_on()
 
 
 @pytest.mark.slow
@@ -140,11 +140,11 @@ def test_a_hundred_robots_take_less_than_100_kilobytes_a_second(tmp_path: Path) 
     plan = warehouse(100)
     source = Journalled(recorded(plan, tmp_path))
     recording = Recording(plan, source)
-    recording.look()
+    recording.read_on()
     most, known = 0, recording.count
     for second in range(1, 60):
         source.until = float(second)
-        recording.look()
+        recording.read_on()
         frame = recording.take_frame(known)
         known = frame["number"]
         most = max(most, len(json.dumps(frame, separators=(",", ":"))))

@@ -33,7 +33,7 @@ from rightofway.control import (
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.driver import Driver
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
-from rightofway.control.identities import Identity, simulated_identities
+from rightofway.control.identities import Identity, make_simulated_identities
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderMap
 from rightofway.errors import GaveUp, InputError
@@ -73,11 +73,11 @@ class Floor:
             RobotEnd(SimulatedRobot(own.route.places[0]), k, self.identities[k], lambda: NOW)
             for k, own in enumerate(self.ledger.robots)
         ]
-        self.deliver(self.end.letters(self.dispatcher.control.start()))
+        self.deliver(self.end.make_letters(self.dispatcher.control.start()))
 
     def _begin(self) -> None:
         notices = Notices([one.serial_number for one in self.identities], self.said.append)
-        control = FleetControl(self.journal, look_ahead=1, report=notices.about)
+        control = FleetControl(self.journal, look_ahead=1, report=notices.report_on)
         self.dispatcher = Dispatcher(control, self.plan, planner="prioritized")
         if not self.journal.written:
             self.dispatcher.begin("run")
@@ -88,7 +88,7 @@ class Floor:
     def kill(self) -> None:
         """Kill the control, and start it again on its journal."""
         self._begin()
-        self.deliver(self.end.letters(self.dispatcher.control.start()))
+        self.deliver(self.end.make_letters(self.dispatcher.control.start()))
 
     def deliver(self, letters: list[Letter], refused: Collection[int] = ()) -> None:
         """Bring letters where they belong, and all that is answered; robots may refuse orders."""
@@ -99,15 +99,15 @@ class Floor:
             for number, robot in enumerate(self.robots):
                 if letter.topic in robot.topics and number not in refused:
                     robot.receive(letter)
-                    queue.extend(self.end.receive(robot.state()))
+                    queue.extend(self.end.receive(robot.report_state()))
 
     def send(self, messages: Any) -> None:
         """Deliver messages of the control."""
-        self.deliver(self.end.letters(messages))
+        self.deliver(self.end.make_letters(messages))
 
     def hear(self, robot: int, **changes: Any) -> None:
         """Let a robot send its state with changes."""
-        letter = self.robots[robot].state()
+        letter = self.robots[robot].report_state()
         document = {**json.loads(letter.payload), **changes}
         self.deliver(self.end.receive(letter._replace(payload=json.dumps(document).encode())))
 
@@ -117,7 +117,7 @@ class Floor:
             for number, robot in enumerate(self.robots):
                 if number not in still:
                     robot.robot.step()
-                self.deliver(self.end.receive(robot.state()))
+                self.deliver(self.end.receive(robot.report_state()))
             self.send(self.dispatcher.control.remind())
 
     def drive_to(self, robot: int, place: str) -> None:
@@ -190,7 +190,7 @@ def test_a_robot_that_is_not_fit(floor: Floor, kind: str) -> None:
 
 def test_a_robot_that_is_lost_and_comes_back(floor: Floor) -> None:
     """It has driven on to the end of what it holds meanwhile."""
-    topic = floor.identities[0].topic("connection")
+    topic = floor.identities[0].get_topic("connection")
     broken = {"connectionState": "CONNECTIONBROKEN"}
     for _ in range(3):
         floor.deliver(floor.end.receive(Letter(topic, json.dumps(broken).encode())))
@@ -238,7 +238,7 @@ def test_a_robot_is_placed_where_nobody_is_and_not_with_an_old_order(floor: Floo
     with pytest.raises(InputError, match="no vertex is named 'N9'"):
         floor.dispatcher.place_robot("R1", "N9")
     robot = floor.robots[0].robot
-    old = robot.state().order_id
+    old = robot.report_state().order_id
     assert robot.forget()
     robot.place = "N7"
     floor.send(floor.dispatcher.place_robot("R1", "N7"))
@@ -289,8 +289,8 @@ def test_states_that_are_doubled_old_or_wrong() -> None:
     for step in range(120):
         for robot in floor.robots:
             robot.robot.step()
-            floor.deliver(floor.end.receive(robot.state()))
-        earlier.append(floor.robots[0].state())
+            floor.deliver(floor.end.receive(robot.report_state()))
+        earlier.append(floor.robots[0].report_state())
         for letter in (earlier[-1], earlier[step // 2]):
             floor.deliver(floor.end.receive(letter))
         if step % 2:
@@ -305,13 +305,13 @@ def test_states_that_are_doubled_old_or_wrong() -> None:
 
 def fail_work(floor: Floor, patch: pytest.MonkeyPatch) -> str:
     """Have the work of R1 fail; return the job."""
-    state, failed = floor.robots[0].robot.state, "run-0-job0-1"
+    state, failed = floor.robots[0].robot.report_state, "run-0-job0-1"
 
     def fail(*arguments: Any) -> RobotState:
         said = state(*arguments)
         return replace(said, actions={**said.actions, failed: "FAILED"})
 
-    patch.setattr(floor.robots[0].robot, "state", fail)
+    patch.setattr(floor.robots[0].robot, "report_state", fail)
     floor.robots[0].robot._waiting.clear()
     floor.drive(3)
     return "R1/job0"
@@ -374,7 +374,7 @@ def test_a_journal_that_cannot_be_written() -> None:
     """Nothing is sent until it can, which is reported once; then robots get what was decided."""
     plan, said, published = door(), list[str](), list[str]()
     journal, names = MemoryJournal(), [robot.name for robot in door().scenario.robots]
-    driver = Driver(plan, simulated_identities(names), journal, report=said.append)
+    driver = Driver(plan, make_simulated_identities(names), journal, report=said.append)
 
     async def publish(topic: str, *_: Any, **__: Any) -> None:
         published.append(topic)
@@ -385,7 +385,7 @@ def test_a_journal_that_cannot_be_written() -> None:
         raise JournalFailed("the disk is full")
 
     journal.kill = fail
-    letters = driver.end.letters(driver.control.start())
+    letters = driver.end.make_letters(driver.control.start())
     asyncio.run(driver._turn(client, letters))
     for _ in range(3):
         asyncio.run(driver._turn(client, []))

@@ -22,7 +22,7 @@ from rightofway.control import (
 )
 from rightofway.control.identities import VERSIONS, Identity
 from rightofway.control.order_map import OrderMap
-from rightofway.control.routes import routes_to_drive
+from rightofway.control.routes import make_routes_to_drive
 from rightofway.control.vda5050 import (
     ConnectionMessage,
     Header,
@@ -30,7 +30,7 @@ from rightofway.control.vda5050 import (
     OrderMessage,
     StateMessage,
     read,
-    written,
+    write_message,
 )
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
@@ -68,8 +68,8 @@ def all_sent() -> list[Message]:
     """Return all that is sent to the robots of the door, with a withdrawal on the way."""
     plan = door()
     control, sent = FleetControl(MemoryJournal()), list[Message]()
-    control.begin("run", routes_to_drive(plan), ReleaseGraph.of(plan.scenario, plan.tracks))
-    robots = [SimulatedRobot(route.places[0]) for route in routes_to_drive(plan)]
+    control.begin("run", make_routes_to_drive(plan), ReleaseGraph.of(plan.scenario, plan.tracks))
+    robots = [SimulatedRobot(route.places[0]) for route in make_routes_to_drive(plan)]
     fresh = control.start()
     for number in range(300):
         sent += fresh
@@ -82,7 +82,7 @@ def all_sent() -> list[Message]:
         fresh = control.cancel(1) if number == 5 else control.remind()
         for k, robot in enumerate(robots):
             robot.step()
-            fresh += control.receive(k, robot.state())
+            fresh += control.receive(k, robot.report_state())
     assert [robot.place for robot in robots] == ["N0", "N2"]
     return sent
 
@@ -94,15 +94,15 @@ def test_every_message_is_valid_by_the_official_schemas(version: str) -> None:
     assert {type(message) for message in sent} == {Order, InstantAction}
     for message in sent:
         if isinstance(message, Order):
-            orders.validate(written(OrderMessage.of(message, order_map), header(version)))
+            orders.validate(write_message(OrderMessage.of(message, order_map), header(version)))
         else:
-            actions.validate(written(InstantActions.of(message), header(version)))
+            actions.validate(write_message(InstantActions.of(message), header(version)))
 
 
 def test_work_at_a_stop_is_an_action_that_nothing_else_happens_beside() -> None:
     order_map = map_of(door().scenario)
     document = next(
-        written(OrderMessage.of(message, order_map), header("2.1.0"))
+        write_message(OrderMessage.of(message, order_map), header("2.1.0"))
         for message in all_sent()
         if isinstance(message, Order) and message.nodes[-1].actions
     )
@@ -122,7 +122,7 @@ def test_an_update_may_leave_out_work_that_is_finished(*, repeats_work: bool) ->
     )
     for update in (0, 1):
         order = Order(robot=0, order_id="run-0-0", update_id=update, nodes=nodes)
-        document = written(OrderMessage.of(order, order_map), header("2.1.0"))
+        document = write_message(OrderMessage.of(order, order_map), header("2.1.0"))
         counts = [len(node["actions"]) for node in document["nodes"]]
         assert counts == [int(repeats_work or update == 0), 1]
 
@@ -155,7 +155,7 @@ def test_nodes_have_their_position_in_the_frame_of_the_robot(version: str) -> No
     origin; B, 2 m to the east, lies 2 m to its right."""
     frame = Frame(x=Fraction(1), y=Fraction(2), yaw=Fraction(math.pi / 2))
     order_map = map_of(site(), frame=frame, map_id="hall", deviation=0.05)
-    document = written(OrderMessage.of(order_over("A", "B"), order_map), header(version))
+    document = write_message(OrderMessage.of(order_over("A", "B"), order_map), header(version))
     validator(version, "order").validate(document)
     first, second = (node["nodePosition"] for node in document["nodes"])
     assert (first["x"], first["y"], first["mapId"]) == (0, 0, "hall")
@@ -172,7 +172,7 @@ def test_nodes_have_their_position_in_the_frame_of_the_robot(version: str) -> No
 
 def test_a_site_whose_y_grows_downwards_is_mirrored() -> None:
     """N4 of the door is the middle cell: its centre is 1.5 to the right and 1.5 down."""
-    place = map_of(door().scenario).place("N4")
+    place = map_of(door().scenario).get_place("N4")
     assert place is not None
     assert place.point == (1.5, -1.5)
 
@@ -190,7 +190,9 @@ def test_the_deviation_is_half_the_clearance() -> None:
 def test_pieces_of_a_lane_keep_to_its_way(version: str) -> None:
     """A piece is a straight line of degree 1; a whole straight lane leaves its way to the robot."""
     order_map = map_of(site(spacing=200))
-    document = written(OrderMessage.of(order_over("A", "B", "B-C/1"), order_map), header(version))
+    document = write_message(
+        OrderMessage.of(order_over("A", "B", "B-C/1"), order_map), header(version)
+    )
     validator(version, "order").validate(document)
     whole, piece = document["edges"]
     assert "trajectory" not in whole
@@ -217,7 +219,9 @@ def test_a_curve_is_sent_as_it_is_drawn() -> None:
             "robots": [{"name": "R1", "home": "A", "target": "B"}],
         }
     )
-    document = written(OrderMessage.of(order_over("A", "B"), map_of(scenario)), header("2.1.0"))
+    document = write_message(
+        OrderMessage.of(order_over("A", "B"), map_of(scenario)), header("2.1.0")
+    )
     trajectory = document["edges"][0]["trajectory"]
     assert trajectory["degree"] == 3
     assert trajectory["knotVector"] == [0, 0, 0, 0, 1, 1, 1, 1]
@@ -241,7 +245,7 @@ STATE: dict[str, Any] = {
 
 def test_a_state_is_read_with_its_instant_actions() -> None:
     """Version 3.0 has instant actions in a list of their own."""
-    state = read(StateMessage, STATE, "state").robot_state()
+    state = read(StateMessage, STATE, "state").to_robot_state()
     assert (state.order_id, state.update_id, state.last_place) == ("run-0-0", 1, "N0")
     assert (state.nodes, state.edges, state.is_driving) == ((2,), (1,), True)
     assert state.actions == {"a": "RUNNING", "token": "FINISHED"}
@@ -283,14 +287,14 @@ def test_the_condition_of_a_robot_comes_back_as_it_was_sent(version: str) -> Non
         is_driving=True,
         condition=CONDITION,
     )
-    document = written(StateMessage.of(sent, ["N1"], frozenset("b")), header(version))
+    document = write_message(StateMessage.of(sent, ["N1"], frozenset("b")), header(version))
     validator(version, "state").validate(document)
-    assert read(StateMessage, document, "state").robot_state() == sent
+    assert read(StateMessage, document, "state").to_robot_state() == sent
 
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("state", ["ONLINE", "OFFLINE", "CONNECTION_BROKEN"])
 def test_connections_are_written_and_read(version: str, state: str) -> None:
-    document = written(ConnectionMessage(connectionState=state), header(version))
+    document = write_message(ConnectionMessage(connectionState=state), header(version))
     validator(version, "connection").validate(document)
     assert read(ConnectionMessage, document, "connection").is_online == (state == "ONLINE")

@@ -89,7 +89,7 @@ def give(address: str, **order: str) -> Future[Any]:
 def is_asked(viewer: Player, journal: Path) -> None:
     """Wait until an order has come that has no answer."""
     with closing(Commands(journal)) as commands:
-        viewer.poll(commands.unanswered, "the order")
+        viewer.poll(commands.list_unanswered, "the order")
 
 
 def colours(viewer: Player) -> list[str]:

@@ -62,11 +62,11 @@ def robots(
     """
     from rightofway.control.broker import Broker
     from rightofway.control.identities import (
-        identities_text,
+        format_identities,
         load_identities,
-        simulated_identities,
+        make_simulated_identities,
     )
-    from rightofway.control.robots import run_robots, troubles_of
+    from rightofway.control.robots import parse_troubles, run_robots
 
     if broker is None:
         raise click.UsageError("robots need a broker (give --broker)")
@@ -75,14 +75,14 @@ def robots(
     opened = read_plan(plan)
     names = [robot.name for robot in opened.scenario.robots]
     fleet = (
-        simulated_identities(names, vda_version)
+        make_simulated_identities(names, vda_version)
         if identities is None
         else load_identities(identities, names)
     )
     address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
-    trouble = troubles_of(troubles)
+    trouble = parse_troubles(troubles)
     if write_identities is not None:
-        Path(write_identities).write_text(identities_text(names, fleet), encoding="utf-8")
+        Path(write_identities).write_text(format_identities(names, fleet), encoding="utf-8")
         say_written(write_identities)
 
     def is_up() -> None:

@@ -105,7 +105,7 @@ class Broker:
         """Where it is, in short."""
         return f"{self.host}:{self.port}"
 
-    def client(self, name: str, will: Letter | None = None) -> aiomqtt.Client:
+    def open_client(self, name: str, will: Letter | None = None) -> aiomqtt.Client:
         """Return a connection: nothing is kept for it when it is gone.
 
         Parameters

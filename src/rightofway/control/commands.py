@@ -66,7 +66,7 @@ class Commands:
         query = "INSERT INTO commands (command) VALUES (?)"
         return int(self._database.execute(query, (json.dumps(command),)).lastrowid or 0)
 
-    def unanswered(self) -> list[tuple[int, dict[str, Any]]]:
+    def list_unanswered(self) -> list[tuple[int, dict[str, Any]]]:
         """Return number and content of each command that has no answer, in their order."""
         query = "SELECT number, command FROM commands WHERE answer IS NULL ORDER BY number"
         return [(number, json.loads(text)) for number, text in self._database.execute(query)]

@@ -23,14 +23,14 @@ from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
 from rightofway.control.fleet_control import FleetControl
-from rightofway.control.identities import Identity, simulated_identities
+from rightofway.control.identities import Identity, make_simulated_identities
 from rightofway.control.journal import BatchedJournal, Entry, SqliteJournal
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.ledger import RobotLedger, RouteToDrive
 from rightofway.control.notices import Notices, make_notice
 from rightofway.control.operator import Operator
 from rightofway.control.order_map import OrderMap
-from rightofway.control.routes import routes_to_drive
+from rightofway.control.routes import make_routes_to_drive
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.control.story import Story
 from rightofway.errors import InputError
@@ -164,7 +164,7 @@ def drive_demo(
         if completion is None:
             message = f"{name} would never complete, and a demo ends when all jobs are done"
             raise InputError.at("delays", f"{message} (give delays that end)")
-    identities = identities or simulated_identities(names, version)
+    identities = identities or make_simulated_identities(names, version)
     clock = _SimulatedClock(plan)
     record = None if journal is None else _DemoRecord(journal, clock, pace, stays=stays)
     try:
@@ -202,7 +202,7 @@ class _DemoRecord:
         self, path: Path, clock: _SimulatedClock, pace: float | None, *, stays: bool
     ) -> None:
         self._file = SqliteJournal(path, clock.read_seconds)
-        if next(iter(self._file.history()), None) is not None:
+        if next(iter(self._file.read_history()), None) is not None:
             self._file.close()
             message = "has a run already, and a demo begins anew (name another file)"
             raise InputError.at(str(path), message)
@@ -230,7 +230,7 @@ class _DemoRecord:
 class _NothingKept:
     """The journal of robots that end with the process: no start would read it."""
 
-    def entries(self) -> Iterable[Entry]:
+    def read_entries(self) -> Iterable[Entry]:
         """Return nothing."""
         return ()
 
@@ -251,7 +251,7 @@ class _Durations:
         self, plan: Plan, delays: str | Iterable[str], seed: int, laps: LapsToDrive | None
     ) -> None:
         self._plan, self._delays, self._seed, self._laps = plan, delays, seed, laps
-        self._routes, self._roadmap = routes_to_drive(plan), plan.scenario.roadmap
+        self._routes, self._roadmap = make_routes_to_drive(plan), plan.scenario.roadmap
         self.round = lru_cache(maxsize=4)(self._round)
 
     def _round(self, number: int) -> ExecutionTrace:
@@ -261,10 +261,10 @@ class _Durations:
         """Return how long a robot works and turns in a visit [ticks]."""
         number, planned = self._planned(robot, visit)
         sample, lap = self.round(number).dwell[robot], self._routes[robot]
-        more = int(sample[planned]) - sum(lap.work_at(planned))
+        more = int(sample[planned]) - sum(lap.get_work(planned))
         if planned == lap.end - 1 and self._laps:  # it goes on, and turns for that
             more += self._plan.scenario.problem.itineraries[robot].stages[-1].turn
-        return sum(own.route.work_at(visit)) + max(more, 0)
+        return sum(own.route.get_work(visit)) + max(more, 0)
 
     def drive(self, robot: int, own: RobotLedger, visit: int) -> int:
         """Return how long a robot drives into a visit [ticks]."""
@@ -275,14 +275,14 @@ class _Durations:
 
     def _ticks(self, robot: int, route: RouteToDrive, visit: int) -> int:
         """Return how long the drive into a visit lasts without delays [ticks]."""
-        ends = (self._roadmap.get_vertex(route.place(at)) for at in (visit - 1, visit))
+        ends = (self._roadmap.get_vertex(route.get_place(at)) for at in (visit - 1, visit))
         itinerary = self._plan.scenario.problem.itineraries[robot]
         return drives_along(self._roadmap, itinerary, list(map(int, ends)))[0]
 
     def _planned(self, robot: int, visit: int) -> tuple[int, int]:
         """Return the run that has the delays of a visit, and a visit of the plan."""
         if self._laps:
-            return self._laps.planned_visit(robot, visit)
+            return self._laps.find_planned_visit(robot, visit)
         return divmod(visit, self._routes[robot].end)
 
 
@@ -354,7 +354,7 @@ class _Demo:
     def _steps(self, wait_until: Callable[[Tick], None]) -> Iterator[None]:
         """Have robots do one thing after another, as long as there is something."""
         agenda: list[tuple[int, int]] = []  # when the next step of a robot ends
-        self._exchange(self._end.letters(self._control.start()))
+        self._exchange(self._end.make_letters(self._control.start()))
         while True:
             for number, robot in enumerate(self._robots):
                 if not robot.is_busy and (end := robot.begin_step(self._now)) is not None:
@@ -368,7 +368,7 @@ class _Demo:
                 continue
             moment, number = heapq.heappop(agenda)
             self._robots[number].end_step(moment)
-            self._exchange([self._robots[number].end.state()])
+            self._exchange([self._robots[number].end.report_state()])
             yield
 
     @property
@@ -395,7 +395,7 @@ class _Demo:
         if moment == self._now:
             return True
         if self.switches:
-            self._exchange(self._end.letters(self._dispatcher.switch()))
+            self._exchange(self._end.make_letters(self._dispatcher.switch()))
         while self._record and moment > self._now + self._step:
             if self._obey():
                 return False
@@ -417,7 +417,7 @@ class _Demo:
                 said = text if answer["done"] else Phrase("refused: {reason}", reason=text)
                 self._tell(said)
                 self._record.write(make_notice(to_parts(said)))
-        self._exchange(self._end.letters(messages))
+        self._exchange(self._end.make_letters(messages))
         self._end_instant()
         for number, answer in answers:
             self._record.commands.answer(number, answer)
@@ -435,7 +435,7 @@ class _Demo:
                 queue.extend(self._end.receive(letter))
             else:
                 robot.end.receive(letter)
-                queue.append(robot.end.state())
+                queue.append(robot.end.report_state())
 
     def _result(self, *, is_endless: bool) -> DemoResult:
         robots = self._control.ledger.robots
@@ -463,7 +463,7 @@ class _Demo:
     def _trace(self) -> ExecutionTrace:
         for own in self._control.ledger.robots:
             assert own.arrived == own.route.end - 1, "a robot has not arrived"
-            assert own.finished == own.route.all_jobs(), "a job is not done"
+            assert own.finished == own.route.all_jobs, "a job is not done"
         tracks = tuple(
             Track.of(track.vertices.tolist(), list(robot.enter))
             for track, robot in zip(self._plan.tracks, self._robots, strict=True)

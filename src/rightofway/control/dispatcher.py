@@ -16,11 +16,11 @@ import numpy as np
 
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.journal import Entry
-from rightofway.control.laps import LapsToDrive, graph_behind_released
+from rightofway.control.laps import LapsToDrive, build_graph_behind_released
 from rightofway.control.ledger import Edge, Ledger, RobotLedger, RouteToDrive
 from rightofway.control.messages import Message
-from rightofway.control.rest import RestPlanner, StopToMake, stops_to_make
-from rightofway.control.routes import routes_to_drive
+from rightofway.control.rest import RestPlanner, StopToMake, list_stops_to_make
+from rightofway.control.routes import make_routes_to_drive
 from rightofway.errors import GaveUp, InputError, nearest, shown
 from rightofway.model import Plan
 from rightofway.precedence import Part, ReleaseGraph
@@ -102,16 +102,16 @@ class Dispatcher:
         """
         graph = ReleaseGraph.of(self.plan.scenario, self.plan.tracks)
         names = [robot.name for robot in self.plan.scenario.robots]
-        self.control.begin(run, routes_to_drive(self.plan), graph, names)
+        self.control.begin(run, make_routes_to_drive(self.plan), graph, names)
 
     def _dispatch(self) -> list[Message]:
         """Add laps where robots come to the end of theirs."""
-        routes = self._laps.extended(self.ledger.robots) if self._laps else None
+        routes = self._laps.extend(self.ledger.robots) if self._laps else None
         if routes is None:
             return []
         absent = [robot for robot, own in enumerate(self.ledger.robots) if own.is_off]
-        committed = self.control.committed()
-        graph = graph_behind_released(self.plan.scenario, routes, committed, absent)
+        committed = self.control.list_committed()
+        graph = build_graph_behind_released(self.plan.scenario, routes, committed, absent)
         messages = self.control.splice(routes, graph)
         closed = self.ledger.closed_edges
         if closed and any(not closed.isdisjoint(pairwise(route.places)) for route in routes):
@@ -269,7 +269,9 @@ class Dispatcher:
         A robot that is lost, faulty, on hold or not fit lets others go first, where they can.
         """
         control, ledger = self.control, self.ledger
-        better = self._rest.switched(ledger.robots, control.committed(), control.list_stuck())
+        better = self._rest.find_better_order(
+            ledger.robots, control.list_committed(), control.list_stuck()
+        )
         return control.splice(*better) if better else []
 
     def place_robot(self, name: str, at: str | None = None) -> list[Message]:
@@ -302,7 +304,7 @@ class Dispatcher:
         place = at or said
         self.plan.scenario.roadmap.get_vertex(place)  # refuses what is none
         first, stops = own.route.end, self._stops()
-        stops[robot] = stops_to_make(own, own.arrived - 1)
+        stops[robot] = list_stops_to_make(own, own.arrived - 1)
         if stops[robot] and stops[robot][0].ends_lap:
             del stops[robot][0]  # it was counted when the robot arrived
         begun = replace(own, route=_route_from(own.route, place), is_off=False)
@@ -366,12 +368,12 @@ class Dispatcher:
         rows = []
         for name, own in zip(self.ledger.names, self.ledger.robots, strict=True):
             for visit in range(own.arrived, own.route.end):
-                for job in own.route.jobs_at(visit):
+                for job in own.route.get_jobs(visit):
                     if job in own.finished:
                         continue
                     state = "released" if visit <= own.released else "planned"
                     state = "failed" if job in own.failed else state
-                    place = own.route.place(visit)
+                    place = own.route.get_place(visit)
                     rows.append({"name": f"{name}/{job}", "at": place, "state": state})
         return rows
 
@@ -414,8 +416,8 @@ class Dispatcher:
         return [{"kind": "command", "number": number, "answer": text}]
 
     def _stops(self) -> list[list[StopToMake]]:
-        rows = zip(self.ledger.robots, self.control.committed(), strict=True)
-        return [stops_to_make(own, released) for own, released in rows]
+        rows = zip(self.ledger.robots, self.control.list_committed(), strict=True)
+        return [list_stops_to_make(own, released) for own, released in rows]
 
     def _replanned(
         self,
@@ -440,7 +442,7 @@ class Dispatcher:
         """Plan the rest with these stops; robots that are placed begin where they are put."""
         ledger, placed = self.ledger, placed or {}
         robots = [placed.get(robot, own) for robot, own in enumerate(ledger.robots)]
-        released = self.control.committed()
+        released = self.control.list_committed()
         for robot, own in placed.items():
             released[robot] = own.released
         stuck = [robot for robot in self._passed if robot not in placed]
@@ -482,7 +484,7 @@ class Dispatcher:
         own, roadmap = self.ledger.robots[robot], self.plan.scenario.roadmap
         itinerary = self.plan.scenario.problem.itineraries[robot]
         stations = [
-            own.route.place(own.released),
+            own.route.get_place(own.released),
             *(stop.place for stop in stops),
             own.route.places[-1],
         ]
@@ -506,7 +508,7 @@ class Dispatcher:
             if stop.job == job:
                 return number, place
         own = self.ledger.robots[number]
-        if job in own.route.all_jobs():
+        if job in own.route.all_jobs:
             state = "done" if job in own.finished else "released"
             raise InputError.at("job", f"{shown(name)} is {state} already (it cannot be changed)")
         raise InputError.at("job", f"{shown(name)} is no job (see rightofway jobs list)")

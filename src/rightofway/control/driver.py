@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
     from rightofway.control.metrics import FleetMetrics
 
-__all__ = ["Driver", "timestamp"]
+__all__ = ["Driver", "make_timestamp"]
 
 REMIND = 1.0
 """Seconds between two reminders of what is not acknowledged."""
@@ -53,7 +53,7 @@ RETRY = (0.2, 5.0)
 """Seconds until the next try to connect: the first time, and at most."""
 
 
-def timestamp() -> str:
+def make_timestamp() -> str:
     """Return the time of the clock as messages have it."""
     return datetime.now(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
@@ -105,7 +105,7 @@ class Driver:
         self._journal, self._report = BatchedJournal(journal), report
         notices = Notices(names, report, keep=self._keep)
         self._metrics = metrics
-        self.control = FleetControl(self._journal, report=notices.about)
+        self.control = FleetControl(self._journal, report=notices.report_on)
         self._laps = laps
         repeated = None if laps is None else LapsToDrive(plan)
         self.dispatcher = dispatcher = Dispatcher(self.control, plan, repeated)
@@ -117,7 +117,7 @@ class Driver:
         elif not ledger.run.startswith(f"{digest}-"):
             message = "is of another plan, or of other identities (give those, or another journal)"
             raise InputError.at("journal", message)
-        self.end = ControlEnd(self.control, maps, timestamp, notices)
+        self.end = ControlEnd(self.control, maps, make_timestamp, notices)
         self._story = Story(ledger, names)
         self._heard = [time.monotonic()] * len(names)
         self._inbox: list[tuple[float, Letter]] = []
@@ -150,7 +150,7 @@ class Driver:
         wait, is_lost = RETRY[0], False
         while stays or not self.is_done:
             try:
-                async with broker.client("rightofway") as client:
+                async with broker.open_client("rightofway") as client:
                     self._tell(
                         Phrase("connected to {broker}", broker=broker.address),
                         BROKER,
@@ -189,7 +189,7 @@ class Driver:
         messages
             What a call of the control has returned.
         """
-        self._outbox += self.end.letters(messages)
+        self._outbox += self.end.make_letters(messages)
         self._news.set()
 
     async def _serve(self, client: aiomqtt.Client, *, stays: bool) -> None:
@@ -202,7 +202,7 @@ class Driver:
         self._heard = [time.monotonic()] * len(self._heard)
         async with asyncio.TaskGroup() as tasks:
             reader = tasks.create_task(self._read(client))
-            fresh = [*self.end.letters(self.control.start()), *self.end.ask_for_factsheets()]
+            fresh = [*self.end.make_letters(self.control.start()), *self.end.ask_for_factsheets()]
             await self._turn(client, fresh)
             reminded = time.monotonic()
             while stays or not self.is_done:
@@ -227,7 +227,7 @@ class Driver:
         changes = [*self.dispatcher.pass_stuck()]
         if self._switches:
             changes += self.dispatcher.switch()
-        switched = self.end.letters(changes)
+        switched = self.end.make_letters(changes)
         if self._commands is None:
             return switched
         messages, answers = Operator(self.dispatcher).obey(self._commands)
@@ -236,7 +236,7 @@ class Driver:
             if answer["text"]:
                 text = answer["text"]
                 self._tell(text if answer["done"] else Phrase("refused: {reason}", reason=text))
-        return [*switched, *self.end.letters(messages)]
+        return [*switched, *self.end.make_letters(messages)]
 
     def _answer(self) -> None:
         """Answer the commands whose outcome is on the disk."""
@@ -249,7 +249,7 @@ class Driver:
         """Return what is to be sent again; robots that are silent are lost."""
         if self._metrics is not None:
             self._metrics.survey(self.control)
-        letters = self.end.letters(self.control.remind())
+        letters = self.end.make_letters(self.control.remind())
         now = time.monotonic()
         for robot, heard in enumerate(self._heard):
             if now - heard > SILENCE:
@@ -262,7 +262,7 @@ class Driver:
         inbox, self._inbox = self._inbox, []
         self._outbox += fresh
         for _, letter in inbox:
-            robot = self.end.robot_of(letter.topic)
+            robot = self.end.find_robot(letter.topic)
             if robot is None:
                 continue
             if letter.name == "state":
@@ -300,5 +300,5 @@ class Driver:
 
 def _digest(plan: Plan, maps: Sequence[OrderMap]) -> str:
     """Return a name of all that decides on the content of orders."""
-    document = json.dumps([order_map.document() for order_map in maps], sort_keys=True)
+    document = json.dumps([order_map.to_document() for order_map in maps], sort_keys=True)
     return hashlib.sha256(f"{plan_text(plan)}\n{document}".encode()).hexdigest()[:12]

@@ -79,8 +79,8 @@ class _Writer:
     def __init__(self, now: Callable[[], str]) -> None:
         self._now, self._sent = now, Counter[str]()
 
-    def header(self, identity: Identity, name: str) -> vda5050.Header:
-        topic = identity.topic(name)
+    def make_header(self, identity: Identity, name: str) -> vda5050.Header:
+        topic = identity.get_topic(name)
         number = self._sent[topic]
         self._sent[topic] += 1
         return vda5050.Header(
@@ -91,12 +91,12 @@ class _Writer:
             serialNumber=identity.serial_number,
         )
 
-    def letter(
+    def make_letter(
         self, identity: Identity, name: str, body: vda5050.Body | Mapping[str, Any]
     ) -> Letter:
-        document = vda5050.written(body, self.header(identity, name))
+        document = vda5050.write_message(body, self.make_header(identity, name))
         payload = json.dumps(document, separators=(",", ":")).encode()
-        return Letter(identity.topic(name), payload)
+        return Letter(identity.get_topic(name), payload)
 
 
 class ControlEnd:
@@ -126,7 +126,7 @@ class ControlEnd:
         self._missed = set[int]()  # robots that were reported as lost
         self._writer = _Writer(now)
         self._robots = {
-            order_map.identity.topic(name): (robot, name)
+            order_map.identity.get_topic(name): (robot, name)
             for robot, order_map in enumerate(maps)
             for name in READ
         }
@@ -136,7 +136,7 @@ class ControlEnd:
         """The topics that control listens to."""
         return tuple(self._robots)
 
-    def robot_of(self, topic: str) -> int | None:
+    def find_robot(self, topic: str) -> int | None:
         """Return the robot of a topic, None for a topic of nobody.
 
         Parameters
@@ -159,10 +159,10 @@ class ControlEnd:
         try:
             document = _document(letter.payload)
             if name == "state":
-                state = vda5050.read(vda5050.StateMessage, document, "state").robot_state()
+                state = vda5050.read(vda5050.StateMessage, document, "state").to_robot_state()
                 self.notices.take(robot, state.condition)
                 self._welcome(robot)
-                return self.letters(self.control.receive(robot, state))
+                return self.make_letters(self.control.receive(robot, state))
             if name == "connection":
                 connection = vda5050.read(vda5050.ConnectionMessage, document, "connection")
                 return self.connect(robot, is_connected=connection.is_online)
@@ -170,7 +170,7 @@ class ControlEnd:
         except InputError as error:
             path = ".".join(step for step in error.faults[0].path if isinstance(step, str))
             reason = Phrase("sent what cannot be read: {error}", error=printable(str(error)))
-            self.notices.once(robot, f"message {path}", reason)
+            self.notices.report_once(robot, f"message {path}", reason)
         return []
 
     def connect(self, robot: int, *, is_connected: bool, why: str = "") -> list[Letter]:
@@ -192,14 +192,14 @@ class ControlEnd:
             sentence = Phrase(
                 "{reason}: it keeps what it holds and gets nothing more", reason=reason
             )
-            if self.notices.once(robot, "lost", sentence):
+            if self.notices.report_once(robot, "lost", sentence):
                 self._missed.add(robot)
-        return self.letters(self.control.connect(robot, is_connected=is_connected))
+        return self.make_letters(self.control.connect(robot, is_connected=is_connected))
 
     def _welcome(self, robot: int) -> None:
         if robot in self._missed:
             self._missed.discard(robot)
-            self.notices.about(robot, Phrase("is connected again"), "lost", is_over=True)
+            self.notices.report_on(robot, Phrase("is connected again"), "lost", is_over=True)
 
     def _compare(self, robot: int, sheet: vda5050.Factsheet) -> None:
         """Report where a robot is slower or larger than the plan takes it to be."""
@@ -214,7 +214,7 @@ class ControlEnd:
                 top=f"{top:g}",
                 speed=f"{speed:g}",
             )
-            self.notices.once(robot, "speed", sentence)
+            self.notices.report_once(robot, "speed", sentence)
         if radius and physical.length is not None and physical.width is not None:
             needed = hypot(physical.length, physical.width) / 2
             if needed > radius + ROUNDING:
@@ -227,9 +227,9 @@ class ControlEnd:
                     needed=f"{needed:.3g}",
                 )
                 self.control.refuse(robot)
-                self.notices.once(robot, "size", sentence)
+                self.notices.report_once(robot, "size", sentence)
 
-    def letters(self, messages: Iterable[Message]) -> list[Letter]:
+    def make_letters(self, messages: Iterable[Message]) -> list[Letter]:
         """Return messages of the control as they are sent.
 
         Parameters
@@ -245,12 +245,12 @@ class ControlEnd:
                 name = "order"
             else:
                 body, name = vda5050.InstantActions.of(message), "instantActions"
-            letters.append(self._writer.letter(order_map.identity, name, body))
+            letters.append(self._writer.make_letter(order_map.identity, name, body))
         return letters
 
     def ask_for_factsheets(self) -> list[Letter]:
         """Return what asks each robot how fast and how large it is."""
-        return self.letters(
+        return self.make_letters(
             InstantAction(robot=robot, action_id=f"factsheet{robot}", kind="factsheetRequest")
             for robot in range(len(self._maps))
         )
@@ -290,7 +290,7 @@ class RobotEnd:
     @property
     def topics(self) -> tuple[str, str]:
         """The topics that it listens to."""
-        return self._identity.topic("order"), self._identity.topic("instantActions")
+        return self._identity.get_topic("order"), self._identity.get_topic("instantActions")
 
     def receive(self, letter: Letter) -> list[Letter]:
         """Take an order or instant actions in; return what is answered beside its state.
@@ -306,16 +306,16 @@ class RobotEnd:
             If it is not as the norm has it.
         """
         document = _document(letter.payload)
-        if letter.topic == self._identity.topic("order"):
+        if letter.topic == self._identity.get_topic("order"):
             message = vda5050.read(vda5050.OrderMessage, document, "order")
             self._learn(message)
             self.robot.take_order(message.order(self._number))
             return []
         asked = vda5050.read(vda5050.InstantActions, document, "instantActions")
-        actions = asked.instant_actions(self._number)
+        actions = asked.to_instant_actions(self._number)
         for action in actions:
             self.robot.take_action(action)
-        return [self.factsheet() for action in actions if action.kind == "factsheetRequest"]
+        return [self.report_factsheet() for action in actions if action.kind == "factsheetRequest"]
 
     def _learn(self, message: vda5050.OrderMessage) -> None:
         """Keep how long and how fast the edges of an order are, and where its nodes are."""
@@ -331,18 +331,18 @@ class RobotEnd:
                 length, speed = edge.length or 0.0, edge.maxSpeed or 1.0
                 self.lanes[tail, head] = OrderLane(length=length, max_speed=speed)
 
-    def state(self) -> Letter:
+    def report_state(self) -> Letter:
         """Return its state as it is sent."""
         robot = self.robot
         body = vda5050.StateMessage.of(
-            robot.state(self.condition),
+            robot.report_state(self.condition),
             [node.place for node in robot.ahead],
             frozenset(robot.instant_actions),
             self._places.get(robot.place),
         )
-        return self._writer.letter(self._identity, "state", body)
+        return self._writer.make_letter(self._identity, "state", body)
 
-    def connection(self, state: str) -> Letter:
+    def report_connection(self, state: str) -> Letter:
         """Return whether it is connected, as it is sent.
 
         Parameters
@@ -351,11 +351,11 @@ class RobotEnd:
             ``ONLINE``, ``OFFLINE`` or ``CONNECTION_BROKEN``.
         """
         body = vda5050.ConnectionMessage(connectionState=state)
-        return self._writer.letter(self._identity, "connection", body)
+        return self._writer.make_letter(self._identity, "connection", body)
 
-    def factsheet(self) -> Letter:
+    def report_factsheet(self) -> Letter:
         """Return what it is, as it is sent."""
-        return self._writer.letter(self._identity, "factsheet", FACTSHEET)
+        return self._writer.make_letter(self._identity, "factsheet", FACTSHEET)
 
 
 def _document(payload: bytes) -> dict[str, Any]:

@@ -89,7 +89,7 @@ class FleetControl:
         self._just_sent = set[int]()  # robots that the next reminder leaves out
         self.dispatch: Callable[[], list[Message]] = list
         self._since_snapshot = 0
-        for entry in journal.entries():
+        for entry in journal.read_entries():
             self.ledger.apply(entry)
             self._since_snapshot += 1
 
@@ -165,7 +165,7 @@ class FleetControl:
             If a route changes what is released, a job is lost, or robots move round a circle.
         """
         robots, names = self.ledger.robots, self.ledger.names
-        committed = self.committed()
+        committed = self.list_committed()
         _refuse_rotation(graph, names)
         for robot, (own, new, end) in enumerate(zip(robots, routes, committed, strict=True)):
             old, begin = own.route, max(own.route.first, new.first)
@@ -174,20 +174,21 @@ class FleetControl:
                 keeps_released = own.is_off and begin == old.end
             else:
                 keeps_released = begin <= own.arrived and all(
-                    (old.place(visit), old.jobs_at(visit)) == (new.place(visit), new.jobs_at(visit))
+                    (old.get_place(visit), old.get_jobs(visit))
+                    == (new.get_place(visit), new.get_jobs(visit))
                     for visit in range(begin, end + 1)
                 )
             if not keeps_released:
                 message = "the route changes what is released (begin it with the released parts)"
                 raise InputError.at(("routes", robot), message)
             unwanted = {job for other, job in withdrawn if other == robot}
-            if lost := sorted(old.all_jobs() - own.finished - new.all_jobs() - unwanted):
+            if lost := sorted(old.all_jobs - own.finished - new.all_jobs - unwanted):
                 raise InputError.at(("routes", robot), f"{lost[0]} is in no visit (keep each job)")
         entry = plan_entry("splice", self.ledger.run, routes, graph, committed=committed)
         begins = [{"kind": "placed", "robot": k, "visit": routes[k].first} for k in placed]
         self._commit(*begins, {**entry, "withdrawn": [list(job) for job in withdrawn]}, *notes)
         if self._since_snapshot >= self._snapshot_every:
-            self._journal.begin_again(self.ledger.snapshot())
+            self._journal.begin_again(self.ledger.make_snapshot())
             self._since_snapshot = 0
         return self._go_on()
 
@@ -401,7 +402,7 @@ class FleetControl:
         visit = sent.offset + state.last_sequence_id // 2
         if not begin <= visit <= min(end, own.released):
             return None
-        if own.route.place(visit) != state.last_place:
+        if own.route.get_place(visit) != state.last_place:
             return None
         if not state.nodes:
             # A state from before the update, after a withdrawal or a reset has no nodes either.
@@ -459,7 +460,7 @@ class FleetControl:
         elif state.order_id == own.order_id:
             if own.token in state.actions:
                 yield {"kind": "certain", "robot": robot}
-            stands_at = own.held_at(state.last_place)
+            stands_at = own.find_held(state.last_place)
             if not own.is_acknowledged and self._acknowledges(own, state):
                 yield {"kind": "acknowledged", "robot": robot}
             elif self._has_stopped(own, state) and stands_at is not None:
@@ -479,7 +480,7 @@ class FleetControl:
             token = f"{self.ledger.run}-{robot}-doubt{own.tokens}"
             yield {"kind": "doubt", "robot": robot, "token": token}
         elif own.token in state.actions and state.is_idle:
-            stands_at = own.held_at(state.last_place)
+            stands_at = own.find_held(state.last_place)
             if stands_at is not None:
                 yield self._new_order(robot, stands_at, own.released)
             elif own.fault is None:
@@ -553,14 +554,14 @@ class FleetControl:
         own, actions, nodes = self.ledger.robots[robot], [], []
         for part in parts:
             ids = list[str]()
-            for job in own.route.jobs_at(part):
+            for job in own.route.get_jobs(part):
                 if job in own.finished or job in own.failed:  # a person decides on failed ones
                     continue
                 last = own.attempts.get(job, 0)
                 attempt = max(last, 1)
                 ids.append(f"{self.ledger.run}-{robot}-{job}-{attempt}")
                 actions.append((ids[-1], job, attempt))
-            place, number = own.route.place(part), 2 * (part - offset)
+            place, number = own.route.get_place(part), 2 * (part - offset)
             nodes.append(OrderNode(place=place, sequence_id=number, actions=tuple(ids)))
         return nodes, actions
 
@@ -612,10 +613,10 @@ class FleetControl:
             and own.fault is None
             and self.is_fit(robot)
             and part - own.arrived <= self._ahead(robot)
-            and own.finished.issuperset(route.jobs_at(part - 1))
+            and own.finished.issuperset(route.get_jobs(part - 1))
             and not self._is_in_base(own, part)
-            and not self._is_closed(route.place(part - 1), route.place(part))
-            and not self._is_strayed_to(route.place(part))
+            and not self._is_closed(route.get_place(part - 1), route.get_place(part))
+            and not self._is_strayed_to(route.get_place(part))
             and self.ledger.graph.may_go(Part(robot, part), self.ledger.arrived)
         )
 
@@ -626,7 +627,7 @@ class FleetControl:
         A robot that forgot its order would take an update again whose way ends where it began, and
         drive it twice.
         """
-        return own.route.place(part) in own.route.stretch(own.arrived, part)
+        return own.route.get_place(part) in own.route.stretch(own.arrived, part)
 
     def _is_closed(self, tail: str, head: str) -> bool:
         """Return whether nobody may enter an edge."""
@@ -641,7 +642,7 @@ class FleetControl:
         condition = self.conditions.get(robot)
         return self._look_ahead * (2 if condition and condition.wants_more else 1)
 
-    def committed(self) -> list[int]:
+    def list_committed(self) -> list[int]:
         """Return the last part of each robot that a splice has to keep."""
         return [self._committed(own) for own in self.ledger.robots]
 

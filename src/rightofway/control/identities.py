@@ -25,9 +25,9 @@ __all__ = [
     "VERSIONS",
     "Identity",
     "Work",
-    "identities_text",
+    "format_identities",
     "load_identities",
-    "simulated_identities",
+    "make_simulated_identities",
 ]
 
 VERSIONS = ("2.0.0", "2.1.0", "3.0.0")
@@ -108,7 +108,7 @@ class Identity:
                 message = f"{shown(value)} cannot be part of a topic (leave out / + # $)"
                 raise InputError.at(key, message)
 
-    def topic(self, name: str) -> str:
+    def get_topic(self, name: str) -> str:
         """Return a topic of this robot.
 
         Parameters
@@ -217,7 +217,7 @@ def load_identities(path: Path | str, names: Sequence[str]) -> list[Identity]:
             if identity is None:
                 continue
             identities.append(identity)
-            other = owners.setdefault(identity.topic(""), name)
+            other = owners.setdefault(identity.get_topic(""), name)
             if other != name:
                 message = f"{shown(own.serial)} is the serial number of {other}, too (correct one)"
                 faults.note(("robots", name, "serial"), message)
@@ -253,7 +253,7 @@ def _as_json(value: Any) -> Any:
     return float(value) if isinstance(value, Decimal) else value
 
 
-def simulated_identities(names: Sequence[str], version: str = "2.1.0") -> list[Identity]:
+def make_simulated_identities(names: Sequence[str], version: str = "2.1.0") -> list[Identity]:
     """Return identities for simulated robots.
 
     Parameters
@@ -269,7 +269,7 @@ def simulated_identities(names: Sequence[str], version: str = "2.1.0") -> list[I
     ]
 
 
-def identities_text(names: Sequence[str], identities: Sequence[Identity]) -> str:
+def format_identities(names: Sequence[str], identities: Sequence[Identity]) -> str:
     """Return the file of identities of simulated robots.
 
     Parameters

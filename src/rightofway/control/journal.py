@@ -50,7 +50,7 @@ class JournalFailed(Exception):
 class Journal(Protocol):
     """What is only ever appended to."""
 
-    def entries(self) -> Iterable[Entry]:
+    def read_entries(self) -> Iterable[Entry]:
         """Return all entries in their order, from the last snapshot on."""
 
     def commit(self, entries: Iterable[Entry]) -> None:
@@ -121,12 +121,12 @@ class SqliteJournal:
         remedy = "name another file, or stop the process that has it open"
         return InputError.at(str(path), f"cannot be used as a journal: {error} ({remedy})")
 
-    def entries(self) -> Iterator[Entry]:
+    def read_entries(self) -> Iterator[Entry]:
         """Yield all entries in their order, from the last snapshot on."""
         last = self._database.execute("SELECT max(number) FROM snapshots").fetchone()[0]
         return self._entries(last or 0)
 
-    def history(self) -> Iterator[Entry]:
+    def read_history(self) -> Iterator[Entry]:
         """Yield all entries that are still kept, in their order."""
         return self._entries(0)
 
@@ -253,9 +253,9 @@ class BatchedJournal:
         self._pending: list[Entry] = []
         self._snapshot: Entry | None = None  # of all before the pending entries
 
-    def entries(self) -> Iterable[Entry]:
+    def read_entries(self) -> Iterable[Entry]:
         """Return all entries that are on the disk, from the last snapshot on."""
-        return self._journal.entries()
+        return self._journal.read_entries()
 
     def commit(self, entries: Iterable[Entry]) -> None:
         """Append entries; they are not on the disk yet."""

@@ -18,12 +18,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rightofway.control.ledger import RobotLedger, RouteToDrive
-from rightofway.control.routes import routes_to_drive
+from rightofway.control.routes import make_routes_to_drive
 from rightofway.errors import InputError
 from rightofway.model import Plan, Scenario, Track
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 
-__all__ = ["LapsToDrive", "graph_behind_released"]
+__all__ = ["LapsToDrive", "build_graph_behind_released"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,7 +60,7 @@ class LapsToDrive:
     """
 
     def __init__(self, plan: Plan) -> None:
-        self._scenario, self._routes = plan.scenario, routes_to_drive(plan)
+        self._scenario, self._routes = plan.scenario, make_routes_to_drive(plan)
         names = [robot.name for robot in plan.scenario.robots]
         for name, route in zip(names, self._routes, strict=True):
             if route.places[0] != route.places[-1]:
@@ -70,10 +70,10 @@ class LapsToDrive:
         robots = [RobotLedger(route) for route in self._routes]
         for own, route in zip(robots, self._routes, strict=True):
             own.take_route(route)
-        extended = self.extended(robots, ahead=10**9)
+        extended = self.extend(robots, ahead=10**9)
         if extended is None:
             raise InputError.at("plan", "no robot moves (laps need stops away from home)")
-        if cycle := graph_behind_released(
+        if cycle := build_graph_behind_released(
             plan.scenario, extended, [0] * len(names)
         ).find_rotation():
             those = ", ".join(names[robot] for robot in sorted({part.robot for part in cycle}))
@@ -107,7 +107,7 @@ class LapsToDrive:
             )
         return groups
 
-    def extended(self, robots: Sequence[RobotLedger], ahead: int = 0) -> list[RouteToDrive] | None:
+    def extend(self, robots: Sequence[RobotLedger], ahead: int = 0) -> list[RouteToDrive] | None:
         """Return all routes with the next period of each group that needs one; None if none does.
 
         Parameters
@@ -145,9 +145,9 @@ class LapsToDrive:
                 else:
                     later, begin = latest + 1, 0
                 routes[robot] = _appended(route, lap, begin, later, robots[robot].next_job)
-        return [route.since(own.arrived) for own, route in zip(robots, routes, strict=True)]
+        return [route.cut_before(own.arrived) for own, route in zip(robots, routes, strict=True)]
 
-    def planned_visit(self, robot: int, visit: int) -> tuple[int, int]:
+    def find_planned_visit(self, robot: int, visit: int) -> tuple[int, int]:
         """Return how often a robot in step has come to the end of the plan, and a visit of it.
 
         Parameters
@@ -186,7 +186,7 @@ def _appended(
     )
 
 
-def graph_behind_released(
+def build_graph_behind_released(
     scenario: Scenario,
     routes: Sequence[RouteToDrive],
     released: Sequence[int],

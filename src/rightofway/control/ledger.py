@@ -54,7 +54,7 @@ class RouteToDrive:
         """The number after that of the last visit."""
         return self.first + len(self.places)
 
-    def place(self, visit: int) -> str:
+    def get_place(self, visit: int) -> str:
         """Return the name of the vertex of a visit.
 
         Parameters
@@ -64,7 +64,7 @@ class RouteToDrive:
         """
         return self.places[self._index(visit)]
 
-    def jobs_at(self, visit: int) -> tuple[str, ...]:
+    def get_jobs(self, visit: int) -> tuple[str, ...]:
         """Return what is to be done in a visit.
 
         Parameters
@@ -74,7 +74,7 @@ class RouteToDrive:
         """
         return self.jobs[self._index(visit)]
 
-    def work_at(self, visit: int) -> tuple[int, ...]:
+    def get_work(self, visit: int) -> tuple[int, ...]:
         """Return how long each job of a visit lasts [ticks].
 
         Parameters
@@ -94,7 +94,7 @@ class RouteToDrive:
         """
         return self.places[max(begin - self.first, 0) : max(end - self.first, 0)]
 
-    def since(self, visit: int) -> RouteToDrive:
+    def cut_before(self, visit: int) -> RouteToDrive:
         """Return the route without the visits before one.
 
         Parameters
@@ -113,6 +113,7 @@ class RouteToDrive:
             lap_ends=tuple(end for end in self.lap_ends if end >= visit),
         )
 
+    @property
     def all_jobs(self) -> set[str]:
         """Return the names of all that is to be done."""
         return {job for jobs in self.jobs for job in jobs}
@@ -214,9 +215,9 @@ class RobotLedger:
     @property
     def is_done(self) -> bool:
         """Whether it is at the end of its route, with all its jobs done."""
-        return self.arrived == self.route.end - 1 and self.finished >= self.route.all_jobs()
+        return self.arrived == self.route.end - 1 and self.finished >= self.route.all_jobs
 
-    def held_at(self, place: str) -> int | None:
+    def find_held(self, place: str) -> int | None:
         """Return the held part whose vertex is a place, None if there is none."""
         held = self.held
         return self.arrived + held.index(place) if place in held else None
@@ -229,7 +230,7 @@ class RobotLedger:
         route
             What is released, and what follows.
         """
-        self.route, jobs = route, route.all_jobs()
+        self.route, jobs = route, route.all_jobs
         numbers = (int(job.removeprefix("job")) for job in jobs)
         self.next_job = max(self.next_job, max(numbers, default=-1) + 1)
         self.finished &= jobs
@@ -363,7 +364,7 @@ class Ledger:
         else:
             _APPLY[kind](self.robots[entry["robot"]], entry)
 
-    def snapshot(self) -> Entry:
+    def make_snapshot(self) -> Entry:
         """Return an entry that says all that the entries before it say together."""
         robots = [own.to_document() for own in self.robots]
         waits = _written_waits(self.graph, [own.released for own in self.robots])

@@ -47,7 +47,9 @@ class Notices:
         self._present: list[dict[str, str]] = [{} for _ in names]
         self._conditions = [Condition()] * len(names)
 
-    def about(self, robot: int, sentence: str, kind: str = "", *, is_over: bool = False) -> None:
+    def report_on(
+        self, robot: int, sentence: str, kind: str = "", *, is_over: bool = False
+    ) -> None:
         """Report a sentence on a robot.
 
         Parameters
@@ -68,7 +70,7 @@ class Notices:
             self._report(text)
         self._keep(make_notice(to_parts(text), robot, kind, is_over=is_over))
 
-    def once(self, robot: int, kind: str, sentence: str) -> bool:
+    def report_once(self, robot: int, kind: str, sentence: str) -> bool:
         """Report a sentence unless one of its kind was reported lately; return whether it was.
 
         Parameters
@@ -86,12 +88,12 @@ class Notices:
         if kind not in last and len(last) >= MAX_KINDS:
             if len(last) == MAX_KINDS:
                 last["more"] = now
-                self.about(
+                self.report_on(
                     robot, Phrase("reports further kinds of trouble, which are left out here")
                 )
             return False
         last[kind] = now
-        self.about(robot, sentence, kind)
+        self.report_on(robot, sentence, kind)
         return True
 
     def take(self, robot: int, condition: Condition) -> None:
@@ -111,11 +113,11 @@ class Notices:
         reported = {
             kind: end
             for kind, (sentence, end) in present.items()
-            if kind in before or self.once(robot, kind, sentence)
+            if kind in before or self.report_once(robot, kind, sentence)
         }
         for kind, end in before.items():
             if kind not in present:
-                self.about(robot, end, kind, is_over=True)
+                self.report_on(robot, end, kind, is_over=True)
         self._present[robot] = reported
 
 

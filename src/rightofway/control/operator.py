@@ -58,7 +58,7 @@ class Operator:
         dispatcher, ledger = self._dispatcher, self._dispatcher.ledger
         messages: list[Message] = []
         answers: list[tuple[int, Answer]] = []
-        for number, command in commands.unanswered():
+        for number, command in commands.list_unanswered():
             if number <= ledger.commands:  # it was carried out before a start
                 is_last = number == ledger.commands
                 text = ledger.answer if is_last else "carried out before a start"

@@ -116,7 +116,7 @@ class OrderMap:
         half = self.scenario.rules.clearance * self._metre / 2
         return float(half) if half else None
 
-    def place(self, name: str) -> Place | None:
+    def get_place(self, name: str) -> Place | None:
         """Return where a vertex is.
 
         Parameters
@@ -137,7 +137,7 @@ class OrderMap:
             )
         return self._places[name]
 
-    def lane(self, tail: str, head: str) -> OrderLane | None:
+    def find_lane(self, tail: str, head: str) -> OrderLane | None:
         """Return how the edge between two vertices is driven; None where there is none.
 
         Parameters
@@ -183,7 +183,7 @@ class OrderMap:
         x, y = self.identity.frame.to_plane((x * self._metre, up * self._metre))
         return float(x), float(y)
 
-    def document(self) -> dict[str, Any]:
+    def to_document(self) -> dict[str, Any]:
         """Return all that messages to the robot depend on beside its orders."""
         identity = self.identity
         return {

@@ -103,7 +103,7 @@ class Recording:
         """How many rows there have been."""
         return self._first + len(self._rows)
 
-    def look(self) -> None:
+    def read_on(self) -> None:
         """Read what is new in the journal.
 
         Raises
@@ -252,7 +252,7 @@ class Recording:
         if own.released != known.released:
             known.released = own.released
             self._rows.append((tick, robot, "released", own.released))
-        jobs = own.route.jobs_at(own.arrived)
+        jobs = own.route.get_jobs(own.arrived)
         if jobs and known.done < own.arrived and own.finished.issuperset(jobs):
             known.done = own.arrived
             self._rows.append((tick, robot, "done", own.arrived))
@@ -273,7 +273,7 @@ class Recording:
         if old is not None:
             visit = max(old.first, route.first)
             end = min(old.end, route.end)
-            while visit < end and old.place(visit) == route.place(visit):
+            while visit < end and old.get_place(visit) == route.get_place(visit):
                 visit += 1
         known.route = route
         if old is None or visit < max(route.end, old.end):

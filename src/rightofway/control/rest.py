@@ -14,7 +14,7 @@ from itertools import accumulate
 from typing import NamedTuple
 
 from rightofway.check import check
-from rightofway.control.laps import graph_behind_released
+from rightofway.control.laps import build_graph_behind_released
 from rightofway.control.ledger import RobotLedger, RouteToDrive
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.execution.replan import list_held
@@ -28,7 +28,7 @@ from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId
 from rightofway.solve import solve
 
-__all__ = ["RestPlanner", "StopToMake", "stops_to_make"]
+__all__ = ["RestPlanner", "StopToMake", "list_stops_to_make"]
 
 SHARE = 50
 """Rights of way are switched where that saves a fiftieth of the flowtime of the rest, or more."""
@@ -46,7 +46,7 @@ class StopToMake(NamedTuple):
     ends_lap: bool = False
 
 
-def stops_to_make(own: RobotLedger, released: int) -> list[StopToMake]:
+def list_stops_to_make(own: RobotLedger, released: int) -> list[StopToMake]:
     """Return the jobs and ends of laps of a robot behind what is released, in their order.
 
     Parameters
@@ -58,8 +58,8 @@ def stops_to_make(own: RobotLedger, released: int) -> list[StopToMake]:
     """
     stops = []
     for visit in range(released + 1, own.route.end):
-        place = own.route.place(visit)
-        rows = zip(own.route.jobs_at(visit), own.route.work_at(visit), strict=True)
+        place = own.route.get_place(visit)
+        rows = zip(own.route.get_jobs(visit), own.route.get_work(visit), strict=True)
         stops += [StopToMake(place, job, work) for job, work in rows if job not in own.finished]
         if visit in own.route.lap_ends:
             stops.append(StopToMake(place, ends_lap=True))
@@ -143,17 +143,17 @@ class RestPlanner:
             except (NoPlanExists, GaveUp, InputError) as error:
                 reasons = str(error)
                 continue
-            routes = [own.route.since(own.arrived) for own in robots]
+            routes = [own.route.cut_before(own.arrived) for own in robots]
             for robot, route in zip(moving, planned_routes, strict=True):
                 routes[robot] = route
             absent = [robot for robot, own in enumerate(robots) if own.is_off]
-            graph = graph_behind_released(self._scenario, routes, released, absent)
+            graph = build_graph_behind_released(self._scenario, routes, released, absent)
             if not graph.find_rotation():
                 return routes, graph
             reasons = "robots would move round a circle at one instant"
         raise GaveUp(f"no plan of the rest was found: {reasons}")
 
-    def switched(
+    def find_better_order(
         self, robots: Sequence[RobotLedger], released: Sequence[int], stuck: Collection[int] = ()
     ) -> tuple[list[RouteToDrive], ReleaseGraph] | None:
         """Return the same routes in a better order, as far as robots have come; None if none is.
@@ -171,12 +171,15 @@ class RestPlanner:
             Robots that do not go on for now: others go first where they can.
         """
         moving = [robot for robot, own in enumerate(robots) if not own.is_off]
-        routes = [own.route.since(own.arrived) for own in robots]
+        routes = [own.route.cut_before(own.arrived) for own in robots]
         commitments = {
             robot: self._commitment(robot, robots[robot], released[robot]) for robot in moving
         }
         stops = {
-            robot: [*stops_to_make(robots[robot], released[robot]), StopToMake(route.places[-1])]
+            robot: [
+                *list_stops_to_make(robots[robot], released[robot]),
+                StopToMake(route.places[-1]),
+            ]
             for robot, route in enumerate(routes)
         }
         span = 1 + sum(route.enter[-1] - route.enter[0] for route in routes)
@@ -225,11 +228,11 @@ class RestPlanner:
             enter = tuple(track.enter.tolist())
             routes[robot] = replace(routes[robot], enter=enter, in_step=False)
         absent = [robot for robot, own in enumerate(robots) if own.is_off]
-        released_first = graph_behind_released(self._scenario, routes, released, absent)
+        released_first = build_graph_behind_released(self._scenario, routes, released, absent)
         return None if released_first.find_rotation() else (routes, released_first)
 
     def _commitment(self, robot: int, own: RobotLedger, released: int) -> _Commitment:
-        route = own.route.since(own.arrived)
+        route = own.route.cut_before(own.arrived)
         length = released - own.arrived + 1
         roadmap = self._scenario.roadmap
         vertices = tuple(int(roadmap.get_vertex(place)) for place in route.places[:length])

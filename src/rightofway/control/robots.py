@@ -16,7 +16,7 @@ from socket import SHUT_RDWR
 from typing import TYPE_CHECKING, Any
 
 from rightofway.control.broker import Broker
-from rightofway.control.driver import timestamp
+from rightofway.control.driver import make_timestamp
 from rightofway.control.endpoints import Letter, RobotEnd
 from rightofway.control.identities import Identity
 from rightofway.control.messages import Condition, RobotError
@@ -27,7 +27,7 @@ from rightofway.model import Plan
 if TYPE_CHECKING:
     import aiomqtt
 
-__all__ = ["TROUBLES", "Trouble", "run_robots", "troubles_of"]
+__all__ = ["TROUBLES", "Trouble", "parse_troubles", "run_robots"]
 
 TROUBLES = {
     "late": "each drive and each work lasts longer, on average by this share",
@@ -48,7 +48,7 @@ Trouble = Mapping[str, float]
 """Kinds of `TROUBLES` with their shares."""
 
 
-def troubles_of(texts: Iterable[str]) -> dict[str, float]:
+def parse_troubles(texts: Iterable[str]) -> dict[str, float]:
     """Return kinds of trouble that a user wrote as ``kind:share``.
 
     Parameters
@@ -115,11 +115,11 @@ class _NetworkRobot:
         """Return whether trouble of a kind happens now."""
         return self.draw.random() < self.trouble.get(kind, 0.0)
 
-    def a_while(self) -> float:
+    def draw_while(self) -> float:
         """Return how long trouble lasts [s of robot time]."""
         return self.draw.expovariate(1 / WHILE)
 
-    async def live(self) -> None:
+    async def carry_out_orders(self) -> None:
         """Do what orders ask for, one step after the other, connected or not."""
         robot = self.end.robot
         while True:
@@ -130,13 +130,13 @@ class _NetworkRobot:
                 continue
             if step == "begin to drive":
                 await self.have_trouble()
-            await self.pause(self.duration())
+            await self.pause(self.draw_duration())
             if robot.step():
                 self.changed.set()
             if step == "arrive" and self.happens("reset") and robot.forget():
                 self.changed.set()
 
-    def duration(self) -> float:
+    def draw_duration(self) -> float:
         """Return how long the next step lasts [s of robot time]."""
         robot = self.end.robot
         match robot.next_step:
@@ -153,17 +153,17 @@ class _NetworkRobot:
     async def have_trouble(self) -> None:
         """Have trouble before a drive, perhaps."""
         if self.happens("offline") and self.client is not None:
-            self.offline = self.a_while()
+            self.offline = self.draw_while()
             if hang_up := self.client._client.socket():  # noqa: SLF001 (a cable that is cut)
                 with contextlib.suppress(OSError):
                     hang_up.shutdown(SHUT_RDWR)  # type: ignore[attr-defined]
         if self.happens("stop"):
-            await self.pause(self.a_while())
+            await self.pause(self.draw_while())
         if self.happens("error"):
             error = RobotError(kind="obstacle", level="FATAL", description="the way is blocked")
             self.end.condition = replace(self.end.condition, errors=(error,))
             self.changed.set()
-            await self.pause(self.a_while())
+            await self.pause(self.draw_while())
             self.end.condition = Condition()
             self.changed.set()
 
@@ -171,13 +171,13 @@ class _NetworkRobot:
         """Keep a connection: listen to orders, send states."""
         import aiomqtt
 
-        will = self.end.connection("CONNECTION_BROKEN")
+        will = self.end.report_connection("CONNECTION_BROKEN")
         while True:
             try:
-                async with broker.client(self.identity.serial_number, will) as client:
+                async with broker.open_client(self.identity.serial_number, will) as client:
                     self.client = client
                     await client.subscribe([(topic, 0) for topic in self.end.topics])
-                    await _publish(client, self.end.connection("ONLINE"))
+                    await _publish(client, self.end.report_connection("ONLINE"))
                     async with asyncio.TaskGroup() as tasks:
                         tasks.create_task(self.listen(client))
                         tasks.create_task(self.speak(client))
@@ -201,7 +201,7 @@ class _NetworkRobot:
         """Send the state when something happens, and every now and then."""
         while True:
             self.changed.clear()
-            await _publish(client, self.end.state())
+            await _publish(client, self.end.report_state())
             with contextlib.suppress(TimeoutError):
                 async with asyncio.timeout(STATES):
                     await self.changed.wait()
@@ -260,7 +260,10 @@ async def run_robots(
     robots = [
         _NetworkRobot(
             end=RobotEnd(
-                SimulatedRobot(plan.scenario.roadmap.name(robot.home)), number, identity, timestamp
+                SimulatedRobot(plan.scenario.roadmap.name(robot.home)),
+                number,
+                identity,
+                make_timestamp,
             ),
             identity=identity,
             works=_works(plan, number),
@@ -275,6 +278,6 @@ async def run_robots(
     asyncio.get_running_loop().set_exception_handler(_ignore_cut_cables)
     async with asyncio.TaskGroup() as tasks:
         for robot in robots:
-            tasks.create_task(robot.live())
+            tasks.create_task(robot.carry_out_orders())
             tasks.create_task(robot.connect(broker))
         is_up()

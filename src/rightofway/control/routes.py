@@ -5,10 +5,10 @@ from __future__ import annotations
 from rightofway.control.ledger import RouteToDrive
 from rightofway.model import Plan, route_of
 
-__all__ = ["routes_to_drive"]
+__all__ = ["make_routes_to_drive"]
 
 
-def routes_to_drive(plan: Plan) -> list[RouteToDrive]:
+def make_routes_to_drive(plan: Plan) -> list[RouteToDrive]:
     """Return the route of each robot, with a job for each stop of each lap.
 
     Parameters

@@ -71,7 +71,7 @@ class SimulatedRobot:
             return "begin work" if is_new else "end work"
         return "begin to drive" if self.ahead else None
 
-    def state(self, condition: Condition = AS_USUAL) -> RobotState:
+    def report_state(self, condition: Condition = AS_USUAL) -> RobotState:
         """Return what the robot says of itself.
 
         Parameters

@@ -89,16 +89,16 @@ class Story:
             yield from self._of_robot(robot, self._ledger.robots[robot], self._chapters[robot])
 
     def _of_robot(self, robot: int, own: RobotLedger, chapter: _Chapter) -> Iterator[Happening]:
-        name, place = self._names[robot], own.route.place(own.arrived)
+        name, place = self._names[robot], own.route.get_place(own.arrived)
         if own.jobs_done > chapter.finished:
             chapter.finished = own.jobs_done
-            jobs = own.jobs_done + len(own.route.all_jobs() - own.finished)
+            jobs = own.jobs_done + len(own.route.all_jobs - own.finished)
             yield Happening(robot, "work", finishes_work(name, place, chapter.finished, jobs))
         waited = chapter.waits_for is not None and own.released >= chapter.waits_for
         if waited or (own.released > own.arrived and not chapter.has_set_out):
             drives = goes_on if chapter.has_set_out else sets_out
             chapter.waits_for, chapter.has_set_out = None, True
-            target = own.route.place(own.released)
+            target = own.route.get_place(own.released)
             yield Happening(robot, "drive", drives(name, place, target))
         next_part = own.released + 1
         if next_part == own.route.end:
@@ -109,7 +109,7 @@ class Story:
         if chapter.has_ended:  # it was given more to do
             chapter.has_ended = chapter.has_set_out = False
         is_at_end = own.arrived == own.released and own.finished.issuperset(
-            own.route.jobs_at(own.arrived)
+            own.route.get_jobs(own.arrived)
         )
         missing = self._ledger.graph.list_missing(Part(robot, next_part), self._ledger.arrived)
         if is_at_end and missing and chapter.waits_for is None:
@@ -123,4 +123,4 @@ class Story:
             yield Happening(robot, "wait", waits_until(name, place, others), awaited)
 
     def _place(self, robot: int, visit: int) -> str:
-        return self._ledger.robots[robot].route.place(visit)
+        return self._ledger.robots[robot].route.get_place(visit)

@@ -35,7 +35,7 @@ __all__ = [
     "OrderMessage",
     "StateMessage",
     "read",
-    "written",
+    "write_message",
 ]
 
 # The names of fields are the norm's.
@@ -155,7 +155,7 @@ class OrderMessage(_Model):
                 nodeId=node.place,
                 sequenceId=node.sequence_id,
                 released=True,
-                nodePosition=_position(order_map.place(node.place)),
+                nodePosition=_position(order_map.get_place(node.place)),
                 actions=tuple(
                     _work(action, order_map.work) for action in node.actions if action not in done
                 ),
@@ -206,9 +206,9 @@ def _work(action_id: str, work: Work) -> _Action:
 
 
 def _edge(tail: str, head: str, sequence_id: int, order_map: OrderMap) -> _Edge:
-    lane = order_map.lane(tail, head)
+    lane = order_map.find_lane(tail, head)
     return _Edge(
-        edgeId=edge_id(tail, head),
+        edgeId=name_edge(tail, head),
         sequenceId=sequence_id,
         released=True,
         startNodeId=tail,
@@ -233,7 +233,7 @@ def _trajectory(lane: OrderLane | None) -> _Trajectory | None:
     )
 
 
-def edge_id(tail: str, head: str) -> str:
+def name_edge(tail: str, head: str) -> str:
     """Return the id of the edge between two places."""
     return f"{tail}-{head}"
 
@@ -265,7 +265,7 @@ class InstantActions(_Model):
             actions=(_InstantAction(actionId=action.action_id, actionType=kind, actionName=kind),)
         )
 
-    def instant_actions(self, robot: int) -> tuple[InstantAction, ...]:
+    def to_instant_actions(self, robot: int) -> tuple[InstantAction, ...]:
         """Return what is to be done.
 
         Parameters
@@ -388,7 +388,7 @@ class StateMessage(_Model):
                 for place, number in zip(ahead, state.nodes, strict=True)
             ),
             edgeStates=tuple(
-                _EdgeState(edgeId=edge_id(tail, head), sequenceId=number)
+                _EdgeState(edgeId=name_edge(tail, head), sequenceId=number)
                 for (tail, head), number in zip(
                     pairwise((state.last_place, *ahead)), state.edges, strict=True
                 )
@@ -412,7 +412,7 @@ class StateMessage(_Model):
             and _Position(x=position.point[0], y=position.point[1], mapId=position.map_id),
         )
 
-    def robot_state(self) -> RobotState:
+    def to_robot_state(self) -> RobotState:
         """Return what the robot says of itself."""
         actions = (*self.actionStates, *self.instantActionStates)
         return RobotState(
@@ -505,7 +505,7 @@ _LEFT_OUT = {
 """Keys that a version does not have."""
 
 
-def written(body: Body | Mapping[str, Any], header: Header) -> dict[str, Any]:
+def write_message(body: Body | Mapping[str, Any], header: Header) -> dict[str, Any]:
     """Return a message as JSON has it, in the words of the version of its head.
 
     Parameters

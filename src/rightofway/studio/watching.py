@@ -82,7 +82,7 @@ class Watched:
         is_whole
             Whether it has all that has happened, and asks for no more.
         """
-        self._recording.look()
+        self._recording.read_on()
         feed: FeedData = {"frame": self._recording.take_frame()}
         if not is_whole:
             feed["frame"]["rows"] = []  # they come with the first frame
@@ -118,7 +118,7 @@ class Watched:
         try:
             last, silence = None, 0.0
             while not self._is_over:
-                self._recording.look()
+                self._recording.read_on()
                 frame = self._recording.take_frame(after)
                 said = frame["number"], frame["now"], frame["runs"]
                 silence += EVERY
