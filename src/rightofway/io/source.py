@@ -47,7 +47,7 @@ class Source:
 
     def get(self, *keys: str) -> Source | None:
         """Return the value under the first of several keys that has one, or None."""
-        mapping = self.mapping()
+        mapping = self.value if type(self.value) is dict else self.mapping()
         for key in keys:
             value = mapping.get(key)
             if value is not None:

@@ -227,6 +227,10 @@ def bind_problem(
         spent = (_stop_times(roadmap, robot, rules) for robot in robots)
         clock = choose_clock(chain([rules.headway], *driven, *spent))
     rates = [turn_rate(robot, rules) for robot in robots]
+    surcharges = tuple(
+        clock.ticks(edge_class.surcharge)
+        for edge_class in (roadmap.edge_classes if roadmap.has_surcharges else ())
+    )
     edge_ticks: dict[tuple[Any, ...], tuple[Tick, ...]] = {}
     for robot in robots:
         if _ticks_key(robot) not in edge_ticks:  # robots of one kind have the same
@@ -246,6 +250,7 @@ def bind_problem(
                 rules,
                 clock,
                 edge_ticks=edge_ticks[_ticks_key(robot)],
+                surcharges=surcharges,
                 turning=turning,
                 weight=weight,
             )
@@ -315,6 +320,7 @@ def _itinerary(
     clock: Clock,
     *,
     edge_ticks: tuple[Tick, ...],
+    surcharges: tuple[Tick, ...],
     turning: Turning | None,
     weight: int,
 ) -> Itinerary:
@@ -334,9 +340,7 @@ def _itinerary(
         home=robot.home,
         stages=tuple(lap * (robot.laps or rules.laps)),
         edge_ticks=edge_ticks,
-        surcharges=tuple(clock.ticks(edge_class.surcharge) for edge_class in roadmap.edge_classes)
-        if roadmap.has_surcharges
-        else (),
+        surcharges=surcharges,
         turning=turning,
         weight=weight,
     )

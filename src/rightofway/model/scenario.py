@@ -266,7 +266,10 @@ def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
         elif robot.type in roadmap.barred_vertices.get(VertexId(vertex), frozenset()):
             message = f"{roadmap.name(vertex)} is barred for robots of type {robot.type}"
             yield InputFault(place, f"{message} (give the robot another place, or another type)")
-    if any(edge_class.max_radius is not None for edge_class in roadmap.edge_classes):
+    has_walls = roadmap.grid is not None and any(
+        edge_class.max_radius is not None for edge_class in roadmap.edge_classes
+    )
+    if has_walls:
         known = [(place, vertex) for place, vertex in places if 0 <= vertex < n_vertices]
         reaches = reaches_walls(roadmap, robot.radius) if known else ()
         for place, vertex in known:

@@ -46,7 +46,9 @@ class Clock:
 
     def ticks(self, duration: Fraction) -> Tick:
         """Return the least number of ticks that lasts at least ``duration`` [time unit]."""
-        return Tick(math.ceil(duration / self.tick))
+        # The quotient rounded up, in whole numbers: a map may have a million durations.
+        above = duration.numerator * self.tick.denominator
+        return Tick(-(-above // (duration.denominator * self.tick.numerator)))
 
     def time(self, ticks: int) -> Fraction:
         """Return how long ``ticks`` last [time unit]."""
@@ -66,7 +68,7 @@ def choose_clock(durations: Iterable[Fraction]) -> Clock:
     Where the shortest duration would be longer than `MAX_TICKS_OF_SHORTEST` ticks, the tick is that
     fraction of it and the clock is not exact. Without any positive duration the tick is one unit.
     """
-    positive = {duration for duration in durations if duration > 0}
+    positive = {duration for duration in durations if duration.numerator > 0}
     if not positive:
         return Clock(tick=Fraction(1))
     # The greatest common divisor of fractions in lowest terms.
@@ -74,7 +76,8 @@ def choose_clock(durations: Iterable[Fraction]) -> Clock:
         math.gcd(*(duration.numerator for duration in positive)),
         math.lcm(*(duration.denominator for duration in positive)),
     )
-    shortest = min(positive)
+    least = min(map(float, positive))  # fractions are slow to compare
+    shortest = min(duration for duration in positive if float(duration) == least)
     if shortest / tick > MAX_TICKS_OF_SHORTEST:
         return Clock(tick=shortest / MAX_TICKS_OF_SHORTEST, exact=False)
     return Clock(tick=tick)

@@ -7,7 +7,7 @@ lanes like this are cut into pieces, unless a map says how.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -32,6 +32,10 @@ SLACK = 1e-9
 """Part of the extent of a drawing that rounding can move a line by."""
 
 LINES_AT_ONCE = 256
+
+PARTS = (64, 8, 1)
+"""Lines are compared with every 64th other first, those that none of them crosses with every 8th,
+the rest with all: where thousands cross a lane, a few say it."""
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -67,40 +71,53 @@ def find_crossed(
     crossed by others only.
     """
     is_met = np.zeros(len(begin), bool)
-    order = np.argsort(~wanted, kind="stable")  # the wanted ones first
-    count = int(wanted.sum())
-    if not count:
+    left = np.flatnonzero(wanted)
+    if not len(left):
         return is_met
-    lines = Lines(begin[order], end[order])
     slack = SLACK * float(np.abs(points).max())
-    middles = PointGrid(lines.middles, lines.piece + 2 * slack)
-    vertices = PointGrid(points, distance + lines.piece / 2 + slack)
-    step = lines.end - lines.begin
-    lengths = np.hypot(*step.T)
     far = distance * (1 + TIE)
+    step = end - begin
+    lengths = np.hypot(*step.T)
 
     def meet(line: NDArray[np.int64], share: Floats) -> None:
         at = share * lengths[line]
-        is_met[order[line[(at > far) & (lengths[line] - at > far)]]] = True
+        is_met[line[(at > far) & (lengths[line] - at > far)]] = True
 
+    lines = Lines(begin[left], end[left])
+    vertices = PointGrid(points, distance + lines.piece / 2 + slack)
+    for some in _batches(len(left)):
+        line, point = lines.find_near_points(vertices, some, distance * (1 - TIE))
+        line = left[line]
+        to_point = points[point] - begin[line]
+        meet(line, (to_point * step[line]).sum(axis=1) / lengths[line] ** 2)
+    for part in PARTS:
+        left = np.flatnonzero(wanted & ~is_met)
+        # A part may have lines that are left, too: no line crosses itself.
+        others = np.arange(0, len(begin), part) if part > 1 else np.flatnonzero(~wanted | is_met)
+        number = np.concatenate((left, others))
+        lines = Lines(begin[number], end[number])
+        first = len(left) if part > 1 else 0
+        middles = PointGrid(lines.middles[lines.first[first] :], lines.piece + 2 * slack)
+        for some in _batches(len(left)):
+            pair = lines.find_crossing(middles, some, slack, first)
+            line, other = number[pair[0]], number[pair[1]]
+            between = begin[other] - begin[line]
+            turn = _cross(step[line], step[other])
+            is_parallel = turn == 0
+            turn[is_parallel] = 1.0
+            along_line = _cross(between, step[other]) / turn
+            along_other = _cross(between, step[line]) / turn
+            inside = ~is_parallel & (along_line > 0) & (along_line < 1)
+            inside &= (along_other > 0) & (along_other < 1)
+            meet(line[inside], along_line[inside])
+            meet(other[inside], along_other[inside])
+    return is_met & wanted
+
+
+def _batches(count: int) -> Iterator[slice]:
     for first in range(0, count, LINES_AT_ONCE):
         check_work("finding lanes that cross")
-        some = slice(first, min(first + LINES_AT_ONCE, count))
-        line, point = lines.find_near_points(vertices, some, distance * (1 - TIE))
-        to_point = points[point] - lines.begin[line]
-        meet(line, (to_point * step[line]).sum(axis=1) / lengths[line] ** 2)
-        line, other = lines.find_crossing(middles, some, slack)
-        between = lines.begin[other] - lines.begin[line]
-        turn = _cross(step[line], step[other])
-        is_parallel = turn == 0
-        turn[is_parallel] = 1.0
-        along_line = _cross(between, step[other]) / turn
-        along_other = _cross(between, step[line]) / turn
-        inside = ~is_parallel & (along_line > 0) & (along_line < 1)
-        inside &= (along_other > 0) & (along_other < 1)
-        meet(line[inside], along_line[inside])
-        meet(other[inside], along_other[inside])
-    return is_met & wanted
+        yield slice(first, min(first + LINES_AT_ONCE, count))
 
 
 def _cross(first: Floats, other: Floats) -> Floats:

@@ -112,32 +112,28 @@ def make_roadmap(
             )
             for edge in edges
         ]
-    # Fractions are slow to hash: pieces of a lane share theirs, and are told apart by identity.
+    # Fractions are slow to hash: edges often share theirs, and are told apart by identity.
     numbers = [
         (id(edge.length), id(edge.max_speed), id(edge.barred), id(edge.surcharge)) for edge in edges
     ]
-    class_of_numbers = {
-        numbers_of_edge: _edge_class(edges[index])
-        for numbers_of_edge, index in {
-            numbers_of_edge: index for index, numbers_of_edge in enumerate(numbers)
-        }.items()
-    }
-    # Floats first: fractions are slow to compare, and only equal floats need it.
-    classes = sorted(
-        set(class_of_numbers.values()),
-        key=lambda edge_class: (
-            float(edge_class.length),
-            edge_class.length,
-            edge_class.max_speed or 0,
-            sorted(edge_class.barred),
-            edge_class.surcharge,
+    edge_of_numbers = dict(zip(numbers, edges, strict=True))
+    # Floats first: fractions are slow to compare, too, and only equal floats need it.
+    in_order = sorted(
+        edge_of_numbers.items(),
+        key=lambda item: (
+            float(item[1].length),
+            item[1].length,
+            item[1].max_speed or 0,
+            sorted(item[1].barred),
+            item[1].surcharge,
         ),
     )
-    rank = {edge_class: index for index, edge_class in enumerate(classes)}
-    rank_of_numbers = {
-        numbers_of_edge: rank[edge_class]
-        for numbers_of_edge, edge_class in class_of_numbers.items()
-    }
+    classes, rank_of_numbers = list[EdgeClass](), dict[tuple[int, ...], int]()
+    for numbers_of_edge, edge in in_order:
+        edge_class = _edge_class(edge)
+        if not classes or edge_class != classes[-1]:
+            classes.append(edge_class)
+        rank_of_numbers[numbers_of_edge] = len(classes) - 1
     order = sorted(range(len(edges)), key=lambda k: ids[edges[k].tail])  # stable: the given order
     ordered = [edges[k] for k in order]
     degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))
@@ -180,7 +176,7 @@ def _check_edges(ids: Mapping[str, int], edges: Sequence[Edge]) -> None:
     seen: set[tuple[str, str]] = set()
     for index, edge in enumerate(limit_loop(edges, READING)):
         fault = _edge_fault(edge, ids, seen)
-        if not fault and edge.surcharge < 0:
+        if not fault and edge.surcharge.numerator < 0:
             fault = f"surcharge {edge.surcharge} is negative (give 0 or more)"
         if fault:
             raise InputError.at(("edges", index), fault)
@@ -193,7 +189,7 @@ def _edge_fault(edge: Edge, ids: Mapping[str, int], seen: set[tuple[str, str]]) 
             return f"no vertex is named {end!r} (name one of the {len(ids)} vertices)"
     if edge.tail == edge.head:
         return f"leads from {edge.tail!r} to itself (take it out)"
-    if edge.length <= 0:
+    if edge.length.numerator <= 0:
         return f"length {edge.length} is not positive (give a length above 0)"
     if edge.max_speed is not None and edge.max_speed <= 0:
         return f"max_speed {edge.max_speed} is not positive (give a speed above 0)"

@@ -116,11 +116,14 @@ def measure_straight_length(square: Fraction, step: Fraction = COARSE) -> Fracti
     """
     if square == 0:
         raise InputError.at("", "has no length, its ends are at one position (give a length)")
-    root = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
-    if root**2 != square or _digits(root) > DIGITS:
-        steps = square / step**2
-        whole = math.isqrt(math.ceil(steps))
-        root = (whole if whole * whole >= steps else whole + 1) * step
+    # Whole numbers throughout: a map may have a million lengths, and fractions are slow.
+    above, below = square.numerator, square.denominator
+    whole, part = math.isqrt(above), math.isqrt(below)
+    root = Fraction(whole, part)
+    if whole * whole != above or part * part != below or _digits(root) > DIGITS:
+        steps = -(-above * step.denominator**2 // (below * step.numerator**2))  # rounded up
+        whole = math.isqrt(steps)
+        root = Fraction((whole + (whole * whole < steps)) * step.numerator, step.denominator)
     if _digits(root) > DIGITS:
         about = f"about {math.sqrt(square):.4g}"
         message = f"the straight distance, {about}, has too many digits (give a length)"

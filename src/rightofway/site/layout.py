@@ -234,21 +234,21 @@ def build_roadmap_of_level(
         selects = bool(known_types)
     lanes = level.edges if selects else level.list_lanes(vehicle_type)
     slowest: dict[tuple[str, str], Edge] = {}
-    longs = {length: length * metre for length in {lane.length for lane in lanes}}
-    limits = {
-        speed: speed * metre / second for speed in {lane.max_speed for lane in lanes} if speed
-    }
+    # Fractions are slow to hash: lanes often share theirs, and are told apart by identity.
+    kinds = dict[tuple[int, ...], Edge]()
     for lane in limit_loop(lanes, READING):
-        limit = None if lane.max_speed is None else limits[lane.max_speed]
-        is_open = lane.types is None or not selects
-        barred = frozenset() if is_open else frozenset(known_types).difference(lane.types or ())
-        edge = Edge(
-            tail=lane.tail,
-            head=lane.head,
-            length=longs[lane.length],
-            max_speed=limit,
-            barred=barred,
-        )
+        numbers = (id(lane.length), id(lane.max_speed), id(lane.types))
+        kind = kinds.get(numbers)
+        if kind is None:
+            is_open = lane.types is None or not selects
+            kind = kinds[numbers] = Edge(
+                tail=lane.tail,
+                head=lane.head,
+                length=lane.length if metre == 1 else lane.length * metre,
+                max_speed=None if lane.max_speed is None else lane.max_speed * metre / second,
+                barred=frozenset() if is_open else frozenset(known_types) - (lane.types or set()),
+            )
+        edge = kind.make_piece(lane.tail, lane.head, kind.length, kind.surcharge)
         known = slowest.get((lane.tail, lane.head))
         slowest[lane.tail, lane.head] = _slower(known, edge) if known else edge
     closed = _ends(level.edges) - _ends(lanes)  # only other vehicle types come there
@@ -283,6 +283,8 @@ def _curves(
     lanes: Sequence[LayoutEdge], pairs: Collection[tuple[str, str]]
 ) -> dict[tuple[str, str], LayoutEdge]:
     """Return the lanes that robots drive along a curve; of parallel lanes the longest counts."""
+    if all(lane.chord_error is None for lane in lanes):
+        return {}
     slowest: dict[tuple[str, str], LayoutEdge] = {}
     for lane in lanes:
         ends = (lane.tail, lane.head)

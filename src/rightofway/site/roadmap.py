@@ -91,7 +91,8 @@ class EdgeClass:
 
     def compute_duration(self, speed: Fraction) -> Fraction:
         """Return how long a robot of a speed drives along an edge [time unit]."""
-        return self.length / (speed if self.max_speed is None else min(speed, self.max_speed))
+        speed = speed if self.max_speed is None else min(speed, self.max_speed)
+        return self.length if speed == 1 else self.length / speed
 
     def is_barred(self, robot_type: str | None, radius: Fraction) -> bool:
         """Return whether the edges are barred for robots of a type and radius."""

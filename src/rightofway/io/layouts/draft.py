@@ -108,7 +108,10 @@ def _square(start: tuple[int, int], other: tuple[int, int]) -> int:
 
 def _is_short(length: Fraction, square: int) -> bool:
     """Return whether a length is below the straight one by more than rounding makes of it."""
-    return length < 0 or ((length + SHORTEST) * MICRO) ** 2 < square
+    above, below = length.numerator, length.denominator
+    step, part = SHORTEST.numerator * MICRO, SHORTEST.denominator
+    # ((length + SHORTEST) * MICRO) ** 2 < square, in whole numbers
+    return above < 0 or (above * part * MICRO + below * step) ** 2 < square * (below * part) ** 2
 
 
 class _Straight(dict[int, Fraction]):
@@ -182,8 +185,6 @@ class LayoutDraft:
         straight = _Straight(choose_rounding_step([Fraction(nearest_ends, MICRO**2)]))
         no_lengths = self._no_lengths(level.lanes, squares)
         for lane, square in limit_loop(zip(level.lanes, squares, strict=True), READING):
-            if lane.attribute in no_lengths:
-                lane = replace(lane, length=None)  # noqa: PLW2901
             missing = [end for end in (lane.tail, lane.head) if end not in vertices]
             if any(end not in elsewhere for end in missing):
                 near = nearest(missing[0], vertices)
@@ -198,7 +199,8 @@ class LayoutDraft:
                 message = f"speed limit {lane.max_speed} is not positive (give m/s)"
                 self.faults.note(lane.source.location, message)
             else:
-                edge = self._edge(lane, square, straight[square])
+                length = None if lane.attribute in no_lengths else lane.length
+                edge = self._edge(lane, length, square, straight[square])
                 if lane.curve:
                     edge = self._add_curve(edge, lane, vertices)
                 edges.append(edge)
@@ -227,8 +229,9 @@ class LayoutDraft:
             )
         return set(wrong)
 
-    def _edge(self, lane: DraftLane, square: int, straight: Fraction) -> LayoutEdge:
-        length = lane.length
+    def _edge(
+        self, lane: DraftLane, length: Fraction | None, square: int, straight: Fraction
+    ) -> LayoutEdge:
         if square == 0:
             self.repair("a lane between two vertices at one position counts as 1 mm long")
             length = max(length or SHORTEST, SHORTEST)

@@ -6,6 +6,7 @@ are read over the network. Names are without namespaces.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from xml.parsers import expat
@@ -42,6 +43,12 @@ class Element(Source):
             yield from child.descendants(name)
 
 
+def _without_namespaces(attributes: dict[str, str]) -> dict[str, str]:
+    if " " not in "".join(attributes):
+        return attributes
+    return {key.rpartition(" ")[2]: value for key, value in attributes.items()}
+
+
 def parse_xml(text: str) -> Element:
     """Return the root of an XML text.
 
@@ -54,7 +61,8 @@ def parse_xml(text: str) -> Element:
     parser.buffer_text = True
     parser.SetParamEntityParsing(expat.XML_PARAM_ENTITY_PARSING_NEVER)
     document = Element({})
-    opened, texts, count = [document], [list[str]()], 0
+    opened, count = [document], 0
+    texts = defaultdict[int, list[str]](list)  # by depth; most elements of a million have none
     most = choose_limit() // CHARACTERS_PER_ELEMENT
 
     def start(name: str, attributes: dict[str, str]) -> None:
@@ -69,19 +77,17 @@ def parse_xml(text: str) -> Element:
             remedy = f"set {LIMIT}={2 * CHARACTERS_PER_ELEMENT * most} for twice as many"
             message = f"the file has more than {most} elements ({remedy})"
             raise InputError.at(Location(line=line), message)
-        plain = {key.rpartition(" ")[2]: value for key, value in attributes.items()}
-        bare = name.rpartition(" ")[2]
-        element = Element(plain, line=line, name=bare)
+        element = Element(_without_namespaces(attributes), (), line, name.rpartition(" ")[2])
         opened[-1].children.append(element)
         opened.append(element)
-        texts.append([])
 
     def end(_name: str) -> None:
-        opened.pop().content = "".join(texts.pop())
+        pieces = texts.pop(len(opened), ())
+        opened.pop().content = "".join(pieces)
 
     def characters(data: str) -> None:
         if not data.isspace():  # between a million elements there are as many line ends
-            texts[-1].append(data)
+            texts[len(opened)].append(data)
 
     def entity(name: str, *_: object) -> None:
         message = f"the entity {shown(name)} is not allowed (write out what is meant)"
