@@ -105,8 +105,11 @@ def split_lanes(
     ways: dict[_Ends, tuple[list[str], list[Fraction], Fraction]] = {}
     for edge in limit_loop(edges, SPLITTING):
         lane = _lane(edge, curves)
+        points, own = drawings[lane], longest_piece.get(lane)
+        if len(points) == STRAIGHT and (own is None or longest[lane] <= own):
+            split.append(edge)  # most of a million
+            continue
         if lane not in ways:
-            points, own = drawings[lane], longest_piece.get(lane)
             if is_drawn and own is not None and longest[lane] > own:
                 _refuse_winding(edge, points, longest[lane], own)
             lengths = measure_lengths_along(points) if len(points) > STRAIGHT else [longest[lane]]
